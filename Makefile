@@ -1,0 +1,83 @@
+# beardyn: set up, demonstrate, test. `make help` lists the targets.
+# Variables: PYTHON (interpreter for the environment), VENV (its folder), ARGS (passed on to demo or pytest).
+
+PYTHON ?= python3
+VENV ?= .venv
+ARGS ?=
+
+BIN := $(VENV)/bin
+METADATA := setup.py setup.cfg pyproject.toml package.xml
+# Inside a sourced ROS 2 its own rclpy is used; the wheels would bring a second one.
+ROS := $(if $(ROS_DISTRO),,ros)
+VENV_OPTIONS := $(if $(ROS_DISTRO),--system-site-packages)
+COMMA := ,
+EMPTY :=
+extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test slow lint format clean
+.DELETE_ON_ERROR:
+
+help: ## what there is to make
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+
+demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view
+	@$(BIN)/python -m beardyn_ros demo $(ARGS)
+
+test: $(VENV)/.ready-test ## set up, then the tests
+	@$(BIN)/python -m pytest $(ARGS)
+
+slow: $(VENV)/.ready-test ## set up, then the long tests as well
+	@$(BIN)/python -m pytest -m "slow or not slow" $(ARGS)
+
+lint: $(VENV)/.ready-dev ## style, types and the direction of imports
+	@failed=; \
+	for tool in "ruff check ." "ruff format --check ." mypy lint-imports; do \
+		echo "== $$tool"; $(BIN)/$$tool || failed="$$failed, $$tool"; \
+	done; \
+	test -z "$$failed" || { echo "lint failed:$${failed#,}"; exit 1; }
+
+format: $(VENV)/.ready-dev ## write the style instead of checking it
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+clean: ## remove the environment and everything that was built
+	rm -rf $(VENV) build install log dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis \
+		.import_linter_cache .coverage htmlcov
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# Editable, so that an edit is seen at once. pip leaves out the data files of an editable install, by which ROS 2
+# finds the package (share/ and lib/beardyn): links do for them.
+define install
+	@echo "Installing beardyn$(if $(1),[$(1)]) into $(VENV)"
+	@$(BIN)/python -m pip install --disable-pip-version-check -e '.$(if $(1),[$(1)])'
+	@mkdir -p $(VENV)/share/ament_index/resource_index/packages $(VENV)/lib/beardyn
+	@ln -sfn "$(CURDIR)" $(VENV)/share/beardyn
+	@ln -sf "$(CURDIR)/resource/beardyn" $(VENV)/share/ament_index/resource_index/packages/beardyn
+	@ln -sf "$(CURDIR)"/scripts/* $(VENV)/lib/beardyn/
+	@touch $@
+endef
+
+$(VENV)/.ready: $(METADATA) | $(BIN)/python
+	$(call install,$(call extras))
+
+$(VENV)/.ready-test: $(METADATA) | $(BIN)/python
+	$(call install,$(call extras,test))
+	@touch $(VENV)/.ready
+
+$(VENV)/.ready-dev: $(METADATA) | $(BIN)/python
+	$(call install,$(call extras,test dev))
+	@touch $(VENV)/.ready $(VENV)/.ready-test
+
+$(BIN)/python:
+	@command -v $(PYTHON) >/dev/null || { \
+		echo "There is no $(PYTHON): install Python 3.10 or newer (sudo apt-get install python3 python3-venv)."; exit 2; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { \
+		echo "$(PYTHON) is $$($(PYTHON) -V), too old: give a Python 3.10 to 3.13 with make PYTHON=/path/to/python3."; \
+		exit 2; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
+		echo "$(PYTHON) cannot make virtual environments: sudo apt-get install python3-venv, then again."; exit 2; }
+	@test -n "$(ROS_DISTRO)" || test "$$(uname -sm)" = "Linux x86_64" || { \
+		echo "The ROS 2 wheels exist for Linux on x86_64 only: source a ROS 2 installation first, or use the desk"; \
+		echo "commands alone: $(PYTHON) -m venv $(VENV) && $(BIN)/pip install . && $(BIN)/beardyn demo"; exit 2; }
+	$(PYTHON) -m venv $(VENV_OPTIONS) $(VENV)

@@ -1,0 +1,80 @@
+"""Packaging for pip and for colcon; tools are configured in pyproject.toml."""
+
+from glob import glob
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+NAME = "beardyn"
+SHARE = f"share/{NAME}"
+
+# Pinned through the distribution's meta packages: an unpinned later install upgrades half a stack.
+ROS_WHEELS = [
+    "ros-kilted-rclpy[fastrtps]==9.1.2",
+    "ros-kilted-diagnostic-msgs==5.5.1",
+    "ros-kilted-geometry-msgs==5.5.1",
+    "ros-kilted-sensor-msgs==5.5.1",
+    "ros-kilted-std-msgs==5.5.1",
+    "ros-kilted-std-srvs==5.5.1",
+]
+TEST = ["pytest>=8", "hypothesis>=6.100", "psutil>=5.9", "setuptools>=64", "wheel"]
+DEV = [
+    "import-linter>=2",
+    "mypy>=1.11",
+    "pre-commit>=3.5",
+    "pytest-cov>=5",
+    "ruff>=0.9",
+    "types-PyYAML",
+    "types-psutil",
+]
+
+
+def tree(folder: str, *patterns: str) -> list[tuple[str, list[str]]]:
+    """Data files of one folder and its subfolders, installed under share/."""
+    folders = [Path(folder), *sorted(path for path in Path(folder).rglob("*") if path.is_dir())]
+    found = [
+        (
+            f"{SHARE}/{path.as_posix()}",
+            sorted(str(file) for pattern in patterns for file in path.glob(pattern)),
+        )
+        for path in folders
+    ]
+    return [(target, files) for target, files in found if files]
+
+
+setup(
+    name=NAME,
+    version="0.1.0",
+    description="Real-time digital twin of a railway axlebox double-row tapered roller bearing",
+    author="The beardyn authors",
+    maintainer="The beardyn authors",
+    maintainer_email="beardyn@example.org",
+    license="Apache-2.0",
+    keywords=["railway", "rolling bearing", "digital twin", "multibody dynamics", "ROS 2", "MCAP"],
+    python_requires=">=3.10",
+    packages=find_packages(include=["beardyn_core", "beardyn_core.*", "beardyn_ros", "beardyn_ros.*"]),
+    package_data={"": ["*.xml", "*.json", "py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
+        (SHARE, ["package.xml"]),
+        *tree("launch", "*.py", "*.yaml"),
+        *tree("config", "*.yaml", "*.csv"),
+        (f"lib/{NAME}", sorted(glob("scripts/*"))),
+    ],
+    install_requires=[
+        "matplotlib>=3.8",
+        "mcap>=1.2",
+        "numba>=0.61",
+        "numpy>=1.26",
+        "pydantic>=2.7",
+        "pyyaml>=6.0",
+        "rerun-sdk>=0.41,<0.42",
+        "rosbags>=0.11,<0.12",
+        "scipy>=1.13",
+        "tqdm>=4.66",
+        "zstandard>=0.22",
+    ],
+    extras_require={"ros": ROS_WHEELS, "test": TEST, "dev": DEV},
+    entry_points={"console_scripts": ["beardyn = beardyn_core.cli.main:main"]},
+    zip_safe=False,
+)
