@@ -1,0 +1,224 @@
+"""Consistency of a bearing: every contradiction, with the numbers that contradict."""
+
+from __future__ import annotations
+
+import math
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.profile import PROFILE_KINDS
+from beardyn_core.errors import InputError
+
+_LENGTHS = (
+    "pitch_diameter",
+    "roller_diameter",
+    "effective_length",
+    "roller_length",
+    "row_spacing",
+    "rib_contact_height",
+    "bore",
+    "outer_diameter",
+    "width",
+    "raceway_roughness",
+    "rib_roughness",
+)
+_CAGE_POSITIVE = ("mass", "polar_inertia", "transverse_inertia", "stiffness")
+_CAGE_NOT_NEGATIVE = ("circumferential_clearance", "axial_clearance", "damping")
+_LARGEST_END_PLAY = 5.0e-3
+
+
+def check(bearing: Bearing) -> list[str]:
+    """All contradictions of `bearing`, one sentence each; empty when it is sound.
+
+    Parameters
+    ----------
+    bearing : Bearing
+
+    Returns
+    -------
+    list of str
+        Each names the quantity, its value, what it contradicts and what is allowed.
+    """
+    problems = _check_numbers(bearing)
+    if problems:
+        # The closure cannot be computed from numbers that are not numbers or have the wrong sign.
+        return problems
+    return _check_closure(bearing) or (
+        _check_roller(bearing) + _check_envelope(bearing) + _check_angles(bearing)
+    )
+
+
+def require_sound(bearing: Bearing) -> None:
+    """Raise `InputError` with every contradiction of `bearing`."""
+    problems = check(bearing)
+    if problems:
+        raise InputError([f"bearing {bearing.name}: {problem}" for problem in problems])
+
+
+def _mm(length: float) -> str:
+    return f"{length * 1e3:.4g} mm"
+
+
+def _deg(angle: float) -> str:
+    return f"{math.degrees(angle):.4g} deg"
+
+
+def _check_numbers(bearing: Bearing) -> list[str]:
+    problems = []
+    if bearing.roller_count < 3:
+        problems.append(f"roller_count is {bearing.roller_count}; at least 3 rollers per row are needed.")
+    for key in _LENGTHS:
+        value = getattr(bearing, key)
+        if not (math.isfinite(value) and value > 0.0):
+            problems.append(f"{key} is {_mm(value)}; it must be greater than 0.")
+    for key, value in (("cup_mass", bearing.cup_mass), ("cone_mass", bearing.cone_mass)):
+        if not (math.isfinite(value) and value > 0.0):
+            problems.append(f"{key} is {value:g} kg; it must be greater than 0.")
+    if not all(math.isfinite(value) and value > 0.0 for value in bearing.cup_inertia):
+        problems.append(f"cup_inertia is {bearing.cup_inertia} kg m^2; all three must exceed 0.")
+    if not 0.0 < bearing.contact_angle < 0.25 * math.pi:
+        problems.append(f"contact_angle is {_deg(bearing.contact_angle)}; it must lie between 0 and 45 deg.")
+    if not 0.0 < bearing.sphere_ratio < 1.0:
+        problems.append(
+            f"sphere_ratio is {bearing.sphere_ratio:g}; it must lie between 0 and 1, for at 1 the sphere is "
+            "centred on the apex and its contact runs off a conical rib."
+        )
+    if not abs(bearing.end_play) <= _LARGEST_END_PLAY:
+        problems.append(
+            f"end_play is {_mm(bearing.end_play)}; it must lie within +-{_mm(_LARGEST_END_PLAY)} "
+            "(negative: preload)."
+        )
+    return problems + _check_parts(bearing)
+
+
+def _check_parts(bearing: Bearing) -> list[str]:
+    problems = []
+    material, profile, cage = bearing.material, bearing.profile, bearing.cage
+    if not (math.isfinite(material.youngs_modulus) and material.youngs_modulus > 0.0):
+        problems.append(f"material youngs_modulus is {material.youngs_modulus:g} Pa; it must exceed 0.")
+    if not 0.0 <= material.poisson_ratio < 0.5:
+        problems.append(f"material poisson_ratio is {material.poisson_ratio:g}; it must be in [0, 0.5).")
+    if not (math.isfinite(material.density) and material.density > 0.0):
+        problems.append(f"material density is {material.density:g} kg/m^3; it must be greater than 0.")
+    if profile.kind not in PROFILE_KINDS:
+        problems.append(f"profile kind is {profile.kind!r}; allowed are {', '.join(PROFILE_KINDS)}.")
+    if not 0.0 <= profile.drop < 1.0e-3:
+        problems.append(f"profile drop is {_mm(profile.drop)}; it must be at least 0 and below 1 mm.")
+    if profile.kind == "crowned" and profile.drop == 0.0:
+        problems.append("profile kind is 'crowned' but its drop is 0; give a drop or use 'straight'.")
+    if profile.kind == "logarithmic" and not 0.0 < profile.design_pressure < 1.0e10:
+        problems.append(
+            f"profile design_pressure is {profile.design_pressure:g} Pa; a logarithmic profile needs one "
+            "between 0 and 10 GPa."
+        )
+    for key in (*_CAGE_POSITIVE, *_CAGE_NOT_NEGATIVE):
+        value = getattr(cage, key)
+        if not (math.isfinite(value) and (value > 0.0 or (value == 0.0 and key in _CAGE_NOT_NEGATIVE))):
+            allowed = "be at least 0" if key in _CAGE_NOT_NEGATIVE else "be greater than 0"
+            problems.append(f"cage {key} is {value:g}; it must {allowed}.")
+    return problems
+
+
+def _check_closure(bearing: Bearing) -> list[str]:
+    """Conditions without which cone angle and rib angle do not exist."""
+    problems = []
+    if bearing.cone_angle <= 0.0:
+        problems.append(
+            f"contact_angle {_deg(bearing.contact_angle)} does not exceed the roller half-angle "
+            f"{_deg(bearing.half_angle)} that follows from roller_diameter {_mm(bearing.roller_diameter)} "
+            f"and apex distance {_mm(bearing.apex_distance)}; the cone raceway would not be a cone."
+        )
+    if bearing.roller_length >= 2.0 * bearing.apex_distance:
+        problems.append(
+            f"roller_length {_mm(bearing.roller_length)} reaches beyond the apex, which is "
+            f"{_mm(bearing.apex_distance)} from mid-length; a smaller length or contact angle is needed."
+        )
+    elif bearing.rib_contact_height >= bearing.large_end_radius:
+        problems.append(
+            f"rib_contact_height {_mm(bearing.rib_contact_height)} is not below the large-end radius "
+            f"{_mm(bearing.large_end_radius)}; the rib contact would lie outside the lower half of the "
+            "roller end."
+        )
+    elif bearing.sphere_radius <= bearing.large_end_radius:
+        problems.append(
+            f"sphere_ratio {bearing.sphere_ratio:g} gives a sphere radius of {_mm(bearing.sphere_radius)}, "
+            f"not above the large-end radius {_mm(bearing.large_end_radius)}; usual ratios are 0.8 to 0.95."
+        )
+    elif bearing.rib_polar_angle >= bearing.contact_angle:
+        problems.append(
+            f"the rib normal leans {_deg(bearing.rib_polar_angle)} from the roller axis, not less than "
+            f"contact_angle {_deg(bearing.contact_angle)}; "
+            f"rib_contact_height {_mm(bearing.rib_contact_height)} and "
+            f"sphere radius {_mm(bearing.sphere_radius)} leave no conical rib."
+        )
+    return problems
+
+
+def _check_roller(bearing: Bearing) -> list[str]:
+    problems = []
+    if bearing.effective_length > bearing.roller_length:
+        problems.append(
+            f"effective_length {_mm(bearing.effective_length)} exceeds "
+            f"roller_length {_mm(bearing.roller_length)}."
+        )
+    chord = bearing.roller_diameter + bearing.roller_web
+    if bearing.roller_web <= 0.0:
+        problems.append(
+            f"{bearing.roller_count} rollers of roller_diameter {_mm(bearing.roller_diameter)} overlap on "
+            f"pitch_diameter {_mm(bearing.pitch_diameter)}, where their axes are only {_mm(chord)} apart."
+        )
+    elif bearing.cage.circumferential_clearance >= bearing.roller_web:
+        problems.append(
+            f"cage circumferential_clearance {_mm(bearing.cage.circumferential_clearance)} is not below the "
+            f"free distance {_mm(bearing.roller_web)} between rollers; no bar would be left."
+        )
+    return problems
+
+
+def _check_envelope(bearing: Bearing) -> list[str]:
+    problems = []
+    pitch_radius = 0.5 * bearing.pitch_diameter
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    half_length = 0.5 * bearing.roller_length
+    innermost = pitch_radius - half_length * sine - bearing.small_end_radius * cosine
+    outermost = pitch_radius + half_length * sine + bearing.large_end_radius * cosine
+    if innermost <= 0.5 * bearing.bore:
+        problems.append(
+            f"the cone raceway's smallest radius {_mm(innermost)}, from pitch_diameter "
+            f"{_mm(bearing.pitch_diameter)}, is not above half the bore, {_mm(0.5 * bearing.bore)}."
+        )
+    if outermost >= 0.5 * bearing.outer_diameter:
+        problems.append(
+            f"the cup raceway's largest radius {_mm(outermost)}, from pitch_diameter "
+            f"{_mm(bearing.pitch_diameter)}, is not below half the outer_diameter, "
+            f"{_mm(0.5 * bearing.outer_diameter)}."
+        )
+    extent = bearing.roller_length * cosine + 2.0 * bearing.small_end_radius * sine
+    if bearing.row_spacing <= extent:
+        problems.append(
+            f"row_spacing {_mm(bearing.row_spacing)} is not above the axial extent of a roller, "
+            f"{_mm(extent)}; the rows would run into each other."
+        )
+    span = bearing.row_spacing + bearing.roller_length * cosine + 2.0 * bearing.large_end_radius * sine
+    if span >= bearing.width:
+        problems.append(
+            f"both rows span {_mm(span)} along the axle, not less than the width {_mm(bearing.width)}; "
+            f"row_spacing is {_mm(bearing.row_spacing)}."
+        )
+    return problems
+
+
+def _check_angles(bearing: Bearing) -> list[str]:
+    problems = []
+    for key, stated, closed in (
+        ("nominal_cup_angle", bearing.nominal_cup_angle, bearing.cup_angle),
+        ("nominal_cone_angle", bearing.nominal_cone_angle, bearing.cone_angle),
+    ):
+        if stated is not None and not abs(stated - closed) <= bearing.angle_tolerance:
+            problems.append(
+                f"{key} {_deg(stated)} contradicts the {_deg(closed)} that close on a common apex with "
+                f"pitch_diameter {_mm(bearing.pitch_diameter)}, "
+                f"roller_diameter {_mm(bearing.roller_diameter)} and "
+                f"contact_angle {_deg(bearing.contact_angle)}; "
+                f"angle_tolerance is {_deg(bearing.angle_tolerance)}."
+            )
+    return problems

@@ -1,0 +1,167 @@
+"""Contact laws: line contact after Palmgren, point contact after Hertz.
+
+E' is the modulus in the convention E' = 2 / sum((1 - nu^2)/E) throughout; with E* = E'/2 the point
+contact would come out half as stiff.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.material import Material
+
+LINE_EXPONENT = 10.0 / 9.0
+POINT_EXPONENT = 1.5
+
+
+def line_contact_factor(material: Material, length: float) -> float:
+    """Stiffness factor K of ONE line contact, Q = K delta^(10/9).
+
+    Parameters
+    ----------
+    material : Material
+    length : float
+        Length of the contact (the whole generator; a lamina of n carries K/n), [m].
+
+    Returns
+    -------
+    float
+        K, [N/m^(10/9)].
+
+    Notes
+    -----
+    `delta` is the approach of one contact. The constant c_L = 35 948 L^(8/9) of ISO/TS 16281 (N, mm)
+    belongs to the two contacts of a roller in series, hence 2^(10/9) times softer; taking one for the
+    other doubles the stiffness.
+
+    References
+    ----------
+    Palmgren, A. (1959), Ball and Roller Bearing Engineering: delta = 3.84e-5 Q^0.9 / L^0.8 (mm, N), which is
+    Q = 0.356 E' L^(8/9) delta^(10/9) for steel.
+    """
+    return 0.356 * material.contact_modulus * length ** (8.0 / 9.0)
+
+
+@dataclass(frozen=True)
+class PointContact:
+    """Elliptical point contact of two bodies, simplified elliptic integrals.
+
+    The stiffness factor is 2 % too large for the elongated ellipses of ribs (Ry/Rx from 3 to 10) and up to
+    9 % for a circular contact.
+
+    Parameters
+    ----------
+    radius_x, radius_y : float
+        Equivalent radii in the two principal planes, [m].
+    contact_modulus : float
+        E', [Pa].
+
+    References
+    ----------
+    Hamrock, B. J. and Brewe, D. (1983), Simplified solution for stresses and deformations, ASME J. Lubr.
+    Technol. 105: k = 1.0339 (Ry/Rx)^0.636, E = 1.0003 + 0.5968 Rx/Ry, F = 1.5277 + 0.6023 ln(Ry/Rx).
+    """
+
+    radius_x: float
+    radius_y: float
+    contact_modulus: float
+
+    @property
+    def _smaller(self) -> float:
+        return min(self.radius_x, self.radius_y)
+
+    @property
+    def _ratio(self) -> float:
+        """Ry/Rx >= 1, [-]."""
+        return max(self.radius_x, self.radius_y) / self._smaller
+
+    @property
+    def radius(self) -> float:
+        """1/R = 1/Rx + 1/Ry, [m]."""
+        return 1.0 / (1.0 / self.radius_x + 1.0 / self.radius_y)
+
+    @property
+    def ellipticity(self) -> float:
+        """Semi-axis ratio a/b >= 1, [-]."""
+        return 1.0339 * self._ratio**0.636
+
+    @property
+    def integral_second(self) -> float:
+        """Elliptic integral of the second kind, [-]."""
+        return 1.0003 + 0.5968 / self._ratio
+
+    @property
+    def integral_first(self) -> float:
+        """Elliptic integral of the first kind, [-]."""
+        return 1.5277 + 0.6023 * math.log(self._ratio)
+
+    @property
+    def factor(self) -> float:
+        """K in Q = K delta^1.5, [N/m^1.5]."""
+        root = math.sqrt(self.radius * self.integral_second / (4.5 * self.integral_first**3))
+        return math.pi * self.ellipticity * self.contact_modulus * root
+
+    def semi_axes(self, load: float) -> tuple[float, float]:
+        """Semi-axes (larger, smaller) of the contact ellipse under `load` [N], [m]."""
+        k = self.ellipticity
+        cubed = 6.0 * k**2 * self.integral_second * load * self.radius / (math.pi * self.contact_modulus)
+        larger = cubed ** (1.0 / 3.0)
+        return larger, larger / k
+
+
+def point_contact_factor(radius_x: float, radius_y: float, contact_modulus: float) -> float:
+    """Hertz stiffness factor K of a point contact, Q = K delta^1.5.
+
+    Parameters
+    ----------
+    radius_x, radius_y : float
+        Equivalent radii in the two principal planes, in any order, [m].
+    contact_modulus : float
+        E' = 2/sum((1 - nu^2)/E), [Pa].
+
+    Returns
+    -------
+    float
+        K, [N/m^1.5].
+    """
+    return PointContact(radius_x, radius_y, contact_modulus).factor
+
+
+def rib_contact(bearing: Bearing) -> PointContact:
+    """Contact of the spherical roller end with the conical rib of the cone.
+
+    Notes
+    -----
+    In the meridian plane the rib is straight, so Rx = R_s. Around the ring it is concave with the radius
+    R_rib = rho_c / cos(alpha_f), so 1/Ry = 1/R_s - 1/R_rib.
+    """
+    distance = bearing.apex_distance + bearing.sphere_centre
+    normal_angle = bearing.contact_angle - bearing.rib_polar_angle
+    sphere_radius = bearing.sphere_radius
+    contact_radius = distance * math.sin(bearing.contact_angle) + sphere_radius * math.sin(normal_angle)
+    rib_radius = contact_radius / math.cos(bearing.rib_angle)
+    radius_y = 1.0 / (1.0 / sphere_radius - 1.0 / rib_radius)
+    return PointContact(sphere_radius, radius_y, bearing.material.contact_modulus)
+
+
+def rib_contact_factor(bearing: Bearing) -> float:
+    """Stiffness factor K of the rib contact, Q = K delta^1.5, [N/m^1.5]."""
+    return rib_contact(bearing).factor
+
+
+def curvature_sum(curvatures: tuple[float, float, float, float]) -> float:
+    """Sum of the principal curvatures (body I x, I y, body II x, II y), [1/m]."""
+    return sum(curvatures)
+
+
+def curvature_difference(curvatures: tuple[float, float, float, float]) -> float:
+    """F(rho) = |(rho_I1 - rho_I2) + (rho_II1 - rho_II2)| / sum(rho), [-].
+
+    References
+    ----------
+    Harris, T. A. (2001), Rolling Bearing Analysis, 4th ed., chapter 2.
+    """
+    first_x, first_y, second_x, second_y = curvatures
+    return abs((first_x - first_y) + (second_x - second_y)) / curvature_sum(curvatures)

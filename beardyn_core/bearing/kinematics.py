@@ -1,0 +1,96 @@
+"""Pure-rolling kinematics and the fault frequencies that follow from it.
+
+The cup is at rest and the cone turns with the shaft.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from beardyn_core.bearing.geometry import Bearing
+
+
+@dataclass(frozen=True)
+class FaultFrequencies:
+    """Kinematic frequencies per shaft revolution, [-].
+
+    Parameters
+    ----------
+    ftf : float
+        Cage speed.
+    bpfo, bpfi : float
+        Passing of one row's rollers over a point of the cup, of the cone.
+    bsf : float
+        Spin of a roller in its cage pocket; a roller fault strikes twice as often.
+    """
+
+    ftf: float
+    bpfo: float
+    bpfi: float
+    bsf: float
+
+
+def frequencies(
+    roller_count: int, pitch_diameter: float, roller_diameter: float, angle: float
+) -> FaultFrequencies:
+    """Fault frequencies of any rolling bearing with the outer ring at rest.
+
+    Parameters
+    ----------
+    roller_count : int
+        Rolling elements of one row.
+    pitch_diameter, roller_diameter : float
+        In the same unit.
+    angle : float
+        Angle between rolling-element axis and bearing axis (contact angle of a ball bearing), [rad].
+    """
+    gamma = roller_diameter * math.cos(angle) / pitch_diameter
+    ftf = 0.5 * (1.0 - gamma)
+    return FaultFrequencies(
+        ftf=ftf,
+        bpfo=roller_count * ftf,
+        bpfi=0.5 * roller_count * (1.0 + gamma),
+        bsf=0.5 * pitch_diameter / roller_diameter * (1.0 - gamma**2),
+    )
+
+
+def fault_frequencies(bearing: Bearing) -> FaultFrequencies:
+    """Fault frequencies of one row of `bearing` per shaft revolution.
+
+    References
+    ----------
+    FTF = (1 - g)/2, BPFO = Z (1 - g)/2, BPFI = Z (1 + g)/2, BSF = Dpw/(2 Dm) (1 - g^2) with
+    g = Dm cos(alpha_m)/Dpw. With a common apex (1 - g)/2 equals sin(ai)/(sin(ai) + sin(ao)) identically.
+    """
+    return frequencies(
+        bearing.roller_count, bearing.pitch_diameter, bearing.roller_diameter, bearing.contact_angle
+    )
+
+
+def cage_speed_ratio(bearing: Bearing) -> float:
+    """Cage speed over shaft speed in pure rolling, sin(ai)/(sin(ai) + sin(ao)), [-]."""
+    cone, cup = math.sin(bearing.cone_angle), math.sin(bearing.cup_angle)
+    return cone / (cone + cup)
+
+
+def cage_speed(bearing: Bearing, shaft_speed: float) -> float:
+    """Speed of cage and roller centres about the bearing axis in pure rolling, [rad/s]."""
+    return cage_speed_ratio(bearing) * shaft_speed
+
+
+def roller_spin(bearing: Bearing, shaft_speed: float) -> float:
+    """Spin of a roller about its own axis relative to the cage, [rad/s].
+
+    Positive when opposite to the sense in which the shaft turns: w_c sin(ao)/sin(phi).
+    """
+    return cage_speed(bearing, shaft_speed) * math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
+
+
+def roller_cone_spin(bearing: Bearing, shaft_speed: float) -> float:
+    """Relative speed of roller and cone about their common generator, [rad/s].
+
+    The rib contact slides with this speed times its height above the cone raceway.
+    """
+    slip = shaft_speed - cage_speed(bearing, shaft_speed)
+    return slip * math.sin(bearing.contact_angle) / math.sin(bearing.half_angle)

@@ -1,0 +1,67 @@
+"""How kernels are compiled: flags, inlining, and a disk cache that sees every edit.
+
+numba's own cache looks only at the file of the entry point and would return stale code after an edit
+of a function it calls. Here the cache folder is named by a hash of all kernel sources instead.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import numba
+
+# No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars agree to the last bit.
+FASTMATH = ("nsz", "arcp", "contract", "afn")
+OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": set(FASTMATH)}
+
+_CORE = Path(__file__).resolve().parent
+_COMPILED_ROOMS = (".", "kernels", "integrate", "model", "observe", "rail")
+
+
+def source_hash() -> str:
+    """Hash of all sources that compiled code may come from, and of numba's version."""
+    digest = hashlib.sha256(numba.__version__.encode())
+    for room in _COMPILED_ROOMS:
+        for path in sorted((_CORE / room).glob("*.py")):
+            digest.update(path.name.encode())
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def cache_folder() -> Path:
+    """Folder of the compiled kernels: ``$BEARDYN_CACHE_DIR`` or the user's cache folder."""
+    root = os.environ.get("BEARDYN_CACHE_DIR")
+    if root is None:
+        root = os.path.join(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache")), "beardyn")
+    return Path(root) / "kernels" / source_hash()
+
+
+def inline(function: Callable[..., Any]) -> Any:
+    """Compile a kernel part that is always inlined into its caller."""
+    return numba.njit(forceinline=True, **OPTIONS)(function)
+
+
+def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH) -> Any:
+    """Compile an entry point and keep it in the disk cache.
+
+    Parameters
+    ----------
+    function : callable
+    flags : iterable of str
+        LLVM fast-math flags.
+
+    Returns
+    -------
+    callable
+        The compiled function.
+    """
+    before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+    numba.config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
+    try:
+        return numba.njit(cache=True, **{**OPTIONS, "fastmath": set(flags)})(function)
+    finally:
+        numba.config.CACHE_DIR = before  # type: ignore[attr-defined]

@@ -1,0 +1,45 @@
+"""Loads on the journal as a function of time: the history, and the buffer a stream fills."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+WRENCH_AXES = ("fx", "fy", "fz", "mx", "my", "mz")
+
+
+@dataclass(frozen=True)
+class LoadHistory:
+    """Samples of the load on the journal and the shaft speed; linear in between.
+
+    Parameters
+    ----------
+    time_ns : int64 array, shape [sample]
+        Simulated time, strictly increasing, [ns].
+    wrench : float64 array, shape [sample, 6]
+        Force and moment on the journal at the bearing centre, [N, N m]: the wheel-rail
+        reaction less the static weight of the half wheelset.
+    shaft_speed : float64 array, shape [sample]
+        Speed of the shaft about +y, positive when rolling forward, [rad/s].
+    bogie : float64 array, shape [sample, 3]
+        Displacement of the bogie end of the suspension from its static place, [m].
+    """
+
+    time_ns: NDArray[np.int64]
+    wrench: NDArray[np.float64]
+    shaft_speed: NDArray[np.float64]
+    bogie: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.time_ns)
+
+    def part(self, first: int, last: int) -> LoadHistory:
+        """Samples ``first`` (included) to ``last`` (excluded)."""
+        return LoadHistory(
+            self.time_ns[first:last],
+            self.wrench[first:last],
+            self.shaft_speed[first:last],
+            self.bogie[first:last],
+        )

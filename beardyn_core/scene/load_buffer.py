@@ -1,0 +1,117 @@
+"""The load as a stream: what has arrived, what is refused, and what covers the next block."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.scene.load import LoadHistory
+
+LARGEST_FORCE = 1.0e7
+LARGEST_MOMENT = 1.0e6
+LARGEST_SPEED = 2000.0
+LARGEST_DISPLACEMENT = 1.0
+
+
+def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
+    """Why a piece of load cannot be used, as a sentence; ``None`` when it can.
+
+    Parameters
+    ----------
+    load : LoadHistory
+    after_ns : int or None
+        Time of the last sample accepted before, [ns].
+    """
+    if len(load) == 0:
+        return None
+    values = np.concatenate([load.wrench, load.shaft_speed[:, None], load.bogie], axis=1)
+    if not np.isfinite(values).all():
+        return "the load has a NaN or an infinite number; all of force, moment, speed and bogie must be finite"
+    if np.any(np.diff(load.time_ns) <= 0) or (after_ns is not None and load.time_ns[0] <= after_ns):
+        return "the load goes back in time; samples must follow each other"
+    limits = np.repeat(
+        [LARGEST_FORCE, LARGEST_MOMENT, LARGEST_SPEED, LARGEST_DISPLACEMENT], [3, 3, 1, 3]
+    )
+    if np.any(np.abs(values) > limits):
+        return (
+            f"the load is absurd; allowed are {LARGEST_FORCE:.0e} N, {LARGEST_MOMENT:.0e} N m, "
+            f"{LARGEST_SPEED:.0f} rad/s and {LARGEST_DISPLACEMENT:.0f} m"
+        )
+    return None
+
+
+@dataclass
+class LoadBuffer:
+    """Samples that have arrived and are not used up.
+
+    Parameters
+    ----------
+    refused : int
+        Pieces that were refused.
+    reason : str
+        Why the last one was.
+    """
+
+    refused: int = 0
+    reason: str = ""
+    _parts: list[LoadHistory] = field(default_factory=list)
+
+    @property
+    def last_ns(self) -> int | None:
+        """Time of the newest sample, ``None`` when there is none, [ns]."""
+        return int(self._parts[-1].time_ns[-1]) if self._parts else None
+
+    def append(self, load: LoadHistory) -> bool:
+        """Take samples at the end of the stream; False, and counted, when they cannot be used."""
+        problem = problem_with(load, self.last_ns)
+        if problem is not None:
+            self.refused += 1
+            self.reason = problem
+            return False
+        if len(load):
+            self._parts.append(load)
+        return True
+
+    def at_steps(self, start_ns: int, end_ns: int, steps: int) -> NDArray[np.float64]:
+        """Load at the step boundaries of a block, linear between samples, held outside them.
+
+        Parameters
+        ----------
+        start_ns, end_ns : int
+            Of the block, [ns].
+        steps : int
+
+        Returns
+        -------
+        float64 array, shape [steps + 1, 10]
+            Wrench [N, N m], shaft speed [rad/s], bogie displacement [m].
+        """
+        self._forget_before(start_ns)
+        parts = [_window(part, start_ns, end_ns) for part in self._parts]
+        seconds = (np.concatenate([part.time_ns for part in parts]) - start_ns).astype(np.float64)
+        values = [
+            np.concatenate([part.wrench for part in parts]),
+            np.concatenate([part.shaft_speed for part in parts])[:, None],
+            np.concatenate([part.bogie for part in parts]),
+        ]
+        columns = np.concatenate(values, axis=1)
+        at = np.arange(steps + 1) * ((end_ns - start_ns) / steps)
+        return np.stack([np.interp(at, seconds, column) for column in columns.T], axis=-1)
+
+    def _forget_before(self, start_ns: int) -> None:
+        """Drop parts that end before a time, keeping the one that holds it."""
+        while len(self._parts) > 1 and self._parts[1].time_ns[0] <= start_ns:
+            del self._parts[0]
+
+    def copy(self) -> LoadBuffer:
+        """A copy; the parts themselves never change."""
+        return LoadBuffer(self.refused, self.reason, list(self._parts))
+
+
+def _window(part: LoadHistory, start_ns: int, end_ns: int) -> LoadHistory:
+    """Samples between two times, and one more on either side."""
+    first = int(np.searchsorted(part.time_ns, start_ns, side="right")) - 1
+    last = int(np.searchsorted(part.time_ns, end_ns, side="left")) + 1
+    return part.part(max(first, 0), last)

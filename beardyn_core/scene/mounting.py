@@ -1,0 +1,41 @@
+"""How the bearing is held: axlebox, suspension, journal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Mounting:
+    """Axlebox on its suspension, and the journal in it.
+
+    Parameters
+    ----------
+    cup : str
+        ``held`` (fixed in space) or ``suspended`` (moves with the axlebox).
+    journal_tilt : str
+        ``locked`` or ``free``: tilt of the journal in space.
+    box_mass : float
+        Axlebox without the cup, [kg].
+    box_inertia : tuple of 3 floats
+        About x, y, z through the bearing centre, without the cup, [kg m^2].
+    journal_mass : float
+        Half wheelset, carried with the cones, [kg].
+    journal_inertia : float
+        Tilt inertia about x and z, [kg m^2].
+    stiffness, damping : tuple of 3 floats
+        Suspension between axlebox and bogie in x, y, z, [N/m], [N s/m].
+    rotational_stiffness, rotational_damping : tuple of 3 floats
+        The same about x, y, z, [N m/rad], [N m s/rad].
+    """
+
+    cup: str = "suspended"
+    journal_tilt: str = "locked"
+    box_mass: float = 100.0
+    box_inertia: tuple[float, float, float] = (2.0, 2.0, 2.0)
+    journal_mass: float = 900.0
+    journal_inertia: float = 50.0
+    stiffness: tuple[float, float, float] = (1.0e7, 5.0e6, 1.2e6)
+    damping: tuple[float, float, float] = (2.0e4, 2.0e4, 1.0e4)
+    rotational_stiffness: tuple[float, float, float] = (1.0e5, 2.0e5, 1.0e5)
+    rotational_damping: tuple[float, float, float] = (5.0e2, 1.0e3, 5.0e2)

@@ -1,0 +1,309 @@
+"""Where load and speed come from: constant, stepped, a quarter vehicle on the track, or a measurement."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from beardyn_core.errors import InputError
+
+Vector = tuple[float, float, float]
+
+IRREGULARITY_KINDS = ("german_low", "german_high", "fra_6", "none")
+WHEEL_PROFILES = ("worn", "cone")
+
+
+def _refuse(problems: Iterator[str]) -> None:
+    found = list(problems)
+    if found:
+        raise InputError(found)
+
+
+def _outside(owner: str, name: str, value: float, low: float, high: float, unit: str) -> Iterator[str]:
+    if not low <= value <= high:  # also true for NaN
+        yield f"{owner}: {name} is {value:g} {unit}; allowed is {low:g} to {high:g} {unit}"
+
+
+def _not_finite(owner: str, name: str, values: tuple[float, ...]) -> Iterator[str]:
+    if not all(math.isfinite(value) for value in values):
+        yield f"{owner}: {name} is {values}; every component must be a finite number"
+
+
+@dataclass(frozen=True)
+class ConstantOperation:
+    """One load and one speed for the whole run.
+
+    Parameters
+    ----------
+    force : tuple of 3 floats
+        On the journal, world axes (+z lifts the journal), [N].
+    speed : float
+        Of the shaft, positive when rolling forward, [rad/s].
+    moment : tuple of 3 floats
+        On the journal about the bearing centre, [N m].
+    """
+
+    force: Vector
+    speed: float
+    moment: Vector = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        _refuse(self._problems())
+
+    def _problems(self) -> Iterator[str]:
+        yield from _not_finite("operation (constant)", "force", self.force)
+        yield from _not_finite("operation (constant)", "moment", self.moment)
+        yield from _not_finite("operation (constant)", "speed", (self.speed,))
+
+
+@dataclass(frozen=True)
+class Step:
+    """One level of a stepped operation.
+
+    Parameters
+    ----------
+    time : float
+        When the change to this level begins, [s].
+    force : tuple of 3 floats
+        On the journal, [N].
+    speed : float
+        Of the shaft, [rad/s].
+    moment : tuple of 3 floats
+        On the journal, [N m].
+    """
+
+    time: float
+    force: Vector
+    speed: float
+    moment: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class SteppedOperation:
+    """Levels of load and speed with cosine ramps in between.
+
+    Parameters
+    ----------
+    steps : tuple of Step
+        In order of time; the first begins at 0.
+    ramp : float
+        Duration of the ramp that begins at each further step's time, [s].
+    """
+
+    steps: tuple[Step, ...]
+    ramp: float = 0.2
+
+    def __post_init__(self) -> None:
+        _refuse(self._problems())
+
+    def _problems(self) -> Iterator[str]:
+        owner = "operation (stepped)"
+        if not self.steps:
+            yield f"{owner}: steps is empty; give at least one step at time 0"
+            return
+        yield from _outside(owner, "ramp", self.ramp, 0.0, 3600.0, "s")
+        for index, step in enumerate(self.steps):
+            name = f"{owner}, step {index}"
+            yield from _not_finite(name, "time", (step.time,))
+            yield from _not_finite(name, "force", step.force)
+            yield from _not_finite(name, "moment", step.moment)
+            yield from _not_finite(name, "speed", (step.speed,))
+        if self.steps[0].time != 0.0:
+            yield f"{owner}: the first step begins at {self.steps[0].time:g} s; it must begin at 0 s"
+        for index, (one, two) in enumerate(itertools.pairwise(self.steps), start=1):
+            # the first level is there from the start: only later steps have a ramp to finish
+            earliest = one.time + (self.ramp if index > 1 else 0.0)
+            if not (two.time >= earliest and two.time > one.time):
+                yield (
+                    f"{owner}, step {index}: time is {two.time:g} s; it must be after step {index - 1} "
+                    f"and its ramp, at {earliest:g} s or later"
+                )
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """Sprung masses and secondary suspension of a car with two bogies of two axles.
+
+    Wheelset, axlebox and primary suspension belong to `scene.mounting.Mounting`, so that rail model
+    and twin share them.
+
+    Parameters
+    ----------
+    name, description : str
+    body_mass : float
+        Whole car body with its payload; an axlebox carries one eighth, [kg].
+    bogie_mass : float
+        One bogie frame without wheelsets; an axlebox carries one quarter, [kg].
+    secondary_stiffness : float
+        Vertical, one side of one bogie (shared by two axleboxes), [N/m].
+    secondary_damping : float
+        Vertical, one side of one bogie, [N s/m].
+    wheel_profile : str
+        ``worn`` or ``cone``: which fit of the Hertz wheel-rail contact applies.
+    sources : tuple of (field, source) pairs
+    """
+
+    name: str
+    description: str
+    body_mass: float
+    bogie_mass: float
+    secondary_stiffness: float
+    secondary_damping: float
+    wheel_profile: str = "worn"
+    sources: tuple[tuple[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        _refuse(self._problems())
+
+    def _problems(self) -> Iterator[str]:
+        owner = f"vehicle {self.name!r}"
+        yield from _outside(owner, "body_mass", self.body_mass, 1e3, 2e5, "kg")
+        yield from _outside(owner, "bogie_mass", self.bogie_mass, 1e2, 3e4, "kg")
+        yield from _outside(owner, "secondary_stiffness", self.secondary_stiffness, 1e4, 1e8, "N/m")
+        yield from _outside(owner, "secondary_damping", self.secondary_damping, 0.0, 1e7, "N s/m")
+        if self.wheel_profile not in WHEEL_PROFILES:
+            yield f"{owner}: wheel_profile is {self.wheel_profile!r}; allowed are {', '.join(WHEEL_PROFILES)}"
+
+
+@dataclass(frozen=True)
+class Track:
+    """Ballasted track under one rail; defaults are the track of Zhai.
+
+    Parameters
+    ----------
+    rail_bending_stiffness : float
+        E I of one rail, [N m^2].
+    rail_mass_per_length : float
+        One rail, [kg/m].
+    sleeper_spacing : float
+        [m].
+    pad_stiffness, pad_damping : float
+        One rail seat, [N/m], [N s/m].
+    sleeper_mass : float
+        Half a sleeper, [kg].
+    ballast_stiffness, ballast_damping : float
+        Between half a sleeper and its block of ballast, [N/m], [N s/m].
+    ballast_mass : float
+        Block of ballast under one rail seat, [kg].
+    subgrade_stiffness, subgrade_damping : float
+        Under one block of ballast, [N/m], [N s/m].
+
+    References
+    ----------
+    Values as in the TTB-2D track library (D. Cantero, NTNU), after Zhai, Wang, Lin (2004), Modelling
+    and experiment of railway ballast vibrations, J. Sound Vib. 270. Half of the 251 kg sleeper.
+    """
+
+    rail_bending_stiffness: float = 2.059e11 * 3.217e-5
+    rail_mass_per_length: float = 60.64
+    sleeper_spacing: float = 0.6
+    pad_stiffness: float = 65.0e6
+    pad_damping: float = 75.0e3
+    sleeper_mass: float = 125.5
+    ballast_stiffness: float = 137.75e6
+    ballast_damping: float = 58.8e3
+    ballast_mass: float = 531.0
+    subgrade_stiffness: float = 77.5e6
+    subgrade_damping: float = 31.15e3
+
+    def __post_init__(self) -> None:
+        _refuse(
+            f"track: {name} is {value:g}; it must be a positive finite number"
+            for name, value in vars(self).items()
+            if not 0.0 < value < math.inf
+        )
+
+
+@dataclass(frozen=True)
+class Irregularity:
+    """Vertical irregularity of the rail, drawn from a power spectral density.
+
+    Parameters
+    ----------
+    kind : str
+        ``german_low``, ``german_high`` (low and high disturbance), ``fra_6`` or ``none``.
+    shortest_wavelength, longest_wavelength : float
+        Band of the spectrum that is synthesised, [m].
+    """
+
+    kind: str = "german_low"
+    shortest_wavelength: float = 0.1
+    longest_wavelength: float = 150.0
+
+    def __post_init__(self) -> None:
+        _refuse(self._problems())
+
+    def _problems(self) -> Iterator[str]:
+        if self.kind not in IRREGULARITY_KINDS:
+            yield f"irregularity: kind is {self.kind!r}; allowed are {', '.join(IRREGULARITY_KINDS)}"
+        yield from _outside("irregularity", "shortest_wavelength", self.shortest_wavelength, 0.02, 50.0, "m")
+        yield from _outside("irregularity", "longest_wavelength", self.longest_wavelength, 1.0, 1000.0, "m")
+        if self.shortest_wavelength >= self.longest_wavelength:
+            yield (
+                f"irregularity: shortest_wavelength {self.shortest_wavelength:g} m must be less than "
+                f"longest_wavelength {self.longest_wavelength:g} m"
+            )
+
+
+@dataclass(frozen=True)
+class QuarterVehicleOperation:
+    """An axlebox share of a vehicle running over an irregular track.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    irregularity : Irregularity
+    speed_profile : tuple of (time, speed) pairs
+        Time, [s], and speed of the vehicle, [m/s]: linear in between, held before and after.
+    wheel_diameter : float
+        Running diameter, [m].
+    lateral_force : float
+        Constant force on the journal along +y (towards the outboard row of a left axlebox), [N].
+    track : Track
+    """
+
+    vehicle: Vehicle
+    irregularity: Irregularity
+    speed_profile: tuple[tuple[float, float], ...]
+    wheel_diameter: float = 0.92
+    lateral_force: float = 0.0
+    track: Track = field(default_factory=Track)
+
+    def __post_init__(self) -> None:
+        _refuse(self._problems())
+
+    def _problems(self) -> Iterator[str]:
+        owner = "operation (quarter_vehicle)"
+        yield from _outside(owner, "wheel_diameter", self.wheel_diameter, 0.3, 1.5, "m")
+        yield from _outside(owner, "lateral_force", self.lateral_force, -1e5, 1e5, "N")
+        if not self.speed_profile:
+            yield f"{owner}: speed_profile is empty; give at least one (time, speed) point"
+        for index, (time, speed) in enumerate(self.speed_profile):
+            yield from _not_finite(owner, f"time of speed_profile point {index}", (time,))
+            yield from _outside(owner, f"speed of speed_profile point {index}", speed, 0.0, 400 / 3.6, "m/s")
+        times = [time for time, _ in self.speed_profile]
+        for index, (one, two) in enumerate(itertools.pairwise(times), start=1):
+            if not two > one:
+                yield (
+                    f"{owner}: speed_profile point {index} is at {two:g} s; it must be later than point "
+                    f"{index - 1} at {one:g} s"
+                )
+
+
+@dataclass(frozen=True)
+class MeasuredOperation:
+    """Load and speed read from a CSV file (columns: see `rail.measured`).
+
+    Parameters
+    ----------
+    path : Path
+        The file; the config room resolves a relative path against the folder of the scene file.
+    """
+
+    path: Path
+
+
+Operation = ConstantOperation | SteppedOperation | QuarterVehicleOperation | MeasuredOperation

@@ -1,0 +1,77 @@
+"""The scene: one bearing under one operation, with all that is asked of the run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.effects import EffectSet
+from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.operation import Operation
+from beardyn_core.scene.sensor import Accelerometer
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """Discretisation of a run.
+
+    Parameters
+    ----------
+    laminae : int
+        Laminae of each roller.
+    steps_per_sample : int
+        Time steps per waveform sample (25.6 kHz): the step is 1 / (25 600 x this), [-].
+    """
+
+    laminae: int = 6
+    steps_per_sample: int = 4
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One bearing under one operation, with all that is asked of the run.
+
+    Parameters
+    ----------
+    name, purpose : str
+    bearing : Bearing
+    lubricant : Lubricant
+    temperature : float
+        Of lubricant and bearing, [K].
+    end_play : float
+        Total axial travel of the mounted bearing, negative for preload, [m].
+    tier : str
+        ``full`` (the only tier so far).
+    effects : EffectSet
+    operation : Operation
+        Where load and speed come from.
+    mounting : Mounting
+    defects : tuple of Spall
+    sensors : tuple of Accelerometer
+    numerics : Numerics
+    duration : float
+        Simulated time, [s].
+    seed : int
+        Seed of irregularity and sensor noise.
+    source_text : str
+        The YAML the scene was read from, all references resolved; recorded with the run.
+    """
+
+    name: str
+    purpose: str
+    bearing: Bearing
+    lubricant: Lubricant
+    temperature: float
+    end_play: float
+    tier: str
+    effects: EffectSet
+    operation: Operation
+    mounting: Mounting
+    defects: tuple[Spall, ...]
+    sensors: tuple[Accelerometer, ...]
+    numerics: Numerics
+    duration: float
+    seed: int
+    source_text: str
