@@ -1,0 +1,196 @@
+"""Linearly implicit steps of the full tier: rollers implicit one by one, rings and cages explicit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import entry, inline
+from beardyn_core.kernels.bodies import (
+    collect_reactions,
+    drift_bodies,
+    kick_cages,
+    kick_cone,
+    kick_cup,
+    show_rings,
+    sum_lanes,
+)
+from beardyn_core.kernels.roller import step_rollers
+from beardyn_core.model.layout import (
+    ANGULAR,
+    AXIS,
+    CAGE_BODY,
+    CHATTER,
+    CHATTER_FIELDS,
+    CHATTER_LOAD,
+    CHATTER_SQUARES,
+    CONE_BODY,
+    CUP_BODY,
+    ELASTIC,
+    ENERGY_DISSIPATED,
+    ENERGY_ELASTIC,
+    ENERGY_EXTERNAL,
+    ENERGY_KINETIC,
+    ENERGY_NUMERICAL,
+    LINEAR,
+    MASK,
+    MOMENTUM,
+    PENETRATION,
+    RATE,
+    SIGNAL_ACCELERATION,
+    SIGNAL_FORCE,
+    SIGNAL_TORQUE,
+    VELOCITY,
+    WORK_GRAVITY,
+    WORK_LOST,
+    WORK_NUMERICAL,
+)
+
+
+@inline
+def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
+    """Kinetic energy of rollers, cages, axlebox and journal without its prescribed spin, [J]."""
+    roller = p.roller
+    total = 0.0
+    for block in range(rollers.shape[0]):
+        for lane in range(rollers.shape[2]):
+            speed2, momentum2, along = 0.0, 0.0, 0.0
+            for i in range(3):
+                v = rollers[block, VELOCITY + i, lane]
+                momentum = rollers[block, MOMENTUM + i, lane]
+                speed2 += v * v
+                momentum2 += momentum * momentum
+                along += momentum * rollers[block, AXIS + i, lane]
+            spinning = along * along / roller.axial_inertia
+            tumbling = (momentum2 - along * along) / roller.transverse_inertia
+            energy = 0.5 * (roller.mass * speed2 + spinning + tumbling)
+            total += p.rollers[block, MASK, lane] * energy
+    mounting = p.mounting
+    for i in range(3):
+        total += 0.5 * mounting.box_mass * bodies[CUP_BODY, LINEAR + i] ** 2
+        total += 0.5 * mounting.box_inertia[i] * bodies[CUP_BODY, ANGULAR + i] ** 2
+        total += 0.5 * mounting.journal_mass * bodies[CONE_BODY, LINEAR + i] ** 2
+        total += 0.5 * mounting.journal_inertia * bodies[CONE_BODY, ANGULAR + i] ** 2
+    return total + _cage_energy(bodies, p.effects.cage)
+
+
+@inline
+def _cage_energy(bodies: Any, cage: Any) -> Any:
+    if cage is None:
+        return 0.0
+    total = 0.0
+    for body in range(CAGE_BODY, CAGE_BODY + 2):
+        for i in range(3):
+            total += 0.5 * cage.mass * bodies[body, LINEAR + i] ** 2
+            total += 0.5 * cage.transverse_inertia * bodies[body, ANGULAR + i] ** 2
+        total += 0.5 * cage.polar_inertia * bodies[body, RATE] ** 2
+    return total
+
+
+@inline
+def cage_place(p: Any) -> Any:
+    """Axial place of the cages' centres from the middle plane, 0 without cages, [m]."""
+    return _cage_place(p.effects.cage)
+
+
+@inline
+def _cage_place(cage: Any) -> Any:
+    if cage is None:
+        return 0.0
+    return cage.place
+
+
+@inline
+def clear_block_sums(rollers: Any) -> None:
+    """Start the chatter sums and the largest penetration of a block anew."""
+    for block in range(rollers.shape[0]):
+        for lane in range(rollers.shape[2]):
+            for ring in range(2):
+                first = CHATTER + ring * CHATTER_FIELDS
+                rollers[block, first + CHATTER_SQUARES, lane] = 0.0
+                rollers[block, first + CHATTER_LOAD, lane] = 0.0
+            rollers[block, PENETRATION, lane] = 0.0
+
+
+@entry
+def advance(
+    lanes: Any,
+    rollers: Any,
+    bodies: Any,
+    rings: Any,
+    sums: Any,
+    wrenches: Any,
+    box: Any,
+    loads: Any,
+    signals: Any,
+    roller_trend: Any,
+    body_trend: Any,
+    energy: Any,
+    audit: Any,
+    p: Any,
+) -> None:
+    """Advance the full tier over one block of steps.
+
+    Parameters
+    ----------
+    lanes : Lanes
+    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
+        State of the rollers, changed in place.
+    bodies : float64 array, shape [4, BODY_STATES]
+        Cup, cone, cages; changed in place.
+    rings : float64 array, shape [group, 3, RING_FIELDS, lane]
+    sums : float64 array, shape [group, 1, SUM_FIELDS, lane]
+    wrenches : float64 array, shape [4, 6]
+    box : float64 array, shape [6]
+        Work space.
+    loads : float64 array, shape [step + 1, 10]
+        Load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step boundaries.
+    signals : float64 array, shape [step, SIGNAL_CHANNELS]
+        Written: what happens at the end of each step.
+    roller_trend, body_trend : float64 arrays, shape [trend, ...]
+        Written: copies of `rollers` and `bodies` at even spacing, the last at the end of the block.
+    energy : float64 array, shape [ENERGY_TERMS]
+        Works since the start of the run, added to.
+    audit : float64 array, shape [ENERGY_TERMS]
+        Written: works up to, and energy stored at, the middle of the first step.
+    p : Parameters
+    """
+    steps = signals.shape[0]
+    stride = steps // roller_trend.shape[0]
+    groups = rings.shape[0]
+    blocks_per_group = rollers.shape[0] // groups
+    clear_block_sums(rollers)
+    place = cage_place(p)
+    for step in range(steps):
+        drift_bodies(bodies, p.step)
+        show_rings(bodies, rings, place)
+        sums[:] = 0.0
+        if step == 0:
+            audit[:] = energy
+            audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p)
+        for group in range(groups):
+            for index in range(blocks_per_group):
+                step_rollers(lanes, group * blocks_per_group + index, rollers, rings[group], sums[group], p)
+        collect_reactions(sums, wrenches)
+        for i in range(6):
+            signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
+        stored = kick_cup(
+            bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
+            p.effects.gravity,
+        )  # fmt: skip
+        for i in range(6):
+            signals[step, SIGNAL_ACCELERATION + i] = box[i]
+        signals[step, SIGNAL_TORQUE] = kick_cone(
+            bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, p.mounting
+        )
+        kick_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
+        energy[ENERGY_EXTERNAL] += sum_lanes(sums, WORK_GRAVITY)
+        energy[ENERGY_DISSIPATED] += sum_lanes(sums, WORK_LOST)
+        energy[ENERGY_NUMERICAL] += sum_lanes(sums, WORK_NUMERICAL)
+        if step == 0:
+            for i in range(ENERGY_ELASTIC):
+                audit[i] = 0.5 * (audit[i] + energy[i])
+            audit[ENERGY_ELASTIC] = sum_lanes(sums, ELASTIC) + stored
+            audit[ENERGY_KINETIC] = 0.5 * (audit[ENERGY_KINETIC] + kinetic_energy(rollers, bodies, p))
+        if (step + 1) % stride == 0:
+            roller_trend[(step + 1) // stride - 1] = rollers
+            body_trend[(step + 1) // stride - 1] = bodies

@@ -1,0 +1,254 @@
+"""Equilibrium of every roller between cup, cone and rib for a given pose of the cone.
+
+The contact energy of a roller is convex in its position, so a damped Newton step that only accepts a
+lower energy (or a smaller residual force) finds the one equilibrium. A roller that the rings leave free is
+put where a turning bearing would carry it: against cup and rib, just touching.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
+from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_forces
+from beardyn_core.integrate.roller_contacts import (
+    ConePose,
+    ContactModel,
+    ContactSet,
+    Float,
+    cone_contacts,
+    cup_contacts,
+    rib_contacts,
+)
+
+_ITERATIONS = 80
+# Rounding of a gap (1e-17 m) times the stiffness of a raceway contact is about 2e-8 N.
+_RELATIVE_TOLERANCE = 3.0e-12
+_ABSOLUTE_TOLERANCE = 5.0e-9
+_STALL_LIMIT = 2
+# A roller counts as free when its cone gap, with cup and rib just touching, is above this.
+_ROUNDING_GAP = 1.0e-15
+
+
+@dataclass(frozen=True)
+class RollerState:
+    """Rollers in equilibrium at one pose of the cone.
+
+    Parameters
+    ----------
+    position : float64 array, shape [row, roller, 3]
+        Radial and axial displacement of mid-length and tilt, [m, m, rad].
+    cup, cone, rib : ContactSet
+    residual : float
+        Largest force that is left on a roller, [N].
+    cone_force : float64 array, shape [5]
+        Force of the rollers on the cone and its moment about x and z, [N, N m].
+    cone_stiffness : float64 array, shape [5, 5]
+        Change of the opposite of `cone_force` with the cone pose, rollers following.
+    follow : float64 array, shape [row, roller, 3, 5]
+        Change of roller position with the cone pose.
+    energy : float
+        Contact energy less the work of the inertia loads, [J].
+    """
+
+    position: Float
+    cup: ContactSet
+    cone: ContactSet
+    rib: ContactSet
+    residual: float
+    cone_force: Float
+    cone_stiffness: Float
+    follow: Float
+    energy: float
+
+
+def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> RollerState:
+    """Equilibrium of all rollers.
+
+    Parameters
+    ----------
+    model : ContactModel
+    pose : ConePose
+    guess : float64 array or None, shape [row, roller, 3]
+        Positions to start from where they have a lower energy than the position of a free roller.
+    """
+    solver = _Rollers(model, pose)
+    touching = _on_cup_and_rib(model, pose)
+    start = solver.at(touching)
+    free = (solver.cone(touching).approach.max(axis=-1) <= _ROUNDING_GAP) & (not np.any(model.inertia_load))
+    if guess is not None:
+        warm = solver.at(guess)
+        start = _chosen(warm.energy < start.energy, warm, start)
+    trial = _newton(solver, start, free)
+    position = np.where(free[..., None], touching, trial.position)
+    return solver.state(position, free)
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """Position of every roller with the energy, force and stiffness there."""
+
+    position: Float
+    energy: Float
+    force: Float
+    stiffness: Float
+    load: Float
+
+
+class _Rollers:
+    """Energy of the rollers at one pose of the cone, as a function of their positions."""
+
+    def __init__(self, model: ContactModel, pose: ConePose) -> None:
+        self.model = model
+        self.pose = pose
+        # With one lamina the raceways hold no tilt: it stays locked.
+        self.active = 2 if model.abscissa.size == 1 else 3
+        lever = model.bearing.effective_length / math.sqrt(12.0)
+        self.scale = np.array([1.0, 1.0, lever])
+
+    def cone(self, position: Float) -> ContactSet:
+        return cone_contacts(self.model, position, self.pose)
+
+    def contacts(self, position: Float) -> tuple[ContactSet, ContactSet, ContactSet]:
+        return (
+            cup_contacts(self.model, position),
+            self.cone(position),
+            rib_contacts(self.model, position, self.pose),
+        )
+
+    def at(self, position: Float) -> _Trial:
+        """Energy and its derivatives, tilt measured as lever times angle."""
+        contacts = self.contacts(position)
+        energy = -np.sum(self.model.inertia_load * position, axis=-1)
+        force = np.broadcast_to(self.model.inertia_load / self.scale, position.shape).copy()
+        stiffness = np.zeros((*position.shape, 3))
+        load = np.full(energy.shape, float(np.abs(self.model.inertia_load[0])))
+        for contact in contacts:
+            direction = contact.by_roller / self.scale
+            energy += contact.energy.sum(axis=-1)
+            load += contact.force.sum(axis=-1)
+            force -= np.sum(contact.force[..., None] * direction, axis=-2)
+            stiffness += np.swapaxes(direction, -1, -2) @ (contact.stiffness[..., None] * direction)
+        if self.active == 2:
+            force[..., 2] = 0.0
+            stiffness[..., 2, :] = 0.0
+            stiffness[..., :, 2] = 0.0
+            stiffness[..., 2, 2] = 1.0
+        return _Trial(position, energy, force, stiffness, load)
+
+    def state(self, position: Float, free: NDArray[np.bool_]) -> RollerState:
+        """Everything the ring equilibrium needs, rollers that are free left out."""
+        trial = self.at(position)
+        held = ~free
+        contacts = tuple(_without(contact, free) for contact in self.contacts(position))
+        cone_force = np.zeros(5)
+        stiffness = np.zeros((5, 5))
+        coupling = np.zeros((*position.shape, 5))
+        for contact in contacts:
+            cone_force -= np.einsum("ijk,ijkm->m", contact.force, contact.by_cone)
+            weighted = contact.stiffness[..., None] * contact.by_cone
+            stiffness += np.einsum("ijkm,ijkn->mn", contact.by_cone, weighted)
+            coupling += np.swapaxes(contact.by_roller / self.scale, -1, -2) @ weighted
+        if self.active == 2:
+            coupling[..., 2, :] = 0.0
+        follow = np.zeros_like(coupling)
+        follow[held] = -np.linalg.solve(_regular(trial.stiffness[held], 1.0e-14), coupling[held])
+        stiffness += np.einsum("ijrm,ijrn->mn", coupling, follow)
+        left = np.abs(trial.force[held])
+        return RollerState(
+            position=position,
+            cup=contacts[0],
+            cone=contacts[1],
+            rib=contacts[2],
+            residual=float(left.max()) if left.size else 0.0,
+            cone_force=cone_force,
+            cone_stiffness=0.5 * (stiffness + stiffness.T),
+            follow=follow / self.scale[:, None],
+            energy=float(trial.energy[held].sum()),
+        )
+
+
+def _newton(solver: _Rollers, start: _Trial, free: NDArray[np.bool_]) -> _Trial:
+    """Damped Newton on all rollers at once; each keeps its own damping."""
+    best = start
+    damping = np.full(free.shape, 1.0e-9)
+    stalled = np.zeros(free.shape, dtype=np.int64)
+    for _ in range(_ITERATIONS):
+        size = np.abs(best.force).max(axis=-1)
+        done = (
+            free | (size <= _RELATIVE_TOLERANCE * best.load + _ABSOLUTE_TOLERANCE) | (stalled > _STALL_LIMIT)
+        )
+        if done.all():
+            break
+        step = (
+            np.linalg.solve(_regular(best.stiffness, damping), best.force[..., None])[..., 0] / solver.scale
+        )
+        step[done] = 0.0
+        trial = solver.at(best.position + step)
+        smaller = np.abs(trial.force).max(axis=-1) < size
+        lower = trial.energy < best.energy - 1.0e-12 * np.abs(best.energy)
+        accepted = (lower | smaller) & ~done
+        near = size <= 1.0e-7 * best.load + 1.0e-6
+        stalled = np.where(accepted | ~near, 0, stalled + 1)
+        damping = np.clip(np.where(accepted, 0.1 * damping, 20.0 * damping), 1.0e-14, 1.0e6)
+        best = _chosen(accepted, trial, best)
+    return best
+
+
+def _regular(stiffness: Float, damping: Float | float) -> Float:
+    """Stiffness with `damping` of its own size added, invertible also where a direction is slack."""
+    size = np.trace(stiffness, axis1=-2, axis2=-1)
+    added = np.maximum(np.asarray(damping) * size, 1.0)
+    return stiffness + added[..., None, None] * np.eye(stiffness.shape[-1])
+
+
+def _chosen(mask: NDArray[np.bool_], one: _Trial, other: _Trial) -> _Trial:
+    """Trial with the rollers of `one` where `mask` holds and of `other` elsewhere."""
+    return _Trial(
+        position=np.where(mask[..., None], one.position, other.position),
+        energy=np.where(mask, one.energy, other.energy),
+        force=np.where(mask[..., None], one.force, other.force),
+        stiffness=np.where(mask[..., None, None], one.stiffness, other.stiffness),
+        load=np.where(mask, one.load, other.load),
+    )
+
+
+def _without(contact: ContactSet, free: NDArray[np.bool_]) -> ContactSet:
+    """Contacts with force, stiffness and energy of the free rollers set to zero."""
+    held = ~free[..., None]
+    return ContactSet(
+        approach=contact.approach,
+        force=contact.force * held,
+        stiffness=contact.stiffness * held,
+        energy=contact.energy * held,
+        by_roller=contact.by_roller,
+        by_cone=contact.by_cone,
+    )
+
+
+def _on_cup_and_rib(model: ContactModel, pose: ConePose) -> Float:
+    """Positions without tilt at which cup and rib alone carry the inertia load, or just touch."""
+    bearing = model.bearing
+    centrifugal = float(model.inertia_load[0])
+    cup_load = centrifugal_cup_load(centrifugal, bearing.cup_angle, bearing.rib_angle)
+    _, rib_load = roller_forces(
+        cup_load, bearing.cup_angle, bearing.cone_angle, bearing.rib_angle, centrifugal
+    )
+    wanted = np.array(
+        [
+            (cup_load / (model.lamina_factor * model.abscissa.size)) ** (1.0 / LINE_EXPONENT),
+            (rib_load / model.rib_factor) ** (1.0 / POINT_EXPONENT),
+        ]
+    )
+    position = np.zeros_like(model.centre)
+    for _ in range(4):
+        cup = cup_contacts(model, position)
+        rib = rib_contacts(model, position, pose)
+        matrix = np.stack([cup.by_roller[:, :, 0, :2], rib.by_roller[:, :, 0, :2]], axis=-2)
+        excess = np.stack([cup.approach.max(axis=-1), rib.approach[..., 0]], axis=-1) - wanted
+        position[..., :2] -= np.linalg.solve(matrix, excess[..., None])[..., 0]
+    return position

@@ -1,0 +1,274 @@
+"""Static equilibrium of the double row: rigid rings, every roller between cup, cone and rib.
+
+Unknown are the displacement of the cone relative to the cup and, when it is free, its tilt about x and z.
+The rollers follow (`roller_equilibrium`); what is left is a convex problem in three or five unknowns.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from beardyn_core.bearing.consistency import require_sound
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.integrate.roller_contacts import ConePose, ContactModel, Float, contact_model
+from beardyn_core.integrate.roller_equilibrium import RollerState, solve_rollers
+
+TILT_MODES = ("locked", "free")
+
+_ITERATIONS = 300
+_TOLERANCE = 1.0e-11
+_ACCEPTABLE = 1.0e-8
+_ROUNDING_FORCE = 1.0e-8
+# Longest step of the cone; it also carries a cone that touches nothing through its play.
+_LONGEST_STEP = 1.0e-4
+_REFERENCE_STIFFNESS = 1.0e9
+
+
+@dataclass(frozen=True)
+class StaticSolution:
+    """Static equilibrium, axlebox frame.
+
+    Parameters
+    ----------
+    displacement : float64 array, shape [3]
+        Cone relative to cup at the bearing centre, [m].
+    tilt : float64 array, shape [2]
+        Rotation of the cone about x and z, [rad].
+    cup_load, cone_load, rib_load : float64 arrays, shape [row, roller]
+        Contact forces of each roller, laminae summed, [N].
+    roller_radial, roller_axial : float64 arrays, shape [row, roller]
+        Displacement of the roller's mid-length from its nominal place, where it touches both raceways
+        and the rib without end play: radial outwards, axial outwards along its row, [m].
+    roller_tilt : float64 array, shape [row, roller]
+        Rotation of the roller axis in its meridian plane, + when the large end moves outwards, [rad].
+    stiffness_tilt_held, stiffness_tilt_free : float64 arrays, shape [3, 3]
+        Change of the load with the displacement, tilt of the cone held or following, [N/m].
+    iterations : int
+        Newton steps of the cone.
+    residual : float
+        What is left of the load, [N].
+
+    Notes
+    -----
+    A roller between rings with play that touches nothing is placed against cup and rib, which is where a
+    turning bearing carries it.
+    """
+
+    displacement: Float
+    tilt: Float
+    cup_load: Float
+    cone_load: Float
+    rib_load: Float
+    roller_radial: Float
+    roller_axial: Float
+    roller_tilt: Float
+    stiffness_tilt_held: Float
+    stiffness_tilt_free: Float
+    iterations: int
+    residual: float
+
+    @property
+    def loaded_roller_count(self) -> tuple[int, int]:
+        """Rollers of each row that the cone presses."""
+        loaded = np.count_nonzero(self.cone_load > 0.0, axis=1)
+        return int(loaded[0]), int(loaded[1])
+
+    @property
+    def largest_roller_load(self) -> float:
+        """Largest load between a roller and the cup, [N]."""
+        return float(self.cup_load.max())
+
+
+def solve(
+    bearing: Bearing,
+    force: ArrayLike,
+    moment: ArrayLike = (0.0, 0.0, 0.0),
+    *,
+    end_play: float,
+    tilt: str = "locked",
+    laminae: int = 1,
+    speed: float = 0.0,
+    roller_phase: float = 0.0,
+) -> StaticSolution:
+    """Static equilibrium under a load on the cone.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    force, moment : array_like, shape [3]
+        On the cone at the bearing centre, axlebox frame, [N], [N m]. The component of the moment about
+        the axle is the shaft's and must be 0; the others matter only when tilt is free.
+    end_play : float
+        Total axial travel, negative for preload, [m]. With the cone centred each row has the normal gap
+        end_play/2 sin(cup angle), which lies between roller and cup.
+    tilt : str
+        ``locked`` or ``free``: tilt of the cone against the cup.
+    laminae : int
+        Laminae of each raceway contact. With 1 the rollers do not tilt.
+    speed : float
+        Shaft speed for centrifugal force and gyroscopic moment of the rollers at epicyclic speed, [rad/s].
+    roller_phase : float
+        Azimuth of roller 0 of both rows, [rad].
+
+    Returns
+    -------
+    StaticSolution
+
+    Raises
+    ------
+    InputError
+        When an argument makes no sense, all of them at once.
+    ValidityError
+        When no equilibrium is found.
+
+    Notes
+    -----
+    Without friction. A cage holds the rollers along the pitch circle; what little force that takes when the
+    cone is off centre (1e-4 of the roller load) is not part of the balance of the rollers. The tangent
+    stiffness leaves out the turning of the normals, which is smaller by the same order.
+    """
+    load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
+    require_sound(bearing)
+    model = contact_model(bearing, end_play, laminae, speed, roller_phase)
+    cone = _Cone(model, load, 5 if tilt == "free" else 3)
+    state, unknowns, iterations = _equilibrium(cone)
+    residual = cone.residual(state)
+    held, free = _stiffness(state.cone_stiffness)
+    return StaticSolution(
+        displacement=unknowns[:3].copy(),
+        tilt=unknowns[3:].copy(),
+        cup_load=state.cup.force.sum(axis=-1),
+        cone_load=state.cone.force.sum(axis=-1),
+        rib_load=state.rib.force.sum(axis=-1),
+        roller_radial=state.position[..., 0].copy(),
+        roller_axial=state.position[..., 1].copy(),
+        roller_tilt=state.position[..., 2].copy(),
+        stiffness_tilt_held=held,
+        stiffness_tilt_free=free,
+        iterations=iterations,
+        residual=float(np.abs(residual).max()),
+    )
+
+
+class _Cone:
+    """Energy of the loaded cone as a function of its pose."""
+
+    def __init__(self, model: ContactModel, load: Float, active: int) -> None:
+        self.model = model
+        self.load = load
+        self.active = active
+        lever = 0.5 * model.bearing.pressure_centre_spread
+        self.scale = np.array([1.0, 1.0, 1.0, lever, lever])
+
+    def at(self, unknowns: Float, guess: Float | None) -> RollerState:
+        pose = ConePose(unknowns[:3], _rotation(unknowns[3], unknowns[4]))
+        return solve_rollers(self.model, pose, guess)
+
+    def energy(self, unknowns: Float, state: RollerState) -> float:
+        return state.energy - float(self.load @ unknowns)
+
+    def residual(self, state: RollerState) -> Float:
+        """Load that is not balanced, moments as forces at the pressure centres; shape [active]."""
+        return ((self.load + state.cone_force) / self.scale)[: self.active]
+
+    def step(self, state: RollerState, damping: float) -> Float:
+        """Damped Newton step of the unknowns, no longer than the longest step."""
+        active = self.active
+        scaled = state.cone_stiffness / np.outer(self.scale, self.scale)
+        matrix = scaled[:active, :active] + damping * _REFERENCE_STIFFNESS * np.eye(active)
+        step = np.linalg.solve(matrix, self.residual(state))
+        length = float(np.linalg.norm(step))
+        if length > _LONGEST_STEP:
+            step *= _LONGEST_STEP / length
+        full = np.zeros(5)
+        full[:active] = step / self.scale[:active]
+        return full
+
+
+def _equilibrium(cone: _Cone) -> tuple[RollerState, Float, int]:
+    """Pose of the cone at which the load is balanced."""
+    unknowns = np.zeros(5)
+    state = cone.at(unknowns, None)
+    energy = cone.energy(unknowns, state)
+    damping = 10.0
+    stalled = 0
+    for iteration in range(_ITERATIONS):
+        size = float(np.abs(cone.residual(state)).max())
+        scale = float(np.abs(cone.load / cone.scale).max()) + 0.1 * float(state.cup.force.sum())
+        if size <= _TOLERANCE * scale + _ROUNDING_FORCE or (
+            (stalled > 3 or iteration > 60) and size <= _ACCEPTABLE * scale
+        ):
+            return state, unknowns, iteration
+        step = cone.step(state, damping)
+        moved = unknowns + step
+        guess = state.position + state.follow @ step
+        trial = cone.at(moved, guess)
+        trial_energy = cone.energy(moved, trial)
+        smaller = float(np.abs(cone.residual(trial)).max()) < size
+        lower = trial_energy < energy - 1.0e-12 * abs(energy)
+        if lower or smaller:
+            unknowns, state, energy = moved, trial, trial_energy
+            damping = max(0.1 * damping, 1.0e-12)
+            stalled = 0
+        else:
+            damping = min(20.0 * damping, 1.0e6)
+            stalled += 1
+    force = np.array2string(cone.load[:3], precision=1)
+    raise ValidityError(
+        f"static equilibrium of {cone.model.bearing.name} under {force} N was not found in {_ITERATIONS} "
+        f"steps: {size:.3g} N are left. Check load, end play and tilt; a moment needs free tilt and both "
+        "rows in contact."
+    )
+
+
+def _rotation(about_x: float, about_z: float) -> Float:
+    """Rotation by the vector (about_x, 0, about_z), [rad]."""
+    angle = math.hypot(about_x, about_z)
+    cross = np.array([[0.0, -about_z, 0.0], [about_z, 0.0, -about_x], [0.0, about_x, 0.0]])
+    first = float(np.sinc(angle / math.pi))
+    second = 0.5 * float(np.sinc(0.5 * angle / math.pi)) ** 2
+    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
+
+
+def _stiffness(stiffness: Float) -> tuple[Float, Float]:
+    """Displacement stiffness with tilt held and with tilt following."""
+    held = stiffness[:3, :3]
+    coupling, tilting = stiffness[:3, 3:], stiffness[3:, 3:]
+    free = held - coupling @ np.linalg.pinv(tilting, hermitian=True) @ coupling.T
+    return held.copy(), 0.5 * (free + free.T)
+
+
+def _checked_load(
+    force: ArrayLike,
+    moment: ArrayLike,
+    end_play: float,
+    tilt: str,
+    laminae: int,
+    speed: float,
+    roller_phase: float,
+) -> Float:
+    """Load as (force, moment about x and z); refuses what makes no sense, all at once."""
+    force, moment = np.asarray(force, dtype=np.float64), np.asarray(moment, dtype=np.float64)
+    problems = []
+    for name, vector in (("force", force), ("moment", moment)):
+        if vector.shape != (3,) or not np.isfinite(vector).all():
+            problems.append(f"{name} is {vector.tolist()}; three finite numbers are needed.")
+    if not problems and moment[1] != 0.0:
+        problems.append(f"moment about the axle is {moment[1]:g} N m; without friction it must be 0.")
+    if not (math.isfinite(end_play) and abs(end_play) <= 5.0e-3):
+        problems.append(f"end_play is {end_play:g} m; it must lie within +-0.005 m.")
+    if tilt not in TILT_MODES:
+        problems.append(f"tilt is {tilt!r}; allowed are {', '.join(TILT_MODES)}.")
+    if not (isinstance(laminae, int | np.integer) and 1 <= laminae <= 1000):
+        problems.append(f"laminae is {laminae!r}; a whole number from 1 to 1000 is needed.")
+    for name, value in (("speed", speed), ("roller_phase", roller_phase)):
+        if not math.isfinite(value):
+            problems.append(f"{name} is {value:g}; a finite number is needed.")
+    if problems:
+        raise InputError(problems)
+    return np.array([*force, moment[0], moment[2]])

@@ -1,0 +1,282 @@
+"""Cup with axlebox, cones on the journal, and the two cages: scalar rigid bodies, world axes.
+
+They are slow and heavy against the rollers and advanced explicitly, positions at whole steps and
+velocities half a step later. Tilts are small rotation vectors; the spin about +y is kept apart.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.model.layout import (
+    ANGULAR,
+    CAGE_BODY,
+    CONE_BODY,
+    CUP_BODY,
+    ELASTIC,
+    ENERGY_DISSIPATED,
+    ENERGY_EXTERNAL,
+    LINEAR,
+    POSITION,
+    RATE,
+    REACTION,
+    RING_AXIS,
+    RING_OMEGA,
+    RING_ORIGIN,
+    RING_TURN,
+    RING_VELOCITY,
+    TILT,
+    TURN,
+)
+
+X, Y, Z = 0, 1, 2
+LOAD_SPEED, LOAD_BOGIE = 6, 7  # after the six components of the load
+
+
+@inline
+def row_of(group: Any, lane: Any, width: Any) -> Any:
+    """Row whose rollers a lane of a group holds."""
+    if width == 1:
+        return group
+    return 2 * lane // width
+
+
+@inline
+def drift_bodies(bodies: Any, step: Any) -> None:
+    """Move all bodies along their velocities."""
+    for body in range(bodies.shape[0]):
+        for i in range(3):
+            bodies[body, POSITION + i] += step * bodies[body, LINEAR + i]
+            bodies[body, TILT + i] += step * bodies[body, ANGULAR + i]
+        bodies[body, TURN] += step * bodies[body, RATE]
+
+
+@inline
+def ring_direction(bodies: Any, body: Any) -> Any:
+    """Unit axis of a body that stands along +y without tilt, to second order in the tilt."""
+    a, b, c = bodies[body, TILT + X], bodies[body, TILT + Y], bodies[body, TILT + Z]
+    x = -c + 0.5 * a * b
+    y = 1.0 - 0.5 * (a * a + c * c)
+    z = a + 0.5 * b * c
+    length = math.sqrt(x * x + y * y + z * z)
+    return x / length, y / length, z / length
+
+
+@inline
+def _set_polar(rings: Any, ring: Any, field: Any, lane: Any, side: Any, x: Any, y: Any, z: Any) -> None:
+    rings[ring, field, lane] = z
+    rings[ring, field + 1, lane] = x
+    rings[ring, field + 2, lane] = side * y
+
+
+@inline
+def _set_axial(rings: Any, ring: Any, field: Any, lane: Any, side: Any, x: Any, y: Any, z: Any) -> None:
+    rings[ring, field, lane] = side * z
+    rings[ring, field + 1, lane] = side * x
+    rings[ring, field + 2, lane] = y
+
+
+@inline
+def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
+    """Write cup, cone and cages in the row frames of every lane.
+
+    Parameters
+    ----------
+    bodies : float64 array, shape [body, BODY_STATES]
+    rings : float64 array, shape [group, ring, RING_FIELDS, lane]
+        Written. Origins are relative to the cup's.
+    cage_place : float
+        Axial place of a cage's centre of mass from the middle plane, [m].
+    """
+    width = rings.shape[3]
+    for group in range(rings.shape[0]):
+        for lane in range(width):
+            row = row_of(group, lane, width)
+            side = 2.0 * row - 1.0
+            for ring in range(3):
+                body = ring + row if ring == CAGE_BODY else ring
+                ax, ay, az = ring_direction(bodies, body)
+                rate = bodies[body, RATE]
+                lift = side * cage_place if ring == CAGE_BODY else 0.0
+                view = rings[group]
+                _set_polar(
+                    view, ring, RING_ORIGIN, lane, side,
+                    bodies[body, POSITION + X] - bodies[CUP_BODY, POSITION + X],
+                    bodies[body, POSITION + Y] - bodies[CUP_BODY, POSITION + Y] + lift,
+                    bodies[body, POSITION + Z] - bodies[CUP_BODY, POSITION + Z],
+                )  # fmt: skip
+                if ring == CAGE_BODY:
+                    _set_axial(
+                        view, ring, RING_AXIS, lane, side,
+                        bodies[body, TILT + X], bodies[body, TILT + Y], bodies[body, TILT + Z],
+                    )  # fmt: skip
+                    view[ring, RING_TURN, lane] = bodies[body, TURN]
+                else:
+                    _set_axial(view, ring, RING_AXIS, lane, side, ax, ay, az)
+                    view[ring, RING_TURN, lane] = bodies[body, TURN] + bodies[body, TILT + Y]
+                _set_polar(
+                    view, ring, RING_VELOCITY, lane, side,
+                    bodies[body, LINEAR + X], bodies[body, LINEAR + Y], bodies[body, LINEAR + Z],
+                )  # fmt: skip
+                _set_axial(
+                    view, ring, RING_OMEGA, lane, side,
+                    bodies[body, ANGULAR + X] + rate * ax,
+                    bodies[body, ANGULAR + Y] + rate * ay,
+                    bodies[body, ANGULAR + Z] + rate * az,
+                )  # fmt: skip
+
+
+@inline
+def collect_reactions(sums: Any, wrenches: Any) -> None:
+    """Sum the lane reactions into world wrenches [body, 6] about each body's origin."""
+    width = sums.shape[3]
+    wrenches[:, :] = 0.0
+    for group in range(sums.shape[0]):
+        for lane in range(width):
+            row = row_of(group, lane, width)
+            side = 2.0 * row - 1.0
+            for ring in range(3):
+                body = ring + row if ring == CAGE_BODY else ring
+                first = REACTION + 6 * ring
+                wrenches[body, Z] += sums[group, 0, first, lane]
+                wrenches[body, X] += sums[group, 0, first + 1, lane]
+                wrenches[body, Y] += side * sums[group, 0, first + 2, lane]
+                wrenches[body, 3 + Z] += side * sums[group, 0, first + 3, lane]
+                wrenches[body, 3 + X] += side * sums[group, 0, first + 4, lane]
+                wrenches[body, 3 + Y] += sums[group, 0, first + 5, lane]
+
+
+@inline
+def fall(gravity: Any) -> Any:
+    """Acceleration of free fall, 0 without gravity, [m/s^2]."""
+    if gravity is None:
+        return 0.0
+    return gravity.acceleration
+
+
+@inline
+def kick_cup(
+    bodies: Any,
+    wrench: Any,
+    load: Any,
+    load_before: Any,
+    energy: Any,
+    spring: Any,
+    step: Any,
+    mounting: Any,
+    gravity: Any,
+) -> Any:
+    """Accelerate the axlebox under rollers, suspension and weight; returns the suspension's energy, [J].
+
+    Parameters
+    ----------
+    wrench : float64 array, shape [6]
+        Of the rollers on the cup, [N, N m].
+    load, load_before : float64 array
+        Load row at the end and at the beginning of the step; bogie displacement from `LOAD_BOGIE`.
+    energy : float64 array, shape [ENERGY_TERMS]
+        Added to.
+    spring : float64 array, shape [6]
+        Written: acceleration of the box, linear and angular.
+    """
+    stored = 0.0
+    if mounting.cup_moves == 0.0:
+        spring[:] = 0.0
+        return stored
+    for i in range(6):
+        if i < 3:
+            inertia = mounting.box_mass
+            bogie = load[LOAD_BOGIE + i]
+            bogie_speed = (bogie - load_before[LOAD_BOGIE + i]) / step
+            place, speed = bodies[CUP_BODY, POSITION + i], bodies[CUP_BODY, LINEAR + i]
+        else:
+            inertia = mounting.box_inertia[i - 3]
+            bogie, bogie_speed = 0.0, 0.0
+            place, speed = bodies[CUP_BODY, TILT + i - 3], bodies[CUP_BODY, ANGULAR + i - 3]
+        stretch = place - bogie
+        damper = mounting.damping[i] * (speed - bogie_speed)
+        suspension = mounting.preload[i] - mounting.stiffness[i] * stretch - damper
+        pull = -mounting.box_mass * fall(gravity) if i == Z else 0.0
+        acceleration = (wrench[i] + suspension + pull) / inertia
+        spring[i] = acceleration
+        middle = speed + 0.5 * step * acceleration
+        energy[ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
+        energy[ENERGY_DISSIPATED] += step * damper * (middle - bogie_speed)
+        stored += 0.5 * mounting.stiffness[i] * stretch * stretch - mounting.preload[i] * stretch
+        if i < 3:
+            bodies[CUP_BODY, LINEAR + i] = speed + step * acceleration
+        else:
+            bodies[CUP_BODY, ANGULAR + i - 3] = speed + step * acceleration
+    return stored
+
+
+@inline
+def kick_cone(bodies: Any, wrench: Any, load: Any, energy: Any, step: Any, mounting: Any) -> Any:
+    """Accelerate the journal under rollers and load at prescribed spin; returns the torque on the shaft.
+
+    The gyroscopic moment of the wheelset is neglected.
+    """
+    ax, ay, az = ring_direction(bodies, CONE_BODY)
+    torque = wrench[3] * ax + wrench[4] * ay + wrench[5] * az
+    energy[ENERGY_EXTERNAL] -= step * torque * bodies[CONE_BODY, RATE]
+    for i in range(3):
+        acceleration = (wrench[i] + load[i]) / mounting.journal_mass
+        middle = bodies[CONE_BODY, LINEAR + i] + 0.5 * step * acceleration
+        energy[ENERGY_EXTERNAL] += step * load[i] * middle
+        bodies[CONE_BODY, LINEAR + i] += step * acceleration
+    if mounting.journal_tilts != 0.0:
+        for i in range(0, 3, 2):
+            acceleration = (wrench[3 + i] + load[3 + i]) / mounting.journal_inertia
+            middle = bodies[CONE_BODY, ANGULAR + i] + 0.5 * step * acceleration
+            energy[ENERGY_EXTERNAL] += step * load[3 + i] * middle
+            bodies[CONE_BODY, ANGULAR + i] += step * acceleration
+    bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
+    return torque
+
+
+@inline
+def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+    """Accelerate both cages under pocket forces and weight, gyroscopic moment included."""
+    if cage is None:
+        return
+    for body in range(CAGE_BODY, CAGE_BODY + 2):
+        for i in range(3):
+            pull = -cage.mass * fall(gravity) if i == Z else 0.0
+            acceleration = (wrenches[body, i] + pull) / cage.mass
+            middle = bodies[body, LINEAR + i] + 0.5 * step * acceleration
+            energy[ENERGY_EXTERNAL] += step * pull * middle
+            bodies[body, LINEAR + i] += step * acceleration
+        ax, ay, az = ring_direction(bodies, body)
+        spinning = cage.polar_inertia * bodies[body, RATE]
+        about_axis = wrenches[body, 3] * ax + wrenches[body, 4] * ay + wrenches[body, 5] * az
+        wx, wz = bodies[body, ANGULAR + X], bodies[body, ANGULAR + Z]
+        # transverse Euler equations of a spinning ring: I_t w' + w x (I_p rate y) = M
+        bodies[body, ANGULAR + X] += (
+            step * (wrenches[body, 3] - about_axis * ax + spinning * wz) / cage.transverse_inertia
+        )
+        bodies[body, ANGULAR + Z] += (
+            step * (wrenches[body, 5] - about_axis * az - spinning * wx) / cage.transverse_inertia
+        )
+        bodies[body, RATE] += step * about_axis / cage.polar_inertia
+
+
+@inline
+def elastic_energy(sums: Any) -> Any:
+    """Elastic energy of all contacts at the beginning of the step, [J]."""
+    total = 0.0
+    for group in range(sums.shape[0]):
+        for lane in range(sums.shape[3]):
+            total += sums[group, 0, ELASTIC, lane]
+    return total
+
+
+@inline
+def sum_lanes(sums: Any, field: Any) -> Any:
+    """Sum of one field over groups and lanes."""
+    total = 0.0
+    for group in range(sums.shape[0]):
+        for lane in range(sums.shape[3]):
+            total += sums[group, 0, field, lane]
+    return total

@@ -1,0 +1,190 @@
+"""Elementary functions of lane values, with stated errors.
+
+All of them let a NaN through: a wrong state must be seen, not hidden.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.lanes import integer_type, library_call, primitive, splat
+
+Value = Any  # a float, an LLVM vector, or (without the compiler) a NumPy array
+
+
+@primitive(lambda builder, a: library_call(builder, "sqrt", a))
+def sqrt(a: Value) -> Value:
+    """Square root."""
+    return np.sqrt(a)
+
+
+@primitive(lambda builder, a: library_call(builder, "fabs", a))
+def magnitude(a: Value) -> Value:
+    """Absolute value."""
+    return np.abs(a)
+
+
+@primitive(lambda builder, a: library_call(builder, "floor", a))
+def floor(a: Value) -> Value:
+    """Largest whole number not above ``a``."""
+    return np.floor(a)
+
+
+@primitive(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), b, a))
+def at_least(a: Value, b: Value) -> Value:
+    """Larger of ``a`` and the bound ``b``; a NaN in ``a`` stays."""
+    return np.where(np.less(a, b), b, a)[()]
+
+
+@primitive(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), b, a))
+def at_most(a: Value, b: Value) -> Value:
+    """Smaller of ``a`` and the bound ``b``; a NaN in ``a`` stays."""
+    return np.where(np.greater(a, b), b, a)[()]
+
+
+@primitive(lambda builder, a, b, c, d: builder.select(builder.fcmp_ordered(">", a, b), c, d))
+def where_greater(a: Value, b: Value, c: Value, d: Value) -> Value:
+    """``c`` where ``a > b``, else ``d``."""
+    return np.where(np.greater(a, b), c, d)[()]
+
+
+_ONE_BITS = float(0x3FF0000000000000)
+_SEED_MAGIC = _ONE_BITS * (1 + 1 / 9) - 0.043 * 2.0**52 * (10 / 9)
+
+
+def _emit_seed(builder: Any, a: Any) -> Any:
+    integers = integer_type(a.type)
+    bits = builder.sitofp(builder.bitcast(a, integers), a.type)
+    seed = builder.fsub(splat(a.type, _SEED_MAGIC), builder.fmul(bits, splat(a.type, 1 / 9)))
+    return builder.bitcast(builder.fptosi(seed, integers), a.type)
+
+
+@primitive(_emit_seed)
+def _seed_minus_ninth(a: Value) -> Value:
+    bits = np.asarray(a, dtype=np.float64).view(np.int64)
+    return (_SEED_MAGIC - bits * (1 / 9)).astype(np.int64).view(np.float64)[()]
+
+
+@inline
+def ninth_root(a: Value) -> Value:
+    """``a ** (1/9)`` for ``a > 0``; relative error below 2e-12 (four Newton steps, no division)."""
+    z = _seed_minus_ninth(a)
+    for _ in range(4):
+        z2 = z * z
+        z4 = z2 * z2
+        z = z * (10.0 / 9.0 - (1.0 / 9.0) * a * (z4 * z4 * z))
+    z2 = z * z
+    z4 = z2 * z2
+    return a * (z4 * z4)
+
+
+def _emit_exponent(builder: Any, a: Any) -> Any:
+    integers = integer_type(a.type)
+    shifted = builder.lshr(builder.bitcast(a, integers), splat(integers, 52))
+    return builder.sitofp(builder.sub(shifted, splat(integers, 1023)), a.type)
+
+
+@primitive(_emit_exponent)
+def _binary_exponent(a: Value) -> Value:
+    return np.frexp(a)[1] - 1.0
+
+
+def _emit_mantissa(builder: Any, a: Any) -> Any:
+    integers = integer_type(a.type)
+    kept = builder.and_(builder.bitcast(a, integers), splat(integers, (1 << 52) - 1))
+    mantissa = builder.bitcast(builder.or_(kept, splat(integers, 0x3FF << 52)), a.type)
+    return builder.select(builder.fcmp_unordered("uno", a, a), a, mantissa)
+
+
+@primitive(_emit_mantissa)
+def _mantissa(a: Value) -> Value:
+    return 2.0 * np.frexp(a)[0]
+
+
+@inline
+def log2(a: Value) -> Value:
+    """Binary logarithm for ``a > 0``; absolute error below 1e-10."""
+    m = _mantissa(a)
+    t = (m - 1.4142135623730951) / (m + 1.4142135623730951)
+    t2 = t * t
+    series = 1.0 + t2 * (1 / 3 + t2 * (1 / 5 + t2 * (1 / 7 + t2 * (1 / 9 + t2 * (1 / 11)))))
+    return _binary_exponent(a) + 0.5 + 2.8853900817779268 * t * series
+
+
+def _emit_power_of_two(builder: Any, a: Any) -> Any:
+    integers = integer_type(a.type)
+    number = builder.fcmp_ordered("ord", a, a)
+    whole = builder.fptosi(builder.select(number, a, splat(a.type, 0.0)), integers)
+    power = builder.shl(builder.add(whole, splat(integers, 1023)), splat(integers, 52))
+    return builder.bitcast(power, a.type)
+
+
+@primitive(_emit_power_of_two)
+def _whole_power_of_two(a: Value) -> Value:
+    whole = np.where(np.isnan(a), 0.0, a)
+    return np.ldexp(1.0, np.asarray(whole, dtype=np.int64))[()]
+
+
+@inline
+def exp2(a: Value) -> Value:
+    """``2 ** a`` for ``-1000 < a < 1000``; relative error below 1e-9."""
+    bounded = at_most(at_least(a, -1000.0), 1000.0)
+    whole = floor(bounded + 0.5)
+    f = (bounded - whole) * 0.6931471805599453
+    series = 1.0 + f * (
+        1.0 + f * (0.5 + f * (1 / 6 + f * (1 / 24 + f * (1 / 120 + f * (1 / 720 + f * (1 / 5040))))))
+    )
+    return _whole_power_of_two(whole) * series
+
+
+@inline
+def wrap(angle: Value) -> Value:
+    """Angle in [-pi, pi), [rad]."""
+    return angle - 6.283185307179586 * floor(angle * 0.15915494309189535 + 0.5)
+
+
+@inline
+def cos_sin(angle: Value) -> Value:
+    """Cosine and sine of an angle of a few turns, [rad]; absolute error below 2e-15."""
+    x = 0.25 * wrap(angle)
+    x2 = x * x
+    s = x * (
+        1.0
+        + x2
+        * (
+            -1 / 6
+            + x2
+            * (
+                1 / 120
+                + x2
+                * (
+                    -1 / 5040
+                    + x2 * (1 / 362880 + x2 * (-1 / 39916800 + x2 * (1 / 6227020800 - x2 / 1307674368000)))
+                )
+            )
+        )
+    )
+    versine = x2 * (
+        0.5
+        + x2
+        * (
+            -1 / 24
+            + x2
+            * (
+                1 / 720
+                + x2
+                * (
+                    -1 / 40320
+                    + x2
+                    * (1 / 3628800 + x2 * (-1 / 479001600 + x2 * (1 / 87178291200 - x2 / 20922789888000)))
+                )
+            )
+        )
+    )
+    c = 1.0 - versine
+    s_half = 2.0 * s * c
+    c_half = 1.0 - 2.0 * s * s
+    return 1.0 - 2.0 * s_half * s_half, 2.0 * s_half * c_half

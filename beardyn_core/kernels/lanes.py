@@ -1,0 +1,311 @@
+"""Lane values: one kernel source for scalars, LLVM vectors and NumPy arrays.
+
+A *lane value* holds one number of each of ``width`` rollers. Compiled, it is a ``float64`` (width 1) or
+an LLVM ``<width x double>`` that lives in a register; with ``NUMBA_DISABLE_JIT=1`` it is a NumPy array of
+``width`` numbers, so that the same source can be debugged and covered. Kernels take a `Lanes` value that
+carries the width and moves lane values from and to arrays of shape ``[block, field, lane]``.
+
+Every primitive is a plain Python function with a NumPy body, which is its meaning, and an overload
+that emits LLVM instructions.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from typing import Any
+
+import llvmlite.ir as ir
+import numpy as np
+from numba import types
+from numba.core import cgutils
+from numba.core.typeconv import Conversion
+from numba.extending import (
+    NativeValue,
+    intrinsic,
+    lower_cast,
+    models,
+    overload,
+    overload_attribute,
+    overload_method,
+    register_model,
+    typeof_impl,
+    unbox,
+)
+
+from beardyn_core.jit import FASTMATH
+
+_DOUBLE = ir.DoubleType()
+_INT32 = ir.IntType(32)
+_INT64 = ir.IntType(64)
+
+
+class VectorType(types.Type):
+    """numba type of a lane value of width two or more."""
+
+    def __init__(self, width: int) -> None:
+        self.width = width
+        super().__init__(name=f"LaneVector({width})")
+
+    def unify(self, _context: Any, other: types.Type) -> types.Type | None:
+        """A number and a vector make a vector, so that ``total = 0.0; total += vector`` types."""
+        return self if isinstance(other, types.Number) else None
+
+    def can_convert_from(self, _context: Any, other: types.Type) -> Any:
+        """Numbers are broadcast to all lanes."""
+        return Conversion.safe if isinstance(other, types.Number) else None
+
+
+@register_model(VectorType)
+class _VectorModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, vector: VectorType) -> None:
+        super().__init__(manager, vector, ir.VectorType(_DOUBLE, vector.width))
+
+
+class LanesType(types.Type):
+    """numba type of a `Lanes`: the width is part of the type."""
+
+    def __init__(self, width: int) -> None:
+        self.width = width
+        super().__init__(name=f"Lanes({width})")
+
+    @property
+    def value(self) -> types.Type:
+        """Type of one lane value."""
+        return types.float64 if self.width == 1 else VectorType(self.width)
+
+
+register_model(LanesType)(models.OpaqueModel)
+
+
+class Lanes:
+    """Carrier of the lane width; moves lane values from and to arrays ``[block, field, lane]``.
+
+    Parameters
+    ----------
+    width : int
+        Lanes of one value: 1 for scalars, else a power of two.
+    """
+
+    def __init__(self, width: int) -> None:
+        self.width = width
+
+    def load(self, array: Any, block: int, field: int) -> Any:
+        """Lane value stored at ``array[block, field]``."""
+        return array[block, field, 0] if self.width == 1 else array[block, field].copy()
+
+    def store(self, array: Any, block: int, field: int, value: Any) -> None:
+        """Store a lane value at ``array[block, field]``."""
+        array[block, field] = value
+
+    def constant(self, number: float) -> Any:
+        """Lane value with the same number in every lane."""
+        return float(number) if self.width == 1 else np.full(self.width, float(number))
+
+
+@typeof_impl.register(Lanes)
+def _typeof_lanes(value: Lanes, _context: Any) -> LanesType:
+    return LanesType(value.width)
+
+
+@unbox(LanesType)
+def _unbox_lanes(_type: LanesType, _object: Any, context: Any) -> NativeValue:
+    return NativeValue(context.context.get_dummy_value())
+
+
+@overload_attribute(LanesType, "width")
+def _lanes_width(lanes):  # type: ignore[no-untyped-def]
+    width = lanes.width
+    return lambda lanes: width
+
+
+def _broadcast(builder: Any, value: Any, number: types.Type, target: types.Type) -> Any:
+    """Turn the LLVM value of a number into `target`, the same in every lane."""
+    if isinstance(number, types.Integer):
+        value = builder.sitofp(value, _DOUBLE)
+    if isinstance(target, VectorType) and not isinstance(number, VectorType):
+        vector = ir.VectorType(_DOUBLE, target.width)
+        undefined = ir.Constant(vector, ir.Undefined)
+        first = builder.insert_element(undefined, value, _INT32(0))
+        zeros = ir.Constant(ir.VectorType(_INT32, target.width), [0] * target.width)
+        value = builder.shuffle_vector(first, undefined, zeros)
+    return value
+
+
+@lower_cast(types.Number, VectorType)
+def _cast_number(_context: Any, builder: Any, number: Any, vector: Any, value: Any) -> Any:
+    return _broadcast(builder, value, number, vector)
+
+
+def _address(
+    context: Any, builder: Any, array_type: Any, array: Any, block: Any, field: Any, width: int
+) -> Any:
+    view = context.make_array(array_type)(context, builder, array)
+    fields = builder.extract_value(view.shape, 1)
+    offset = builder.mul(builder.add(builder.mul(block, fields), field), _INT64(width))
+    pointer = builder.gep(view.data, [offset])
+    return pointer if width == 1 else builder.bitcast(pointer, ir.VectorType(_DOUBLE, width).as_pointer())
+
+
+def _require_lane_array(array: types.Type) -> None:
+    contiguous = isinstance(array, types.Array) and array.ndim == 3 and array.layout == "C"
+    if not contiguous or array.dtype != types.float64:
+        raise TypeError(f"a lane array is C-contiguous float64 [block, field, lane], not {array}")
+
+
+@intrinsic
+def _load(_typing: Any, lanes: Any, array: Any, block: Any, field: Any) -> Any:
+    _require_lane_array(array)
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        pointer = _address(context, builder, signature.args[1], *args[1:], lanes.width)
+        element = _DOUBLE if lanes.width == 1 else ir.VectorType(_DOUBLE, lanes.width)
+        try:
+            return builder.load(pointer, align=8, typ=element)
+        except TypeError:  # llvmlite before opaque pointers
+            return builder.load(pointer, align=8)
+
+    return lanes.value(lanes, array, types.intp, types.intp), generate
+
+
+@intrinsic
+def _store(_typing: Any, lanes: Any, array: Any, block: Any, field: Any, value: Any) -> Any:
+    _require_lane_array(array)
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        pointer = _address(context, builder, signature.args[1], *args[1:4], lanes.width)
+        builder.store(args[4], pointer, align=8)
+        return context.get_dummy_value()
+
+    return types.void(lanes, array, types.intp, types.intp, lanes.value), generate
+
+
+@intrinsic
+def _constant(_typing: Any, lanes: Any, number: Any) -> Any:
+    def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return _broadcast(builder, args[1], signature.args[1], lanes.value)
+
+    return lanes.value(lanes, types.float64), generate
+
+
+@overload_method(LanesType, "load")
+def _lanes_load(lanes, array, block, field):  # type: ignore[no-untyped-def]
+    return lambda lanes, array, block, field: _load(lanes, array, block, field)
+
+
+@overload_method(LanesType, "store")
+def _lanes_store(lanes, array, block, field, value):  # type: ignore[no-untyped-def]
+    return lambda lanes, array, block, field, value: _store(lanes, array, block, field, value)
+
+
+@overload_method(LanesType, "constant")
+def _lanes_constant(lanes, number):  # type: ignore[no-untyped-def]
+    return lambda lanes, number: _constant(lanes, number)
+
+
+def _is_lane_value(candidate: types.Type) -> bool:
+    return isinstance(candidate, VectorType | types.Float | types.Integer)
+
+
+def _instruction(emit: Callable[..., Any], arity: int) -> Any:
+    """Intrinsic that applies ``emit(builder, *values)`` to numbers and vectors, broadcasting numbers."""
+
+    def signature_and_code(*arguments: types.Type) -> Any:
+        vector = next((each for each in arguments if isinstance(each, VectorType)), types.float64)
+
+        def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            values = [_broadcast(builder, v, t, vector) for v, t in zip(args, signature.args, strict=True)]
+            return emit(builder, *values)
+
+        return vector(*arguments), generate
+
+    if arity == 1:
+
+        @intrinsic
+        def apply(_typing: Any, a: Any) -> Any:
+            return signature_and_code(a)
+    elif arity == 2:
+
+        @intrinsic
+        def apply(_typing: Any, a: Any, b: Any) -> Any:
+            return signature_and_code(a, b)
+    else:
+
+        @intrinsic
+        def apply(_typing: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
+            return signature_and_code(a, b, c, d)
+
+    return apply
+
+
+_ADD = _instruction(lambda builder, a, b: builder.fadd(a, b, flags=FASTMATH), 2)
+_SUB = _instruction(lambda builder, a, b: builder.fsub(a, b, flags=FASTMATH), 2)
+_MUL = _instruction(lambda builder, a, b: builder.fmul(a, b, flags=FASTMATH), 2)
+_DIV = _instruction(lambda builder, a, b: builder.fdiv(a, b, flags=FASTMATH), 2)
+_NEG = _instruction(lambda builder, a: builder.fneg(a, flags=FASTMATH), 1)
+
+
+def _overload_arithmetic(function: Any, instruction: Any) -> None:
+    @overload(function)
+    def _arithmetic(a, b):  # type: ignore[no-untyped-def]
+        if (
+            (isinstance(a, VectorType) or isinstance(b, VectorType))
+            and _is_lane_value(a)
+            and _is_lane_value(b)
+        ):
+            return lambda a, b: instruction(a, b)
+        return None
+
+
+for _function, _emitted in (
+    (operator.add, _ADD),
+    (operator.sub, _SUB),
+    (operator.mul, _MUL),
+    (operator.truediv, _DIV),
+    (operator.iadd, _ADD),
+    (operator.isub, _SUB),
+    (operator.imul, _MUL),
+    (operator.itruediv, _DIV),
+):
+    _overload_arithmetic(_function, _emitted)
+
+
+@overload(operator.neg)
+def _negate(a):  # type: ignore[no-untyped-def]
+    return (lambda a: _NEG(a)) if isinstance(a, VectorType) else None
+
+
+def primitive(emit: Callable[..., Any]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Give a function with a NumPy body an LLVM twin for numbers and vectors."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        arity = function.__code__.co_argcount
+        apply = _instruction(emit, arity)
+        if arity == 1:
+            overload(function)(lambda a: (lambda a: apply(a)) if _is_lane_value(a) else None)
+        elif arity == 2:
+            overload(function)(lambda a, b: lambda a, b: apply(a, b))
+        else:
+            overload(function)(lambda a, b, c, d: lambda a, b, c, d: apply(a, b, c, d))
+        return function
+
+    return decorate
+
+
+def integer_type(value: ir.Type) -> ir.Type:
+    """LLVM integer type of the same shape as a lane value's type."""
+    return ir.VectorType(_INT64, value.count) if isinstance(value, ir.VectorType) else _INT64
+
+
+def splat(shape: ir.Type, number: float) -> ir.Constant:
+    """LLVM constant with the same number in every lane."""
+    return ir.Constant(shape, [number] * shape.count if isinstance(shape, ir.VectorType) else number)
+
+
+def library_call(builder: Any, name: str, *values: Any) -> Any:
+    """Call an LLVM math intrinsic on lane values."""
+    shape = values[0].type
+    suffix = f"v{shape.count}f64" if isinstance(shape, ir.VectorType) else "f64"
+    kind = ir.FunctionType(shape, [shape] * len(values))
+    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.{suffix}")
+    return builder.call(function, values, fastmath=FASTMATH)

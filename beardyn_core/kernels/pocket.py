@@ -1,0 +1,142 @@
+"""Contact of a roller with its cage pocket: the bars in front and behind, and both ends."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.lane_math import at_least, cos_sin, magnitude, sqrt, where_greater
+from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
+
+
+@inline
+def pocket_contact(
+    centre: Any,
+    axis: Any,
+    velocity: Any,
+    omega: Any,
+    advance: Any,
+    tilt: Any,
+    ring_velocity: Any,
+    ring_omega: Any,
+    roller: Any,
+    cage: Any,
+) -> Any:
+    """Force of the cage on the roller, and what it loses.
+
+    Disc against plane at two abscissae of both bars, and end against plane at both pocket ends: linear
+    springs with damping that never pull, and regularised Coulomb friction. The bar faces lean, so that the
+    rollers guide the cage radially. Neglects the lubricant in the pocket and the bending of the bars.
+
+    Parameters
+    ----------
+    centre : vector
+        Centre of mass of the roller from the cage's origin, [m].
+    axis, velocity, omega : vector
+        Of the roller.
+    advance : lane value
+        Azimuth of the roller less that of its pocket, [rad].
+    tilt : vector
+        Small rotation of the cage without its spin, [rad].
+    ring_velocity, ring_omega : vector
+        Of the cage at its origin.
+    roller : RollerParams
+    cage : CageParams
+
+    Returns
+    -------
+    touches : tuple of 5 tuples
+        Per wall (front and back bar at the small and large end, pocket end): force on the roller, arm,
+        lost part of the force negated, slip, elastic energy.
+    bar : vector
+        Contact with the nearer bar from the centre of mass, [m].
+    """
+    cosine, sine = cos_sin(advance)
+    still = 0.0 * sine
+    ahead = (sine, cosine, still)
+    ahead = add(ahead, cross(tilt, ahead))
+    outward = (cosine, -sine, still)
+    outward = add(outward, cross(tilt, outward))
+    pocket_axis = (cage.axis_radial * cosine, -cage.axis_radial * sine, cage.axis_axial + still)
+    pocket_axis = add(pocket_axis, cross(tilt, pocket_axis))
+
+    height = cage.bar_sine * (dot(outward, centre) - cage.roller_height)
+    offset = cage.bar_cosine * dot(ahead, centre)
+    skew = cage.bar_cosine * dot(ahead, axis)
+    front = add_scaled(scale(cage.bar_cosine, ahead), cage.bar_sine, outward)
+    behind = add_scaled(scale(-cage.bar_cosine, ahead), cage.bar_sine, outward)
+    clearance = cage.bar_cosine * cage.half_clearance
+    motion = (velocity, omega, ring_velocity, ring_omega)
+    small, large = -cage.bar_place, cage.bar_place
+    small_radius = roller.radius - cage.bar_place * roller.taper
+    large_radius = roller.radius + cage.bar_place * roller.taper
+    small_front = _touch(
+        centre, add_scaled(scale(small, axis), small_radius, front), front,
+        height + offset + small * skew - clearance, motion, cage,
+    )  # fmt: skip
+    large_front = _touch(
+        centre, add_scaled(scale(large, axis), large_radius, front), front,
+        height + offset + large * skew - clearance, motion, cage,
+    )  # fmt: skip
+    small_behind = _touch(
+        centre, add_scaled(scale(small, axis), small_radius, behind), behind,
+        height - offset - small * skew - clearance, motion, cage,
+    )  # fmt: skip
+    large_behind = _touch(
+        centre, add_scaled(scale(large, axis), large_radius, behind), behind,
+        height - offset - large * skew - clearance, motion, cage,
+    )  # fmt: skip
+    slide = dot(pocket_axis, centre) - cage.roller_place
+    side = where_greater(slide, 0.0, 1.0 + still, -1.0 + still)
+    end = _touch(
+        centre, scale(side * roller.half_length, axis), scale(side, pocket_axis),
+        magnitude(slide) - cage.half_end_clearance, motion, cage,
+    )  # fmt: skip
+    touches = (small_front, large_front, small_behind, large_behind, end)
+    bar = scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)
+    return touches, bar
+
+
+@inline
+def pocket_sum(touches: Any) -> Any:
+    """Force, moment about the roller's centre of mass and elastic energy of all walls of a pocket."""
+    a, b, c, d, e = touches
+    force = add(add(add(a[0], b[0]), add(c[0], d[0])), e[0])
+    moment = add(
+        add(add(cross(a[1], a[0]), cross(b[1], b[0])), add(cross(c[1], c[0]), cross(d[1], d[0]))),
+        cross(e[1], e[0]),
+    )
+    return force, moment, a[4] + b[4] + c[4] + d[4] + e[4]
+
+
+@inline
+def pocket_loss(touches: Any, change: Any) -> Any:
+    """Power lost in a pocket at the middle of a step that changes the roller's velocities, [W]."""
+    a, b, c, d, e = touches
+    return _loss(a, change) + _loss(b, change) + _loss(c, change) + _loss(d, change) + _loss(e, change)
+
+
+@inline
+def _loss(touch: Any, change: Any) -> Any:
+    middle = add_scaled(touch[3], 0.5, add(change[0], cross(change[1], touch[1])))
+    return dot(touch[2], middle)
+
+
+@inline
+def _touch(centre: Any, arm: Any, direction: Any, depth: Any, motion: Any, cage: Any) -> Any:
+    """One spring-damper with friction; force, arm, lost part of the force, slip, elastic energy."""
+    velocity, omega, ring_velocity, ring_omega = motion
+    inside = at_least(depth, 0.0)
+    slip = subtract(
+        subtract(add(velocity, cross(omega, arm)), ring_velocity), cross(ring_omega, add(centre, arm))
+    )
+    rate = dot(slip, direction)
+    spring = cage.stiffness * inside
+    damping = where_greater(depth, 0.0, cage.damping + 0.0 * depth, 0.0 * depth)
+    load = at_least(spring + damping * rate, 0.0)
+    tangential = add_scaled(slip, -rate, direction)
+    speed = sqrt(dot(tangential, tangential) + cage.regularisation * cage.regularisation)
+    friction = cage.friction * load / speed
+    force = add_scaled(scale(-load, direction), -friction, tangential)
+    lost = add_scaled(scale(load - spring, direction), friction, tangential)
+    return force, arm, lost, slip, 0.5 * spring * inside

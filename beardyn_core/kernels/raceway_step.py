@@ -1,0 +1,167 @@
+"""A raceway contact within a time step: before the solve, in the matrix, and settled after it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.exchange import account, implicit_time, output_contact, react, watch_chatter
+from beardyn_core.kernels.film import film_output, log2_entrainment
+from beardyn_core.kernels.lane_math import at_least, sqrt
+from beardyn_core.kernels.orbit import entrainment_speed
+from beardyn_core.kernels.raceway import generator_line, lamina_sums, line_wrench, power, sliding, weighted
+from beardyn_core.kernels.solve import add_line
+from beardyn_core.kernels.traction import traction_capacity
+from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, subtract
+from beardyn_core.model.layout import PENETRATION
+
+
+@inline
+def raceway_contact(
+    lanes: Any,
+    block: Any,
+    ring: Any,
+    view: Any,
+    body: Any,
+    oversize: Any,
+    azimuths: Any,
+    raceway: Any,
+    spalls: Any,
+    p: Any,
+) -> Any:
+    """Everything one raceway contact needs before the solve: line, slip, sums, speed part of the film."""
+    place, axis, velocity, omega, orbit_rate = body
+    centre = subtract(place, view[0])
+    line = generator_line(centre, axis, view[1], oversize, raceway, p.roller)
+    slip = sliding(line, centre, velocity, omega, view[2], view[3])
+    speed = entrainment_speed(line, centre, velocity, omega, view[2], view[3], orbit_rate)
+    log2_speed = log2_entrainment(speed, p.effects.film)
+    sums = lamina_sums(lanes, block, line, slip, log2_speed, azimuths, ring, p.laminae, spalls, p.effects)
+    return line, slip, sums, log2_speed, centre
+
+
+@inline
+def normal_sums(sums: Any, rate: Any, damping: Any) -> Any:
+    """Normal force with x^0, x^1, x^2: elastic and damping part."""
+    if damping is None:
+        return sums[0]
+    damped = weighted(sums[1], rate)
+    elastic = sums[0]
+    return (
+        elastic[0] + damping.time_constant * damped[0],
+        elastic[1] + damping.time_constant * damped[1],
+        elastic[2],
+    )
+
+
+@inline
+def raceway_matrix(matrix: Any, contact: Any, step: Any, damping: Any) -> Any:
+    """Add the implicit part of one raceway contact to the roller's matrix."""
+    line, _slip, sums, _log2_speed, _centre = contact
+    time = step * implicit_time(step, damping)
+    stiff = (time * sums[1][0], time * sums[1][1], time * sums[1][2])
+    rough = (step * sums[2][0], step * sums[2][1], step * sums[2][2])
+    matrix = add_line(matrix, line[2], line[0], line[1], stiff)
+    matrix = add_line(matrix, line[3], line[0], line[1], rough)
+    return add_line(matrix, line[4], line[0], line[1], rough)
+
+
+@inline
+def raceway_wrench(contact: Any, damping: Any) -> Any:
+    """Force and moment on the roller from the velocities at the beginning of the step."""
+    line, slip, sums, _log2_speed, _centre = contact
+    return line_wrench(
+        line, normal_sums(sums, slip[0], damping), weighted(sums[2], slip[1]), weighted(sums[2], slip[2])
+    )
+
+
+@inline
+def affine_change(line: Any, direction: Any, change: Any) -> Any:
+    """Change of the velocity along a direction on the generator line, affine in the abscissa."""
+    at_middle = add(change[0], cross(change[1], line[0]))
+    return dot(at_middle, direction), dot(cross(change[1], line[1]), direction)
+
+
+@inline
+def shifted(affine: Any, change: Any, part: Any) -> Any:
+    """``affine + part * change``."""
+    return affine[0] + part * change[0], affine[1] + part * change[1]
+
+
+@inline
+def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
+    """Force and moment on the roller at the end of the step, with their energy terms.
+
+    Returns
+    -------
+    force, moment : vector
+    normal_force : tuple of 3 lane values
+    around_force : lane value
+    lost, numerical : lane value
+        Dissipated by the contact, and by the time step, over the step, [J].
+    """
+    line, slip, sums, _log2_speed, _centre = contact
+    d_rate = affine_change(line, line[2], change)
+    d_around = affine_change(line, line[3], change)
+    d_along = affine_change(line, line[4], change)
+    rate = shifted(slip[0], d_rate, 1.0)
+    spring = weighted(sums[1], d_rate)
+    settled = (
+        sums[0][0] + 0.25 * step * spring[0],
+        sums[0][1] + 0.25 * step * spring[1],
+        sums[0][2],
+    )
+    normal = normal_sums((settled, sums[1]), rate, damping)
+    around = shifted(slip[1], d_around, 1.0)
+    along = shifted(slip[2], d_along, 1.0)
+    friction_around = weighted(sums[2], around)
+    force, moment = line_wrench(line, normal, friction_around, weighted(sums[2], along))
+    middle_around = shifted(slip[1], d_around, 0.5)
+    middle_along = shifted(slip[2], d_along, 0.5)
+    lost = power(sums[2], middle_around, middle_around) + power(sums[2], middle_along, middle_along)
+    numerical = 0.5 * (power(sums[2], d_around, middle_around) + power(sums[2], d_along, middle_along))
+    damped, extra = damping_loss(sums, slip[0], d_rate, damping)
+    return force, moment, normal, friction_around[0], step * (lost + damped), step * (numerical + extra)
+
+
+@inline
+def damping_loss(sums: Any, rate: Any, change: Any, damping: Any) -> Any:
+    """Power of the contact damping, and of its implicit step, [W]."""
+    if damping is None:
+        return 0.0, 0.0
+    middle = shifted(rate, change, 0.5)
+    lost = damping.time_constant * power(sums[1], middle, middle)
+    return lost, 0.5 * damping.time_constant * power(sums[1], change, middle)
+
+
+@inline
+def finish_raceway(
+    lanes: Any,
+    rollers: Any,
+    sums: Any,
+    block: Any,
+    ring: Any,
+    contact: Any,
+    change: Any,
+    mask: Any,
+    cosine: Any,
+    sine: Any,
+    p: Any,
+) -> Any:
+    """Settle one raceway contact after the solve: reaction, output, audit; returns its wrench."""
+    line, slip, lamina, log2_speed, centre = contact
+    force, moment, normal, friction, lost, numerical = settled_wrench(
+        contact, change, p.step, p.effects.damping
+    )
+    react(lanes, sums, ring, mask, centre, force, moment, cosine, sine)
+    pressure_centre = normal[1] / at_least(normal[0], 1e-3)
+    arm = add_scaled(line[0], pressure_centre, line[1])
+    sliding_speed = sqrt(slip[1][0] * slip[1][0] + slip[2][0] * slip[2][0])
+    film = film_output(normal[0], log2_speed, ring, p.laminae, p.effects.film) + lanes.constant(0.0)
+    output_contact(lanes, rollers, block, ring, force, arm, sliding_speed, film)
+    capacity = traction_capacity(normal[0], p.effects.coulomb, p.effects.mixed)
+    watch_chatter(lanes, rollers, block, ring, friction, capacity)
+    deepest = at_least(lanes.load(rollers, block, PENETRATION), line[5][0])
+    lanes.store(rollers, block, PENETRATION, deepest)
+    account(lanes, sums, mask, lost, numerical, lamina[3], p.effects.audit)
+    return force, moment

@@ -1,0 +1,134 @@
+"""One time step of a block of rollers: drift, contacts, implicit solve, kick.
+
+Positions live at whole steps, velocities half a step later. A step moves the rollers along their
+velocities, evaluates every contact, solves one 6x6 system per roller for the velocity change under
+linearly implicit contacts, and applies to roller and ring the very same forces: those of the end of the
+step. Momentum is therefore exchanged exactly and the energy audit closes.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.exchange import account_gravity, load_vector, store_vector
+from beardyn_core.kernels.lane_math import cos_sin
+from beardyn_core.kernels.orbit import angular_velocity, drift, ring_view, weight
+from beardyn_core.kernels.pocket_step import add_cage, cage_before, finish_cage
+from beardyn_core.kernels.raceway_step import finish_raceway, raceway_contact, raceway_matrix, raceway_wrench
+from beardyn_core.kernels.rib_step import add_rib, finish_rib, rib_before, rib_matrix
+from beardyn_core.kernels.solve import inertia_matrix, solve
+from beardyn_core.kernels.vectors import add, add_scaled, dot, turn_in
+from beardyn_core.model.layout import (
+    ANGLE,
+    AXIAL,
+    AXIS,
+    CONE,
+    CUP,
+    MASK,
+    MOMENTUM,
+    OVERSIZE,
+    RADIUS,
+    RING_TURN,
+    RING_VELOCITY,
+    SPIN,
+    VELOCITY,
+)
+
+_PI = 3.141592653589793
+
+
+@inline
+def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p: Any) -> None:
+    """Advance one block of rollers by one step and add what it does to the rings.
+
+    Parameters
+    ----------
+    lanes : Lanes
+    block : int
+    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
+        State, changed in place.
+    rings : float64 array, shape [ring, RING_FIELDS, lane]
+        Cup, cone and cage as the rollers of each row see them, at the end of the drift.
+    sums : float64 array, shape [1, SUM_FIELDS, lane]
+        Reactions and energy terms, added to.
+    p : Parameters
+    """
+    step, effects, roller = p.step, p.effects, p.roller
+    reference_velocity = load_vector(lanes, rings, CUP, RING_VELOCITY)
+    polar, velocity, momentum, axis, half_turn, orbit_rate = drift(
+        lanes, rollers, block, reference_velocity, step, roller
+    )
+    radius, azimuth, axial = polar
+    cosine, sine = cos_sin(azimuth)
+    mask = lanes.load(p.rollers, block, MASK)
+    oversize = lanes.load(p.rollers, block, OVERSIZE)
+    omega = angular_velocity(momentum, axis, roller)
+    zero = lanes.constant(0.0)
+    body = ((radius, zero, axial), axis, velocity, omega, orbit_rate)
+    cup_view = ring_view(lanes, rings, CUP, cosine, sine)
+    cone_view = ring_view(lanes, rings, CONE, cosine, sine)
+    spin = lanes.load(rollers, block, SPIN)
+    faults = effects.faults
+
+    cup = raceway_contact(
+        lanes, block, CUP, cup_view, body, oversize,
+        (azimuth - lanes.load(rings, CUP, RING_TURN), -spin), p.cup, (faults.cup, faults.roller), p,
+    )  # fmt: skip
+    cone = raceway_contact(
+        lanes, block, CONE, cone_view, body, oversize,
+        (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin), p.cone, (faults.cone, faults.roller), p,
+    )  # fmt: skip
+    rib = rib_before(body, cone_view, zero, effects.rib, effects.damping)
+    cage = cage_before(lanes, rings, p.rollers, block, body, azimuth, cosine, sine, roller, effects.cage)
+
+    matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, axis, zero)
+    matrix = raceway_matrix(matrix, cup, step, effects.damping)
+    matrix = raceway_matrix(matrix, cone, step, effects.damping)
+    matrix = rib_matrix(matrix, rib, cone_view[1], step, effects.rib, effects.damping)
+
+    cup_force, cup_moment = raceway_wrench(cup, effects.damping)
+    cone_force, cone_moment = raceway_wrench(cone, effects.damping)
+    gravity = weight(cosine, sine, roller.mass, effects.gravity)
+    force = add(add(cup_force, cone_force), gravity)
+    moment = add(cup_moment, cone_moment)
+    force, moment = add_rib(force, moment, rib, effects.rib)
+    force, moment = add_cage(force, moment, cage, effects.cage)
+    turning_force = (
+        force[0] + roller.mass * orbit_rate * velocity[1],
+        force[1] - roller.mass * orbit_rate * velocity[0],
+        force[2],
+    )
+    turning_moment = (
+        moment[0] + orbit_rate * momentum[1],
+        moment[1] - orbit_rate * momentum[0],
+        moment[2],
+    )
+    right = (
+        step * turning_force[0], step * turning_force[1], step * turning_force[2],
+        step * turning_moment[0], step * turning_moment[1], step * turning_moment[2],
+    )  # fmt: skip
+    change = solve(matrix, right)
+
+    force, moment = finish_raceway(lanes, rollers, sums, block, CUP, cup, change, mask, cosine, sine, p)
+    cone_force, cone_moment = finish_raceway(
+        lanes, rollers, sums, block, CONE, cone, change, mask, cosine, sine, p
+    )
+    force = add(add(force, cone_force), gravity)
+    moment = add(moment, cone_moment)
+    force, moment = finish_rib(
+        lanes, rollers, sums, block, rib, change, force, moment, mask, cosine, sine, effects.rib, p
+    )
+    finish_cage(lanes, rollers, sums, block, cage, change, mask, cosine, sine, effects.cage, p)
+    force, moment = add_cage(force, moment, cage, effects.cage)
+    work = step * dot(gravity, add_scaled(velocity, 0.5, change[0]))
+    account_gravity(lanes, sums, mask, work, effects.audit)
+
+    velocity = turn_in(velocity, half_turn[0], half_turn[1])
+    momentum = turn_in(momentum, half_turn[0], half_turn[1])
+    lanes.store(rollers, block, RADIUS, radius)
+    lanes.store(rollers, block, ANGLE, azimuth)
+    lanes.store(rollers, block, AXIAL, axial)
+    store_vector(lanes, rollers, block, AXIS, axis)
+    store_vector(lanes, rollers, block, VELOCITY, add_scaled(velocity, step / roller.mass, force))
+    store_vector(lanes, rollers, block, MOMENTUM, add_scaled(momentum, step, moment))

@@ -1,0 +1,82 @@
+"""Where each number of the state stands in the kernel arrays.
+
+Rollers are kept as ``[block, field, lane]``: lanes 0..W/2-1 hold rollers of row 0, the others of row 1.
+Each row is written in its own ring frame (radial at azimuth 0 = +z, then +x, then the row's outward
+axis); the frame of row 0 is the mirror image of the world in the plane between the rows, so both rows
+look alike and share every kernel. Vectors of a roller are components in its orbit frame: radial,
+tangential (towards growing azimuth), axial (outward).
+"""
+
+from __future__ import annotations
+
+# --- roller state
+RADIUS = 0  # radial place of the centre of mass from the cup's centre line [m]
+ANGLE = 1  # orbit azimuth [rad]
+AXIAL = 2  # axial place from the bearing's middle plane [m]
+VELOCITY = 3  # 3 components of the centre-of-mass velocity [m/s]
+AXIS = 6  # 3 components of the roller axis, towards the large end
+MOMENTUM = 9  # 3 components of the angular momentum about the centre of mass [N m s]
+SPIN = 12  # rotation about the own axis relative to the orbit frame [rad]
+ROLLER_STATES = 13
+
+# --- what the last step says of each roller: per contact 8 fields
+CONTACT_OUTPUT = 13
+OUTPUT_FORCE = 0  # 3 components of the force on the roller [N]
+OUTPUT_ARM = 3  # 3 components from the centre of mass to the contact [m]
+OUTPUT_SLIP = 6  # slip speed [m/s]
+OUTPUT_FILM = 7  # film thickness [m]
+OUTPUT_FIELDS = 8
+CUP, CONE, RIB, POCKET = range(4)
+
+# --- friction memory for the chatter index: per raceway 4 fields
+CHATTER = CONTACT_OUTPUT + 4 * OUTPUT_FIELDS
+CHATTER_LAST = 0  # friction of the last step [N]
+CHATTER_BEFORE = 1  # friction of the step before [N]
+CHATTER_SQUARES = 2  # sum of squared second differences over the block [N^2]
+CHATTER_LOAD = 3  # sum of the traction capacity over the block [N]
+CHATTER_FIELDS = 4
+PENETRATION = CHATTER + 2 * CHATTER_FIELDS  # largest raceway approach of the block [m]
+ROLLER_FIELDS = PENETRATION + 1
+
+# --- roller constants [block, field, lane]
+MASK = 0  # 1 for a real roller, 0 for a filler lane that shadows one
+POCKET_ANGLE = 1  # place of its pocket in the cage [rad]
+OVERSIZE = 2  # radius error [m]
+ROLLER_CONSTANTS = 3
+
+# --- rigid bodies, world axes [body, field]
+CUP_BODY, CONE_BODY, CAGE_BODY = 0, 1, 2  # cages 2 and 3
+POSITION = 0  # 3, from the place at rest [m]
+TILT = 3  # 3, rotation vector without the spin [rad]
+LINEAR = 6  # 3, velocity [m/s]
+ANGULAR = 9  # 3, angular velocity without the spin [rad/s]
+TURN = 12  # spin angle about the own axis, +y [rad]
+RATE = 13  # spin speed about the own axis [rad/s]
+BODY_STATES = 14
+
+# --- ring data as the rollers see them, lanes [ring, field, lane]; order of rings: cup, cone, cage
+RING_ORIGIN = 0
+RING_AXIS = 3
+RING_VELOCITY = 6
+RING_OMEGA = 9
+RING_TURN = 12
+RING_FIELDS = 13
+
+# --- sums over the rollers, lanes [0, field, lane]
+REACTION = 0  # 3 rings x (force, moment)
+WORK_LOST = 18  # dissipated energy of the step [J]
+WORK_NUMERICAL = 19
+WORK_GRAVITY = 20
+ELASTIC = 21  # elastic energy at the beginning of the step [J]
+SUM_FIELDS = 22
+
+# --- signals of every step [step, channel]
+SIGNAL_FORCE = 0  # 6: rollers on the cup, about the bearing centre [N, N m]
+SIGNAL_ACCELERATION = 6  # 3: of the axlebox [m/s^2]
+SIGNAL_ANGULAR_ACCELERATION = 9  # 3 [rad/s^2]
+SIGNAL_TORQUE = 12  # bearing on the shaft, about +y [N m]
+SIGNAL_CHANNELS = 13
+
+# --- energy terms since the start [J]
+ENERGY_EXTERNAL, ENERGY_DISSIPATED, ENERGY_NUMERICAL, ENERGY_ELASTIC, ENERGY_KINETIC = range(5)
+ENERGY_TERMS = 5

@@ -1,0 +1,11 @@
+"""From the motion of bodies to what sensors read, and what can be read from that.
+
+| module | responsibility |
+|---|---|
+| `block` | the block of about 20 ms that crosses every border |
+| `decimate` | streaming anti-alias decimation |
+| `accelerometer` | specific force at the sensor, noise, clipping |
+| `features` | envelope, order tracking, spectrum, line search |
+| `diagnosis` | the pure monitoring algorithm: one stretch of signal to a verdict |
+| `monitoring` | the streaming monitor around it |
+"""

@@ -1,0 +1,118 @@
+"""The block: about 20 ms of every channel, the only thing that crosses a Python boundary."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+
+CONTACT_KINDS = ("cup", "cone", "rib", "pocket")
+CONTACT_FIELDS = ("x", "y", "z", "fx", "fy", "fz", "slip", "film")
+
+
+@dataclass(frozen=True)
+class EnergyAudit:
+    """Energy terms since the start of the run, each from its own force times velocity, [J].
+
+    Parameters
+    ----------
+    external : float
+        Work of the load, the shaft drive, gravity and the bogie motion.
+    dissipated : float
+        Work lost in traction, contact damping, rib, pockets and suspension.
+    numerical : float
+        Dissipation of the time step itself, listed apart.
+    stored : float
+        Change of kinetic and elastic energy.
+    """
+
+    external: float
+    dissipated: float
+    numerical: float
+    stored: float
+
+    @property
+    def residual(self) -> float:
+        """Part of the energy that the audit cannot account for, relative to the dissipation."""
+        missing = self.external - self.dissipated - self.numerical - self.stored
+        return abs(missing) / max(self.dissipated, 1e-3)
+
+
+@dataclass(frozen=True)
+class Block:
+    """One block of simulated time, world axes, SI.
+
+    Parameters
+    ----------
+    index : int
+        Running number of the block.
+    start_ns, end_ns : int
+        Simulated time at its first and after its last step, [ns].
+    waveform_sample : int
+        Running index of the first waveform sample.
+    waveform_time_ns : int64 array, shape [sample]
+        True time of each waveform sample; the delay of the anti-alias filter is compensated, [ns].
+    force_waveform : float64 array, shape [sample, 6]
+        Force and moment of the rollers on the cup at the bearing centre, [N, N m].
+    acceleration : float64 array, shape [sensor, sample, 3]
+        Specific force read by each accelerometer: +g on z at rest, [m/s^2].
+    trend_sample : int
+        Running index of the first trend sample (400 Hz).
+    trend_time_ns : int64 array, shape [trend], [ns]
+    force : float64 array, shape [trend, 6], [N, N m]
+    load : float64 array, shape [trend, 6]
+        Load on the journal, [N, N m].
+    specific_force : float64 array, shape [trend, 3]
+        First accelerometer decimated for plots, [m/s^2].
+    shaft_angle, shaft_speed, shaft_torque : float64 array, shape [trend], [rad, rad/s, N m]
+    cage_angle, cage_speed : float64 array, shape [trend, row], [rad, rad/s]
+    roller_angle, roller_speed : float64 array, shape [trend, row, roller]
+        Orbit angle (from +z towards +x) and speed, [rad, rad/s].
+    snapshot_sample : int
+        Running index of the first snapshot (200 Hz).
+    snapshot_time_ns : int64 array, shape [snapshot], [ns]
+    body_pose : float64 array, shape [snapshot, body, 7]
+        x, y, z, qx, qy, qz, qw of each body; order of ``Twin.body_names``.
+    body_twist : float64 array, shape [snapshot, body, 6]
+        vx, vy, vz, wx, wy, wz, [m/s, rad/s].
+    contacts : float64 array, shape [snapshot, row, roller, kind, 8]
+        For each of `CONTACT_KINDS` the `CONTACT_FIELDS`: point, force of the roller's partner on the
+        roller, slip speed and film thickness, [m, N, m/s, m]. No contact: force exactly zero.
+    status : int
+        Bit flags of `integrate.status`.
+    audit : EnergyAudit or None
+    wall_s : float
+        Wall time the block took to compute, [s].
+    """
+
+    index: int
+    start_ns: int
+    end_ns: int
+    waveform_sample: int
+    waveform_time_ns: Int
+    force_waveform: Float
+    acceleration: Float
+    trend_sample: int
+    trend_time_ns: Int
+    force: Float
+    load: Float
+    specific_force: Float
+    shaft_angle: Float
+    shaft_speed: Float
+    shaft_torque: Float
+    cage_angle: Float
+    cage_speed: Float
+    roller_angle: Float
+    roller_speed: Float
+    snapshot_sample: int
+    snapshot_time_ns: Int
+    body_pose: Float
+    body_twist: Float
+    contacts: Float
+    status: int
+    audit: EnergyAudit | None
+    wall_s: float

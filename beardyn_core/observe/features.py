@@ -1,0 +1,211 @@
+"""Envelope, order tracking and line search: what condition monitoring makes of a vibration signal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+_EDGE = 0.1  # share of the band in each of its cosine edges
+
+
+def analytic_band(signal: Float, rate: float, band: tuple[float, float]) -> NDArray[np.complex128]:
+    """Band-pass without phase shift, and the Hilbert transform as imaginary part.
+
+    Parameters
+    ----------
+    signal : float64 array, shape [sample, ...]
+    rate : float
+        [Hz].
+    band : tuple of 2 floats
+        Ends of the pass band; cosine edges of a tenth of its width lie inside, [Hz].
+
+    Returns
+    -------
+    complex128 array, the shape of ``signal``
+    """
+    count = len(signal)
+    spectrum = np.fft.fft(signal, axis=0)
+    frequency = np.fft.fftfreq(count, 1.0 / rate)
+    low, high = band
+    edge = _EDGE * (high - low)
+    rise = np.clip((frequency - low) / edge, 0.0, 1.0)
+    fall = np.clip((high - frequency) / edge, 0.0, 1.0)
+    weight = 2.0 * (0.5 - 0.5 * np.cos(np.pi * rise)) * (0.5 - 0.5 * np.cos(np.pi * fall))
+    return np.fft.ifft(spectrum * weight.reshape(-1, *(1,) * (signal.ndim - 1)), axis=0)
+
+
+def envelope(signal: Float, rate: float, band: tuple[float, float]) -> Float:
+    """Envelope of the band-passed signal; of several axes the root of the sum of squares.
+
+    Parameters
+    ----------
+    signal : float64 array, shape [sample] or [sample, axis]
+    rate : float
+        [Hz].
+    band : tuple of 2 floats
+        [Hz].
+
+    Returns
+    -------
+    float64 array, shape [sample]
+        Unit of the signal.
+
+    References
+    ----------
+    Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
+    Process. 25, section 4 (envelope analysis).
+    """
+    analytic = analytic_band(signal, rate, band)
+    square = analytic.real**2 + analytic.imag**2
+    return np.sqrt(square if signal.ndim == 1 else square.sum(axis=1))
+
+
+def resample_by_angle(signal: Float, angle: Float, samples_per_revolution: int) -> Float:
+    """Mean of a signal over equal steps of the shaft angle: computed order tracking.
+
+    The cumulative integral over angle is interpolated, so every sample counts and what is faster than
+    the new grid is averaged away.
+
+    Parameters
+    ----------
+    signal : float64 array, shape [sample]
+    angle : float64 array, shape [sample]
+        Shaft angle at each sample, increasing, [rad].
+    samples_per_revolution : int
+
+    Returns
+    -------
+    float64 array, shape [step]
+        Whole steps of angle only.
+    """
+    step = 2.0 * np.pi / samples_per_revolution
+    edges = angle[0] + step * np.arange(int(np.floor((angle[-1] - angle[0]) / step)) + 1)
+    cumulative = np.concatenate(([0.0], np.cumsum(0.5 * (signal[1:] + signal[:-1]) * np.diff(angle))))
+    return np.diff(np.interp(edges, angle, cumulative)) / step
+
+
+@dataclass(frozen=True)
+class OrderSpectrum:
+    """Amplitude spectrum over multiples of the shaft speed.
+
+    Parameters
+    ----------
+    order : float64 array, shape [line]
+        Cycles per shaft revolution, [-].
+    amplitude : float64 array, shape [line]
+        One-sided peak amplitude, unit of the signal.
+    level : float64 array, shape [line]
+        Amplitude over the local background, [dB].
+    resolution : float
+        One over the revolutions analysed, [-].
+    """
+
+    order: Float
+    amplitude: Float
+    level: Float
+    resolution: float
+
+
+def order_spectrum(
+    signal: Float, samples_per_revolution: int, highest_order: float, background_width: float
+) -> OrderSpectrum:
+    """Spectrum of a signal sampled evenly in angle (Hann window, mean removed, four-fold padding).
+
+    Parameters
+    ----------
+    signal : float64 array, shape [step]
+    samples_per_revolution : int
+    highest_order : float
+        Where the result ends, [-].
+    background_width : float
+        Width of the neighbourhood whose median is the background, [-].
+
+    Returns
+    -------
+    OrderSpectrum
+    """
+    count = len(signal)
+    window = np.hanning(count + 1)[:-1]
+    padded = 2 ** int(np.ceil(np.log2(4 * count)))
+    # a constant times the window must not leak into the first orders: remove the weighted mean
+    centred = signal - np.sum(signal * window) / np.sum(window)
+    amplitude = np.abs(np.fft.rfft(centred * window, padded)) * (2.0 / np.sum(window))
+    order = np.arange(len(amplitude)) * (samples_per_revolution / padded)
+    kept = int(np.searchsorted(order, highest_order + background_width))
+    background = local_background(amplitude[:kept], background_width / order[1])
+    level = 20.0 * np.log10(np.maximum(amplitude[:kept], 1e-300) / np.maximum(background, 1e-300))
+    last = int(np.searchsorted(order, highest_order, side="right"))
+    return OrderSpectrum(order[:last], amplitude[:last], level[:last], samples_per_revolution / count)
+
+
+def local_background(amplitude: Float, width: float) -> Float:
+    """Median of the neighbourhood of each line, which a few lines do not lift.
+
+    Parameters
+    ----------
+    amplitude : float64 array, shape [line]
+    width : float
+        Of the neighbourhood, [line].
+
+    Returns
+    -------
+    float64 array, shape [line]
+    """
+    size = int(min(max(3, round(width)), len(amplitude)))
+    stride = max(1, size // 8)
+    medians = np.median(sliding_window_view(amplitude, size)[::stride], axis=1)
+    centres = 0.5 * (size - 1) + stride * np.arange(len(medians))
+    return np.interp(np.arange(len(amplitude)), centres, medians)
+
+
+def line_at(spectrum: OrderSpectrum, order: float, tolerance: float) -> tuple[float, float]:
+    """Highest peak near an order.
+
+    Parameters
+    ----------
+    spectrum : OrderSpectrum
+    order : float
+        Where to look, [-].
+    tolerance : float
+        How far on both sides, [-].
+
+    Returns
+    -------
+    order : float
+        Of the peak, refined by a parabola through three lines, [-].
+    level : float
+        Over the background; -inf where no local maximum lies within the tolerance, [dB].
+    """
+    step = spectrum.order[1]
+    first = max(1, int(np.ceil((order - tolerance) / step)))
+    last = min(len(spectrum.order) - 2, int(np.floor((order + tolerance) / step)))
+    if last < first:
+        return order, -np.inf
+    level = spectrum.level
+    here = slice(first, last + 1)
+    # a flank of a stronger line outside the tolerance is no line
+    peak = (level[here] >= level[first - 1 : last]) & (level[here] >= level[first + 1 : last + 2])
+    if not peak.any():
+        return order, -np.inf
+    top = first + int(np.argmax(np.where(peak, level[here], -np.inf)))
+    below, centre, above = level[top - 1 : top + 2]
+    bend = below - 2.0 * centre + above
+    shift = 0.5 * (below - above) / bend if bend < 0.0 else 0.0
+    return float((top + shift) * step), float(centre)
+
+
+def kurtosis(signal: Float) -> float:
+    """Kurtosis of the samples, 3 for Gaussian noise, [-].
+
+    Parameters
+    ----------
+    signal : float64 array
+    """
+    centred = signal - signal.mean()
+    variance = np.mean(centred**2)
+    return float(np.mean(centred**4) / variance**2) if variance > 0.0 else 0.0

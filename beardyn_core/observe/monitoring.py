@@ -1,0 +1,166 @@
+"""The monitor: collects the streams that a train has and hands the last revolutions to an algorithm."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.observe.diagnosis import MonitorResult, MonitorSettings, Stretch, analyse
+
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+
+Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorResult]
+
+
+class Monitor:
+    """Collects streams and analyses the last revolutions from time to time.
+
+    Parameters
+    ----------
+    orders : FaultFrequencies
+        Of one row, per shaft revolution, from geometry.
+    roller_count : int
+        Rollers of one row.
+    rate : float
+        Of the vibration, [Hz].
+    settings : MonitorSettings, optional
+    algorithm : function, optional
+        In place of `analyse`.
+
+    Attributes
+    ----------
+    lost : int
+        Gaps found in the vibration; the signal before a gap is dropped.
+    refused : int
+        Blocks with NaN or time that does not increase.
+    """
+
+    def __init__(
+        self,
+        orders: FaultFrequencies,
+        roller_count: int,
+        rate: float = 25_600.0,
+        settings: MonitorSettings | None = None,
+        algorithm: Algorithm = analyse,
+    ) -> None:
+        self.orders = orders
+        self.roller_count = roller_count
+        self.rate = rate
+        self.settings = settings or MonitorSettings()
+        self.algorithm = algorithm
+        self.lost = 0
+        self.refused = 0
+        self._time = np.empty(0, dtype=np.int64)
+        self._acceleration = np.empty((0, 3))
+        self._shaft_time = np.empty(0, dtype=np.int64)
+        self._shaft_angle = np.empty(0)
+        self._load_time = np.empty(0, dtype=np.int64)
+        self._load = np.empty(0)
+        self._next_ns: int | None = None
+
+    def push_vibration(self, time_ns: Int, acceleration: Float) -> None:
+        """Add a block of vibration.
+
+        Parameters
+        ----------
+        time_ns : int64 array, shape [sample]
+        acceleration : array, shape [sample, 3]
+            [m/s^2].
+        """
+        if not len(time_ns):
+            return
+        behind = len(self._time) > 0 and time_ns[0] <= self._time[-1]
+        if behind or not np.isfinite(acceleration).all() or (np.diff(time_ns) <= 0).any():
+            self.refused += 1
+            return
+        if len(self._time) and (time_ns[0] - self._time[-1]) * 1e-9 * self.rate > 1.5:
+            self.lost += 1
+            self._time, self._acceleration = self._time[:0], self._acceleration[:0]
+        self._time = np.concatenate((self._time, time_ns))
+        self._acceleration = np.concatenate((self._acceleration, acceleration))
+
+    def push_shaft(self, time_ns: Int, angle: Float) -> None:
+        """Add tachometer samples; an angle that wraps is unwrapped.
+
+        Parameters
+        ----------
+        time_ns : int64 array, shape [sample]
+        angle : array, shape [sample]
+            Less than half a revolution between samples, [rad].
+        """
+        if not len(time_ns):
+            return
+        joined = np.concatenate((self._shaft_time, time_ns))
+        if (np.diff(joined[-len(time_ns) - 1 :]) <= 0).any() or not np.isfinite(angle).all():
+            self.refused += 1
+            return
+        self._shaft_time = joined
+        self._shaft_angle = np.unwrap(np.concatenate((self._shaft_angle, angle)))
+
+    def push_load(self, time_ns: Int, vertical: Float) -> None:
+        """Add samples of the vertical load, [N]."""
+        self._load_time = np.concatenate((self._load_time, time_ns))
+        self._load = np.concatenate((self._load, vertical))
+
+    def update(self) -> MonitorResult | None:
+        """A new result when one is due, else None."""
+        if not len(self._time) or not len(self._shaft_time):
+            return None
+        end = int(min(self._time[-1], self._shaft_time[-1]))
+        if self._next_ns is None:
+            self._next_ns = int(self._time[0]) + round(self.settings.interval * 1e9)
+        if end < self._next_ns:
+            return None
+        interval = round(self.settings.interval * 1e9)
+        self._next_ns += interval * (1 + (end - self._next_ns) // interval)
+        return self.result()
+
+    def result(self) -> MonitorResult:
+        """Analyse what is there now, due or not."""
+        if not len(self._time) or not len(self._shaft_time):
+            return MonitorResult("waiting", "no vibration or no shaft angle yet", 0)
+        last = int(min(self._time[-1], self._shaft_time[-1]))
+        first = max(
+            int(self._time[0]), int(self._shaft_time[0]), last - round(self.settings.longest_window * 1e9)
+        )
+        begin, end = np.searchsorted(self._time, (first, last + 1))
+        if end - begin < 2:
+            return MonitorResult("waiting", "no vibration with shaft angle yet", last)
+        angle = np.interp(self._time[begin:end], self._shaft_time, self._shaft_angle)
+        if angle[-1] < angle[0]:
+            angle = -angle
+        # the last revolutions, from the first sample on after which the window is not exceeded
+        start = int(np.argmax(angle >= angle[-1] - 2.0 * np.pi * self.settings.window_revolutions))
+        self._forget(int(self._time[begin + start]))
+        angle = angle[start:]
+        revolutions = float(angle[-1] - angle[0]) / (2.0 * np.pi)
+        if revolutions < self.settings.least_revolutions or (np.diff(angle) <= 0.0).any():
+            return MonitorResult(
+                "waiting",
+                f"{revolutions:.1f} steady shaft revolutions so far, "
+                f"{self.settings.least_revolutions:g} are needed",
+                last,
+                revolutions=revolutions,
+            )
+        load = self._load[self._load_time <= last]
+        stretch = Stretch(
+            rate=self.rate,
+            acceleration=self._acceleration[: len(angle)],
+            shaft_angle=angle,
+            load=float(load.mean()) if len(load) else np.nan,
+            end_ns=last,
+        )
+        return self.algorithm(stretch, self.orders, self.roller_count, self.settings)
+
+    def _forget(self, before_ns: int) -> None:
+        """Drop what no later window needs; the shaft keeps one sample before."""
+        kept = int(np.searchsorted(self._time, before_ns))
+        self._time, self._acceleration = self._time[kept:], self._acceleration[kept:]
+        kept = max(0, int(np.searchsorted(self._shaft_time, before_ns, side="right")) - 1)
+        self._shaft_time, self._shaft_angle = self._shaft_time[kept:], self._shaft_angle[kept:]
+        kept = int(np.searchsorted(self._load_time, before_ns))
+        self._load_time, self._load = self._load_time[kept:], self._load[kept:]

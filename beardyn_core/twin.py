@@ -1,0 +1,299 @@
+"""The twin: a scene that advances block by block; the same object on the desk and in the ROS node."""
+
+from __future__ import annotations
+
+import logging
+import time
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
+from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.imex import advance
+from beardyn_core.integrate.state import State, initial_state, work_space
+from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.integrate.status import assess, describe, is_fatal
+from beardyn_core.kernels.lanes import Lanes
+from beardyn_core.model.arrangement import Arrangement
+from beardyn_core.model.build import BLOCK_NS, build_parameters
+from beardyn_core.model.layout import (
+    ENERGY_DISSIPATED,
+    ENERGY_ELASTIC,
+    ENERGY_EXTERNAL,
+    ENERGY_KINETIC,
+    ENERGY_NUMERICAL,
+    ENERGY_TERMS,
+    SIGNAL_CHANNELS,
+    SIGNAL_FORCE,
+)
+from beardyn_core.model.parameters import Parameters
+from beardyn_core.observe.block import Block, EnergyAudit
+from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.load_buffer import LoadBuffer
+from beardyn_core.scene.scene import Scene
+
+Float = NDArray[np.float64]
+LANE_WIDTH = 8
+
+log = logging.getLogger("beardyn")
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """Everything the rest of a run depends on."""
+
+    index: int
+    state: State
+    parameters: Parameters
+    load: LoadBuffer
+    observer: tuple[object, ...]
+    first_audit: Float | None
+
+
+class Twin:
+    """A scene that advances in blocks of 20 ms.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Attributes
+    ----------
+    load : LoadBuffer
+        What has arrived and not been used, with the count of refused pieces.
+    block_ns : int
+        Simulated time of a block, [ns].
+    """
+
+    rows = 2
+    block_ns = BLOCK_NS
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.load = LoadBuffer()
+        self._arrangement = Arrangement(scene.bearing.roller_count, LANE_WIDTH)
+        self._lanes = Lanes(LANE_WIDTH)
+        self._work = work_space(self._arrangement)
+        self._parameters = build_parameters(scene, self._arrangement, np.zeros(6))
+        steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
+        self._signals = np.zeros((steps, SIGNAL_CHANNELS))
+        self._audit = np.zeros(ENERGY_TERMS)
+        self._first_audit: Float | None = None
+        self._state: State | None = None
+        self._observer: Observer | None = None
+        self._index = 0
+
+    @property
+    def roller_count(self) -> int:
+        """Rollers of each row."""
+        return self.scene.bearing.roller_count
+
+    @property
+    def body_names(self) -> tuple[str, ...]:
+        """Names of the bodies in the order of `Block.body_pose`."""
+        rollers = (f"roller_{row}_{k}" for row in range(self.rows) for k in range(self.roller_count))
+        return ("cup", "cone", "cage_0", "cage_1", *rollers)
+
+    @property
+    def next_end_ns(self) -> int:
+        """Simulated time at the end of the next block, [ns]."""
+        return (self._index + 1) * BLOCK_NS
+
+    def warm(self) -> float:
+        """Compile the kernels of this scene's effects, or load them from the cache.
+
+        Returns
+        -------
+        float
+            Wall time it took, [s].
+        """
+        log.info("loading the kernels; compiling them takes up to half a minute the first time")
+        began = time.perf_counter()
+        static = _at_rest(self.roller_count)
+        state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
+        self._run(state, np.zeros((TRENDS_PER_BLOCK + 1, 10)), self._signals[:TRENDS_PER_BLOCK].copy())
+        took = time.perf_counter() - began
+        log.info("kernels ready after %.1f s", took)
+        return took
+
+    def start(self, load: LoadHistory) -> None:
+        """Solve the static equilibrium under the first sample and begin at t = 0.
+
+        Parameters
+        ----------
+        load : LoadHistory
+            Its first sample stands at simulated time 0 or before it.
+
+        Raises
+        ------
+        ValidityError
+            The load cannot be used, or there is no equilibrium under it.
+        """
+        if not self.load.append(load):
+            raise ValidityError(self.load.reason)
+        scene, bearing = self.scene, self.scene.bearing
+        first = self.load.at_steps(0, BLOCK_NS, 1)[0]
+        free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
+        moment = np.array([first[3], 0.0, first[5]])
+        static = solve(
+            bearing,
+            first[:3],
+            moment if free else np.zeros(3),
+            end_play=scene.end_play,
+            tilt="free" if free else "locked",
+            laminae=scene.numerics.laminae,
+            speed=first[6],
+        )
+        carried = self._weight_of_rollers_and_cages()
+        preload = np.concatenate([-first[:3], -moment])
+        preload[2] += carried + self._free_fall * self._parameters.mounting.box_mass
+        self._parameters = build_parameters(scene, self._arrangement, preload)
+        ratio = scene.effects.cage.initial_speed_ratio if scene.effects.cage else 1.0
+        orbit = ratio * cage_speed(bearing, first[6])
+        self._state = initial_state(bearing, self._arrangement, static, first[6], orbit)
+        rest = np.zeros(SIGNAL_CHANNELS)
+        rest[SIGNAL_FORCE : SIGNAL_FORCE + 3] = first[:3]
+        rest[SIGNAL_FORCE + 2] -= carried
+        self._observer = Observer(scene, self._arrangement, self._parameters, rest)
+        self._observer.first_instant(self._state.rollers, self._state.bodies, first[:6])
+
+    @property
+    def _free_fall(self) -> float:
+        return self.scene.effects.gravity.acceleration if self.scene.effects.gravity else 0.0
+
+    def _weight_of_rollers_and_cages(self) -> float:
+        """Weight that the cone carries on top of the cup's force, [N]."""
+        bearing = self.scene.bearing
+        cages = self.rows * bearing.cage.mass if self.scene.effects.cage else 0.0
+        return self._free_fall * (self.rows * bearing.roller_count * bearing.roller_mass + cages)
+
+    def feed(self, load: LoadHistory) -> bool:
+        """Append load samples; False when they were refused (`load.reason` says why)."""
+        return self.load.append(load)
+
+    def covered(self) -> bool:
+        """Whether a sample at or after the end of the next block has arrived."""
+        last = self.load.last_ns
+        return last is not None and last >= self.next_end_ns
+
+    def advance(self) -> Block:
+        """Advance by one block.
+
+        Returns
+        -------
+        Block
+
+        Raises
+        ------
+        ValidityError
+            The model left its range of validity; the block is in the error's ``block``.
+        """
+        if self._state is None or self._observer is None:
+            raise ValidityError("the twin has not been started: it needs its first load")
+        loads = self.load.at_steps(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
+        began = time.perf_counter()
+        rollers, bodies = self._run(self._state, loads, self._signals)
+        wall = time.perf_counter() - began
+        status = assess(self._state, len(self._signals))
+        block = self._observer.observe(
+            self._index, self._signals, loads, rollers, bodies, int(status), self._energy_audit(), wall
+        )
+        self._index += 1
+        if is_fatal(status):
+            moment = f"at {block.end_ns * 1e-9:.2f} s of simulated time"
+            raise ValidityError(f"the run ended {moment}: {describe(status)}", block)
+        return block
+
+    def _run(self, state: State, loads: Float, signals: Float) -> tuple[Float, Float]:
+        rollers = np.empty((TRENDS_PER_BLOCK, *state.rollers.shape))
+        bodies = np.empty((TRENDS_PER_BLOCK, *state.bodies.shape))
+        work = self._work
+        advance(
+            self._lanes, state.rollers, state.bodies, work.rings, work.sums, work.wrenches, work.box,
+            loads, signals, rollers, bodies, state.energy, self._audit, self._parameters,
+        )  # fmt: skip
+        return rollers, bodies
+
+    def _energy_audit(self) -> EnergyAudit | None:
+        """Balance from the start of the run to the start of the block just computed."""
+        if self.scene.effects.audit is None:
+            return None
+        if self._first_audit is None:
+            self._first_audit = self._audit.copy()
+        since = self._audit - self._first_audit
+        return EnergyAudit(
+            external=float(since[ENERGY_EXTERNAL]),
+            dissipated=float(since[ENERGY_DISSIPATED]),
+            numerical=float(since[ENERGY_NUMERICAL]),
+            stored=float(since[ENERGY_ELASTIC] + since[ENERGY_KINETIC]),
+        )
+
+    def truth(self) -> dict[str, Any]:
+        """What is known of the run that a train could not know: scene, faults, frequencies, versions."""
+        scene, frequencies = self.scene, fault_frequencies(self.scene.bearing)
+        return {
+            "scene": scene.name,
+            "purpose": scene.purpose,
+            "bearing": scene.bearing.name,
+            "tier": scene.tier,
+            "effects": [*scene.effects.names(), *(["faults"] if scene.defects else [])],
+            "faults": [vars(defect) for defect in scene.defects],
+            "fault_frequencies_per_rev": {
+                "FTF": frequencies.ftf,
+                "BPFO": frequencies.bpfo,
+                "BPFI": frequencies.bpfi,
+                "BSF": frequencies.bsf,
+            },
+            "laminae": scene.numerics.laminae,
+            "step_s": self._parameters.step,
+            "seed": scene.seed,
+            "versions": {name: _version(name) for name in ("beardyn", "numba", "numpy")},
+        }
+
+    def snapshot(self) -> Snapshot:
+        """Everything the rest of the run depends on; `restore` continues bit-identically."""
+        if self._state is None or self._observer is None:
+            raise ValidityError("the twin has not been started: there is nothing to keep")
+        return Snapshot(
+            self._index,
+            self._state.copy(),
+            self._parameters,
+            self.load.copy(),
+            self._observer.snapshot(),
+            None if self._first_audit is None else self._first_audit.copy(),
+        )
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go back to a snapshot of a twin of the same scene."""
+        self._index = snapshot.index
+        self._state = snapshot.state.copy()
+        self._parameters = snapshot.parameters
+        self.load = snapshot.load.copy()
+        self._first_audit = None if snapshot.first_audit is None else snapshot.first_audit.copy()
+        if self._observer is None:
+            self._observer = Observer(
+                self.scene, self._arrangement, self._parameters, np.zeros(SIGNAL_CHANNELS)
+            )
+        self._observer.restore(snapshot.observer)
+
+
+def _at_rest(roller_count: int) -> StaticSolution:
+    """A bearing without load, for compiling only."""
+    none = np.zeros((2, roller_count))
+    return StaticSolution(
+        displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,
+        roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
+        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0,
+    )  # fmt: skip
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "source"
