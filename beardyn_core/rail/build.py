@@ -1,0 +1,154 @@
+"""Any operation to the load history that the twin consumes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import firwin, kaiserord, upfirdn
+
+from beardyn_core.errors import InputError
+from beardyn_core.rail.irregularity import rail_profile
+from beardyn_core.rail.measured import read_measurement
+from beardyn_core.rail.vehicle import quarter_vehicle, ride
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.operation import (
+    ConstantOperation,
+    MeasuredOperation,
+    Operation,
+    QuarterVehicleOperation,
+    SteppedOperation,
+)
+from beardyn_core.scene.speed import distance_at, speed_at
+
+Float = NDArray[np.float64]
+
+SAMPLE_NS = 500_000
+SAMPLE_RATE = 2000.0
+RIDE_FACTOR = 10
+FADE_IN = 0.2
+
+
+def load_history(operation: Operation, mounting: Mounting, duration: float, seed: int) -> LoadHistory:
+    """Load on the journal and shaft speed at 2 kHz, from time 0 to the first sample at or after the end.
+
+    Parameters
+    ----------
+    operation : Operation
+    mounting : Mounting
+        Wheelset, axlebox and primary suspension of the rail model.
+    duration : float
+        [s].
+    seed : int
+        Of the irregularity.
+
+    Returns
+    -------
+    LoadHistory
+
+    Raises
+    ------
+    InputError
+        When a measured file is bad or shorter than the run.
+    """
+    if not 0.0 < duration < 86_400.0:
+        raise InputError(f"duration is {duration:g} s; allowed is more than 0 and less than 86 400 s")
+    count = int(np.ceil(round(duration * SAMPLE_RATE, 6))) + 1
+    if isinstance(operation, ConstantOperation):
+        return _constant(operation, count)
+    if isinstance(operation, SteppedOperation):
+        return _stepped(operation, count)
+    if isinstance(operation, QuarterVehicleOperation):
+        return _quarter_vehicle(operation, mounting, count, seed)
+    return _measured(operation, count)
+
+
+def _history(wrench: Float, shaft_speed: Float, bogie: Float | None = None) -> LoadHistory:
+    count = len(shaft_speed)
+    return LoadHistory(
+        time_ns=np.arange(count, dtype=np.int64) * SAMPLE_NS,
+        wrench=np.ascontiguousarray(wrench, dtype=np.float64),
+        shaft_speed=np.ascontiguousarray(shaft_speed, dtype=np.float64),
+        bogie=np.zeros((count, 3)) if bogie is None else np.ascontiguousarray(bogie),
+    )
+
+
+def _constant(operation: ConstantOperation, count: int) -> LoadHistory:
+    wrench = np.tile(np.array([*operation.force, *operation.moment], dtype=np.float64), (count, 1))
+    return _history(wrench, np.full(count, float(operation.speed)))
+
+
+def _stepped(operation: SteppedOperation, count: int) -> LoadHistory:
+    time = np.arange(count) / SAMPLE_RATE
+    levels = np.array([[*step.force, *step.moment, step.speed] for step in operation.steps])
+    signals = np.tile(levels[0], (count, 1))
+    for step, change in zip(operation.steps[1:], np.diff(levels, axis=0), strict=True):
+        signals += _rise(time - step.time, operation.ramp)[:, None] * change
+    return _history(signals[:, :6], signals[:, 6])
+
+
+def _rise(time: Float, ramp: float) -> Float:
+    """Half a cosine from 0 to 1 over the ramp that begins at time 0."""
+    if ramp == 0.0:
+        return (time >= 0.0).astype(np.float64)
+    return 0.5 - 0.5 * np.cos(np.pi * np.clip(time / ramp, 0.0, 1.0))
+
+
+def _quarter_vehicle(
+    operation: QuarterVehicleOperation, mounting: Mounting, count: int, seed: int
+) -> LoadHistory:
+    """Wheel-rail force, less the weight of the half wheelset, and the motion of the bogie.
+
+    The moments of the wheel-rail forces about the axle are carried by the other axlebox: the
+    wrench has no moment. Above 0.8 kHz the signal is filtered away; the ringing of the filter around a
+    loss of contact may take the force below that of an open contact.
+    """
+    rate = SAMPLE_RATE * RIDE_FACTOR
+    kernel = _low_pass(RIDE_FACTOR)
+    # run past the end by what the filter looks ahead
+    time = np.arange((count - 1) * RIDE_FACTOR + 1 + len(kernel) // 2) / rate
+    position = distance_at(operation.speed_profile, time)
+    profile = rail_profile(operation.irregularity, float(position[-1]), seed)
+    height = profile.height_at(position)
+    height = (height - height[0]) * _rise(time, FADE_IN)
+    vehicle = quarter_vehicle(operation, mounting)
+    response = ride(vehicle, height, 1.0 / rate)
+    wrench = np.zeros((count, 6))
+    wrench[:, 1] = operation.lateral_force
+    wrench[:, 2] = _decimate(response.contact_force, RIDE_FACTOR, kernel)[:count] - vehicle.journal_weight
+    bogie = np.zeros((count, 3))
+    bogie[:, 2] = _decimate(response.bogie, RIDE_FACTOR, kernel)[:count]
+    speed = speed_at(operation.speed_profile, np.arange(count) / SAMPLE_RATE)
+    return _history(wrench, speed / (0.5 * operation.wheel_diameter), bogie)
+
+
+def _measured(operation: MeasuredOperation, count: int) -> LoadHistory:
+    measured = read_measurement(operation.path)
+    end = (count - 1) / SAMPLE_RATE
+    if measured.time[-1] < end - 1e-9:
+        raise InputError(
+            f"{operation.path}: covers {measured.time[-1]:g} s; the run needs {end:g} s: "
+            f"shorten the duration or give a longer file"
+        )
+    signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
+    factor = int(np.ceil(round(1.0 / (SAMPLE_RATE * float(np.median(np.diff(measured.time)))), 6)))
+    grid = np.arange((count - 1) * factor + 1) / (SAMPLE_RATE * factor)
+    signals = np.column_stack([np.interp(grid, measured.time, column) for column in signals.T])
+    if factor > 1:
+        kernel = _low_pass(factor)
+        signals = np.column_stack([_decimate(column, factor, kernel) for column in signals.T])
+    return _history(signals[:, :6], signals[:, 6], signals[:, 7:])
+
+
+def _low_pass(factor: int) -> Float:
+    """Symmetric kernel of odd length: flat to 0.4, 70 dB down from 0.6 of the new rate."""
+    length, beta = kaiserord(70.0, 0.4 / factor)
+    return firwin(length | 1, 1.0 / factor, window=("kaiser", beta))
+
+
+def _decimate(signal: Float, factor: int, kernel: Float) -> Float:
+    """Every factor-th sample of the filtered signal, without delay, ends held."""
+    half = len(kernel) // 2
+    padded = np.concatenate([np.full(half, signal[0]), signal, np.full(half, signal[-1])])
+    filtered = upfirdn(kernel, padded - signal[0])[2 * half : 2 * half + len(signal)]
+    return filtered[::factor] + signal[0]
