@@ -1,0 +1,255 @@
+"""`beardyn bearing`: geometry, fault frequencies, static load distribution and stiffness of one bearing."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import re
+import sys
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.kinematics import FaultFrequencies, fault_frequencies
+from beardyn_core.bearing.life import dynamic_rating
+from beardyn_core.config import load_bearing
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.integrate.static import TILT_MODES, StaticSolution, solve
+
+_DEFAULT_LOAD = (0.0, 0.0, 80.0e3)
+_BAR_WIDTH = 28
+_RPM = 2.0 * math.pi / 60.0
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the command to the subparsers of the command line."""
+    parser = subparsers.add_parser(
+        "bearing",
+        help="geometry, fault frequencies, static load distribution and stiffness of a bearing",
+        description="Geometry, fault frequencies, static load distribution and stiffness of a bearing.",
+    )
+    # Before Python 3.14 argparse takes -1e-5 for an option.
+    parser._negative_number_matcher = re.compile(r"^-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
+    parser.add_argument("bearing", metavar="BEARING", help="name of a shipped bearing or path of a YAML file")
+    parser.add_argument(
+        "--load",
+        nargs=3,
+        type=float,
+        metavar=("FX", "FY", "FZ"),
+        help="force on the cone, axlebox frame (x forward, y left along the axle, z up), N; default 0 0 8e4",
+    )
+    parser.add_argument(
+        "--end-play", type=float, metavar="M", help="total axial travel, m, negative: preload"
+    )
+    parser.add_argument(
+        "--tilt",
+        choices=TILT_MODES,
+        default="locked",
+        help="tilt of the cone against the cup; default locked",
+    )
+    parser.add_argument("--speed", type=float, default=0.0, metavar="RPM", help="shaft speed, rpm; default 0")
+    parser.add_argument(
+        "--laminae", type=int, default=1, metavar="N", help="laminae of each raceway contact; default 1"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Solve and print; 0 on success, 2 for bad input, 3 when no equilibrium is found."""
+    try:
+        bearing = load_bearing(args.bearing)
+        load = _DEFAULT_LOAD if args.load is None else tuple(args.load)
+        end_play = bearing.end_play if args.end_play is None else args.end_play
+        solution = solve(
+            bearing,
+            load,
+            end_play=end_play,
+            tilt=args.tilt,
+            laminae=args.laminae,
+            speed=args.speed * _RPM,
+        )
+    except InputError as error:
+        for problem in error.problems:
+            print(problem, file=sys.stderr)
+        return 2
+    except ValidityError as error:
+        print(error, file=sys.stderr)
+        return 3
+    if args.json:
+        print(json.dumps(_report(bearing, load, end_play, args, solution)))
+    else:
+        print(_table(bearing, load, end_play, args, solution))
+    return 0
+
+
+def _report(
+    bearing: Bearing,
+    load: tuple[float, ...],
+    end_play: float,
+    args: argparse.Namespace,
+    solution: StaticSolution,
+) -> dict[str, Any]:
+    """Content of the JSON object, SI units in the keys."""
+    frequencies = fault_frequencies(bearing)
+    return {
+        "bearing": bearing.name,
+        "geometry": _geometry(bearing),
+        "frequencies_per_rev": {
+            "FTF": frequencies.ftf,
+            "BPFO": frequencies.bpfo,
+            "BPFI": frequencies.bpfi,
+            "BSF": frequencies.bsf,
+        },
+        "static": {
+            "applied_force_N": list(load),
+            "end_play_m": end_play,
+            "tilt": args.tilt,
+            "speed_rpm": args.speed,
+            "laminae": args.laminae,
+            "displacement_m": solution.displacement.tolist(),
+            "tilt_rad": solution.tilt.tolist(),
+            "roller_load_N": solution.cup_load.tolist(),
+            "loaded_roller_count": sum(solution.loaded_roller_count),
+            "loaded_roller_count_per_row": list(solution.loaded_roller_count),
+            "max_roller_load_N": solution.largest_roller_load,
+            "stiffness_tilt_held_N_per_m": solution.stiffness_tilt_held.tolist(),
+            "stiffness_tilt_free_N_per_m": solution.stiffness_tilt_free.tolist(),
+        },
+    }
+
+
+def _geometry(bearing: Bearing) -> dict[str, float | int]:
+    return {
+        "roller_count": bearing.roller_count,
+        "row_count": 2,
+        "bore_m": bearing.bore,
+        "outer_diameter_m": bearing.outer_diameter,
+        "width_m": bearing.width,
+        "row_spacing_m": bearing.row_spacing,
+        "pitch_diameter_m": bearing.pitch_diameter,
+        "roller_diameter_m": bearing.roller_diameter,
+        "effective_length_m": bearing.effective_length,
+        "roller_length_m": bearing.roller_length,
+        "contact_angle_deg": math.degrees(bearing.contact_angle),
+        "cup_angle_deg": math.degrees(bearing.cup_angle),
+        "cone_angle_deg": math.degrees(bearing.cone_angle),
+        "half_angle_deg": math.degrees(bearing.half_angle),
+        "apex_distance_m": bearing.apex_distance,
+        "large_end_radius_m": bearing.large_end_radius,
+        "small_end_radius_m": bearing.small_end_radius,
+        "sphere_radius_m": bearing.sphere_radius,
+        "rib_contact_height_m": bearing.rib_contact_height,
+        "rib_angle_deg": math.degrees(bearing.rib_angle),
+        "pressure_centre_spread_m": bearing.pressure_centre_spread,
+        "roller_web_m": bearing.roller_web,
+        "roller_mass_kg": bearing.roller_mass,
+        "roller_axial_inertia_kg_m2": bearing.roller_axial_inertia,
+        "roller_transverse_inertia_kg_m2": bearing.roller_transverse_inertia,
+        "roller_mass_offset_m": bearing.roller_mass_offset,
+        "gamma": bearing.gamma,
+        "dynamic_load_rating_N": dynamic_rating(bearing).radial,
+    }
+
+
+def _table(
+    bearing: Bearing,
+    load: tuple[float, ...],
+    end_play: float,
+    args: argparse.Namespace,
+    solution: StaticSolution,
+) -> str:
+    lines = [f"{bearing.name}   {bearing.description}".rstrip(), "", "Geometry (closed on a common apex)"]
+    lines += _geometry_lines(bearing)
+    lines += ["", "Frequencies per shaft revolution"]
+    lines += _frequency_lines(fault_frequencies(bearing), args.speed)
+    force = ", ".join(f"{value / 1e3:g}" for value in load)
+    chosen = " (default)" if args.load is None else ""
+    lines += [
+        "",
+        f"Static equilibrium under ({force}) kN on the cone{chosen}",
+        f"  end play {end_play * 1e3:g} mm, tilt {args.tilt}, {args.speed:g} rpm, laminae {args.laminae}",
+    ]
+    lines += _static_lines(solution)
+    return "\n".join(lines)
+
+
+def _geometry_lines(bearing: Bearing) -> list[str]:
+    rating = dynamic_rating(bearing)
+    entries = [
+        (
+            "envelope",
+            f"{bearing.bore * 1e3:g} x {bearing.outer_diameter * 1e3:g} x {bearing.width * 1e3:g} mm",
+        ),
+        ("rollers", f"2 x {bearing.roller_count}, row spacing {bearing.row_spacing * 1e3:g} mm"),
+        (
+            "roller",
+            f"{bearing.roller_diameter * 1e3:g} mm mean diameter on {bearing.pitch_diameter * 1e3:g} mm, "
+            f"contact length {bearing.effective_length * 1e3:g} mm, {bearing.roller_mass * 1e3:.1f} g",
+        ),
+        (
+            "angles",
+            f"cup {math.degrees(bearing.cup_angle):.3f}, cone {math.degrees(bearing.cone_angle):.3f}, "
+            f"roller half-angle {math.degrees(bearing.half_angle):.4f}, "
+            f"rib {math.degrees(bearing.rib_angle):.2f} deg",
+        ),
+        (
+            "apex",
+            f"{bearing.apex_distance * 1e3:.2f} mm from mid-length; pressure centres "
+            f"{bearing.pressure_centre_spread * 1e3:.1f} mm apart",
+        ),
+        (
+            "large end",
+            f"radius {bearing.large_end_radius * 1e3:.3f} mm, sphere {bearing.sphere_radius * 1e3:.1f} mm, "
+            f"rib contact {bearing.rib_contact_height * 1e3:g} mm above the raceway",
+        ),
+        ("rating", f"C_r {rating.radial / 1e3:.0f} kN, e {rating.thrust_limit:.3f} (ISO 281)"),
+    ]
+    return [f"  {name:<10} {text}" for name, text in entries]
+
+
+def _frequency_lines(frequencies: FaultFrequencies, speed: float) -> list[str]:
+    entries = [
+        ("FTF", frequencies.ftf, "cage"),
+        ("BPFO", frequencies.bpfo, "cup fault, one row"),
+        ("BPFI", frequencies.bpfi, "cone fault, one row"),
+        ("BSF", frequencies.bsf, "roller spin; a roller fault strikes twice as often"),
+    ]
+    lines = []
+    for name, value, meaning in entries:
+        hertz = f"{value * abs(speed) / 60.0:9.3f} Hz" if speed else ""
+        lines.append(f"  {name:<5} {value:9.5f} {hertz}  {meaning}")
+    return lines
+
+
+def _static_lines(solution: StaticSolution) -> list[str]:
+    move = ", ".join(f"{value * 1e6:.2f}" for value in solution.displacement + 0.0)
+    tilt = ", ".join(f"{value * 1e6:.1f}" for value in solution.tilt + 0.0)
+    loaded = solution.loaded_roller_count
+    lines = [
+        f"  cone moves ({move}) um and tilts ({tilt}) urad about x, z",
+        f"  {loaded[0]} rollers loaded inboard, {loaded[1]} outboard; "
+        f"largest roller load {solution.largest_roller_load:,.1f} N",
+        "",
+        f"  azimuth     row 0, inboard {'':<{_BAR_WIDTH + 2}} row 1, outboard",
+    ]
+    largest = max(solution.largest_roller_load, 1.0e-9)
+    count = solution.cup_load.shape[1]
+    for roller in range(count):
+        cells = []
+        for row in range(2):
+            value = float(solution.cup_load[row, roller])
+            bar = "#" * round(_BAR_WIDTH * value / largest)
+            cells.append(f"{value:11,.1f} N {bar:<{_BAR_WIDTH}}")
+        lines.append(f"  {360.0 * roller / count:6.1f} deg {cells[0]} {cells[1]}".rstrip())
+    for title, matrix in (
+        ("tilt held", solution.stiffness_tilt_held),
+        ("tilt free", solution.stiffness_tilt_free),
+    ):
+        lines += ["", f"  stiffness with {title}, MN/m (rows and columns x, y, z)"]
+        lines += [
+            "   " + " ".join(f"{value / 1e6 + 0.0:11.2f}" for value in line) for line in np.round(matrix, 1)
+        ]
+    return lines

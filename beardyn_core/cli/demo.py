@@ -1,0 +1,68 @@
+"""``beardyn demo``: the main job in one go, without ROS.
+
+The same recording, monitor and report as ``python -m beardyn_ros demo``, which runs them as nodes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+from beardyn_core.study.demo_console import Progress, add_arguments, say
+
+if TYPE_CHECKING:
+    from beardyn_core.observe.block import Block
+
+DONE, INVALID = 0, 3
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "demo",
+        help="a spalled bearing under a train, recorded, and found by a monitor",
+        description="Simulate a spalled bearing under wheel-rail load, record it, let a monitor find the "
+        "fault, draw it. Without ROS; `python -m beardyn_ros demo` does the same with nodes.",
+    )
+    add_arguments(parser)
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from beardyn_core.config import load_scene
+    from beardyn_core.study import desk_run
+    from beardyn_core.study.demo_report import RECORDING_NAME, Pace, demo_folder, report
+    from beardyn_core.study.monitored_recording import MonitoredRecording
+
+    scene = load_scene(args.scene, duration=args.duration)
+    folder = demo_folder(args.out)
+    say(f"{scene.name}: {scene.purpose}")
+    say("compiling ... (a minute the first time, kept for the next)")
+    progress = Progress(scene.duration)
+    recording = MonitoredRecording(
+        folder / RECORDING_NAME, scene.bearing, lambda finding: progress.hear(finding.verdict)
+    )
+    try:
+        summary = desk_run.run(scene, [recording], _BlockProgress(progress))
+    finally:
+        progress.close()
+    pace = Pace(summary.duration, summary.real_time_factor)
+    report(folder, pace, say, picture_of_view=not args.no_view)
+    if not summary.complete:
+        print(f"beardyn: {summary.status}", file=sys.stderr)
+    return DONE if summary.complete else INVALID
+
+
+class _BlockProgress:
+    """Moves the progress with every block."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress = progress
+        self._wall = self._simulated = 0.0
+
+    def __call__(self, block: Block) -> None:
+        self._simulated += (block.end_ns - block.start_ns) * 1e-9
+        self._wall += block.wall_s
+        self._progress.show(self._simulated, self._simulated / max(self._wall, 1e-9))

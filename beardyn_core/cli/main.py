@@ -1,0 +1,105 @@
+"""The ``beardyn`` command: one module of this package for each subcommand.
+
+Exit codes: 0 done, 2 bad input (nothing written), 3 the model left its range of validity (recording closed
+and readable), 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import importlib
+import logging
+import os
+import pkgutil
+import sys
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+
+import beardyn_core.cli
+from beardyn_core.errors import InputError, ValidityError
+
+DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
+_ORDER = ("demo", "simulate", "bearing", "view", "report", "schema", "warmup")
+
+
+def command_names() -> list[str]:
+    """Names of the subcommands, the most used first."""
+    found = [
+        module.name for module in pkgutil.iter_modules(beardyn_core.cli.__path__) if module.name != "main"
+    ]
+    return sorted(found, key=lambda name: (_ORDER.index(name) if name in _ORDER else len(_ORDER), name))
+
+
+def program_version() -> str:
+    """Version that is installed."""
+    try:
+        return version("beardyn")
+    except PackageNotFoundError:
+        return "of a checkout that is not installed"
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """Parser of all subcommands; heavy modules are imported only by the one that runs."""
+    parser = argparse.ArgumentParser(
+        prog="beardyn",
+        description="Real-time digital twin of a railway axlebox double-row tapered roller bearing.",
+        epilog="`beardyn COMMAND --help` explains a command.",
+    )
+    parser.add_argument("--version", action="version", version=f"beardyn {program_version()}")
+    subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name in command_names():
+        importlib.import_module(f"beardyn_core.cli.{name}").add_parser(subparsers)
+    return parser
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command line.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        Words after the program's name; those of the process when not given.
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
+    args = build_parser().parse_args(argv)
+    _announce_on_stderr()
+    try:
+        return int(args.run(args))
+    except InputError as error:
+        _complain(error.problems)
+        return BAD_INPUT
+    except ValidityError as error:
+        _complain([str(error)])
+        return INVALID
+    except KeyboardInterrupt:
+        _complain(["interrupted"])
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader of a pipe has gone; keep the interpreter from complaining about it at exit.
+        with contextlib.suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+
+
+def _complain(problems: Sequence[str]) -> None:
+    for problem in problems:
+        print(f"beardyn: {problem}", file=sys.stderr)
+
+
+def _announce_on_stderr() -> None:
+    logger = logging.getLogger("beardyn")
+    if not logger.handlers:
+        handler = logging.StreamHandler()
+        handler.setFormatter(logging.Formatter("beardyn: %(message)s"))
+        logger.addHandler(handler)
+        logger.setLevel(logging.INFO)
+        logger.propagate = False
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,29 @@
+"""``beardyn schema``: JSON schema of the configuration files, for editors."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+KINDS = ("scene", "bearing", "lubricant", "vehicle", "effects")
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "schema",
+        help="JSON schema of a scene file, for editors",
+        description="Print the JSON schema of a configuration file. With the YAML extension of an editor: "
+        "`beardyn schema > scene.schema.json`, and as first line of the scene "
+        "`# yaml-language-server: $schema=scene.schema.json`.",
+    )
+    parser.add_argument("kind", nargs="?", choices=KINDS, default="scene", help="which file (scene)")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from beardyn_core.config import json_schema
+
+    print(json.dumps(json_schema(args.kind), indent=2))
+    return 0

@@ -1,0 +1,72 @@
+"""``beardyn view``: a recording in 3-D with its curves."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+from beardyn_core.errors import InputError
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "view",
+        help="replay a recording: the bearing in 3-D and its curves",
+        description="Replay a recording: the bearing in 3-D, forces, vibration, speeds, envelope spectrum. "
+        "Without an option the viewer opens in a window.",
+    )
+    parser.add_argument("recording", metavar="run.mcap")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--web", action="store_true", help="serve the viewer to a browser on this machine")
+    where.add_argument("--save", metavar="FILE.rrd", help="write a rerun file and open nothing")
+    where.add_argument("--screenshot", metavar="FILE.png", help="write a picture, without a screen too")
+    parser.add_argument("--port", type=int, help="port of the page with --web (a free one by default)")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command.
+
+    Returns
+    -------
+    int
+        0 done, 2 bad input.
+    """
+    try:
+        return _view(args)
+    except InputError as error:
+        print(error, file=sys.stderr)
+        return 2
+
+
+def _view(args: argparse.Namespace) -> int:
+    from beardyn_core.record import viewer
+    from beardyn_core.record.reading import read_run
+    from beardyn_core.record.rerun_view import save
+
+    if not (args.web or args.save or args.screenshot):
+        viewer.require_display()
+    recording = read_run(args.recording)
+    if recording.problem:
+        print(f"{recording.problem}; showing what is there", file=sys.stderr)
+    if args.save:
+        target = save(recording, args.save)
+        print(f"{target}: {target.stat().st_size / 1e6:.1f} MB; open it with: rerun {target}")
+        return 0
+    with tempfile.TemporaryDirectory(prefix="beardyn-view-") as folder:
+        target = save(recording, Path(folder) / f"{recording.path.stem}.rrd")
+        if args.screenshot:
+            print(viewer.take_picture(target, Path(args.screenshot)))
+        elif args.web:
+            with viewer.web_viewer(target, args.port) as page:
+                print(f"open {page.url}\nend with Ctrl-C", flush=True)
+                try:
+                    page.process.wait()
+                except KeyboardInterrupt:
+                    return 0
+        else:
+            return 0 if viewer.open_window(target) == 0 else 2
+    return 0

@@ -1,0 +1,155 @@
+"""The bearing file: geometry, masses, material, cage, with a source for every number."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from typing_extensions import Self
+
+from beardyn_core.bearing.geometry import Bearing, CageData
+from beardyn_core.bearing.material import Material
+from beardyn_core.bearing.profile import Profile
+from beardyn_core.config.file_model import (
+    Count,
+    FileModel,
+    Name,
+    NonNegative,
+    Number,
+    Positive,
+    PositiveVector,
+    SourcedModel,
+    Text,
+    problem,
+)
+from beardyn_core.config.units import DEG, GIGA, MEGA, MM, UM
+
+
+class ProfileKeys(FileModel):
+    """Generator profile of the rollers."""
+
+    kind: Literal["straight", "crowned", "logarithmic"] = "straight"
+    drop_um: NonNegative | None = Field(None, description="crowned: drop at the ends of the effective length")
+    design_pressure_MPa: Positive | None = Field(
+        None, description="logarithmic: contact pressure that the profile makes uniform"
+    )
+
+    @model_validator(mode="after")
+    def _fits_its_kind(self) -> Self:
+        wanted = {"straight": None, "crowned": "drop_um", "logarithmic": "design_pressure_MPa"}[self.kind]
+        for key in ("drop_um", "design_pressure_MPa"):
+            given = getattr(self, key) is not None
+            if given and key != wanted:
+                raise problem(f"gives {key}, which a {self.kind} profile does not have; remove it")
+            if not given and key == wanted:
+                raise problem(f"has no {key}; a {self.kind} profile needs it")
+        return self
+
+    def noun(self) -> Profile:
+        """The profile, SI."""
+        return Profile(self.kind, (self.drop_um or 0.0) / UM, (self.design_pressure_MPa or 0.0) * MEGA)
+
+
+class MaterialKeys(FileModel):
+    """Steel of rings and rollers."""
+
+    youngs_modulus_GPa: Annotated[Positive, Field(ge=10.0, le=1000.0)] = 206.0
+    poisson_ratio: Annotated[Number, Field(ge=0.0, lt=0.5)] = 0.3
+    density_kg_per_m3: Annotated[Positive, Field(ge=500.0, le=25000.0)] = 7830.0
+
+    def noun(self) -> Material:
+        """The material, SI."""
+        return Material(self.youngs_modulus_GPa * GIGA, self.poisson_ratio, self.density_kg_per_m3)
+
+
+class CageKeys(FileModel):
+    """Cage of one row."""
+
+    mass_kg: Positive
+    polar_inertia_kg_m2: Positive
+    transverse_inertia_kg_m2: Positive
+    circumferential_clearance_mm: Positive = Field(description="total, of a roller in its pocket")
+    axial_clearance_mm: Positive = Field(description="total, of a roller in its pocket")
+    stiffness_MN_per_m: Positive = Field(description="of one pocket contact")
+    damping_N_s_per_m: NonNegative = Field(description="of one pocket contact")
+
+    def noun(self) -> CageData:
+        """The cage data, SI."""
+        return CageData(
+            mass=self.mass_kg,
+            polar_inertia=self.polar_inertia_kg_m2,
+            transverse_inertia=self.transverse_inertia_kg_m2,
+            circumferential_clearance=self.circumferential_clearance_mm / MM,
+            axial_clearance=self.axial_clearance_mm / MM,
+            stiffness=self.stiffness_MN_per_m * MEGA,
+            damping=self.damping_N_s_per_m,
+        )
+
+
+class BearingKeys(SourcedModel):
+    """A double-row tapered roller bearing, O arrangement."""
+
+    name: Name
+    description: Text = ""
+    roller_count: Annotated[Count, Field(ge=4, le=60)] = Field(description="per row")
+    pitch_diameter_mm: Positive
+    roller_diameter_mm: Positive = Field(description="mean, at mid-length")
+    effective_length_mm: Positive = Field(description="of the raceway contact")
+    roller_length_mm: Positive
+    contact_angle_deg: Annotated[Positive, Field(lt=45.0)] = Field(description="roller axis to bearing axis")
+    cup_angle_deg: Positive | None = Field(
+        None, description="catalogue value, only compared with the closed one"
+    )
+    cone_angle_deg: Positive | None = Field(
+        None, description="catalogue value, only compared with the closed one"
+    )
+    angle_tolerance_deg: Positive = 0.25
+    row_spacing_mm: Positive = Field(description="between the roller mid-lengths of both rows")
+    sphere_ratio: Positive = Field(description="radius of the roller's large end over the apex distance")
+    rib_contact_height_mm: Positive = Field(description="above the cone raceway")
+    bore_mm: Positive
+    outer_diameter_mm: Positive
+    width_mm: Positive
+    end_play_mm: Annotated[Number, Field(ge=-0.5, le=2.0)] = Field(
+        description="total axial travel when mounted"
+    )
+    raceway_roughness_um: Positive = Field(description="composite rms")
+    rib_roughness_um: Positive = Field(description="composite rms")
+    profile: ProfileKeys = ProfileKeys()
+    material: MaterialKeys = MaterialKeys()
+    cage: CageKeys
+    cup_mass_kg: Positive
+    cup_inertia_kg_m2: PositiveVector = Field(description="about x, y, z through the bearing centre")
+    cone_mass_kg: Positive = Field(description="both cones and the spacer")
+
+    def noun(self) -> Bearing:
+        """The bearing, SI."""
+        return Bearing(
+            name=self.name,
+            description=self.description,
+            roller_count=self.roller_count,
+            pitch_diameter=self.pitch_diameter_mm / MM,
+            roller_diameter=self.roller_diameter_mm / MM,
+            effective_length=self.effective_length_mm / MM,
+            roller_length=self.roller_length_mm / MM,
+            contact_angle=self.contact_angle_deg * DEG,
+            row_spacing=self.row_spacing_mm / MM,
+            sphere_ratio=self.sphere_ratio,
+            rib_contact_height=self.rib_contact_height_mm / MM,
+            bore=self.bore_mm / MM,
+            outer_diameter=self.outer_diameter_mm / MM,
+            width=self.width_mm / MM,
+            end_play=self.end_play_mm / MM,
+            raceway_roughness=self.raceway_roughness_um / UM,
+            rib_roughness=self.rib_roughness_um / UM,
+            profile=self.profile.noun(),
+            material=self.material.noun(),
+            cage=self.cage.noun(),
+            cup_mass=self.cup_mass_kg,
+            cup_inertia=self.cup_inertia_kg_m2,
+            cone_mass=self.cone_mass_kg,
+            sources=tuple(self.sources.items()),
+            nominal_cup_angle=None if self.cup_angle_deg is None else self.cup_angle_deg * DEG,
+            nominal_cone_angle=None if self.cone_angle_deg is None else self.cone_angle_deg * DEG,
+            angle_tolerance=self.angle_tolerance_deg * DEG,
+        )

@@ -1,0 +1,101 @@
+"""Where configuration lies, and how a name becomes a file."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import site
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from beardyn_core.errors import InputError
+
+KINDS = ("bearings", "lubricants", "vehicles", "effects", "scenes")
+_SUFFIXES = (".yaml", ".yml")
+
+
+def _candidates() -> Iterator[Path]:
+    if chosen := os.environ.get("BEARDYN_CONFIG"):
+        yield Path(chosen)
+        return
+    yield Path(__file__).resolve().parents[2] / "config"  # a source checkout
+    prefixes = [sys.prefix, site.getuserbase(), *os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)]
+    for prefix in prefixes:
+        if prefix:
+            yield Path(prefix) / "share" / "beardyn" / "config"
+
+
+def config_folder() -> Path:
+    """Folder of the shipped configuration.
+
+    It is ``$BEARDYN_CONFIG`` when that is set; else the checkout's own, else ``share/beardyn/config`` of the
+    environment, of the user's packages or of a sourced ROS 2 workspace, whichever is there first.
+
+    Raises
+    ------
+    InputError
+        With every place searched, when there is none.
+    """
+    candidates = list(dict.fromkeys(_candidates()))
+    for folder in candidates:
+        if (folder / "scenes").is_dir() or (folder / "bearings").is_dir():
+            return folder
+    searched = ", ".join(str(folder) for folder in candidates)
+    raise InputError(
+        f"the configuration folder was not found; searched {searched}; "
+        "install with `pip install .` or set BEARDYN_CONFIG to the folder that holds bearings and scenes"
+    )
+
+
+def shipped_names(kind: str) -> tuple[str, ...]:
+    """Names of the shipped bearings, lubricants, vehicles, effects or scenes, sorted."""
+    folder = config_folder() / kind
+    return tuple(sorted(path.stem for path in folder.glob("*") if path.suffix in _SUFFIXES))
+
+
+def closest(word: str, words: Iterable[str]) -> str | None:
+    """The one of ``words`` that ``word`` was probably meant to be."""
+    by_fold = {candidate.casefold(): candidate for candidate in words}
+    found = difflib.get_close_matches(word.casefold(), by_fold, n=1, cutoff=0.6)
+    return by_fold[found[0]] if found else None
+
+
+def find(kind: str, name: str, beside: Path | None = None) -> Path:
+    """File of a named thing.
+
+    A name with a slash or a ``.yaml`` ending is a path, relative to ``beside`` first and to the working
+    folder second; any other name is a shipped one.
+
+    Parameters
+    ----------
+    kind : str
+        One of `KINDS`.
+    name : str
+    beside : Path, optional
+        Folder of the file that mentions the name.
+
+    Raises
+    ------
+    InputError
+        With the places searched or the names there are.
+    """
+    singular = "effects preset" if kind == "effects" else kind[:-1]
+    if "/" in name or os.sep in name or Path(name).suffix in _SUFFIXES:
+        places = [Path(name)] if beside is None else [beside / name, Path(name)]
+        for path in dict.fromkeys(places):
+            if path.is_file():
+                return path
+        searched = " and ".join(str(path.absolute()) for path in dict.fromkeys(places))
+        raise InputError(f"the {singular} file {name!r} was not found; searched {searched}")
+    folder = config_folder() / kind
+    for suffix in _SUFFIXES:
+        if (path := folder / f"{name}{suffix}").is_file():
+            return path
+    names = shipped_names(kind)
+    guess = closest(name, names)
+    hint = f"did you mean {guess}? " if guess else ""
+    raise InputError(
+        f"there is no {singular} {name!r} in {folder}; {hint}shipped are {', '.join(names) or 'none'}; "
+        "a file of your own is given by its path, ending in .yaml"
+    )

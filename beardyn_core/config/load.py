@@ -1,0 +1,230 @@
+"""From names and files to frozen nouns: references resolved, every mistake reported at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
+
+from pydantic import TypeAdapter, ValidationError
+
+from beardyn_core.bearing.consistency import check
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.config.bearing_file import BearingKeys
+from beardyn_core.config.effects_file import EffectsKeys, overlay
+from beardyn_core.config.file_model import FileModel
+from beardyn_core.config.folders import find
+from beardyn_core.config.lubricant_file import LubricantKeys
+from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
+from beardyn_core.config.scene_file import DefectKeys, SceneKeys
+from beardyn_core.config.vehicle_file import VehicleKeys
+from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
+from beardyn_core.effects import EffectSet
+from beardyn_core.errors import InputError
+from beardyn_core.rail.measured import read_measurement
+from beardyn_core.scene.operation import Vehicle
+from beardyn_core.scene.scene import Scene
+
+Noun = TypeVar("Noun", covariant=True)
+Keys = TypeVar("Keys", bound=FileModel)
+
+
+class _Describes(Protocol[Noun]):
+    def noun(self) -> Noun: ...
+
+
+def load_scene(
+    name: str | Path,
+    *,
+    effects: str | None = None,
+    tier: str | None = None,
+    duration: float | None = None,
+    laminae: int | None = None,
+    seed: int | None = None,
+) -> Scene:
+    """Scene of a shipped name or of a file.
+
+    Parameters
+    ----------
+    name : str or Path
+        A shipped scene, or the path of a YAML file.
+    effects : str, optional
+        Preset or file instead of the scene's effects.
+    tier : str, optional
+    duration : float, optional
+        [s].
+    laminae, seed : int, optional
+
+    Raises
+    ------
+    InputError
+        With every mistake in the scene and in the files it refers to.
+    """
+    path = find("scenes", str(name))
+    overrides: dict[Place, Any] = {
+        ("effects",): effects,
+        ("tier",): tier,
+        ("duration_s",): duration,
+        ("numerics", "laminae"): laminae,
+        ("seed",): seed,
+    }
+    given = {place: value for place, value in overrides.items() if value is not None}
+    return _Reading(read_file(path), str(path), path.parent).scene(given)
+
+
+def scene_from_text(text: str, label: str = "scene") -> Scene:
+    """Scene of a YAML text, such as the one recorded with a run; see `load_scene`."""
+    return _Reading(read_mapping(text, label), label, Path()).scene({})
+
+
+def load_bearing(name: str | Path) -> Bearing:
+    """Bearing of a shipped name or of a file; raises `InputError` with every mistake and contradiction."""
+    path = find("bearings", str(name))
+    bearing = _load(BearingKeys, path).noun()
+    if problems := check(bearing):
+        raise InputError([f"{path}: {_plain(problem)}" for problem in problems])
+    return bearing
+
+
+def load_lubricant(name: str | Path) -> Lubricant:
+    """Lubricant of a shipped name or of a file; raises `InputError` with every mistake."""
+    return _load(LubricantKeys, find("lubricants", str(name))).noun()
+
+
+def load_vehicle(name: str | Path) -> Vehicle:
+    """Vehicle of a shipped name or of a file; raises `InputError` with every mistake."""
+    return _load(VehicleKeys, find("vehicles", str(name))).noun()
+
+
+def load_effects(name: str | Path) -> EffectSet:
+    """Effects of a shipped preset or of a file; raises `InputError` with every mistake."""
+    return _load(EffectsKeys, find("effects", str(name))).noun()
+
+
+def _load(keys: type[Keys], path: Path) -> Keys:
+    try:
+        return keys.model_validate(read_file(path))
+    except ValidationError as error:
+        raise InputError(sentences(error, [Origin((), str(path))])) from None
+
+
+def _plain(problem: str) -> str:
+    return problem.removesuffix(".")
+
+
+class _Reading:
+    """One scene being read: the resolved mapping, where its parts came from, the mistakes so far."""
+
+    def __init__(self, data: dict[str, Any], label: str, folder: Path) -> None:
+        self.data = dict(data)
+        self.folder = folder
+        self.origins = [Origin((), label)]
+        self.problems: list[str] = []
+
+    def scene(self, overrides: dict[Place, Any]) -> Scene:
+        for place, value in overrides.items():
+            self._override(place, value)
+        self._inline(self.data, "bearing", "bearings", ())
+        self._inline(self.data, "lubricant", "lubricants", ())
+        self.data.setdefault("effects", "standard")
+        self._inline_effects()
+        operation = self.data.get("operation")
+        if isinstance(operation, dict):
+            operation = self.data["operation"] = dict(operation)
+            self._inline(operation, "vehicle", "vehicles", ("operation",))
+            self._locate_measurement(operation)
+        try:
+            keys = SceneKeys.model_validate(self.data)
+        except ValidationError as error:
+            self.problems += sentences(error, self.origins)
+        self._check_contradictions()
+        if self.problems:
+            raise InputError(list(dict.fromkeys(self.problems)))
+        return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
+
+    def _complain(self, place: Place, problems: list[str]) -> None:
+        label, key = located(place, self.origins)
+        self.problems += [f"{label}: {key}: {text}" for text in problems]
+
+    def _override(self, place: Place, value: Any) -> None:
+        owner = self.data
+        for key in place[:-1]:
+            inner = owner.get(str(key), {})
+            if not isinstance(inner, dict):
+                return  # the scene file is wrong here and is told so
+            copy = dict(inner)
+            owner[str(key)] = copy
+            owner = copy
+        owner[str(place[-1])] = value
+        self.origins.append(Origin(place, "override", place))
+
+    def _inline(self, owner: dict[str, Any], key: str, kind: str, above: Place) -> None:
+        """Replace a reference by what it refers to."""
+        name = owner.get(key)
+        if not isinstance(name, str):
+            return
+        place = (*above, key)
+        try:
+            path = find(kind, name, self.folder)
+        except InputError as error:
+            self._complain(place, error.problems)
+            return
+        try:
+            owner[key] = read_file(path)
+            self.origins.append(Origin(place, str(path)))
+        except InputError as error:
+            self.problems += error.problems
+
+    def _inline_effects(self) -> None:
+        given = self.data["effects"]
+        if isinstance(given, dict) and isinstance(given.get("preset"), str):
+            preset = {"effects": given["preset"]}
+            self._inline(preset, "effects", "effects", ())
+            if isinstance(preset["effects"], dict):
+                changes = {key: value for key, value in given.items() if key != "preset"}
+                self.data["effects"] = overlay(preset["effects"], changes)
+                base = self.origins[0]
+                self.origins += [Origin(("effects", key), base.label, ("effects", key)) for key in changes]
+        else:
+            self._inline(self.data, "effects", "effects", ())
+        resolved = self.data["effects"]
+        if isinstance(resolved, dict) and resolved is not given and "preset" in resolved:
+            self._complain(
+                ("effects", "preset"), ["a preset cannot start from another preset; write its effects out"]
+            )
+
+    def _locate_measurement(self, operation: dict[str, Any]) -> None:
+        path = operation.get("path")
+        if operation.get("kind") != "csv" or not isinstance(path, str):
+            return
+        located_path = (self.folder / path).resolve()
+        operation["path"] = str(located_path)
+        try:
+            read_measurement(located_path)
+        except InputError as error:
+            self.problems += error.problems
+
+    def _check_contradictions(self) -> None:
+        """What is well written and cannot be; parts with other mistakes are left out."""
+        bearing_keys = _valid(BearingKeys, self.data.get("bearing"))
+        if bearing_keys is None:
+            return
+        bearing = bearing_keys.noun()
+        label = max(
+            (origin for origin in self.origins if origin.place in ((), ("bearing",))),
+            key=lambda o: len(o.place),
+        ).label
+        problems = check(bearing)
+        self.problems += [f"{label}: {_plain(problem)}" for problem in problems]
+        defects = self.data.get("defects")
+        for index, given in enumerate(defects if isinstance(defects, list) and not problems else []):
+            defect = _valid(DefectKeys, given)
+            for problem in defect.contradictions(bearing) if defect else []:
+                self.problems.append(f"{self.origins[0].label}: {key_path(('defects', index))}.{problem}")
+
+
+def _valid(keys: type[Keys], data: Any) -> Keys | None:
+    try:
+        return TypeAdapter(keys).validate_python(data)
+    except ValidationError:
+        return None

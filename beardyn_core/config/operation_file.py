@@ -1,0 +1,222 @@
+"""Where load and speed come from, as written in a scene."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+from typing_extensions import Self
+
+from beardyn_core.config.file_model import (
+    FileModel,
+    NonNegative,
+    Number,
+    Positive,
+    Reference,
+    Text,
+    Vector,
+    kind_tag,
+    problem,
+)
+from beardyn_core.config.units import KMH, KN, MEGA, MM, RPM
+from beardyn_core.config.vehicle_file import VehicleKeys
+from beardyn_core.scene.operation import (
+    ConstantOperation,
+    Irregularity,
+    MeasuredOperation,
+    QuarterVehicleOperation,
+    Step,
+    SteppedOperation,
+    Track,
+)
+
+Triple = tuple[float, float, float]
+RotationalSpeed = Annotated[Number, Field(ge=-6000.0, le=6000.0)]
+VehicleSpeed = Annotated[NonNegative, Field(le=400.0)]
+
+
+def scaled(vector: Triple, factor: float) -> Triple:
+    """Vector in SI."""
+    x, y, z = vector
+    return (x * factor, y * factor, z * factor)
+
+
+class ConstantKeys(FileModel):
+    """One load and one speed."""
+
+    kind: Literal["constant"]
+    force_kN: Vector = Field(description="on the journal along x, y, z; +z lifts the journal")
+    moment_kN_m: Vector = (0.0, 0.0, 0.0)
+    speed_rpm: RotationalSpeed = Field(description="of the shaft, positive when rolling forward")
+
+    def noun(self) -> ConstantOperation:
+        """The constant operation, SI."""
+        return ConstantOperation(
+            scaled(self.force_kN, KN), self.speed_rpm * RPM, scaled(self.moment_kN_m, KN)
+        )
+
+
+class StepKeys(FileModel):
+    """One level of load and speed."""
+
+    time_s: NonNegative
+    force_kN: Vector
+    moment_kN_m: Vector = (0.0, 0.0, 0.0)
+    speed_rpm: RotationalSpeed
+
+    def noun(self) -> Step:
+        """The step, SI."""
+        return Step(
+            self.time_s, scaled(self.force_kN, KN), self.speed_rpm * RPM, scaled(self.moment_kN_m, KN)
+        )
+
+
+class SteppedKeys(FileModel):
+    """Levels of load and speed with smooth ramps in between."""
+
+    kind: Literal["stepped"]
+    ramp_s: Annotated[NonNegative, Field(le=3600.0)] = 0.2
+    steps: Annotated[tuple[StepKeys, ...], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        _ascending("steps", [step.time_s for step in self.steps])
+        for index, (one, two) in enumerate(zip(self.steps[1:], self.steps[2:], strict=False), start=2):
+            if two.time_s < one.time_s + self.ramp_s:
+                raise problem(
+                    f"steps[{index}].time_s is {two.time_s:g}; the ramp of the step before ends at "
+                    f"{one.time_s + self.ramp_s:g} s, it must not begin earlier"
+                )
+        return self
+
+    def noun(self) -> SteppedOperation:
+        """The stepped operation, SI."""
+        return SteppedOperation(tuple(step.noun() for step in self.steps), self.ramp_s)
+
+
+class SpeedPointKeys(FileModel):
+    """Speed of the vehicle at one time."""
+
+    time_s: NonNegative
+    speed_kmh: VehicleSpeed
+
+
+class IrregularityKeys(FileModel):
+    """Vertical irregularity of the rail."""
+
+    kind: Literal["german_low", "german_high", "fra_6", "none"] = "german_low"
+    shortest_wavelength_m: Annotated[Positive, Field(ge=0.02, le=50.0)] = 0.1
+    longest_wavelength_m: Annotated[Positive, Field(ge=1.0, le=1000.0)] = 150.0
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        if self.shortest_wavelength_m >= self.longest_wavelength_m:
+            raise problem(
+                f"shortest_wavelength_m is {self.shortest_wavelength_m:g}; it must be less than "
+                f"longest_wavelength_m, {self.longest_wavelength_m:g}"
+            )
+        return self
+
+    def noun(self) -> Irregularity:
+        """The irregularity, SI."""
+        return Irregularity(self.kind, self.shortest_wavelength_m, self.longest_wavelength_m)
+
+
+class TrackKeys(FileModel):
+    """Ballasted track under one rail; what is not given is the track of Zhai."""
+
+    rail_bending_stiffness_MN_m2: Positive | None = None
+    rail_mass_kg_per_m: Positive | None = None
+    sleeper_spacing_mm: Positive | None = None
+    pad_stiffness_MN_per_m: Positive | None = None
+    pad_damping_kN_s_per_m: Positive | None = None
+    sleeper_mass_kg: Positive | None = Field(None, description="half a sleeper")
+    ballast_stiffness_MN_per_m: Positive | None = None
+    ballast_damping_kN_s_per_m: Positive | None = None
+    ballast_mass_kg: Positive | None = None
+    subgrade_stiffness_MN_per_m: Positive | None = None
+    subgrade_damping_kN_s_per_m: Positive | None = None
+
+    def noun(self) -> Track:
+        """The track, SI."""
+        given = {
+            "rail_bending_stiffness": (self.rail_bending_stiffness_MN_m2, MEGA),
+            "rail_mass_per_length": (self.rail_mass_kg_per_m, 1.0),
+            "sleeper_spacing": (self.sleeper_spacing_mm, 1.0 / MM),
+            "pad_stiffness": (self.pad_stiffness_MN_per_m, MEGA),
+            "pad_damping": (self.pad_damping_kN_s_per_m, KN),
+            "sleeper_mass": (self.sleeper_mass_kg, 1.0),
+            "ballast_stiffness": (self.ballast_stiffness_MN_per_m, MEGA),
+            "ballast_damping": (self.ballast_damping_kN_s_per_m, KN),
+            "ballast_mass": (self.ballast_mass_kg, 1.0),
+            "subgrade_stiffness": (self.subgrade_stiffness_MN_per_m, MEGA),
+            "subgrade_damping": (self.subgrade_damping_kN_s_per_m, KN),
+        }
+        return Track(
+            **{field: value * factor for field, (value, factor) in given.items() if value is not None}
+        )
+
+
+class QuarterVehicleKeys(FileModel):
+    """The axlebox share of a vehicle on an irregular track."""
+
+    kind: Literal["quarter_vehicle"]
+    vehicle: Reference[VehicleKeys]
+    irregularity: IrregularityKeys = IrregularityKeys()
+    speed_profile: Annotated[tuple[SpeedPointKeys, ...], Field(min_length=1)] = Field(
+        description="linear in between, held before and after"
+    )
+    wheel_diameter_mm: Annotated[Positive, Field(ge=300.0, le=1500.0)] = 920.0
+    lateral_force_kN: Annotated[Number, Field(ge=-100.0, le=100.0)] = 0.0
+    track: TrackKeys = TrackKeys()
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        _ascending("speed_profile", [point.time_s for point in self.speed_profile], from_zero=False)
+        return self
+
+    def noun(self) -> QuarterVehicleOperation:
+        """The quarter vehicle operation, SI."""
+        assert isinstance(self.vehicle, VehicleKeys)  # references are resolved before
+        return QuarterVehicleOperation(
+            vehicle=self.vehicle.noun(),
+            irregularity=self.irregularity.noun(),
+            speed_profile=tuple((point.time_s, point.speed_kmh * KMH) for point in self.speed_profile),
+            wheel_diameter=self.wheel_diameter_mm / MM,
+            lateral_force=self.lateral_force_kN * KN,
+            track=self.track.noun(),
+        )
+
+
+class MeasuredKeys(FileModel):
+    """Load and speed of a CSV file."""
+
+    kind: Literal["csv"]
+    path: Text = Field(
+        description="relative to the scene file; columns as in the documentation of `rail.measured`"
+    )
+
+    def noun(self) -> MeasuredOperation:
+        """The measured operation, SI."""
+        return MeasuredOperation(Path(self.path))
+
+
+OperationKeys = Annotated[
+    Annotated[ConstantKeys, Tag("<constant>")]
+    | Annotated[SteppedKeys, Tag("<stepped>")]
+    | Annotated[QuarterVehicleKeys, Tag("<quarter_vehicle>")]
+    | Annotated[MeasuredKeys, Tag("<csv>")],
+    Discriminator(kind_tag),
+]
+
+
+def _ascending(owner: str, times: list[float], from_zero: bool = True) -> None:
+    if from_zero and times[0] != 0.0:
+        raise problem(f"{owner}[0].time_s is {times[0]:g}; the first must be 0")
+    for index, (one, two) in enumerate(pairwise(times), start=1):
+        if two <= one:
+            raise problem(
+                f"{owner}[{index}].time_s is {two:g}; it must be greater than the {one:g} before it"
+            )

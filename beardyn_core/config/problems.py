@@ -1,0 +1,155 @@
+"""From what the models refuse to sentences: file, key, value, what is allowed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import ValidationError
+
+from beardyn_core.config.folders import closest
+from beardyn_core.config.units import unit_of
+
+Place = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a part of the resolved scene was written.
+
+    Parameters
+    ----------
+    place : tuple
+        Keys of the part in the resolved scene.
+    label : str
+        File (or option) it was written in.
+    keys : tuple
+        Keys of the part in that file.
+    """
+
+    place: Place
+    label: str
+    keys: Place = ()
+
+
+_LIMITS = {
+    "greater_than": ("gt", "greater than"),
+    "greater_than_equal": ("ge", "at least"),
+    "less_than": ("lt", "less than"),
+    "less_than_equal": ("le", "at most"),
+}
+
+
+def key_path(place: Sequence[str | int]) -> str:
+    """Key path as it is written: ``defects[0].width_mm``."""
+    path = ""
+    for part in place:
+        path += f"[{part}]" if isinstance(part, int) else f"{'.' if path else ''}{part}"
+    return path
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, dict):
+        return "a mapping"
+    if isinstance(value, (list, tuple)) and len(value) > 6:
+        return f"a list of {len(value)}"
+    text = "empty" if value is None else repr(value)
+    return text if len(text) <= 80 else f"{text[:77]}..."
+
+
+def _expectation(found: Any, unit: str | None) -> str:
+    """What is allowed where a value was refused."""
+    kind, context = found["type"], found.get("ctx", {})
+    in_unit = f" in {unit}" if unit else ""
+    if kind in _LIMITS:
+        limit, words = _LIMITS[kind]
+        return f"it must be {words} {context[limit]:g}"
+    if kind in ("float_type", "float_parsing"):
+        plain = (
+            " (the unit is in the key, write the number alone)"
+            if unit and isinstance(found["input"], str)
+            else ""
+        )
+        return f"it must be a number{in_unit}{plain}"
+    if kind in ("int_type", "int_parsing", "int_from_float"):
+        return "it must be a whole number"
+    if kind == "finite_number":
+        return f"it must be a finite number{in_unit}"
+    if kind in ("string_type", "string_too_short"):
+        return "it must be a text"
+    if kind == "string_too_long":
+        return f"it must be at most {context['max_length']} characters"
+    if kind in ("bool_type", "bool_parsing"):
+        return "it must be true, false or a mapping of options"
+    if kind == "literal_error":
+        allowed = context["expected"].replace(" or ", ", ")
+        return f"allowed are {allowed}{_guess(found['input'], allowed)}"
+    if kind in ("model_type", "model_attributes_type", "dict_type"):
+        named = "a name or " if found["loc"][-1:] == ("<inline>",) else ""
+        return f"it must be {named}a mapping of keys to values"
+    if kind in ("tuple_type", "list_type"):
+        return f"it must be a list{in_unit}"
+    if kind == "too_short":
+        return f"it must have at least {context['min_length']} entries"
+    if kind == "too_long":
+        return f"it must have at most {context['max_length']} entries"
+    return str(found["msg"])
+
+
+def _guess(value: Any, allowed: str) -> str:
+    meant = closest(value, re.findall(r"'<?(\w+)>?'", allowed)) if isinstance(value, str) else None
+    return f"; did you mean '{meant}'?" if meant else ""
+
+
+def _complaint(key: str, found: Any, unit: str | None) -> str:
+    """Key, value and what is allowed."""
+    kind, value, context = found["type"], found["input"], found.get("ctx", {})
+    if kind == "unknown_key":
+        return f"{key}: {context['advice']}"
+    if kind == "missing" and isinstance(found["loc"][-1], int):
+        return f"{key} is {_value(value)}; it must have 3 entries"
+    if kind == "missing":
+        return f"{key} is missing; give {f'a number in {unit}' if unit else 'it'}"
+    if kind == "problem":
+        return f"{key}{': ' if key else ''}{context['advice']}"
+    if kind == "union_tag_invalid":
+        allowed = context["expected_tags"].replace("<", "").replace(">", "")
+        kind_given = value.get("kind") if isinstance(value, dict) else None
+        if kind_given is None:
+            return f"{key}.kind is missing; allowed are {allowed}"
+        return f"{key}.kind is {_value(kind_given)}; allowed are {allowed}{_guess(kind_given, allowed)}"
+    if kind == "union_tag_not_found":
+        return f"{key} is {_value(value)}; it must be a mapping with the key `kind`"
+    return f"{key} is {_value(value)}; {_expectation(found, unit)}"
+
+
+def sentences(error: ValidationError, origins: Sequence[Origin]) -> list[str]:
+    """One sentence for each mistake.
+
+    Parameters
+    ----------
+    error : ValidationError
+    origins : sequence of Origin
+    """
+    found = []
+    short_lists: set[Place] = set()
+    for mistake in error.errors():
+        place = tuple(part for part in mistake["loc"] if not str(part).startswith("<"))
+        if mistake["type"] == "missing" and isinstance(place[-1], int):
+            place = place[:-1]
+            if place in short_lists:
+                continue
+            short_lists.add(place)
+        unit = unit_of(str(next((part for part in reversed(place) if isinstance(part, str)), "")))
+        label, key = located(place, origins)
+        found.append(f"{label}: {_complaint(key, mistake, unit)}")
+    return found
+
+
+def located(place: Place, origins: Sequence[Origin]) -> tuple[str, str]:
+    """File that a place came from, and its key path in that file."""
+    owners = [origin for origin in origins if place[: len(origin.place)] == origin.place]
+    origin = max(owners, key=lambda owner: len(owner.place))
+    return origin.label, key_path((*origin.keys, *place[len(origin.place) :]))

@@ -1,0 +1,123 @@
+"""YAML in and out: the 1.2 core scalars, duplicate keys refused, faults of syntax as sentences."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Hashable
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from beardyn_core.errors import InputError
+
+
+def _float(text: str) -> float:
+    special = re.fullmatch(r"([-+]?)\.(inf|nan)", text.lower())
+    return float("".join(special.groups()) if special else text)
+
+
+class _Loader(yaml.SafeLoader):
+    """The safe loader without YAML 1.1 surprises.
+
+    ``on`` and ``no`` are words, ``1e-3`` is a number, ``12:30`` is not one, and a key given twice is refused.
+    """
+
+    yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        seen: dict[Any, int] = {}
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)
+            line = key_node.start_mark.line + 1
+            if not isinstance(key, str):
+                raise yaml.MarkedYAMLError(
+                    problem=f"the key {key!r} is not a word", problem_mark=key_node.start_mark
+                )
+            if key in seen:
+                raise yaml.MarkedYAMLError(
+                    problem=f"the key {key!r} is given twice (first in line {seen[key]})",
+                    problem_mark=key_node.start_mark,
+                )
+            seen[key] = line
+        return super().construct_mapping(node, deep=deep)
+
+
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:bool", re.compile(r"^(?:true|True|false|False)$"), list("tTfF")
+)
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:null", re.compile(r"^(?:~|null|Null|NULL|)$"), ["~", "n", "N", ""]
+)
+_Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?[0-9]+$"), list("-+0123456789"))
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(
+        r"^(?:[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?|[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN))$"
+    ),
+    list("-+0123456789."),
+)
+_Loader.add_constructor("tag:yaml.org,2002:int", lambda _, node: int(node.value))
+_Loader.add_constructor("tag:yaml.org,2002:float", lambda _, node: _float(node.value))
+
+
+class _Dumper(yaml.SafeDumper):
+    """The safe dumper that quotes what `_Loader` would read as something else than text."""
+
+    yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {  # noqa: RUF012
+        first: [
+            *_Loader.yaml_implicit_resolvers.get(first, []),
+            *yaml.SafeDumper.yaml_implicit_resolvers.get(first, []),
+        ]
+        for first in {*_Loader.yaml_implicit_resolvers, *yaml.SafeDumper.yaml_implicit_resolvers}
+    }
+
+
+def read_mapping(text: str, label: str) -> dict[str, Any]:
+    """Mapping written in a YAML text.
+
+    Parameters
+    ----------
+    text : str
+    label : str
+        What to call the text in a complaint, usually the file's path.
+
+    Raises
+    ------
+    InputError
+        With the line, when the text is not YAML, not a mapping or gives a key twice.
+    """
+    try:
+        data = yaml.load(text, Loader=_Loader)  # a subclass of the safe loader
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        where = f", line {mark.line + 1}, column {mark.column + 1}" if mark else ""
+        raise InputError(f"{label}{where}: {error.problem or error.context}") from None
+    except yaml.YAMLError as error:
+        raise InputError(f"{label}: {' '.join(str(error).split())}") from None
+    except RecursionError:
+        raise InputError(f"{label}: nested too deeply to be read") from None
+    if not isinstance(data, dict):
+        found = "empty" if data is None else f"a {type(data).__name__}"
+        raise InputError(
+            f"{label}: the file is {found}; it must be a mapping of keys to values (`key: value`)"
+        )
+    return data
+
+
+def read_file(path: Path) -> dict[str, Any]:
+    """Mapping in a YAML file; see `read_mapping`."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: the file is not UTF-8 text") from None
+    except OSError as error:
+        raise InputError(f"{path}: the file cannot be read ({error.strerror})") from None
+    return read_mapping(text, str(path))
+
+
+def write_mapping(data: dict[str, Any]) -> str:
+    """YAML text of a mapping, keys in their order; `read_mapping` gives the mapping back."""
+    return yaml.dump(
+        data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, default_flow_style=None, width=110
+    )

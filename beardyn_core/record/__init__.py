@@ -1,0 +1,19 @@
+"""Recording and viewing: the topic table, its messages, MCAP files, and the rerun view.
+
+In the order of the data:
+
+=================  =============================================================================
+topics             the one topic table: names, types, QoS
+messages           CDR bytes without ROS; templates for small messages; diagnostics, clock, text
+clouds             columns of samples as ``sensor_msgs/PointCloud2`` and back
+encoding           a `Block` as the messages of the topic table
+load_stream        load histories as messages of ``load/blocks`` and back
+description        what a run says about itself (the content of ``truth``)
+sinks              where blocks go: memory, MCAP
+mcap_writing       crash-safe MCAP that rosbag2 reads
+mcap_scanning      reading that survives a cut file
+reading            a recording as arrays
+reporting          what a recording holds, in words and as JSON
+meshes, views ...  the rerun view
+=================  =============================================================================
+"""

@@ -1,0 +1,161 @@
+"""Blocks of samples as ``sensor_msgs/PointCloud2``: self-describing named columns.
+
+Every cloud has ``sample``, a running index whose gaps prove loss, and ``t``, nanoseconds after the
+header's stamp.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.record.messages import decode, header, header_stamp, make, serialize
+
+CLOUD = "sensor_msgs/msg/PointCloud2"
+
+_DATATYPES = {"i1": 1, "u1": 2, "i2": 3, "u2": 4, "i4": 5, "u4": 6, "f4": 7, "f8": 8}
+_FORMATS = {number: np.dtype(f"<{code}") for code, number in _DATATYPES.items()}
+_STAMP = struct.Struct("<iI")
+_LENGTH = struct.Struct("<I")
+
+
+def column_dtype(columns: tuple[tuple[str, str], ...]) -> np.dtype[Any]:
+    """Aligned structured type of named columns, ``sample`` and ``t`` in front.
+
+    Parameters
+    ----------
+    columns : tuple of (name, code)
+        NumPy codes: ``u1``, ``u2``, ``u4``, ``f4``, ``f8``.
+    """
+    members = [("sample", "<u4"), ("t", "<u4"), *((name, f"<{code}") for name, code in columns)]
+    return np.dtype(members, align=True)
+
+
+class CloudTemplate:
+    """Cloud messages of one layout and frame.
+
+    Parameters
+    ----------
+    dtype : numpy structured dtype
+        Layout of a point.
+    frame : str
+    """
+
+    def __init__(self, dtype: np.dtype[Any], frame: str) -> None:
+        self.dtype = dtype
+        pattern = serialize(_cloud(np.zeros(0, dtype), 0, frame))
+        # An empty cloud ends with is_bigendian, point_step, row_step, the length of data, is_dense.
+        self._head = bytearray(pattern[:-1])
+        self._tail = pattern[-1:]
+        frame_size = len(frame.encode()) + 1
+        self._width_at = 4 + _align(12 + frame_size, 4) + 4
+
+    def encode(self, points: NDArray[Any], stamp_ns: int) -> bytes:
+        """CDR bytes of a cloud.
+
+        Parameters
+        ----------
+        points : structured array of the template's dtype
+        stamp_ns : int
+            Time that ``t`` counts from, [ns].
+        """
+        head = bytearray(self._head)
+        data = points.tobytes()
+        _STAMP.pack_into(head, 4, *divmod(int(stamp_ns), 1_000_000_000))
+        _LENGTH.pack_into(head, self._width_at, len(points))
+        _LENGTH.pack_into(head, len(head) - 8, len(data))
+        _LENGTH.pack_into(head, len(head) - 4, len(data))
+        return b"".join((head, data, self._tail))
+
+
+def points_of(
+    dtype: np.dtype[Any], first_sample: int, time_ns: NDArray[np.int64], stamp_ns: int
+) -> NDArray[Any]:
+    """Points with ``sample`` and ``t`` filled; the other columns are the caller's.
+
+    Parameters
+    ----------
+    dtype : numpy structured dtype
+    first_sample : int
+        Running index of the first point.
+    time_ns : int64 array, shape [point], [ns]
+    stamp_ns : int
+        At or before the first time, [ns].
+    """
+    points = np.zeros(len(time_ns), dtype)
+    points["sample"] = np.arange(first_sample, first_sample + len(time_ns)) & 0xFFFFFFFF
+    points["t"] = time_ns - stamp_ns
+    return points
+
+
+def encode_points(points: NDArray[Any], stamp_ns: int, frame: str) -> bytes:
+    """CDR bytes of a single cloud; `CloudTemplate` is the fast way for many."""
+    return serialize(_cloud(points, stamp_ns, frame))
+
+
+def cloud_to_arrays(cdr: bytes) -> NDArray[Any]:
+    """Structured array of any ``sensor_msgs/PointCloud2``, one column per field.
+
+    Parameters
+    ----------
+    cdr : bytes
+
+    Returns
+    -------
+    structured array, shape [point]
+        Index it by the field's name: ``cloud_to_arrays(cdr)["ax"]``.
+    """
+    message = decode(CLOUD, cdr)
+    dtype = np.dtype(
+        {
+            "names": [field.name for field in message.fields],
+            "formats": [
+                (_FORMATS[field.datatype], (field.count,)) if field.count > 1 else _FORMATS[field.datatype]
+                for field in message.fields
+            ],
+            "offsets": [field.offset for field in message.fields],
+            "itemsize": message.point_step,
+        }
+    )
+    if message.is_bigendian:
+        dtype = dtype.newbyteorder(">")
+    return np.frombuffer(message.data.tobytes(), dtype, count=message.width * message.height)
+
+
+def cloud_times(cdr: bytes, points: NDArray[Any]) -> NDArray[np.int64]:
+    """Time of each point of a cloud, shape [point], [ns]."""
+    return header_stamp(cdr) + points["t"].astype(np.int64)
+
+
+def _cloud(points: NDArray[Any], stamp_ns: int, frame: str) -> Any:
+    dtype = points.dtype
+    fields = []
+    for name, (member, offset, *_) in (dtype.fields or {}).items():
+        fields.append(
+            make(
+                "sensor_msgs/msg/PointField",
+                name=name,
+                offset=offset,
+                datatype=_DATATYPES[member.str[1:]],
+                count=1,
+            )
+        )
+    return make(
+        CLOUD,
+        header=header(stamp_ns, frame),
+        height=1,
+        width=len(points),
+        fields=fields,
+        is_bigendian=False,
+        point_step=dtype.itemsize,
+        row_step=dtype.itemsize * len(points),
+        data=np.frombuffer(points.tobytes(), np.uint8),
+        is_dense=True,
+    )
+
+
+def _align(size: int, to: int) -> int:
+    return -(-size // to) * to

@@ -1,0 +1,194 @@
+"""What a recording says about itself: scene, truth, bodies and the shape of the bearing."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
+from math import atan, sin, tan
+from typing import TYPE_CHECKING, Any
+
+from beardyn_core.bearing.kinematics import frequencies
+from beardyn_core.errors import InputError
+from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.load import LoadHistory
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.scene.scene import Scene
+
+DESCRIPTION_KEY = "description"
+
+
+@dataclass(frozen=True)
+class BearingShape:
+    """Dimensions that drawing and signal analysis need, stored with every run, [m], [rad].
+
+    Parameters
+    ----------
+    name : str
+    roller_count : int
+        Per row.
+    pitch_diameter, roller_diameter : float
+        Through the roller centres; mean of the roller.
+    roller_length : float
+        Whole length of a roller.
+    contact_angle : float
+        Angle of the roller axis against the bearing axis.
+    row_spacing : float
+        Between the roller centres of the rows.
+    bore, outer_diameter, width : float
+        Envelope.
+    rib_contact_height : float
+        Of the rib contact above the cone raceway.
+    """
+
+    name: str
+    roller_count: int
+    pitch_diameter: float
+    roller_diameter: float
+    roller_length: float
+    contact_angle: float
+    row_spacing: float
+    bore: float
+    outer_diameter: float
+    width: float
+    rib_contact_height: float
+
+    @classmethod
+    def of(cls, bearing: Bearing) -> BearingShape:
+        """Shape of a bearing."""
+        return cls(**{member.name: getattr(bearing, member.name) for member in fields(cls)})
+
+    @property
+    def apex_distance(self) -> float:
+        """From the common apex to the middle of a roller, along the roller axis, [m]."""
+        return self.pitch_diameter / (2.0 * sin(self.contact_angle))
+
+    @property
+    def half_angle(self) -> float:
+        """Half the cone angle of a roller, [rad]."""
+        return atan(self.roller_diameter / (2.0 * self.apex_distance))
+
+    @property
+    def cup_angle(self) -> float:
+        """Half the cone angle of the cup raceway, [rad]."""
+        return self.contact_angle + self.half_angle
+
+    @property
+    def cone_angle(self) -> float:
+        """Half the cone angle of the cone raceway, [rad]."""
+        return self.contact_angle - self.half_angle
+
+    @property
+    def large_end_radius(self) -> float:
+        """Radius of a roller at its large end, [m]."""
+        return (self.apex_distance + self.roller_length / 2.0) * tan(self.half_angle)
+
+    @property
+    def small_end_radius(self) -> float:
+        """Radius of a roller at its small end, [m]."""
+        return (self.apex_distance - self.roller_length / 2.0) * tan(self.half_angle)
+
+    @property
+    def fault_frequencies(self) -> dict[str, float]:
+        """FTF, BPFO, BPFI, BSF of one row per shaft revolution, cup at rest."""
+        found = frequencies(self.roller_count, self.pitch_diameter, self.roller_diameter, self.contact_angle)
+        return {"FTF": found.ftf, "BPFO": found.bpfo, "BPFI": found.bpfi, "BSF": found.bsf}
+
+
+@dataclass(frozen=True)
+class RunDescription:
+    """What a sink is told before the first block, and what a file alone must be able to say.
+
+    Parameters
+    ----------
+    scene : str
+        Name of the scene.
+    scene_text : str
+        Resolved YAML of the scene.
+    shape : BearingShape
+    body_names : tuple of str
+        Order of the bodies in `Block.body_pose`.
+    sensor_names : tuple of str
+        Order of the accelerometers in `Block.acceleration`.
+    defects : tuple of Spall
+    truth : mapping
+        What ``Twin.truth`` returns, JSON-able: faults, fault frequencies, versions, effects, seed.
+    load : LoadHistory or None
+        Load on the journal when it is known in advance (desk run): written to the file as
+        ``load/blocks``. A live graph records the topic instead.
+    """
+
+    scene: str
+    scene_text: str
+    shape: BearingShape
+    body_names: tuple[str, ...]
+    sensor_names: tuple[str, ...]
+    defects: tuple[Spall, ...]
+    truth: Mapping[str, Any]
+    load: LoadHistory | None = None
+
+    @classmethod
+    def of(
+        cls,
+        scene: Scene,
+        truth: Mapping[str, Any],
+        body_names: Sequence[str],
+        load: LoadHistory | None = None,
+    ) -> RunDescription:
+        """Description of a run of a scene."""
+        return cls(
+            scene=scene.name,
+            scene_text=scene.source_text,
+            shape=BearingShape.of(scene.bearing),
+            body_names=tuple(body_names),
+            sensor_names=tuple(sensor.name for sensor in scene.sensors),
+            defects=scene.defects,
+            truth=truth,
+            load=load,
+        )
+
+    @property
+    def roller_count(self) -> int:
+        """Rollers per row."""
+        return self.shape.roller_count
+
+    def to_json(self) -> str:
+        """Content of the ``truth`` topic: the truth, and the description under its own key."""
+        description = {
+            "scene": self.scene,
+            "scene_text": self.scene_text,
+            "shape": asdict(self.shape),
+            "body_names": list(self.body_names),
+            "sensor_names": list(self.sensor_names),
+            "defects": [asdict(defect) for defect in self.defects],
+        }
+        return json.dumps({**self.truth, DESCRIPTION_KEY: description})
+
+    @classmethod
+    def from_json(cls, text: str) -> RunDescription:
+        """Description from the content of the ``truth`` topic.
+
+        Raises
+        ------
+        InputError
+            The text is not a description written by `to_json`.
+        """
+        try:
+            truth = json.loads(text)
+            stored = truth.pop(DESCRIPTION_KEY)
+            return cls(
+                scene=stored["scene"],
+                scene_text=stored["scene_text"],
+                shape=BearingShape(**stored["shape"]),
+                body_names=tuple(stored["body_names"]),
+                sensor_names=tuple(stored["sensor_names"]),
+                defects=tuple(Spall(**defect) for defect in stored["defects"]),
+                truth=truth,
+            )
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise InputError(
+                f"the truth of the recording does not describe a beardyn run ({error!r}); "
+                "it was written by another program or another version"
+            ) from error

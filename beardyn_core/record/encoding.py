@@ -1,0 +1,202 @@
+"""A block as the messages of the topic table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.observe.block import CONTACT_FIELDS, Block
+from beardyn_core.record.clouds import CloudTemplate, column_dtype, points_of
+from beardyn_core.record.messages import Diagnostic, Template, header, make
+from beardyn_core.record.topics import FRAME, IMU, JOINTS, WRENCH, vibration_topic
+from beardyn_core.scene.load import WRENCH_AXES
+
+POSE_AXES = ("x", "y", "z", "qx", "qy", "qz", "qw")
+TWIST_AXES = ("vx", "vy", "vz", "wx", "wy", "wz")
+WAVEFORM = column_dtype(tuple((axis, "f4") for axis in WRENCH_AXES))
+VIBRATION = column_dtype((("ax", "f4"), ("ay", "f4"), ("az", "f4")))
+BODIES = column_dtype((("body", "u2"), *((n, "f4") for n in POSE_AXES + TWIST_AXES)))
+CONTACTS = column_dtype(
+    (("row", "u1"), ("roller", "u1"), ("kind", "u1"), *((name, "f4") for name in CONTACT_FIELDS))
+)
+
+
+def _vector(values: NDArray[np.float64]) -> Any:
+    return make("geometry_msgs/msg/Vector3", x=values[0], y=values[1], z=values[2])
+
+
+def force_template(frame: str) -> Template:
+    """Messages of ``force``: slot ``wrench``."""
+
+    def build(wrench: NDArray[np.float64]) -> Any:
+        content = make("geometry_msgs/msg/Wrench", force=_vector(wrench[:3]), torque=_vector(wrench[3:]))
+        return make(WRENCH, header=header(0, frame), wrench=content)
+
+    return Template(build, {"wrench": 6})
+
+
+def imu_template(frame: str) -> Template:
+    """Messages of ``imu``: slot ``acceleration``; orientation and rate are marked as not known."""
+    unknown = np.zeros(9)
+    unknown[0] = -1.0
+
+    def build(acceleration: NDArray[np.float64]) -> Any:
+        return make(
+            IMU,
+            header=header(0, frame),
+            orientation=make("geometry_msgs/msg/Quaternion", x=0.0, y=0.0, z=0.0, w=1.0),
+            orientation_covariance=unknown,
+            angular_velocity=_vector(np.zeros(3)),
+            angular_velocity_covariance=unknown,
+            linear_acceleration=_vector(acceleration),
+            linear_acceleration_covariance=np.zeros(9),
+        )
+
+    return Template(build, {"acceleration": 3})
+
+
+def joint_template(names: tuple[str, ...], frame: str, effort: bool) -> Template:
+    """Messages of joint states: slots ``position``, ``velocity`` and, when asked for, ``effort``."""
+    slots = {"position": len(names), "velocity": len(names), **({"effort": len(names)} if effort else {})}
+
+    def build(**numbers: NDArray[np.float64]) -> Any:
+        return make(
+            JOINTS,
+            header=header(0, frame),
+            name=list(names),
+            position=numbers["position"],
+            velocity=numbers["velocity"],
+            effort=numbers.get("effort", np.zeros(0)),
+        )
+
+    return Template(build, slots)
+
+
+SHAFT_JOINT = ("shaft",)
+
+
+def orbit_joints(roller_count: int) -> tuple[str, ...]:
+    """Joint names of ``joint_states``."""
+    rollers = (f"roller_{row}_{k}" for row in range(2) for k in range(roller_count))
+    return ("cage_0", "cage_1", *rollers, "shaft")
+
+
+class BlockEncoder:
+    """Blocks of one run as CDR messages of the topic table.
+
+    Parameters
+    ----------
+    roller_count : int
+        Rollers per row.
+    sensor_names : tuple of str
+        Accelerometers, in the order of `Block.acceleration`.
+    frame : str
+        Frame of every header.
+    """
+
+    def __init__(self, roller_count: int, sensor_names: tuple[str, ...], frame: str = FRAME) -> None:
+        self._sensor_names = sensor_names
+        self._force = force_template(frame)
+        self._imu = imu_template(frame)
+        self._shaft = joint_template(SHAFT_JOINT, frame, effort=False)
+        self._joints = joint_template(orbit_joints(roller_count), frame, effort=True)
+        self._waveform = CloudTemplate(WAVEFORM, frame)
+        self._vibration = CloudTemplate(VIBRATION, frame)
+        self._bodies = CloudTemplate(BODIES, frame)
+        self._contacts = CloudTemplate(CONTACTS, frame)
+
+    def encode(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
+        """Messages of a block: topic name, stamp [ns], CDR bytes; each topic in the order of time."""
+        yield from self._trend(block)
+        if len(block.waveform_time_ns):
+            yield from self._waveforms(block)
+        if len(block.snapshot_time_ns):
+            yield from self._snapshots(block)
+
+    def _trend(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
+        times = block.trend_time_ns
+        for name, messages in (
+            ("force", self._force.encode(times, wrench=block.force)),
+            ("imu", self._imu.encode(times, acceleration=block.specific_force)),
+            (
+                "shaft",
+                self._shaft.encode(
+                    times, position=block.shaft_angle[:, None], velocity=block.shaft_speed[:, None]
+                ),
+            ),
+        ):
+            for stamp, cdr in zip(times.tolist(), messages, strict=True):
+                yield name, stamp, cdr
+        every = slice(block.trend_sample % 2, None, 2)
+        count = len(times[every])
+        position = np.hstack(
+            (
+                block.cage_angle[every],
+                block.roller_angle[every].reshape(count, -1),
+                block.shaft_angle[every, None],
+            )
+        )
+        velocity = np.hstack(
+            (
+                block.cage_speed[every],
+                block.roller_speed[every].reshape(count, -1),
+                block.shaft_speed[every, None],
+            )
+        )
+        effort = np.zeros_like(position)
+        effort[:, -1] = block.shaft_torque[every]
+        messages = self._joints.encode(times[every], position=position, velocity=velocity, effort=effort)
+        for stamp, cdr in zip(times[every].tolist(), messages, strict=True):
+            yield "joint_states", stamp, cdr
+
+    def _waveforms(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
+        times = block.waveform_time_ns
+        stamp = int(times[0])
+        points = points_of(WAVEFORM, block.waveform_sample, times, stamp)
+        for i, axis in enumerate(WRENCH_AXES):
+            points[axis] = block.force_waveform[:, i]
+        yield "force_waveform", stamp, self._waveform.encode(points, stamp)
+        for sensor in range(len(self._sensor_names)):
+            points = points_of(VIBRATION, block.waveform_sample, times, stamp)
+            for i, axis in enumerate(("ax", "ay", "az")):
+                points[axis] = block.acceleration[sensor, :, i]
+            yield vibration_topic(sensor, self._sensor_names), stamp, self._vibration.encode(points, stamp)
+
+    def _snapshots(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
+        times = block.snapshot_time_ns
+        stamp = int(times[0])
+        bodies = block.body_pose.shape[1]
+        points = points_of(BODIES, 0, np.repeat(times, bodies), stamp)
+        samples = (block.snapshot_sample + np.arange(len(times))) & 0xFFFFFFFF
+        points["sample"] = np.repeat(samples, bodies)
+        points["body"] = np.tile(np.arange(bodies), len(times))
+        numbers = np.concatenate((block.body_pose, block.body_twist), axis=2).reshape(-1, 13)
+        for i, name in enumerate((BODIES.names or ())[3:]):
+            points[name] = numbers[:, i]
+        yield "bodies", stamp, self._bodies.encode(points, stamp)
+
+        snapshot, row, roller, kind = np.nonzero(np.any(block.contacts[..., 3:6] != 0.0, axis=-1))
+        points = points_of(CONTACTS, 0, times[snapshot], stamp)
+        points["sample"] = samples[snapshot]
+        points["row"], points["roller"], points["kind"] = row, roller, kind
+        numbers = block.contacts[snapshot, row, roller, kind]
+        for i, name in enumerate(CONTACT_FIELDS):
+            points[name] = numbers[:, i]
+        yield "contacts", stamp, self._contacts.encode(points, stamp)
+
+
+def block_diagnostic(block: Block) -> Diagnostic:
+    """How a block was computed: real-time factor, status bits, energy residual."""
+    span = (block.end_ns - block.start_ns) * 1e-9
+    values = [
+        ("block", str(block.index)),
+        ("real_time_factor", f"{span / max(block.wall_s, 1e-9):.4g}"),
+        ("status", str(block.status)),
+    ]
+    if block.audit is not None:
+        values.append(("energy_residual", f"{block.audit.residual:.3e}"))
+    sentence = "running" if block.status == 0 else f"the model left its validity, status {block.status}"
+    return Diagnostic("beardyn twin", 0 if block.status == 0 else 2, sentence, tuple(values))

@@ -1,0 +1,49 @@
+"""Envelope order spectrum of a whole recording, for the picture beside the bearing."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from beardyn_core.observe.diagnosis import MonitorSettings
+from beardyn_core.observe.features import OrderSpectrum, envelope, order_spectrum, resample_by_angle
+from beardyn_core.record.reading import Joints, Samples
+
+LEAST_REVOLUTIONS = 4.0
+
+
+def envelope_order_spectrum(
+    vibration: Samples, shaft: Joints, highest_order: float, settings: MonitorSettings | None = None
+) -> OrderSpectrum | None:
+    """Spectrum of the band-passed envelope over all axes, resampled over the shaft angle.
+
+    Parameters
+    ----------
+    vibration : Samples
+        Acceleration, shape [sample, 3], [m/s^2].
+    shaft : Joints
+        Tachometer.
+    highest_order : float
+        Where the result ends, [-].
+    settings : MonitorSettings, optional
+        Band and angular grid; by default those of the monitor.
+
+    Returns
+    -------
+    OrderSpectrum or None
+        ``None`` when the shaft makes fewer than four revolutions: nothing to resolve then.
+    """
+    settings = settings or MonitorSettings()
+    if len(vibration) < 1024 or len(shaft) < 2:
+        return None
+    # Samples outside the tachometer's span have no angle.
+    known = (vibration.time_ns >= shaft.time_ns[0]) & (vibration.time_ns <= shaft.time_ns[-1])
+    time, signal = vibration.seconds[known], vibration.values[known]
+    if len(time) < 1024:
+        return None
+    angle = np.interp(time, shaft.time_ns * 1e-9, shaft.position[:, 0])
+    angle = angle if angle[-1] > angle[0] else -angle
+    if (angle[-1] - angle[0]) / (2.0 * np.pi) < LEAST_REVOLUTIONS or np.any(np.diff(angle) <= 0.0):
+        return None
+    rate = (len(time) - 1) / (time[-1] - time[0])
+    tracked = resample_by_angle(envelope(signal, rate, settings.band), angle, settings.samples_per_revolution)
+    return order_spectrum(tracked, settings.samples_per_revolution, highest_order, settings.background_width)

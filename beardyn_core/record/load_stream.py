@@ -1,0 +1,54 @@
+"""Load on the journal as messages of ``load/blocks``, float64 so that a replay is bit-identical."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.record.clouds import cloud_times, cloud_to_arrays, column_dtype, encode_points, points_of
+from beardyn_core.record.topics import FRAME
+from beardyn_core.scene.load import WRENCH_AXES, LoadHistory
+
+BOGIE_AXES = ("ux", "uy", "uz")
+LOAD = column_dtype(tuple((name, "f8") for name in (*WRENCH_AXES, "shaft_speed", *BOGIE_AXES)))
+LONGEST_NS = 0xFFFFFFFF
+
+
+def encode_load(history: LoadHistory, first_sample: int, frame: str = FRAME) -> bytes:
+    """CDR of one message of ``load/blocks``; an empty history ends the stream.
+
+    Parameters
+    ----------
+    history : LoadHistory
+        At most 4.29 s, which is what ``t`` can count.
+    first_sample : int
+        Running index of the first sample since the start of the stream.
+    frame : str
+    """
+    if len(history) and history.time_ns[-1] - history.time_ns[0] > LONGEST_NS:
+        raise ValueError("one message of load/blocks holds at most 4.29 s: send the history in parts")
+    stamp = int(history.time_ns[0]) if len(history) else 0
+    points = points_of(LOAD, first_sample, history.time_ns, stamp)
+    for i, axis in enumerate(WRENCH_AXES):
+        points[axis] = history.wrench[:, i]
+    points["shaft_speed"] = history.shaft_speed
+    for i, axis in enumerate(BOGIE_AXES):
+        points[axis] = history.bogie[:, i]
+    return encode_points(points, stamp, frame)
+
+
+def decode_load(cdr: bytes) -> tuple[LoadHistory, NDArray[np.int64]]:
+    """Load history and running sample indices of one message of ``load/blocks``.
+
+    A cloud without bogie displacement means zero displacement.
+    """
+    points = cloud_to_arrays(cdr)
+    names = points.dtype.names or ()
+    zero = np.zeros(len(points))
+    history = LoadHistory(
+        cloud_times(cdr, points),
+        np.stack([points[axis].astype(float) for axis in WRENCH_AXES], axis=1),
+        points["shaft_speed"].astype(float),
+        np.stack([points[a].astype(float) if a in names else zero for a in BOGIE_AXES], axis=1),
+    )
+    return history, points["sample"].astype(np.int64)

@@ -1,0 +1,244 @@
+"""Reading MCAP from the front, up to where the file still makes sense.
+
+Ordinary readers begin at the summary in the end of a file and reject one that was cut off. Here the
+records are read in the order they were written, so everything up to the last complete chunk is found.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import zstandard
+from mcap.exceptions import McapError
+from mcap.records import Attachment, Channel, Chunk, McapRecord, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader, breakup_chunk
+from mcap.writer import CompressionType, Writer
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.mcap_writing import END_RECORD
+
+LONGEST_RECORD = 256 * 1024 * 1024
+MAGIC = b"\x89MCAP0\r\n"
+
+# What the mcap library and the decompressor raise on bytes that were cut or damaged.
+_DAMAGE = (
+    McapError,
+    zstandard.ZstdError,
+    struct.error,
+    ValueError,
+    KeyError,
+    IndexError,
+    EOFError,
+    MemoryError,
+)
+
+
+@dataclass(frozen=True)
+class RecordedMessage:
+    """One message of a file.
+
+    Parameters
+    ----------
+    topic, type : str
+    log_time : int
+        [ns].
+    cdr : bytes
+    """
+
+    topic: str
+    type: str
+    log_time: int
+    cdr: bytes
+
+
+class McapScan:
+    """A pass over a file from the front; iterate `messages`, then ask what was found.
+
+    Parameters
+    ----------
+    path : Path
+
+    Attributes
+    ----------
+    attachments : dict of str to bytes
+    metadata : dict of str to dict of str to str
+    channels : dict of int to Channel
+    schemas : dict of int to Schema
+    size_bytes, usable_bytes : int
+        Of the file, and up to the end of the last record that could be used.
+    complete : bool
+        The file was closed properly; known after the pass.
+    problem : str
+        Where and why reading stopped, a sentence; empty when complete.
+
+    Raises
+    ------
+    InputError
+        The file is absent or is not MCAP at all.
+    """
+
+    def __init__(self, path: Path | str) -> None:
+        self.path = Path(path)
+        try:
+            self.size_bytes = self.path.stat().st_size
+            with self.path.open("rb") as file:
+                start = file.read(len(MAGIC))
+        except OSError as error:
+            raise InputError(
+                f"{self.path}: cannot read the recording ({error.strerror}); give the path of an .mcap file"
+            ) from error
+        if start != MAGIC[: len(start)] or not start:
+            what = "is empty" if not start else "is not an MCAP file"
+            raise InputError(f"{self.path}: the file {what}; give a recording made by beardyn or rosbag2")
+        self.attachments: dict[str, bytes] = {}
+        self.metadata: dict[str, dict[str, str]] = {}
+        self.channels: dict[int, Channel] = {}
+        self.schemas: dict[int, Schema] = {}
+        self.usable_bytes = 0
+        self.complete = False
+        self.problem = ""
+
+    def messages(self) -> Iterator[RecordedMessage]:
+        """Messages in the order of the file."""
+        for message in self.raw_messages():
+            channel = self.channels[message.channel_id]
+            yield RecordedMessage(
+                channel.topic, self.schemas[channel.schema_id].name, message.log_time, message.data
+            )
+
+    def raw_messages(self) -> Iterator[Message]:
+        """Messages as MCAP records; their channels and schemas are in the attributes by then."""
+        with self.path.open("rb") as file:
+            reader = StreamReader(file, emit_chunks=True, record_size_limit=LONGEST_RECORD)
+            records = iter(reader.records)
+            while True:
+                try:
+                    record = next(records)
+                    inside = (
+                        breakup_chunk(record, validate_crc=True) if isinstance(record, Chunk) else [record]
+                    )
+                    found = self._sort(inside)
+                except StopIteration:
+                    # The reader ends without an error only behind the footer and the closing magic.
+                    self.complete = True
+                    return
+                except _DAMAGE as error:
+                    self._stopped(error)
+                    return
+                self.usable_bytes = file.tell()
+                yield from found
+
+    def _sort(self, records: Sequence[McapRecord]) -> list[Message]:
+        messages = []
+        for record in records:
+            if isinstance(record, Message):
+                if self.channels[record.channel_id].schema_id not in self.schemas:
+                    raise KeyError(f"channel {record.channel_id} has no schema")
+                messages.append(record)
+            elif isinstance(record, Schema):
+                self.schemas[record.id] = record
+            elif isinstance(record, Channel):
+                self.channels[record.id] = record
+            elif isinstance(record, Attachment):
+                self.attachments[record.name] = record.data
+            elif isinstance(record, Metadata):
+                self.metadata[record.name] = dict(record.metadata)
+        return messages
+
+    def _stopped(self, error: Exception) -> None:
+        reason = f" ({error})" if str(error) else ""
+        self.problem = (
+            f"{self.path}: the file was not closed properly; usable up to byte {self.usable_bytes} "
+            f"of {self.size_bytes}{reason}"
+        )
+
+
+@dataclass(frozen=True)
+class Recovery:
+    """What was found in a cut-off file.
+
+    Parameters
+    ----------
+    path, target : Path
+        The cut file and the repaired one.
+    size_bytes, usable_bytes : int
+    message_count : int
+    seconds : float
+        From the first to the last message found.
+    """
+
+    path: Path
+    target: Path
+    size_bytes: int
+    usable_bytes: int
+    message_count: int
+    seconds: float
+
+    def sentence(self) -> str:
+        """The recovery in words."""
+        return (
+            f"{self.path} was cut off: recovered {self.message_count} messages, {self.seconds:.3f} s, from "
+            f"{self.usable_bytes} of {self.size_bytes} bytes into {self.target}"
+        )
+
+
+def recover(path: Path | str, target: Path | str | None = None) -> Recovery:
+    """Copy everything that is readable in a cut-off file into a properly closed one.
+
+    Parameters
+    ----------
+    path : Path
+    target : Path, optional
+        ``<name>.recovered.mcap`` beside the file by default.
+
+    Raises
+    ------
+    InputError
+        Nothing is recoverable, or the target cannot be written.
+    """
+    source = Path(path)
+    target = Path(target) if target is not None else source.with_suffix(".recovered.mcap")
+    scan = McapScan(source)
+    messages = iter(scan.raw_messages())
+    first = next(messages, None)
+    if first is None:
+        raise InputError(
+            f"{source}: the file holds no complete chunk, nothing can be recovered from its "
+            f"{scan.size_bytes} bytes"
+        )
+    try:
+        file = target.open("wb")
+    except OSError as error:
+        raise InputError(f"{target}: cannot write the recovered recording ({error.strerror})") from error
+    count, begin, end = 0, first.log_time, first.log_time
+    with file:
+        writer = Writer(file, compression=CompressionType.ZSTD)
+        writer.start(profile="ros2", library="beardyn recover")
+        schemas: dict[int, int] = {}
+        channels: dict[int, int] = {}
+        message: Message | None = first
+        while message is not None:
+            channel = scan.channels[message.channel_id]
+            if channel.id not in channels:
+                schema = scan.schemas[channel.schema_id]
+                if schema.id not in schemas:
+                    schemas[schema.id] = writer.register_schema(schema.name, schema.encoding, schema.data)
+                channels[channel.id] = writer.register_channel(
+                    channel.topic, channel.message_encoding, schemas[schema.id], dict(channel.metadata)
+                )
+            writer.add_message(
+                channels[channel.id], message.log_time, message.data, message.publish_time, message.sequence
+            )
+            count, begin, end = count + 1, min(begin, message.log_time), max(end, message.log_time)
+            message = next(messages, None)
+        for name, data in scan.attachments.items():
+            writer.add_attachment(0, 0, name, "application/octet-stream", data)
+        for name, facts in scan.metadata.items():
+            writer.add_metadata(name, facts)
+        if END_RECORD not in scan.metadata:
+            writer.add_metadata(END_RECORD, {"status": f"cut off; recovered from {source.name}"})
+        writer.finish()
+    return Recovery(source, target, scan.size_bytes, scan.usable_bytes, count, (end - begin) * 1e-9)

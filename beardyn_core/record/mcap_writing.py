@@ -1,0 +1,210 @@
+"""Crash-safe MCAP files of raw CDR messages that rosbag2, Foxglove and rerun read."""
+
+from __future__ import annotations
+
+import json
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from time import monotonic
+
+import yaml
+from mcap.well_known import MessageEncoding, SchemaEncoding
+from mcap.writer import CompressionType, Writer
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.messages import typestore
+from beardyn_core.record.topics import NAMESPACE, Topic, topic
+
+CHUNK_BYTES = 128 * 1024
+FLUSH_SECONDS = 0.5
+DESCRIPTION_FILE = "run.json"
+SCENE_FILE = "scene.yaml"
+SUMMARY_RECORD = "beardyn"
+END_RECORD = "beardyn_end"
+
+_FOREVER = {"sec": 9223372036, "nsec": 854775807}
+
+
+class McapWriter:
+    """MCAP file, profile ``ros2``, that a kill leaves readable up to the last flush.
+
+    Messages are gathered into zstd chunks of at most `CHUNK_BYTES`; `flush_if_due`, which every
+    `add` calls, hands the chunk in progress to the operating system twice a second. A caller that
+    can fall silent calls it from a timer too.
+
+    Parameters
+    ----------
+    path : Path
+        An existing file is replaced.
+    namespace : str
+        Of the topics with relative names.
+    """
+
+    def __init__(self, path: Path | str, namespace: str = NAMESPACE) -> None:
+        self.path = Path(path)
+        self._namespace = namespace
+        try:
+            self._file = open(self.path, "wb")  # noqa: SIM115 - closed by close()
+        except OSError as error:
+            raise InputError(
+                f"{self.path}: cannot write the recording ({error.strerror}); "
+                "choose a file in a folder that exists and is writable"
+            ) from error
+        self._writer = Writer(self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
+        self._writer.start(profile="ros2", library=f"beardyn {_package_version()}")
+        self._schemas: dict[str, int] = {}
+        self._channels: dict[str, int] = {}
+        self._topics: dict[str, Topic] = {}
+        self._counts: dict[str, int] = {}
+        self._first_ns: int | None = None
+        self._last_ns = 0
+        self._flushed = monotonic()
+        self._closed = False
+
+    def describe(self, run: RunDescription) -> None:
+        """Store the resolved scene and the description as attachments, the main facts as metadata."""
+        self._writer.add_attachment(0, 0, SCENE_FILE, "application/yaml", run.scene_text.encode())
+        self._writer.add_attachment(0, 0, DESCRIPTION_FILE, "application/json", run.to_json().encode())
+        facts = {"scene": run.scene, "bearing": run.shape.name, "beardyn": _package_version()}
+        facts.update({key: _text(value) for key, value in run.truth.items()})
+        self._writer.add_metadata(SUMMARY_RECORD, facts)
+        self._writer.flush()
+
+    def add(self, name: str, stamp_ns: int, cdr: bytes) -> None:
+        """Append a message of the topic table.
+
+        Parameters
+        ----------
+        name : str
+            Name in the topic table.
+        stamp_ns : int
+            Stamp of its header, which becomes the log time, [ns]. Times before zero are logged as 0:
+            MCAP does not know them; the header keeps the true one.
+        cdr : bytes
+        """
+        channel = self._channels.get(name)
+        if channel is None:
+            channel = self._open_channel(topic(name))
+        log_time = max(int(stamp_ns), 0)
+        sequence = self._counts[name] = self._counts[name] + 1
+        self._writer.add_message(channel, log_time, cdr, log_time, sequence & 0xFFFFFFFF)
+        self._first_ns = log_time if self._first_ns is None else min(self._first_ns, log_time)
+        self._last_ns = max(self._last_ns, log_time)
+        self.flush_if_due()
+
+    def flush_if_due(self) -> None:
+        """Hand the chunk in progress to the operating system when `FLUSH_SECONDS` have gone by."""
+        now = monotonic()
+        if now - self._flushed >= FLUSH_SECONDS:
+            self._flushed = now
+            self._writer.flush()
+
+    def close(self, status: str = "") -> None:
+        """Write the summary and close the file; a second call does nothing.
+
+        Parameters
+        ----------
+        status : str
+            How the run ended, a sentence; empty for a run that ended as asked.
+        """
+        if self._closed:
+            return
+        self._closed = True
+        self._writer.add_metadata(END_RECORD, {"status": status})
+        self._writer.add_metadata("rosbag2", {"serialized_metadata": self._rosbag2_metadata()})
+        self._writer.finish()
+        self._file.close()
+
+    @property
+    def message_count(self) -> int:
+        """Messages written so far."""
+        return sum(self._counts.values())
+
+    def _open_channel(self, entry: Topic) -> int:
+        schema = self._schemas.get(entry.type)
+        if schema is None:
+            definition, _ = typestore().generate_msgdef(entry.type, ros_version=2)
+            schema = self._writer.register_schema(
+                entry.type, SchemaEncoding.ROS2, definition.rstrip().encode() + b"\n"
+            )
+            self._schemas[entry.type] = schema
+        channel = self._writer.register_channel(
+            entry.path(self._namespace),
+            MessageEncoding.CDR,
+            schema,
+            {
+                "offered_qos_profiles": yaml.safe_dump([_qos_profile(entry)], sort_keys=False),
+                "topic_type_hash": typestore().hash_rihs01(entry.type),
+            },
+        )
+        self._channels[entry.name], self._topics[entry.name], self._counts[entry.name] = channel, entry, 0
+        return channel
+
+    def _rosbag2_metadata(self) -> str:
+        start = self._first_ns or 0
+        span = {"nanoseconds": self._last_ns - start}
+        begin = {"nanoseconds_since_epoch": start}
+        return yaml.safe_dump(
+            {
+                "version": 9,
+                "storage_identifier": "mcap",
+                "duration": span,
+                "starting_time": begin,
+                "message_count": self.message_count,
+                "topics_with_message_count": [
+                    {
+                        "topic_metadata": {
+                            "name": entry.path(self._namespace),
+                            "type": entry.type,
+                            "serialization_format": "cdr",
+                            "offered_qos_profiles": [_qos_profile(entry)],
+                            "type_description_hash": typestore().hash_rihs01(entry.type),
+                        },
+                        "message_count": self._counts[name],
+                    }
+                    for name, entry in self._topics.items()
+                ],
+                "compression_format": "",
+                "compression_mode": "",
+                "relative_file_paths": [self.path.name],
+                "files": [
+                    {
+                        "path": self.path.name,
+                        "starting_time": begin,
+                        "duration": span,
+                        "message_count": self.message_count,
+                    }
+                ],
+                "custom_data": None,
+                "ros_distro": "",
+            },
+            sort_keys=False,
+        )
+
+
+def _qos_profile(entry: Topic) -> dict[str, object]:
+    return {
+        "history": "keep_last" if entry.depth else "keep_all",
+        "depth": entry.depth,
+        "reliability": entry.reliability,
+        "durability": entry.durability,
+        "deadline": dict(_FOREVER),
+        "lifespan": dict(_FOREVER),
+        "liveliness": "automatic",
+        "liveliness_lease_duration": dict(_FOREVER),
+        "avoid_ros_namespace_conventions": False,
+    }
+
+
+def _package_version() -> str:
+    try:
+        return version("beardyn")
+    except PackageNotFoundError:
+        return "source"
+
+
+def _text(value: object) -> str:
+    if isinstance(value, str):
+        return value
+    return json.dumps(value)

@@ -1,0 +1,281 @@
+"""Triangle meshes of the parts of a double-row tapered roller bearing, from its recorded shape.
+
+World axes: y along the bearing axis, azimuth from +z towards +x. Cup and cone meshes have their origin
+at the bearing centre, a cage at the centre of its row, a roller at its mid-length with x along its axis
+towards the large end and z facing the cup.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import cos, pi, sin, tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.record.description import BearingShape
+from beardyn_core.scene.defect import Spall
+
+Float = NDArray[np.float64]
+
+CUT_OPEN = (np.deg2rad(20.0), np.deg2rad(140.0))
+ROW_SIDE = (-1.0, 1.0)
+MARK_COLOUR = (0.30, 0.32, 0.36)
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles.
+
+    Parameters
+    ----------
+    vertices : float64 array, shape [vertex, 3], [m]
+    normals : float64 array, shape [vertex, 3]
+    triangles : int64 array, shape [triangle, 3]
+    shades : float64 array, shape [vertex, 3]
+        Factor on the part's colour, 0 to 1.
+    """
+
+    vertices: Float
+    normals: Float
+    triangles: NDArray[np.int64]
+    shades: Float
+
+    def moved(self, offset: Float) -> Mesh:
+        """The mesh shifted by a vector, [m]."""
+        return Mesh(self.vertices + offset, self.normals, self.triangles, self.shades)
+
+
+def joined(*meshes: Mesh) -> Mesh:
+    """Several meshes as one."""
+    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    return Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate([mesh.normals for mesh in meshes]),
+        np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, starts, strict=False)]),
+        np.concatenate([mesh.shades for mesh in meshes]),
+    )
+
+
+def revolve(profile: Float, azimuth: Float) -> Mesh:
+    """Surface that a polyline sweeps about the y axis, every edge of the polyline a band of its own.
+
+    Parameters
+    ----------
+    profile : float64 array, shape [point, 2]
+        Axial position and radius; the outside is to the left when it is walked with y to the right
+        and the radius upwards, [m].
+    azimuth : float64 array, shape [station]
+        From +z towards +x, [rad].
+    """
+    vertices, normals, triangles, start = [], [], [], 0
+    radial = np.stack((np.sin(azimuth), np.zeros_like(azimuth), np.cos(azimuth)), axis=1)
+    axial = np.array([0.0, 1.0, 0.0])
+    count = len(azimuth)
+    index = np.arange(count - 1)
+    for (y0, r0), (y1, r1) in pairwise(profile):
+        length = np.hypot(y1 - y0, r1 - r0)
+        if length == 0.0:
+            continue
+        normal = (y1 - y0) / length * radial - (r1 - r0) / length * axial
+        vertices += [y0 * axial + r0 * radial, y1 * axial + r1 * radial]
+        normals += [normal, normal]
+        a, b = start + index, start + count + index
+        triangles += [np.stack((a, b, a + 1), axis=1), np.stack((b, b + 1, a + 1), axis=1)]
+        start += 2 * count
+    points = np.concatenate(vertices)
+    return Mesh(points, np.concatenate(normals), np.concatenate(triangles), np.ones_like(points))
+
+
+def section(profile: Float, azimuth: float, facing: float) -> Mesh:
+    """Flat cut through a convex closed profile at an azimuth.
+
+    Parameters
+    ----------
+    profile : float64 array, shape [point, 2]
+    azimuth : float
+        [rad].
+    facing : float
+        +1: the normal points towards growing azimuth; -1: the other way.
+    """
+    radial = np.array([sin(azimuth), 0.0, cos(azimuth)])
+    points = profile[:, :1] * np.array([0.0, 1.0, 0.0]) + profile[:, 1:] * radial
+    centre = points[:-1].mean(axis=0)
+    vertices = np.vstack((points, centre))
+    count = len(points)
+    index = np.arange(count - 1)
+    triangles = np.stack((index, index + 1, np.full(count - 1, count)), axis=1)
+    normal = facing * np.array([cos(azimuth), 0.0, -sin(azimuth)])
+    normals = np.broadcast_to(normal, vertices.shape).copy()
+    return Mesh(vertices, normals, triangles, np.full_like(vertices, 0.72))
+
+
+def raceway_radius(shape: BearingShape, angle: float, distance: float) -> tuple[float, float]:
+    """Axial distance from the row centre (towards the large end) and radius on a raceway cone.
+
+    Parameters
+    ----------
+    shape : BearingShape
+    angle : float
+        Half angle of the cone: `BearingShape.cup_angle` or `cone_angle`, [rad].
+    distance : float
+        Along the roller axis from its middle, towards the large end, [m].
+    """
+    # The generator touches the roller where the apex distance is projected on it.
+    along = (shape.apex_distance + distance) / cos(shape.half_angle)
+    apex = shape.apex_distance * cos(shape.contact_angle)
+    return along * cos(angle) - apex, along * sin(angle)
+
+
+def cup(shape: BearingShape) -> Mesh:
+    """Cup cut open over `CUT_OPEN`."""
+    half = shape.roller_length / 2.0
+    inner_small = raceway_radius(shape, shape.cup_angle, -1.06 * half)
+    inner_large = raceway_radius(shape, shape.cup_angle, 1.30 * half)
+    middle = shape.row_spacing / 2.0
+    outer = shape.outer_diameter / 2.0
+    edge, chamfer = middle + inner_large[0], 0.03 * outer
+    right = [
+        (edge, outer - chamfer),
+        (edge, inner_large[1]),
+        (max(middle + inner_small[0], 0.0), inner_small[1]),
+    ]
+    left = [(-y, r) for y, r in reversed(right)]
+    profile = np.array(
+        [*left, (-edge + chamfer, outer), (edge - chamfer, outer), *right, left[0]],
+    )
+    azimuth = np.linspace(CUT_OPEN[1], CUT_OPEN[0] + 2.0 * pi, 121)
+    return joined(
+        revolve(profile, azimuth),
+        section(profile, CUT_OPEN[1], -1.0),
+        section(profile, CUT_OPEN[0], 1.0),
+    )
+
+
+def cone(shape: BearingShape) -> Mesh:
+    """Both cones with their ribs and the spacer between, with a dark mark that shows the rotation."""
+    half = shape.roller_length / 2.0
+    bore, middle = shape.bore / 2.0, shape.row_spacing / 2.0
+    small = raceway_radius(shape, shape.cone_angle, -1.04 * half)
+    large = raceway_radius(shape, shape.cone_angle, 1.01 * half)
+    rib = large[1] + 2.2 * shape.rib_contact_height
+    land = small[1] + 0.6 * shape.rib_contact_height
+    end = max(shape.width / 2.0, middle + large[0] + 0.004)
+    right = [
+        (max(middle + small[0] - 0.05 * half, 0.002), land - 0.5 * (land - bore)),
+        (max(middle + small[0] - 0.05 * half, 0.002), land),
+        (middle + small[0], land),
+        (middle + small[0], small[1]),
+        (middle + large[0], large[1]),
+        (middle + large[0] - 0.18 * (rib - large[1]), rib),
+        (min(middle + large[0] + 0.008, end), rib),
+        (min(middle + large[0] + 0.008, end), bore + 0.45 * (rib - bore)),
+        (end, bore + 0.45 * (rib - bore)),
+        (end, bore),
+    ]
+    left = [(-y, r) for y, r in reversed(right)]
+    azimuth = np.linspace(0.0, 2.0 * pi, 145)
+    mesh = revolve(np.array([*left, *right, left[0]]), azimuth)
+    return marked(mesh, np.abs(np.mod(_azimuth(mesh.vertices) + pi, 2 * pi) - pi) < 0.06)
+
+
+def roller(shape: BearingShape, segments: int = 40) -> Mesh:
+    """Roller with a dark sector that shows its spin."""
+    half, chamfer = shape.roller_length / 2.0, 0.04 * shape.roller_diameter
+    large, small = shape.large_end_radius, shape.small_end_radius
+    profile = np.array(
+        [
+            (-half, 0.0),
+            (-half, 0.35 * small),
+            (-half, small - chamfer),
+            (-half + chamfer, small + chamfer * tan(shape.half_angle)),
+            (half - chamfer, large - chamfer * tan(shape.half_angle)),
+            (half, large - chamfer),
+            (half, 0.35 * large),
+            (half, 0.0),
+        ]
+    )
+    mesh = revolve(profile, np.linspace(0.0, 2.0 * pi, segments + 1))
+    dark = np.abs(np.mod(_azimuth(mesh.vertices) + pi, 2 * pi) - pi) < 0.45
+    at_end = np.abs(np.abs(mesh.vertices[:, 1]) - half) < 1e-9
+    outside = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2]) > 0.3 * small
+    mesh = marked(mesh, dark & at_end & outside)
+    # y becomes the roller's own x; z stays, so the mark faces the cup at zero spin.
+    turn = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    return Mesh(mesh.vertices @ turn.T, mesh.normals @ turn.T, mesh.triangles, mesh.shades)
+
+
+def cage(shape: BearingShape, row: int) -> Mesh:
+    """Cage of a row: a ring at either end of the rollers and a bar between every two."""
+    half, side = shape.roller_length / 2.0, ROW_SIDE[row]
+    gap = 2.0 * pi / shape.roller_count
+    rings = []
+    for at, radius in ((-half, shape.small_end_radius), (half, shape.large_end_radius)):
+        outwards = 1.0 if at > 0 else -1.0
+        y0, r0 = _on_pitch_cone(shape, at + outwards * 0.0008)
+        y1, r1 = _on_pitch_cone(shape, at + outwards * 0.0048)
+        thick = 0.26 * radius
+        low, high = sorted(((y0, r0), (y1, r1)))
+        ring = np.array(
+            [
+                (low[0], low[1] - thick),
+                (low[0], low[1] + thick),
+                (high[0], high[1] + thick),
+                (high[0], high[1] - thick),
+                (low[0], low[1] - thick),
+            ]
+        )
+        rings.append(revolve(ring, np.linspace(0.0, 2.0 * pi, 121)))
+    bars = []
+    for k in range(shape.roller_count):
+        # A roller's chord fills most of the pitch: the bar sits in what is left, outside the pitch cone.
+        y0, r0 = _on_pitch_cone(shape, -half - 0.001)
+        y1, r1 = _on_pitch_cone(shape, half + 0.001)
+        lift = 0.30 * shape.roller_diameter / 2.0
+        profile = np.array([(y0, r0 + 0.1 * lift), (y0, r0 + lift), (y1, r1 + lift), (y1, r1 + 0.1 * lift)])
+        free = gap - shape.roller_diameter / (shape.pitch_diameter / 2.0)
+        width = max(0.8 * free, 0.12 * gap)
+        middle = (k + 0.5) * gap
+        closed = np.vstack((profile, profile[:1]))
+        azimuth = np.linspace(middle - width / 2.0, middle + width / 2.0, 4)
+        bars += [
+            revolve(closed, azimuth),
+            section(closed, azimuth[0], -1.0),
+            section(closed, azimuth[-1], 1.0),
+        ]
+    mesh = joined(*rings, *bars)
+    mirror = np.array([1.0, side, 1.0])
+    return Mesh(mesh.vertices * mirror, mesh.normals * mirror, mesh.triangles, np.ones_like(mesh.vertices))
+
+
+def spall(shape: BearingShape, defect: Spall) -> Mesh:
+    """Patch of a spall on a raceway of the cup or the cone, a little proud so that it is seen."""
+    angle = shape.cup_angle if defect.on == "cup" else shape.cone_angle
+    lift = -4e-4 if defect.on == "cup" else 4e-4
+    side = ROW_SIDE[defect.row]
+    ends = [raceway_radius(shape, angle, defect.offset + sign * defect.length / 2.0) for sign in (-1.0, 1.0)]
+    profile = np.array([(shape.row_spacing / 2.0 + y, r + lift) for y, r in ends])
+    half = max(defect.width / 2.0 / float(profile[:, 1].mean()), 0.004)
+    mesh = revolve(profile, np.linspace(defect.azimuth - half, defect.azimuth + half, 12))
+    mirror = np.array([1.0, side, 1.0])
+    return Mesh(mesh.vertices * mirror, mesh.normals * mirror, mesh.triangles, mesh.shades)
+
+
+def marked(mesh: Mesh, where: NDArray[np.bool_]) -> Mesh:
+    """The mesh with some vertices darkened."""
+    shades = mesh.shades.copy()
+    shades[where] *= np.array(MARK_COLOUR)
+    return Mesh(mesh.vertices, mesh.normals, mesh.triangles, shades)
+
+
+def _azimuth(vertices: Float) -> Float:
+    return np.arctan2(vertices[:, 0], vertices[:, 2])
+
+
+def _on_pitch_cone(shape: BearingShape, distance: float) -> tuple[float, float]:
+    along = shape.apex_distance + distance
+    return (
+        along * cos(shape.contact_angle) - shape.apex_distance * cos(shape.contact_angle),
+        along * sin(shape.contact_angle),
+    )

@@ -1,0 +1,213 @@
+"""ROS messages as CDR bytes without ROS: the type store, and templates for small messages."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys.store import Typestore
+
+TIME = "builtin_interfaces/msg/Time"
+HEADER = "std_msgs/msg/Header"
+STRING = "std_msgs/msg/String"
+CLOCK = "rosgraph_msgs/msg/Clock"
+DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
+DIAGNOSTIC_LEVELS = ("OK", "WARN", "ERROR", "STALE")
+
+_SECOND = 1_000_000_000
+_ENCAPSULATION = b"\x00\x01\x00\x00"
+_STAMP = struct.Struct("<iI")
+
+
+@cache
+def typestore() -> Typestore:
+    """Type store of the message definitions, loaded at the first call."""
+    return get_typestore(Stores.ROS2_JAZZY)
+
+
+def make(msgtype: str, **members: Any) -> Any:
+    """Message of a type by its members."""
+    return typestore().types[msgtype](**members)
+
+
+def time(stamp_ns: int) -> Any:
+    """``builtin_interfaces/Time`` of a time in nanoseconds."""
+    seconds, nanoseconds = divmod(int(stamp_ns), _SECOND)
+    return make(TIME, sec=seconds, nanosec=nanoseconds)
+
+
+def header(stamp_ns: int, frame: str) -> Any:
+    """``std_msgs/Header`` of a time in nanoseconds and a frame."""
+    return make(HEADER, stamp=time(stamp_ns), frame_id=frame)
+
+
+def serialize(message: Any) -> bytes:
+    """CDR bytes (little endian, with encapsulation header) of a message."""
+    return bytes(typestore().serialize_cdr(message, message.__msgtype__))
+
+
+def decode(msgtype: str, cdr: bytes) -> Any:
+    """Message from its CDR bytes; for any type of the topic table."""
+    return typestore().deserialize_cdr(cdr, msgtype)
+
+
+def header_stamp(cdr: bytes) -> int:
+    """Stamp of a message that begins with a header (or is a time), without decoding it, [ns]."""
+    seconds, nanoseconds = _STAMP.unpack_from(cdr, 4)
+    return int(seconds) * _SECOND + int(nanoseconds)
+
+
+def encode_time(stamp_ns: int) -> bytes:
+    """CDR of ``builtin_interfaces/Time`` (the content of ``load/consumed``)."""
+    return _ENCAPSULATION + _STAMP.pack(*divmod(int(stamp_ns), _SECOND))
+
+
+def encode_clock(stamp_ns: int) -> bytes:
+    """CDR of ``rosgraph_msgs/Clock``: one time, so the same bytes as `encode_time`."""
+    return encode_time(stamp_ns)
+
+
+def encode_string(text: str) -> bytes:
+    """CDR of ``std_msgs/String``."""
+    return serialize(make(STRING, data=text))
+
+
+def decode_string(cdr: bytes) -> str:
+    """Text of a ``std_msgs/String``."""
+    return str(decode(STRING, cdr).data)
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """One status of a diagnostics message.
+
+    Parameters
+    ----------
+    name : str
+    level : int
+        Index into `DIAGNOSTIC_LEVELS`.
+    message : str
+        A sentence.
+    values : tuple of (key, value)
+    """
+
+    name: str
+    level: int
+    message: str
+    values: tuple[tuple[str, str], ...] = ()
+
+    def value(self, key: str) -> str | None:
+        """Value of a key, ``None`` when absent."""
+        return dict(self.values).get(key)
+
+
+def encode_diagnostics(stamp_ns: int, frame: str, statuses: Sequence[Diagnostic]) -> bytes:
+    """CDR of a ``diagnostic_msgs/DiagnosticArray``."""
+    entries = [
+        make(
+            "diagnostic_msgs/msg/DiagnosticStatus",
+            level=status.level,
+            name=status.name,
+            message=status.message,
+            hardware_id=frame,
+            values=[make("diagnostic_msgs/msg/KeyValue", key=k, value=v) for k, v in status.values],
+        )
+        for status in statuses
+    ]
+    return serialize(make(DIAGNOSTICS, header=header(stamp_ns, frame), status=entries))
+
+
+def decode_diagnostics(cdr: bytes) -> tuple[int, tuple[Diagnostic, ...]]:
+    """Stamp [ns] and statuses of a ``diagnostic_msgs/DiagnosticArray``."""
+    message = decode(DIAGNOSTICS, cdr)
+    return header_stamp(cdr), tuple(
+        Diagnostic(s.name, int(s.level), s.message, tuple((v.key, v.value) for v in s.values))
+        for s in message.status
+    )
+
+
+class Template:
+    """Many messages of one stamped type that differ in the stamp and in blocks of numbers only.
+
+    The message is serialised once with marks in place of the numbers; after that a message costs a
+    copy and a few stores, all messages of a block together.
+
+    Parameters
+    ----------
+    build : callable
+        Makes the message from one float64 array per slot.
+    slots : mapping of str to int
+        Name and length of each block of float64 numbers, each contiguous in the message.
+    """
+
+    def __init__(self, build: Callable[..., Any], slots: Mapping[str, int]) -> None:
+        self._build = build
+        marks: dict[str, NDArray[np.float64]] = {}
+        first = 1.0
+        for name, length in slots.items():
+            marks[name] = np.pi * np.arange(first, first + length)
+            first += length
+        message = build(**marks)
+        self.msgtype: str = message.__msgtype__
+        pattern = serialize(message)
+        names, formats, offsets = ["sec", "nanosec"], ["<i4", "<u4"], [4, 8]
+        for name, mark in marks.items():
+            offset = pattern.find(mark.tobytes())
+            if offset < 0:
+                raise ValueError(f"slot {name!r} is not contiguous in {self.msgtype}")
+            names.append(name)
+            formats.append(f"({len(mark)},)<f8")
+            offsets.append(offset)
+        self._dtype = np.dtype(
+            {"names": names, "formats": formats, "offsets": offsets, "itemsize": len(pattern)}
+        )
+        row = np.frombuffer(pattern, np.uint8).copy()
+        fixed = np.ones(len(row), bool)
+        for name, offset in zip(names, offsets, strict=True):
+            width = self._dtype[name].itemsize
+            row[offset : offset + width] = 0
+            fixed[offset : offset + width] = False
+        self._row = row
+        self._fixed = fixed
+
+    def encode(self, stamps_ns: NDArray[np.int64], **values: NDArray[np.float64]) -> list[bytes]:
+        """CDR bytes of one message per stamp.
+
+        Parameters
+        ----------
+        stamps_ns : int64 array, shape [message], [ns]
+        **values : float64 arrays, shape [message, length of the slot]
+        """
+        count = len(stamps_ns)
+        rows = np.empty((count, len(self._row)), np.uint8)
+        rows[:] = self._row
+        view = rows.reshape(-1).view(self._dtype)
+        view["sec"] = stamps_ns // _SECOND
+        view["nanosec"] = stamps_ns % _SECOND
+        for name, value in values.items():
+            view[name] = value
+        size = len(self._row)
+        data = rows.tobytes()
+        return [data[i * size : (i + 1) * size] for i in range(count)]
+
+    def decode(self, cdrs: Sequence[bytes]) -> NDArray[Any] | None:
+        """Stamps and slots of many messages as a structured array.
+
+        ``None`` when a message was not made from this template (another frame, other names): the
+        caller then decodes one by one.
+        """
+        size = len(self._row)
+        if any(len(cdr) != size for cdr in cdrs):
+            return None
+        rows = np.frombuffer(b"".join(cdrs), np.uint8).reshape(-1, size)
+        if not np.array_equal(
+            rows[:, self._fixed], np.broadcast_to(self._row[self._fixed], (len(rows), int(self._fixed.sum())))
+        ):
+            return None
+        return rows.reshape(-1).view(self._dtype)

@@ -1,0 +1,237 @@
+"""What a recording holds, in words and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.reading import Run, read_run
+
+SAMPLE_RANGE = 1 << 32
+
+
+@dataclass(frozen=True)
+class TopicCount:
+    """One topic of a file.
+
+    Parameters
+    ----------
+    name, type : str
+    count : int
+        Messages.
+    rate : float
+        Messages per second of the recording's span, [1/s].
+    """
+
+    name: str
+    type: str
+    count: int
+    rate: float
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Samples that are not in the file.
+
+    Parameters
+    ----------
+    topic : str
+    time : float
+        Of the last sample before the gap, [s].
+    missing : int
+    """
+
+    topic: str
+    time: float
+    missing: int
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a recording holds.
+
+    Parameters
+    ----------
+    path : str
+    size_bytes, usable_bytes : int
+    complete : bool
+        The file was closed properly.
+    problem : str
+        Where and why reading stopped.
+    status : str or None
+        How the run ended: empty as asked, ``None`` not known.
+    begin, end : float
+        First and last log time, [s].
+    topics : tuple of TopicCount
+    attachments : mapping of name to bytes
+    gaps : tuple of Gap
+    scene, bearing : str or None
+    faults : list
+    fault_frequencies_per_rev : mapping
+    mean_shaft_speed : float or None
+        [rad/s].
+    real_time_factor, energy_residual : float or None
+        Mean, and last value.
+    monitor : str or None
+        Last verdict of the monitor.
+    """
+
+    path: str
+    size_bytes: int
+    usable_bytes: int
+    complete: bool
+    problem: str
+    status: str | None
+    begin: float
+    end: float
+    topics: tuple[TopicCount, ...]
+    attachments: Mapping[str, int]
+    gaps: tuple[Gap, ...]
+    scene: str | None
+    bearing: str | None
+    faults: list[Any]
+    fault_frequencies_per_rev: Mapping[str, float]
+    mean_shaft_speed: float | None
+    real_time_factor: float | None
+    energy_residual: float | None
+    monitor: str | None
+
+    def to_json(self) -> dict[str, Any]:
+        """JSON-able content."""
+        return asdict(self)
+
+    def to_text(self) -> str:
+        """Content for a terminal."""
+        return "\n".join(_lines(self))
+
+
+def report(path: Path | str) -> Report:
+    """Read a recording, cut off or not, and say what it holds.
+
+    Raises
+    ------
+    InputError
+        The file is absent, not MCAP, or holds not one usable message.
+    """
+    scan = McapScan(path)
+    counts: dict[str, int] = {}
+    types: dict[str, str] = {}
+    begin, end = None, 0
+    for message in scan.messages():
+        counts[message.topic] = counts.get(message.topic, 0) + 1
+        types[message.topic] = message.type
+        begin = message.log_time if begin is None else min(begin, message.log_time)
+        end = max(end, message.log_time)
+    run = read_run(path)
+    span = max((end - (begin or 0)) * 1e-9, 1e-9)
+    description = run.description
+    speed = run.shaft.velocity[:, 0] if len(run.shaft) else np.zeros(0)
+    return Report(
+        path=str(scan.path),
+        size_bytes=scan.size_bytes,
+        usable_bytes=scan.usable_bytes,
+        complete=scan.complete,
+        problem=scan.problem,
+        status=run.status,
+        begin=(begin or 0) * 1e-9,
+        end=end * 1e-9,
+        topics=tuple(TopicCount(name, types[name], n, n / span) for name, n in sorted(counts.items())),
+        attachments={name: len(data) for name, data in scan.attachments.items()},
+        gaps=gaps(run),
+        scene=description.scene if description else None,
+        bearing=description.shape.name if description else None,
+        faults=[asdict(defect) for defect in description.defects] if description else [],
+        fault_frequencies_per_rev=description.shape.fault_frequencies if description else {},
+        mean_shaft_speed=float(speed.mean()) if len(speed) else None,
+        real_time_factor=_mean(_diagnosed(run, "real_time_factor")),
+        energy_residual=_last(_diagnosed(run, "energy_residual")),
+        monitor=run.results[-1][1][0].message if run.results and run.results[-1][1] else None,
+    )
+
+
+def gaps(run: Run) -> tuple[Gap, ...]:
+    """Every place where samples of a stream are missing, by running index or, without one, by time."""
+    found: list[Gap] = []
+    for name, samples in (("force_waveform", run.force_waveform), *run.vibration.items()):
+        found += _index_gaps(name, samples.sample, samples.time_ns)
+    found += _index_gaps("bodies", run.bodies.sample, run.bodies.time_ns)
+    found += _index_gaps("load/blocks", run.load_sample, run.load.time_ns)
+    for name, times in (
+        ("force", run.force.time_ns),
+        ("imu", run.specific_force.time_ns),
+        ("shaft", run.shaft.time_ns),
+        ("joint_states", run.orbit.time_ns),
+    ):
+        found += _time_gaps(name, times)
+    return tuple(found)
+
+
+def _index_gaps(name: str, sample: NDArray[np.int64], time_ns: NDArray[np.int64]) -> list[Gap]:
+    step = np.mod(np.diff(sample), SAMPLE_RANGE)
+    return [Gap(name, float(time_ns[i] * 1e-9), int(step[i] - 1)) for i in np.flatnonzero(step != 1)]
+
+
+def _time_gaps(name: str, time_ns: NDArray[np.int64]) -> list[Gap]:
+    step = np.diff(time_ns)
+    if not len(step):
+        return []
+    regular = float(np.median(step))
+    missing = np.round(step / max(regular, 1.0)).astype(int) - 1
+    return [Gap(name, float(time_ns[i] * 1e-9), int(missing[i])) for i in np.flatnonzero(missing > 0)]
+
+
+def _diagnosed(run: Run, key: str) -> list[float]:
+    values = (status.value(key) for _, statuses in run.diagnostics for status in statuses)
+    return [float(value) for value in values if value is not None]
+
+
+def _mean(values: list[float]) -> float | None:
+    return float(np.mean(values)) if values else None
+
+
+def _last(values: list[float]) -> float | None:
+    return values[-1] if values else None
+
+
+def _lines(r: Report) -> list[str]:
+    lines = [f"{r.path}: {r.size_bytes / 1e6:.2f} MB, {r.begin:.3f} s to {r.end:.3f} s"]
+    if r.complete:
+        lines.append("closed properly" if not r.status else f"closed properly; the run ended: {r.status}")
+    else:
+        lines.append(r.problem)
+    lines.append("")
+    if r.scene is not None:
+        lines.append(f"scene    {r.scene}, bearing {r.bearing}")
+        faults = [f"{f['on']} row {f['row']}, {f['width'] * 1e3:.1f} mm wide" for f in r.faults]
+        lines.append(f"faults   {'; '.join(faults) or 'none'}")
+    if r.mean_shaft_speed is not None:
+        hertz = r.mean_shaft_speed / (2.0 * np.pi)
+        lines.append(f"shaft    {hertz * 60.0:.1f} rpm on average")
+        if r.fault_frequencies_per_rev:
+            entries = (
+                f"{name} {per_rev:.4f}/rev = {per_rev * hertz:.2f} Hz"
+                for name, per_rev in r.fault_frequencies_per_rev.items()
+            )
+            lines.append("         " + ", ".join(entries))
+    if r.real_time_factor is not None:
+        lines.append(f"computed at {r.real_time_factor:.2f} x real time on average")
+    if r.energy_residual is not None:
+        lines.append(f"energy residual {r.energy_residual:.2e}")
+    if r.monitor is not None:
+        lines.append(f"monitor  {r.monitor}")
+    lines += ["", f"{'topic':32}{'messages':>10}{'per s':>9}  type"]
+    lines += [f"{t.name:32}{t.count:>10}{t.rate:>9.1f}  {t.type}" for t in r.topics]
+    lines.append("")
+    if r.attachments:
+        lines.append("attached " + ", ".join(f"{name} ({size} B)" for name, size in r.attachments.items()))
+    lines.append("no samples missing" if not r.gaps else f"{len(r.gaps)} gaps:")
+    lines += [f"  {gap.topic}: {gap.missing} samples after {gap.time:.4f} s" for gap in r.gaps[:20]]
+    if len(r.gaps) > 20:
+        lines.append(f"  ... and {len(r.gaps) - 20} more")
+    return lines

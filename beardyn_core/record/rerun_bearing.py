@@ -1,0 +1,295 @@
+"""The bearing in 3-D: parts, their motion, roller loads as colour, forces as arrows, the load zone."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from beardyn_core.observe.block import CONTACT_KINDS
+from beardyn_core.record import meshes
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.meshes import Mesh
+from beardyn_core.record.reading import Run
+from beardyn_core.scene.defect import Spall
+
+TIMELINE = "time"
+ROOT = "bearing"
+CUP_COLOUR = (150, 164, 184)
+CONE_COLOUR = (122, 136, 160)
+CAGE_COLOUR = (64, 150, 140)
+SPALL_COLOUR = (255, 40, 90)
+ARROW_COLOURS = {
+    "cup": (255, 196, 64),
+    "cone": (96, 190, 255),
+    "rib": (255, 110, 180),
+    "pocket": (120, 230, 140),
+}
+RESULTANT_COLOUR = (255, 60, 255)
+LONGEST_ARROW = 0.042
+LONGEST_BAR = 0.055
+ZONE_RADIUS = 1.08
+
+# Colour of a roller over its load, from nothing to the largest load of the run.
+LOAD_COLOURS = np.array(
+    [(176, 184, 196), (120, 190, 200), (130, 210, 120), (245, 215, 60), (250, 140, 40), (225, 40, 35)], float
+)
+
+
+def load_colours(load: NDArray[np.float64], largest: float) -> NDArray[np.uint8]:
+    """Colour of a load, shape [..., 3]; loads in [N]."""
+    place = np.clip(load / max(largest, 1e-9), 0.0, 1.0) * (len(LOAD_COLOURS) - 1)
+    stations = np.arange(len(LOAD_COLOURS))
+    return np.stack([np.interp(place, stations, LOAD_COLOURS[:, i]) for i in range(3)], axis=-1).astype(
+        np.uint8
+    )
+
+
+def log_parts(stream: rr.RecordingStream, run: RunDescription) -> None:
+    """Log the meshes, which do not change."""
+    shape = run.shape
+    stream.log("/", rr.ViewCoordinates.FLU, static=True)
+    _log_mesh(stream, f"{ROOT}/cup/part", meshes.cup(shape), CUP_COLOUR)
+    _log_mesh(stream, f"{ROOT}/cone/part", meshes.cone(shape), CONE_COLOUR)
+    roller = meshes.roller(shape)
+    for row in range(2):
+        _log_mesh(stream, f"{ROOT}/cage_{row}/part", meshes.cage(shape, row), CAGE_COLOUR)
+        for k in range(shape.roller_count):
+            _log_mesh(stream, f"{ROOT}/rollers/roller_{row}_{k}", roller, (255, 255, 255))
+    for number, defect in enumerate(run.defects):
+        if defect.on in ("cup", "cone"):
+            patch = meshes.spall(shape, defect)
+            _log_mesh(stream, f"{ROOT}/{defect.on}/spall_{number}", patch, SPALL_COLOUR)
+            _log_pin(stream, f"{ROOT}/{defect.on}/spall_{number}/pin", run, defect)
+
+
+def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defect: Spall) -> None:
+    """A line from the spall to outside the bearing, with its name: raceways are hard to look at."""
+    shape = run.shape
+    axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + defect.offset)
+    inner = shape.pitch_diameter / 2.0
+    outer = (1.66 if defect.on == "cup" else 1.25) * shape.outer_diameter / 2.0
+    ends = _polar(np.full(2, defect.azimuth), np.array([inner, outer]), axial).astype(np.float32)
+    stream.log(
+        entity,
+        rr.LineStrips3D([ends], radii=[0.0008], colors=[SPALL_COLOUR]),
+        static=True,
+    )
+    stream.log(
+        f"{entity}/name",
+        rr.Points3D(
+            ends[1:],
+            radii=[0.0022],
+            colors=[SPALL_COLOUR],
+            labels=[f"{defect.on} spall, {defect.width * 1e3:.0f} mm"],
+            show_labels=True,
+        ),
+        static=True,
+    )
+
+
+def body_entity(name: str) -> str:
+    """Entity of a body."""
+    return f"{ROOT}/rollers/{name}" if name.startswith("roller") else f"{ROOT}/{name}"
+
+
+def log_motion(stream: rr.RecordingStream, run: Run) -> None:
+    """Log the pose of every body at every snapshot."""
+    time = times(run.bodies.time_ns)
+    for body, name in enumerate(run.described().body_names):
+        pose = run.bodies.pose[:, body].astype(np.float32)
+        stream.send_columns(
+            body_entity(name),
+            indexes=[time],
+            columns=rr.Transform3D.columns(translation=pose[:, :3], quaternion=pose[:, 3:]),
+        )
+
+
+def roller_loads(run: Run) -> NDArray[np.float64]:
+    """Cup-roller load at every snapshot, shape [snapshot, row, roller], [N]."""
+    count = run.described().roller_count
+    load = np.zeros((len(run.bodies), 2, count))
+    if len(run.contacts):
+        here = run.contacts[run.contacts["kind"] == CONTACT_KINDS.index("cup")]
+        here, snapshot = in_snapshots(run, here)
+        load[snapshot, here["row"], here["roller"]] = _size(here)
+    return load
+
+
+def in_snapshots(run: Run, contacts: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.int64]]:
+    """Those contacts whose snapshot of the bodies is in the file too, and its index."""
+    snapshot = np.searchsorted(run.bodies.sample, contacts["sample"])
+    inside = np.minimum(snapshot, len(run.bodies) - 1)
+    known = run.bodies.sample[inside] == contacts["sample"]
+    return contacts[known], inside[known]
+
+
+def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None) -> None:
+    """Log roller colours, contact forces, the resultant and the load zone.
+
+    Parameters
+    ----------
+    stream : rerun.RecordingStream
+    run : Run
+    largest : float, optional
+        Roller load that has the last colour and the longest arrow, [N]; by default the largest of the
+        run, and then the outline of the load zone over the whole run is drawn too.
+    """
+    shape = run.described().shape
+    load = roller_loads(run)
+    whole = largest is None
+    if largest is None:
+        largest = float(load.max()) if load.size else 0.0
+    time = times(run.bodies.time_ns)
+    colours = load_colours(load, largest)
+    packed = _packed(colours)
+    for row in range(2):
+        for k in range(shape.roller_count):
+            stream.send_columns(
+                f"{ROOT}/rollers/roller_{row}_{k}",
+                indexes=[time],
+                columns=rr.Mesh3D.columns(albedo_factor=packed[:, row, k]),
+            )
+    if largest == 0.0:
+        return
+    _log_contacts(stream, run, LONGEST_ARROW / largest)
+    _log_zone(stream, run, load, largest, packed)
+    if whole:
+        _log_zone_outline(stream, run, load, largest)
+    _log_resultant(stream, run, largest)
+
+
+def _log_contacts(stream: rr.RecordingStream, run: Run, scale: float) -> None:
+    for kind, name in enumerate(CONTACT_KINDS):
+        here, snapshot = in_snapshots(run, run.contacts[run.contacts["kind"] == kind])
+        if not len(here):
+            continue
+        per_snapshot = np.bincount(snapshot, minlength=len(run.bodies))
+        origins = np.stack([here[axis] for axis in "xyz"], axis=1)
+        # Forces the rollers exert on their partners: they point out of the rollers and stay visible.
+        vectors = -scale * np.stack([here[axis] for axis in ("fx", "fy", "fz")], axis=1)
+        stream.log(
+            f"{ROOT}/contact_forces/{name}",
+            rr.Arrows3D.from_fields(colors=[ARROW_COLOURS[name]], radii=[0.0009]),
+            static=True,
+        )
+        stream.send_columns(
+            f"{ROOT}/contact_forces/{name}",
+            indexes=[times(run.bodies.time_ns)],
+            columns=rr.Arrows3D.columns(origins=origins, vectors=vectors).partition(per_snapshot),
+        )
+
+
+def _log_zone(
+    stream: rr.RecordingStream,
+    run: Run,
+    load: NDArray[np.float64],
+    largest: float,
+    packed: NDArray[np.uint32],
+) -> None:
+    """Bars on the outer face of each row: length is the load of the roller behind it."""
+    shape = run.described().shape
+    inner = ZONE_RADIUS * shape.outer_diameter / 2.0
+    for row, side in enumerate(meshes.ROW_SIDE):
+        azimuth, axial = _azimuths(run, row), side * shape.row_spacing / 2.0
+        outer = inner + LONGEST_BAR * load[:, row] / largest
+        strips = np.stack((_polar(azimuth, inner, axial), _polar(azimuth, outer, axial)), axis=2)
+        count, rollers = azimuth.shape
+        entity = f"{ROOT}/load_zone/row_{row}"
+        stream.log(entity, rr.LineStrips3D.from_fields(radii=[0.0020]), static=True)
+        per_snapshot = np.full(count, rollers)
+        stream.send_columns(
+            entity,
+            indexes=[times(run.bodies.time_ns)],
+            columns=[
+                *rr.LineStrips3D.columns(
+                    strips=strips.reshape(-1, 2, 3).astype(np.float32), colors=packed[:, row].reshape(-1)
+                ).partition(per_snapshot)
+            ],
+        )
+
+
+def _log_zone_outline(
+    stream: rr.RecordingStream, run: Run, load: NDArray[np.float64], largest: float
+) -> None:
+    """Largest load at each azimuth over the whole run."""
+    shape = run.described().shape
+    inner = ZONE_RADIUS * shape.outer_diameter / 2.0
+    for row, side in enumerate(meshes.ROW_SIDE):
+        azimuth, axial = _azimuths(run, row), side * shape.row_spacing / 2.0
+        ring = np.linspace(0.0, 2.0 * np.pi, 181)
+        where = np.mod(azimuth.ravel(), 2.0 * np.pi)
+        bins = np.clip(np.digitize(where, ring) - 1, 0, len(ring) - 2)
+        envelope = np.zeros(len(ring) - 1)
+        np.maximum.at(envelope, bins, load[:, row].ravel())
+        outline = inner + LONGEST_BAR * np.append(envelope, envelope[0]) / largest
+        stream.log(
+            f"{ROOT}/load_zone/outline_{row}",
+            rr.LineStrips3D(
+                [_polar(ring, np.full(len(ring), inner), axial), _polar(ring, outline, axial)],
+                radii=[0.0003, 0.0005],
+                colors=[(120, 126, 140), (230, 200, 140)],
+            ),
+            static=True,
+        )
+
+
+def _azimuths(run: Run, row: int) -> NDArray[np.float64]:
+    first = run.described().body_names.index(f"roller_{row}_0")
+    place = run.bodies.pose[:, first : first + run.described().roller_count, :3]
+    return np.arctan2(place[..., 0], place[..., 2])
+
+
+def _log_resultant(stream: rr.RecordingStream, run: Run, largest_roller_load: float) -> None:
+    """Force on the cup, in front of the bore where it is seen; half a bore for 6 largest roller loads."""
+    if not len(run.force):
+        return
+    shape = run.described().shape
+    origin = [0.0, max(shape.width, shape.outer_diameter / 2.0) / 2.0 + 0.006, 0.0]
+    stream.log(
+        f"{ROOT}/force_on_cup",
+        rr.Arrows3D.from_fields(colors=[RESULTANT_COLOUR], radii=[0.0022], origins=[origin]),
+        static=True,
+    )
+    scale = shape.bore / 2.0 / (6.0 * largest_roller_load)
+    stream.send_columns(
+        f"{ROOT}/force_on_cup",
+        indexes=[times(run.force.time_ns)],
+        columns=rr.Arrows3D.columns(vectors=(scale * run.force.values[:, :3]).astype(np.float32)),
+    )
+
+
+def times(time_ns: NDArray[np.int64]) -> rr.TimeColumn:
+    """Simulated time as a rerun column."""
+    return rr.TimeColumn(TIMELINE, duration=time_ns.astype("timedelta64[ns]"))
+
+
+def _polar(azimuth: NDArray[np.float64], radius: Any, axial: float) -> NDArray[np.float64]:
+    radius = np.broadcast_to(radius, azimuth.shape)
+    return np.stack(
+        (radius * np.sin(azimuth), np.full(azimuth.shape, axial), radius * np.cos(azimuth)), axis=-1
+    )
+
+
+def _size(contacts: NDArray[Any]) -> NDArray[np.float64]:
+    return np.sqrt(sum(contacts[axis].astype(float) ** 2 for axis in ("fx", "fy", "fz")))
+
+
+def _packed(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:
+    opaque = np.full(colours.shape[:-1], 0xFF, np.uint8)
+    return np.concatenate((colours, opaque[..., None]), axis=-1).view(">u4")[..., 0].astype(np.uint32)
+
+
+def _log_mesh(stream: rr.RecordingStream, entity: str, mesh: Mesh, colour: tuple[int, int, int]) -> None:
+    stream.log(
+        entity,
+        rr.Mesh3D(
+            vertex_positions=mesh.vertices.astype(np.float32),
+            vertex_normals=mesh.normals.astype(np.float32),
+            triangle_indices=mesh.triangles.astype(np.uint32),
+            vertex_colors=(mesh.shades * np.array(colour)).astype(np.uint8),
+        ),
+        static=True,
+    )

@@ -1,0 +1,144 @@
+"""The rerun view of a twin that is running: fed with messages, drawn in batches."""
+
+from __future__ import annotations
+
+from collections import defaultdict, deque
+from time import monotonic
+
+import rerun as rr
+
+from beardyn_core.observe.block import Block
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.encoding import BlockEncoder
+from beardyn_core.record.messages import decode_diagnostics, decode_string, encode_string, header_stamp
+from beardyn_core.record.reading import run_of_messages
+from beardyn_core.record.rerun_bearing import log_loads, log_motion, log_parts, roller_loads
+from beardyn_core.record.rerun_plots import log_curves, log_styles, order_spectrum
+from beardyn_core.record.rerun_spectrum import log_spectrum
+from beardyn_core.record.rerun_view import blueprint
+
+BATCH_SECONDS = 0.25
+SPECTRUM_SECONDS = 2.0
+SPECTRUM_WINDOW_NS = 4_000_000_000
+SPECTRUM_TOPICS = ("vibration", "shaft")
+
+
+class LiveView:
+    """Draws a running twin into a rerun stream.
+
+    The caller has connected the stream to where it goes (``spawn``, ``serve_grpc``, ``save``) and calls
+    `feed` with every message, and `flush` at the end or from a timer. Messages before the first
+    ``truth`` are dropped: without it the bearing is not known.
+
+    Parameters
+    ----------
+    stream : rerun.RecordingStream
+    """
+
+    def __init__(self, stream: rr.RecordingStream) -> None:
+        self._stream = stream
+        self._run: RunDescription | None = None
+        self._batch: dict[str, list[bytes]] = defaultdict(list)
+        self._window: dict[str, deque[bytes]] = {name: deque() for name in SPECTRUM_TOPICS}
+        self._drawn = self._spectrum_drawn = monotonic()
+        self._largest = 0.0
+        self.dropped = 0
+
+    def feed(self, name: str, cdr: bytes) -> None:
+        """Take a message.
+
+        Parameters
+        ----------
+        name : str
+            Name in the topic table.
+        cdr : bytes
+        """
+        if name == "truth":
+            self._describe(RunDescription.from_json(decode_string(cdr)))
+            return
+        if self._run is None:
+            self.dropped += 1
+            return
+        if name == "monitor/result":
+            self._log_result(cdr)
+            return
+        self._batch[name].append(cdr)
+        if name in self._window:
+            kept = self._window[name]
+            kept.append(cdr)
+            while header_stamp(kept[0]) < header_stamp(cdr) - SPECTRUM_WINDOW_NS:
+                kept.popleft()
+        if monotonic() - self._drawn >= BATCH_SECONDS:
+            self.flush()
+
+    def flush(self) -> None:
+        """Draw what has come in."""
+        self._drawn = monotonic()
+        if self._run is None or not self._batch:
+            return
+        batch, self._batch = self._batch, defaultdict(list)
+        part = run_of_messages(batch, self._run)
+        if len(part.bodies):
+            load = roller_loads(part)
+            self._largest = max(self._largest, float(load.max()))
+            log_motion(self._stream, part)
+            log_loads(self._stream, part, self._largest)
+        log_curves(self._stream, part)
+        if self._drawn - self._spectrum_drawn >= SPECTRUM_SECONDS:
+            self._spectrum_drawn = self._drawn
+            self._draw_spectrum(self._run)
+
+    def _describe(self, run: RunDescription) -> None:
+        if self._run is not None and self._run.to_json() == run.to_json():
+            return
+        self._run = run
+        self._largest = 0.0
+        self._batch.clear()
+        for kept in self._window.values():
+            kept.clear()
+        self._stream.send_blueprint(blueprint(run.shape.outer_diameter, follow=True))
+        log_parts(self._stream, run)
+        log_styles(self._stream)
+
+    def _draw_spectrum(self, run: RunDescription) -> None:
+        window = run_of_messages({name: list(kept) for name, kept in self._window.items()}, run)
+        spectrum = order_spectrum(window)
+        if spectrum is not None:
+            log_spectrum(self._stream, spectrum, run.shape.fault_frequencies)
+
+    def _log_result(self, cdr: bytes) -> None:
+        _, statuses = decode_diagnostics(cdr)
+        lines = [f"## {status.name}\n\n{status.message}" for status in statuses]
+        document = rr.TextDocument("\n\n".join(lines), media_type=rr.MediaType.MARKDOWN)
+        self._stream.log("about", document, static=True)
+
+
+class RerunSink:
+    """Draws a desk run while it is computed.
+
+    Parameters
+    ----------
+    stream : rerun.RecordingStream
+        Connected to where it goes.
+    """
+
+    def __init__(self, stream: rr.RecordingStream) -> None:
+        self._stream = stream
+        self._view = LiveView(stream)
+
+    def open(self, run: RunDescription) -> None:
+        """Draw the bearing."""
+        self._encoder = BlockEncoder(run.roller_count, run.sensor_names)
+        self._view.feed("truth", encode_string(run.to_json()))
+
+    def write(self, block: Block) -> None:
+        """Take a block; it is drawn with the next batch."""
+        for name, _, cdr in self._encoder.encode(block):
+            self._view.feed(name, cdr)
+
+    def close(self, status: str = "") -> None:
+        """Draw the rest."""
+        self._view.flush()
+        if status:
+            self._stream.log("about", rr.TextDocument(status), static=True)
+        self._stream.flush()

@@ -1,0 +1,172 @@
+"""A recording as a rerun recording with a blueprint that opens readable at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.reading import Run
+from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
+from beardyn_core.record.rerun_plots import log_plots
+from beardyn_core.record.rerun_spectrum import bounds
+
+APPLICATION = "beardyn"
+BACKGROUND = (16, 19, 26)
+CLOSE_WINDOW = 0.2
+PLAYBACK_SPEED = 0.05
+
+
+def log_run(stream: rr.RecordingStream, run: Run) -> None:
+    """Log a whole recording.
+
+    Parameters
+    ----------
+    stream : rerun.RecordingStream
+    run : Run
+
+    Raises
+    ------
+    InputError
+        The recording does not say which bearing it is of.
+    """
+    log_parts(stream, run.described())
+    if len(run.bodies):
+        log_motion(stream, run)
+        log_loads(stream, run)
+    log_plots(stream, run)
+    stream.log("about", rr.TextDocument(about(run), media_type=rr.MediaType.MARKDOWN), static=True)
+
+
+def blueprint(
+    outer_diameter: float, span: tuple[float, float] | None = None, follow: bool = False
+) -> rrb.Blueprint:
+    """Layout: the bearing on the left, curves on the right.
+
+    Parameters
+    ----------
+    outer_diameter : float
+        Of the bearing, sets the distance of the eye, [m].
+    span : tuple of 2 floats, optional
+        Time window of the curves, [s]; by default all there is.
+    follow : bool
+        Show the newest data of a running twin, and not a replay.
+    """
+    eye = rrb.EyeControls3D(
+        kind=rrb.Eye3DKind.Orbital,
+        position=np.array([1.12, 1.10, 0.62]) * outer_diameter,
+        look_target=np.array([0.0, 0.0, 0.08]) * outer_diameter,
+        eye_up=(0.0, 0.0, 1.0),
+    )
+    whole = None
+    if span is not None:
+        whole = _window(
+            rr.TimeRangeBoundary.absolute(seconds=span[0]), rr.TimeRangeBoundary.absolute(seconds=span[1])
+        )
+    close = _window(
+        rr.TimeRangeBoundary.cursor_relative(seconds=-CLOSE_WINDOW / 2),
+        rr.TimeRangeBoundary.cursor_relative(seconds=CLOSE_WINDOW / 2),
+    )
+
+    def curves(entity: str, name: str, axis: rrb.archetypes.TimeAxis | None = whole) -> rrb.TimeSeriesView:
+        return rrb.TimeSeriesView(
+            origin=f"plots/{entity}",
+            name=name,
+            axis_x=axis,
+            plot_legend=rrb.PlotLegend(rrb.Corner2D.RightTop),
+        )
+
+    bearing = rrb.Spatial3DView(
+        origin="/",
+        contents=[f"{ROOT}/**"],
+        name="bearing",
+        background=BACKGROUND,
+        line_grid=False,
+        eye_controls=eye,
+    )
+    right = rrb.Vertical(
+        curves("vibration", "vibration, m/s²", close),
+        rrb.Spatial2DView(
+            origin="plots/envelope",
+            name="envelope spectrum, m/s² over orders of the shaft",
+            background=BACKGROUND,
+            visual_bounds=bounds(),
+        ),
+        curves("force", "force on the cup, kN"),
+        rrb.Tabs(
+            curves("roller_load", "roller load, kN"),
+            curves("speed_ratio", "speed ratio to pure rolling"),
+            curves("shaft_speed", "shaft speed, rpm"),
+            rrb.TextDocumentView(origin="about", name="about"),
+        ),
+        row_shares=[1.0, 1.1, 1.0, 1.0],
+    )
+    time_panel = (
+        rrb.TimePanel(state="collapsed", timeline=TIMELINE, play_state="following")
+        if follow
+        else rrb.TimePanel(state="collapsed", timeline=TIMELINE, playback_speed=PLAYBACK_SPEED)
+    )
+    return rrb.Blueprint(
+        rrb.Horizontal(bearing, right, column_shares=[1.15, 1.0]),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+        time_panel,
+        auto_views=False,
+    )
+
+
+def _window(start: rr.TimeRangeBoundary, end: rr.TimeRangeBoundary) -> rrb.archetypes.TimeAxis:
+    return rrb.archetypes.TimeAxis(view_range=rr.TimeRange(start=start, end=end))
+
+
+def run_blueprint(run: Run) -> rrb.Blueprint:
+    """Blueprint for a recording, with its time window."""
+    times = run.vibration["vibration"].seconds if "vibration" in run.vibration else run.force.seconds
+    span = (float(times[0]), float(times[-1])) if len(times) else None
+    return blueprint(run.described().shape.outer_diameter, span)
+
+
+def save(run: Run, target: Path | str) -> Path:
+    """Write an ``.rrd`` file with the recording and its blueprint.
+
+    Raises
+    ------
+    InputError
+        The recording does not describe its bearing, or the file cannot be written.
+    """
+    target = Path(target)
+    layout = run_blueprint(run)
+    try:
+        target.open("ab").close()
+    except OSError as error:
+        raise InputError(f"{target}: cannot write the rerun file ({error.strerror})") from error
+    stream = rr.RecordingStream(APPLICATION, recording_id=run.path.stem)
+    stream.save(target, default_blueprint=layout)
+    log_run(stream, run)
+    stream.flush()
+    stream.disconnect()
+    return target
+
+
+def about(run: Run) -> str:
+    """What the recording is of, in Markdown."""
+    description = run.described()
+    lines = [
+        f"# {description.scene}",
+        f"Bearing **{description.shape.name}**, 2 x {description.roller_count} rollers.",
+    ]
+    if run.problem:
+        lines.append(f"**The file was cut off:** {run.problem}")
+    if run.status:
+        lines.append(f"**The run ended:** {run.status}")
+    faults = [f"- {d.on}, row {d.row}, {d.width * 1e3:.1f} mm wide" for d in description.defects]
+    lines += ["## Faults", *(faults or ["none"]), "## Fault frequencies per shaft revolution"]
+    lines += [f"- {name} {value:.4f}" for name, value in description.shape.fault_frequencies.items()]
+    results = [s.message for _, statuses in run.results[-1:] for s in statuses]
+    if results:
+        lines += ["## Monitor", *(f"- {message}" for message in results)]
+    lines += ["## Scene", "```yaml", run.scene_text.rstrip(), "```"]
+    return "\n\n".join(lines[:3]) + "\n\n" + "\n".join(lines[3:]) + "\n"

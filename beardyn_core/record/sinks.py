@@ -1,0 +1,125 @@
+"""Where the blocks of a run go."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from beardyn_core.observe.block import Block
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.encoding import BlockEncoder, block_diagnostic
+from beardyn_core.record.load_stream import encode_load
+from beardyn_core.record.mcap_writing import McapWriter
+from beardyn_core.record.messages import encode_diagnostics, encode_string
+from beardyn_core.record.topics import FRAME, NAMESPACE
+
+DIAGNOSTICS_EVERY = 10
+LOAD_MESSAGE_SAMPLES = 400
+
+
+class Sink(Protocol):
+    """Receives a run: once `open`, every block, once `close`."""
+
+    def open(self, run: RunDescription) -> None:
+        """Prepare for a run."""
+
+    def write(self, block: Block) -> None:
+        """Take a block."""
+
+    def close(self, status: str = "") -> None:
+        """End the run; ``status`` is a sentence, empty when the run ended as asked."""
+
+
+class MemorySink:
+    """Keeps every block.
+
+    Attributes
+    ----------
+    run : RunDescription or None
+    blocks : list of Block
+    status : str or None
+        ``None`` until closed.
+    """
+
+    def __init__(self) -> None:
+        self.run: RunDescription | None = None
+        self.blocks: list[Block] = []
+        self.status: str | None = None
+
+    def open(self, run: RunDescription) -> None:
+        """Begin a run; blocks of an earlier one are forgotten."""
+        self.run, self.blocks, self.status = run, [], None
+
+    def write(self, block: Block) -> None:
+        """Keep a block."""
+        self.blocks.append(block)
+
+    def close(self, status: str = "") -> None:
+        """End the run."""
+        self.status = status
+
+
+class McapSink:
+    """Writes a run to an MCAP file: the same topics and bytes that a node publishes.
+
+    Parameters
+    ----------
+    path : Path
+    namespace : str
+        Of the topics.
+    frame : str
+        Of the headers.
+    """
+
+    def __init__(self, path: Path | str, namespace: str = NAMESPACE, frame: str = FRAME) -> None:
+        self._path = Path(path)
+        self._namespace = namespace
+        self._frame = frame
+        self._writer: McapWriter | None = None
+        self._load_written = 0
+
+    def open(self, run: RunDescription) -> None:
+        """Create the file; it holds the description from the first moment on."""
+        self._run = run
+        self._encoder = BlockEncoder(run.roller_count, run.sensor_names, self._frame)
+        self._writer = McapWriter(self._path, self._namespace)
+        self._writer.describe(run)
+        self._load_written = 0
+        self._first = True
+
+    def write(self, block: Block) -> None:
+        """Append the messages of a block."""
+        writer = self._opened()
+        if self._first:
+            self._first = False
+            writer.add("truth", block.start_ns, encode_string(self._run.to_json()))
+        self._write_load(block.end_ns)
+        for name, stamp, cdr in self._encoder.encode(block):
+            writer.add(name, stamp, cdr)
+        if block.index % DIAGNOSTICS_EVERY == 0 or block.status != 0:
+            status = block_diagnostic(block)
+            writer.add("/diagnostics", block.end_ns, encode_diagnostics(block.end_ns, self._frame, [status]))
+
+    def close(self, status: str = "") -> None:
+        """Finish the file."""
+        if self._writer is not None:
+            self._writer.close(status)
+
+    def _opened(self) -> McapWriter:
+        if self._writer is None:
+            raise RuntimeError("McapSink.write before McapSink.open")
+        return self._writer
+
+    def _write_load(self, until_ns: int) -> None:
+        load = self._run.load
+        if load is None:
+            return
+        # The sample at or after the end of the block belongs to it: the twin interpolates towards it.
+        last = min(int(np.searchsorted(load.time_ns, until_ns)) + 1, len(load))
+        while self._load_written < last:
+            part = load.part(self._load_written, min(self._load_written + LOAD_MESSAGE_SAMPLES, last))
+            cdr = encode_load(part, self._load_written, self._frame)
+            self._opened().add("load/blocks", int(part.time_ns[0]), cdr)
+            self._load_written += len(part)

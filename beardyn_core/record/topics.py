@@ -1,0 +1,169 @@
+"""The one topic table: name, type, QoS and content of every topic.
+
+Names without a leading slash live under the namespace of an axlebox, `NAMESPACE` by default. The
+same names and the same bytes go on the wire, into the file and to the viewer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from beardyn_core.record.clouds import CLOUD
+from beardyn_core.record.messages import CLOCK, DIAGNOSTICS, STRING, TIME
+
+NAMESPACE = "/axlebox"
+FRAME = "axlebox"
+
+WRENCH = "geometry_msgs/msg/WrenchStamped"
+TWIST = "geometry_msgs/msg/TwistStamped"
+IMU = "sensor_msgs/msg/Imu"
+JOINTS = "sensor_msgs/msg/JointState"
+
+
+@dataclass(frozen=True)
+class Topic:
+    """One topic.
+
+    Parameters
+    ----------
+    name : str
+        Relative to the namespace; absolute with a leading slash.
+    type : str
+        ROS message type.
+    reliability : str
+        ``reliable`` or ``best_effort``.
+    durability : str
+        ``volatile`` or ``transient_local``.
+    depth : int
+        Messages kept for a slow reader; 0: all.
+    rate : str
+        How often it is published.
+    content : str
+        What it carries, units included.
+    """
+
+    name: str
+    type: str
+    reliability: str
+    durability: str
+    depth: int
+    rate: str
+    content: str
+
+    def path(self, namespace: str = NAMESPACE) -> str:
+        """Absolute name."""
+        return self.name if self.name.startswith("/") else f"{namespace.rstrip('/')}/{self.name}"
+
+
+_RELIABLE = ("reliable", "volatile")
+_SENSOR = ("best_effort", "volatile")
+_LATCHED = ("reliable", "transient_local")
+
+TOPICS: tuple[Topic, ...] = (
+    Topic("force", WRENCH, *_RELIABLE, 200, "400 Hz", "force and moment of the rollers on the cup, N, N m"),
+    Topic(
+        "force_waveform",
+        CLOUD,
+        *_RELIABLE,
+        50,
+        "every 20 ms",
+        "the same at full rate: sample, t, fx, fy, fz, mx, my, mz",
+    ),
+    Topic(
+        "vibration",
+        CLOUD,
+        *_RELIABLE,
+        50,
+        "every 20 ms",
+        "specific force of the first accelerometer at full rate, m/s^2: sample, t, ax, ay, az; "
+        "further accelerometers on vibration/<name>",
+    ),
+    Topic("imu", IMU, *_SENSOR, 50, "400 Hz", "the first accelerometer decimated for plots; no orientation"),
+    Topic("shaft", JOINTS, *_SENSOR, 50, "400 Hz", "tachometer: angle and speed of the shaft, rad, rad/s"),
+    Topic(
+        "joint_states",
+        JOINTS,
+        *_SENSOR,
+        50,
+        "200 Hz",
+        "orbit angle and speed of cage_<row> and roller_<row>_<k>; joint shaft with the torque of the "
+        "bearing on it as effort, N m",
+    ),
+    Topic(
+        "bodies",
+        CLOUD,
+        *_SENSOR,
+        20,
+        "every 20 ms, 200 snapshots a second",
+        "pose and twist of every body: sample, t, body, x, y, z, qx, qy, qz, qw, vx, vy, vz, wx, wy, wz",
+    ),
+    Topic(
+        "contacts",
+        CLOUD,
+        *_SENSOR,
+        20,
+        "every 20 ms, 200 snapshots a second",
+        "loaded contacts: sample, t, row, roller, kind (0 cup, 1 cone, 2 rib, 3 pocket), point, "
+        "force on the roller, slip, film",
+    ),
+    Topic(
+        "truth", STRING, *_LATCHED, 1, "once", "JSON: scene, faults, fault frequencies, versions, description"
+    ),
+    Topic(
+        "load/blocks",
+        CLOUD,
+        *_RELIABLE,
+        0,
+        "as the horizon allows",
+        "load on the journal: sample, t, fx..mz, shaft_speed, ux, uy, uz, float64; empty ends the stream",
+    ),
+    Topic("load/consumed", TIME, *_RELIABLE, 50, "every 0.2 s", "simulated time up to which load is used"),
+    Topic("load/wrench", WRENCH, *_RELIABLE, 200, "live", "one load on the journal, N, N m"),
+    Topic("load/shaft", TWIST, *_RELIABLE, 200, "live", "one shaft speed, twist.angular.y, rad/s"),
+    Topic(
+        "monitor/result", DIAGNOSTICS, *_RELIABLE, 50, "as the monitor decides", "verdict, lines and scores"
+    ),
+    Topic(
+        "/diagnostics",
+        DIAGNOSTICS,
+        *_RELIABLE,
+        50,
+        "every 0.2 s",
+        "real-time factor, status bits, energy residual, late and lost blocks",
+    ),
+    Topic("/clock", CLOCK, *_RELIABLE, 10, "200 Hz", "simulated time"),
+)
+
+_BY_NAME = {topic.name: topic for topic in TOPICS}
+
+
+def topic(name: str) -> Topic:
+    """Entry of the table; ``vibration/<name>`` is one of a further accelerometer.
+
+    Raises
+    ------
+    KeyError
+        The table has no such topic.
+    """
+    if name.startswith("vibration/"):
+        return replace(_BY_NAME["vibration"], name=name)
+    return _BY_NAME[name]
+
+
+def relative_name(path: str, namespace: str = NAMESPACE) -> str:
+    """Name in the table of an absolute topic name."""
+    prefix = namespace.rstrip("/") + "/"
+    return path[len(prefix) :] if path.startswith(prefix) else path
+
+
+def namespace_of(path: str) -> str | None:
+    """Namespace of an absolute topic name that ends with a relative name of the table."""
+    names = (entry.name for entry in TOPICS if not entry.name.startswith("/"))
+    ends = [name for name in names if path.endswith("/" + name)]
+    # load/shaft ends with shaft too: the longer name is the right one.
+    return path[: -len(max(ends, key=len)) - 1] if ends else None
+
+
+def vibration_topic(sensor: int, names: tuple[str, ...]) -> str:
+    """Topic of an accelerometer: ``vibration`` for the first, ``vibration/<name>`` for others."""
+    return "vibration" if sensor == 0 else f"vibration/{names[sensor]}"

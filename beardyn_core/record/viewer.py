@@ -1,0 +1,213 @@
+"""The rerun viewer as a process: a window, a page in the browser, a picture without a screen."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import sysconfig
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from beardyn_core.errors import InputError
+
+SOFTWARE_DRIVERS = ("/usr/share/vulkan/icd.d/lvp_icd.x86_64.json", "/usr/share/vulkan/icd.d/lvp_icd.json")
+PICTURE_SECONDS = 120.0
+START_SECONDS = 30.0
+
+
+def viewer_executable() -> str:
+    """Path of the ``rerun`` program that came with rerun-sdk.
+
+    Raises
+    ------
+    InputError
+        It is not installed.
+    """
+    beside = Path(sysconfig.get_path("scripts")) / "rerun"
+    found = str(beside) if beside.exists() else shutil.which("rerun")
+    if found is None:
+        raise InputError("the program rerun is not installed: pip install rerun-sdk")
+    return found
+
+
+def has_display() -> bool:
+    """Whether a window can be opened here."""
+    return sys.platform in ("darwin", "win32") or bool(
+        os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    )
+
+
+def require_display() -> None:
+    """Refuse where no window can be opened.
+
+    Raises
+    ------
+    InputError
+        There is no display; says what else can be done.
+    """
+    if not has_display():
+        raise InputError(
+            "no display is set (DISPLAY, WAYLAND_DISPLAY): use --web for a page in a browser, "
+            "--save FILE.rrd to take the recording elsewhere, or --screenshot FILE.png for a picture"
+        )
+
+
+def open_window(recording: Path) -> int:
+    """Open a recording in a window, wait until it is closed, return the viewer's exit code."""
+    require_display()
+    return subprocess.run([viewer_executable(), str(recording)], check=False).returncode
+
+
+@dataclass(frozen=True)
+class WebViewer:
+    """A running web viewer.
+
+    Parameters
+    ----------
+    url : str
+        The page.
+    process : subprocess.Popen
+    """
+
+    url: str
+    process: subprocess.Popen[bytes]
+
+
+@contextmanager
+def web_viewer(recording: Path, port: int | None = None) -> Iterator[WebViewer]:
+    """Serve the viewer and a recording on this machine only, while the context lasts.
+
+    Parameters
+    ----------
+    recording : Path
+        An ``.rrd`` file.
+    port : int, optional
+        Of the page; a free one by default.
+
+    Raises
+    ------
+    InputError
+        The server did not start, or the port is taken.
+    """
+    if port is not None and not _is_free(port):
+        raise InputError(f"--port {port}: the port is in use; choose another or leave the option away")
+    page, data = port or _free_port(), _free_port()
+    command = [
+        viewer_executable(),
+        str(recording),
+        "--serve-web",
+        "--port",
+        str(data),
+        "--web-viewer-port",
+        str(page),
+        "--bind",
+        "127.0.0.1",
+    ]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        _wait_for(process, page)
+        _wait_for(process, data)
+        url = f"http://127.0.0.1:{page}?url=rerun%2Bhttp%3A%2F%2F127.0.0.1%3A{data}%2Fproxy"
+        yield WebViewer(url, process)
+    finally:
+        process.terminate()
+        try:
+            process.wait(timeout=10.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def picture_problem() -> str | None:
+    """Why no picture can be taken here; ``None`` when it can."""
+    if has_display():
+        return None
+    missing = [name for name in ("xvfb-run", "xauth") if shutil.which(name) is None]
+    if missing or _software_driver() is None:
+        return (
+            "a picture needs a display, or Xvfb and a software renderer: "
+            "apt-get install --no-install-recommends xvfb xauth mesa-vulkan-drivers libvulkan1"
+        )
+    return None
+
+
+def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 900)) -> Path:
+    """Picture of the viewer with a recording open.
+
+    Parameters
+    ----------
+    recording : Path
+        An ``.rrd`` file.
+    target : Path
+        PNG.
+    size : tuple of 2 ints
+        Of the window, in its own units.
+
+    Raises
+    ------
+    InputError
+        No display and no Xvfb here, or the viewer made no picture.
+    """
+    problem = picture_problem()
+    if problem is not None:
+        raise InputError(problem)
+    command = [
+        viewer_executable(),
+        str(recording),
+        "--port",
+        "auto",
+        "--window-size",
+        f"{size[0]}x{size[1]}",
+        "--screenshot-to",
+        str(target),
+    ]
+    environment = dict(os.environ)
+    if not has_display():
+        # The pointer rests in the middle of the screen; on a wide one that is outside the window, where
+        # it makes no tooltip.
+        command = ["xvfb-run", "-a", "-s", f"-screen 0 {5 * size[0]}x{5 * size[1]}x24", *command]
+        environment["VK_DRIVER_FILES"] = _software_driver() or ""
+    target.unlink(missing_ok=True)
+    try:
+        done = subprocess.run(
+            command, env=environment, capture_output=True, timeout=PICTURE_SECONDS, check=False, text=True
+        )
+        output = done.stderr
+    except subprocess.TimeoutExpired:
+        output = f"no picture within {PICTURE_SECONDS:.0f} s"
+    if not target.exists():
+        last = output.strip().splitlines()[-1:] or ["it said nothing"]
+        raise InputError(f"{target}: the viewer made no picture ({last[0]})")
+    return target
+
+
+def _software_driver() -> str | None:
+    return next((driver for driver in SOFTWARE_DRIVERS if Path(driver).exists()), None)
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def _is_free(port: int) -> bool:
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) != 0
+
+
+def _wait_for(process: subprocess.Popen[bytes], port: int) -> None:
+    deadline = time.monotonic() + START_SECONDS
+    while time.monotonic() < deadline:
+        if process.poll() is not None:
+            raise InputError(f"the web viewer ended with code {process.returncode} before it could serve")
+        if not _is_free(port):
+            return
+        time.sleep(0.05)
+    raise InputError(f"the web viewer did not answer on port {port} within {START_SECONDS:.0f} s")

@@ -1,0 +1,73 @@
+"""What both demonstrations share on the console: arguments and progress."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of this demo and of the one with nodes."""
+    parser.add_argument("--scene", default="cup_spall", metavar="SCENE", help="shipped scene or YAML file")
+    parser.add_argument(
+        "--out", default=Path("demo"), type=Path, metavar="DIR", help="folder for the results (demo)"
+    )
+    parser.add_argument("--duration", type=float, metavar="S", help="simulated time, s (the scene's own)")
+    parser.add_argument(
+        "--no-view", action="store_true", help="take no picture of the rerun view (saves some ten seconds)"
+    )
+
+
+def say(line: str) -> None:
+    """Print at once, also into a pipe."""
+    print(line, flush=True)
+
+
+class Progress:
+    """One line that is overwritten on a terminal, one line a simulated second elsewhere.
+
+    Parameters
+    ----------
+    duration : float
+        Simulated time to come, [s].
+    """
+
+    def __init__(self, duration: float) -> None:
+        self._duration = duration
+        self._said = 0.0
+        self._monitor = "listening"
+        self._terminal = sys.stdout.isatty()
+        self._open = False
+
+    def hear(self, verdict: str) -> None:
+        """Note what the monitor says."""
+        self._monitor = {"waiting": "listening", "healthy": "no fault"}.get(verdict, f"{verdict} fault")
+
+    def show(self, simulated: float, real_time_factor: float) -> None:
+        """Show where the run is.
+
+        Parameters
+        ----------
+        simulated : float
+            [s].
+        real_time_factor : float
+        """
+        if not self._terminal and simulated - self._said < 1.0:
+            return
+        self._said = simulated
+        line = (
+            f"simulated {simulated:6.2f} of {self._duration:.2f} s   RTF {real_time_factor:5.2f}   "
+            f"monitor: {self._monitor}"
+        )
+        if self._terminal:
+            print(f"\r{line}\033[K", end="", flush=True)
+            self._open = True
+        else:
+            say(line)
+
+    def close(self) -> None:
+        """Leave the line as it is."""
+        if self._open:
+            print(flush=True)
+            self._open = False

@@ -1,0 +1,213 @@
+"""What a demonstration ends with: what was found, in words, as a picture, and as files to open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.envelope import envelope_order_spectrum
+from beardyn_core.record.reading import Run, read_run
+from beardyn_core.scene.defect import Spall
+from beardyn_core.study.finding import HEALTHY, Conclusion, Finding, conclude
+from beardyn_core.study.summary_picture import FaultMarker, SummaryData, summary_picture
+
+RECORDING_NAME = "run.mcap"
+RERUN_NAME = "run.rrd"
+SUMMARY_NAME = "summary.png"
+VIEW_NAME = "view.png"
+SETTLING_S = 0.25
+HIGHEST_HARMONIC = 5.0
+LABEL_WIDTH = 22
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How fast a demonstration went.
+
+    Parameters
+    ----------
+    simulated : float
+        [s].
+    real_time_factor : float
+        Simulated time over the time spent in the twin.
+    overall : float or None
+        Simulated time over wall time with everything else running; ``None``: not measured.
+    """
+
+    simulated: float
+    real_time_factor: float
+    overall: float | None = None
+
+
+def demo_folder(folder: Path) -> Path:
+    """Folder for the results, made when it is missing.
+
+    Raises
+    ------
+    InputError
+        It cannot be made or written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe = folder / ".writable"
+        probe.touch()
+        probe.unlink()
+    except OSError as error:
+        raise InputError(f"--out {folder}: cannot be written ({error.strerror}); choose another") from error
+    return folder
+
+
+def report(folder: Path, pace: Pace, say: Say, picture_of_view: bool = True) -> Conclusion:
+    """Make the files, say what was found and where everything lies.
+
+    Parameters
+    ----------
+    folder : Path
+        With the recording `RECORDING_NAME` in it.
+    pace : Pace
+    say : callable
+        Prints one line.
+    picture_of_view : bool
+        Take a picture of the rerun view where that is possible.
+
+    Returns
+    -------
+    Conclusion
+    """
+    from beardyn_core.record.rerun_view import save
+    from beardyn_core.record.viewer import picture_problem, take_picture
+
+    recording = folder / RECORDING_NAME
+    run = read_run(recording)
+    conclusion = conclude(findings_of(run))
+    say("drawing the summary ...")
+    summary_picture(summary_data(run, conclusion), folder / SUMMARY_NAME)
+    say("writing the rerun file ...")
+    replay = save(run, folder / RERUN_NAME)
+    view = "not made"
+    if picture_of_view:
+        problem = picture_problem()
+        if problem is None:
+            say("taking a picture of the rerun view ...")
+            try:
+                view = str(take_picture(replay, folder / VIEW_NAME))
+            except InputError as error:
+                problem = str(error)
+        if problem is not None:
+            view = f"not made: {problem}"
+    say("")
+    for line in result_lines(run, conclusion, pace):
+        say(line)
+    for label, text in (
+        ("recording", f"{recording}   (beardyn report {recording})"),
+        ("rerun file", f"{replay}   (rerun {replay})"),
+        ("summary picture", str(folder / SUMMARY_NAME)),
+        ("picture of the view", view),
+    ):
+        say(f"  {label:{LABEL_WIDTH}}{text}")
+    return conclusion
+
+
+def findings_of(run: Run) -> list[Finding]:
+    """Results of the monitor in a recording, without its last summing-up."""
+    found = []
+    for _, statuses in run.results:
+        for status in statuses:
+            finding = Finding.from_diagnostic(status)
+            if finding is not None and status.value("final") != "true":
+                found.append(finding)
+    return found
+
+
+def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
+    """What was found, one line each."""
+    description = run.described()
+    factor = f"{pace.real_time_factor:.2f}"
+    if pace.overall is not None:
+        factor += f" in the twin, {pace.overall:.2f} with all nodes running"
+    rows = [
+        ("scene", f"{description.scene}, bearing {description.shape.name}"),
+        ("real-time factor", f"{factor} ({pace.simulated:.2f} s simulated)"),
+    ]
+    finding = conclusion.finding
+    if finding is None:
+        rows.append(("monitor", "has not had enough signal for a verdict"))
+    elif finding.is_fault:
+        rows += [
+            (
+                "monitor found",
+                f"{finding.verdict} fault ({conclusion.agreeing} of {conclusion.analyses} analyses)",
+            ),
+            (
+                "frequency",
+                f"{finding.found_frequency:.2f} Hz; {finding.symbol} from geometry "
+                f"{finding.expected_frequency:.2f} Hz ({100.0 * finding.deviation:+.2f} %)",
+            ),
+            ("signal to background", f"{finding.signal_to_background:.1f} dB"),
+        ]
+    else:
+        rows += [
+            ("monitor found", f"no fault ({conclusion.agreeing} of {conclusion.analyses} analyses)"),
+            ("strongest line", f"{finding.signal_to_background:.1f} dB over the background"),
+        ]
+    rows.append(("ground truth", truth_sentence(description.defects, conclusion)))
+    return [f"  {label:{LABEL_WIDTH}}{text}" for label, text in rows]
+
+
+def truth_sentence(defects: tuple[Spall, ...], conclusion: Conclusion) -> str:
+    """What is really in the bearing, and whether the monitor is right."""
+    there = " and ".join(
+        f"spall on the {d.on}, row {d.row}, {d.width * 1e3:.1f} mm wide, {d.depth * 1e6:.0f} µm deep"
+        for d in defects
+    )
+    right = conclusion.verdict in ({d.on for d in defects} or {HEALTHY})
+    return f"{there or 'no defect'}: the monitor is {'right' if right else 'wrong'}"
+
+
+def summary_data(run: Run, conclusion: Conclusion) -> SummaryData:
+    """Arrays of the summary picture."""
+    from beardyn_core.record.rerun_bearing import roller_loads
+
+    shape = run.described().shape
+    orders = shape.fault_frequencies
+    time = run.force.seconds
+    load_time = run.load.time_ns * 1e-9
+    load = np.stack([np.interp(time, load_time, run.load.wrench[:, axis]) for axis in range(3)], axis=1)
+    cages = [run.orbit.column(f"cage_{row}") for row in range(2)]
+    cage_time = run.orbit.time_ns * 1e-9
+    cage_speed = np.stack(
+        [np.interp(time, cage_time, run.orbit.velocity[:, column]) for column in cages], axis=1
+    )
+    shaft_speed = np.interp(time, run.shaft.time_ns * 1e-9, run.shaft.velocity[:, 0])
+    settled = run.bodies.time_ns * 1e-9 >= min(SETTLING_S, 0.5 * float(run.bodies.time_ns[-1]) * 1e-9)
+    centre = run.bodies.pose[settled, 4:, :3].reshape(int(settled.sum()), 2, shape.roller_count, 3)
+    spectrum = envelope_order_spectrum(
+        run.vibration["vibration"], run.shaft, HIGHEST_HARMONIC * orders["BPFI"]
+    )
+    finding = conclusion.finding
+    return SummaryData(
+        title=f"{run.described().scene}: {shape.name}",
+        verdict=finding.reason if finding else "monitor: not enough signal for a verdict",
+        time=time,
+        force=run.force.values[:, :3],
+        load=load,
+        shaft_speed=shaft_speed,
+        cage_speed=cage_speed,
+        roller_azimuth=np.arctan2(centre[..., 0], centre[..., 2]),
+        roller_load=roller_loads(run)[settled],
+        envelope_order=spectrum.order if spectrum else np.zeros(0),
+        envelope_amplitude=spectrum.amplitude if spectrum else np.zeros(0),
+        markers=(
+            FaultMarker("BPFO", orders["BPFO"]),
+            FaultMarker("BPFI", orders["BPFI"]),
+            FaultMarker("2 BSF", 2.0 * orders["BSF"]),
+            FaultMarker("FTF", orders["FTF"]),
+        ),
+        shaft_frequency=float(np.mean(shaft_speed)) / (2.0 * np.pi),
+    )

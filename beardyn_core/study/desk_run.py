@@ -1,0 +1,247 @@
+"""A desk run: one scene as fast as the machine can, every block into the sinks, and a summary."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.errors import ValidityError
+from beardyn_core.observe.block import Block
+from beardyn_core.rail.build import load_history
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.sinks import Sink
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+
+COMPLETE = "complete"
+# Oscillations of the start have died away by then; shorter runs are averaged over their second half.
+SETTLING_S = 0.25
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RunSummary:
+    """What a run came to; means over the last whole cage revolutions.
+
+    Parameters
+    ----------
+    scene, tier : str
+    effects : tuple of str
+        Names of the effects that were present.
+    duration : float
+        Simulated, [s].
+    wall_time : float
+        Spent in the simulation itself, without compiling, recording and drawing, [s].
+    status : str
+        ``complete``, or the sentence that says how the run left its validity.
+    mean_force : tuple of 3 floats
+        Of the rollers on the cup, world axes, [N].
+    shaft_torque : float
+        Mean torque of the bearing on the shaft, [N m].
+    cage_speed_ratio : tuple of floats, one a row
+        Cage speed over FTF and shaft speed, nominal 1; NaN with the shaft at rest.
+    energy_residual : float or None
+        Of the audit at the end; ``None`` without audit.
+    averaged : tuple of 2 floats
+        First and last time of the means, [s].
+    cage_revolutions : int
+        Whole revolutions of the cage that the means cover; 0 when the run was shorter than one.
+    """
+
+    scene: str
+    tier: str
+    effects: tuple[str, ...]
+    duration: float
+    wall_time: float
+    status: str
+    mean_force: tuple[float, float, float]
+    shaft_torque: float
+    cage_speed_ratio: tuple[float, ...]
+    energy_residual: float | None
+    averaged: tuple[float, float]
+    cage_revolutions: int
+
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated over wall time."""
+        return self.duration / self.wall_time if self.wall_time > 0.0 else math.inf
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run came to its end inside the model's validity."""
+        return self.status == COMPLETE
+
+
+def run(
+    scene: Scene,
+    sinks: Sequence[Sink] = (),
+    progress: Callable[[Block], None] | None = None,
+) -> RunSummary:
+    """Simulate a scene to its end.
+
+    Parameters
+    ----------
+    scene : Scene
+    sinks : sequence of Sink
+        Opened, fed and closed here; closed also when the run fails or is interrupted.
+    progress : callable, optional
+        Called with every block once the sinks have it.
+
+    Raises
+    ------
+    InputError
+        The load could not be made; no sink has been opened.
+    """
+    twin = Twin(scene)
+    block_count = max(1, math.ceil(scene.duration * 1e9 / twin.block_ns - 1e-6))
+    load = load_history(scene.operation, scene.mounting, block_count * twin.block_ns * 1e-9, scene.seed)
+    twin.warm()
+    twin.start(load)
+    description = RunDescription.of(scene, twin.truth(), twin.body_names, load)
+
+    trend = _Trend()
+    wall_time = 0.0
+    status = COMPLETE
+    opened: list[Sink] = []
+    closing = "the run was interrupted before its end"
+    try:
+        for sink in sinks:
+            sink.open(description)
+            opened.append(sink)
+        for _ in range(block_count):
+            began = time.perf_counter()
+            try:
+                block = twin.advance()
+            except ValidityError as error:
+                wall_time += time.perf_counter() - began
+                status = str(error)
+                if isinstance(error.block, Block):
+                    _deliver(error.block, opened, trend, progress)
+                break
+            wall_time += time.perf_counter() - began
+            _deliver(block, opened, trend, progress)
+        closing = "" if status == COMPLETE else status
+    finally:
+        for sink in opened:
+            sink.close(closing)
+    return trend.summary(scene, wall_time, status)
+
+
+def _deliver(
+    block: Block, sinks: Sequence[Sink], trend: _Trend, progress: Callable[[Block], None] | None
+) -> None:
+    trend.add(block)
+    for sink in sinks:
+        sink.write(block)
+    if progress is not None:
+        progress(block)
+
+
+class _Trend:
+    """The 400 Hz signals of a run that its means are taken from."""
+
+    def __init__(self) -> None:
+        self._blocks: list[tuple[Float, Float, Float, Float, Float]] = []
+        self._end_ns = 0
+        self._start_ns: int | None = None
+        self._residual: float | None = None
+
+    def add(self, block: Block) -> None:
+        """Keep the trend of a block."""
+        if self._start_ns is None:
+            self._start_ns = block.start_ns
+        self._end_ns = block.end_ns
+        self._residual = None if block.audit is None else block.audit.residual
+        self._blocks.append(
+            (
+                block.trend_time_ns.astype(np.float64) * 1e-9,
+                block.force[:, :3],
+                block.shaft_torque,
+                block.shaft_speed,
+                block.cage_speed,
+            )
+        )
+
+    def summary(self, scene: Scene, wall_time: float, status: str) -> RunSummary:
+        """Means over the last whole cage revolutions after the settling time."""
+        duration = (self._end_ns - (self._start_ns or 0)) * 1e-9
+        rows = self._blocks[0][4].shape[1] if self._blocks else 2
+        nothing = (math.nan, math.nan, math.nan)
+        force, torque, shaft, cage = nothing, math.nan, math.nan, (math.nan,) * rows
+        averaged, revolutions = (0.0, 0.0), 0
+        if self._blocks:
+            times, forces, torques, shafts, cages = (
+                np.concatenate(part) for part in zip(*self._blocks, strict=True)
+            )
+            first, revolutions = averaging_start(times, cages[:, 0])
+            averaged = (first, float(times[-1]))
+            fx, fy, fz = (time_mean(times, component, first) for component in forces.T)
+            force, torque, shaft = (
+                (fx, fy, fz),
+                time_mean(times, torques, first),
+                time_mean(times, shafts, first),
+            )
+            cage = tuple(time_mean(times, row, first) for row in cages.T)
+        epicyclic = fault_frequencies(scene.bearing).ftf * shaft
+        return RunSummary(
+            scene=scene.name,
+            tier=scene.tier,
+            effects=scene.effects.names(),
+            duration=duration,
+            wall_time=wall_time,
+            status=status,
+            mean_force=force,
+            shaft_torque=torque,
+            cage_speed_ratio=tuple(speed / epicyclic if epicyclic else math.nan for speed in cage),
+            energy_residual=self._residual,
+            averaged=averaged,
+            cage_revolutions=revolutions,
+        )
+
+
+def averaging_start(times: Float, cage_speed: Float) -> tuple[float, int]:
+    """Where the last whole cage revolutions begin, not before the start has settled.
+
+    Parameters
+    ----------
+    times : float64 array, shape [sample]
+        [s].
+    cage_speed : float64 array, shape [sample]
+        [rad/s].
+
+    Returns
+    -------
+    float
+        Begin of the means, [s]. A run without a whole revolution is averaged from the settling time on.
+    int
+        Whole revolutions from there to the end.
+    """
+    settled = times[0] + min(SETTLING_S, 0.5 * (times[-1] - times[0]))
+    if len(times) < 2:
+        return float(settled), 0
+    turned = _running_integral(times, np.abs(cage_speed)) / (2.0 * math.pi)
+    to_end = turned[-1] - turned
+    revolutions = int(turned[-1] - np.interp(settled, times, turned) + 1e-9)
+    if revolutions == 0:
+        return float(settled), 0
+    return float(np.interp(-revolutions, -to_end, times)), revolutions
+
+
+def time_mean(times: Float, values: Float, first: float) -> float:
+    """Mean of a sampled signal, linear between its samples, from ``first`` to the last sample."""
+    if len(times) < 2:
+        return float(values[-1])
+    integral = _running_integral(times, values)
+    return float((integral[-1] - np.interp(first, times, integral)) / (times[-1] - first))
+
+
+def _running_integral(times: Float, values: Float) -> Float:
+    steps = 0.5 * (values[1:] + values[:-1]) * np.diff(times)
+    return np.concatenate([[0.0], np.cumsum(steps)])

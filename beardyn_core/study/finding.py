@@ -1,0 +1,141 @@
+"""What a monitor found, on the wire and over a whole run."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from math import isfinite, nan
+
+from beardyn_core.observe.diagnosis import MonitorResult
+from beardyn_core.record.messages import Diagnostic
+
+WAITING, HEALTHY = "waiting", "healthy"
+FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One result of the monitor, without its spectrum.
+
+    Parameters
+    ----------
+    verdict : str
+        ``waiting``, ``healthy``, ``cup``, ``cone`` or ``roller``.
+    reason : str
+        The verdict in a sentence.
+    time : float
+        Simulated time of the last sample analysed, [s].
+    found_frequency, expected_frequency : float
+        Line found and the same from geometry; NaN without a fault, [Hz].
+    found_order, expected_order : float
+        Per shaft revolution, [-].
+    signal_to_background : float
+        Of the fundamental line; without a fault of the strongest line, [dB].
+    score : float
+        What the alarm threshold is compared with, [dB].
+    shaft_frequency : float
+        [Hz].
+    load : float
+        Mean vertical load, [N].
+    rms, kurtosis : float
+        Of the band-passed vibration, [m/s^2], [-].
+    """
+
+    verdict: str
+    reason: str
+    time: float
+    found_frequency: float = nan
+    expected_frequency: float = nan
+    found_order: float = nan
+    expected_order: float = nan
+    signal_to_background: float = nan
+    score: float = 0.0
+    shaft_frequency: float = nan
+    load: float = nan
+    rms: float = nan
+    kurtosis: float = nan
+
+    @classmethod
+    def of(cls, result: MonitorResult) -> Finding:
+        """Finding of a monitor's result."""
+        fundamental = [line.level for line in result.lines if line.expected_order == result.expected_order]
+        return cls(
+            verdict=result.verdict,
+            reason=result.reason,
+            time=result.end_ns * 1e-9,
+            found_frequency=result.fault_frequency,
+            expected_frequency=result.expected_frequency,
+            found_order=result.fault_order,
+            expected_order=result.expected_order,
+            signal_to_background=fundamental[0] if fundamental else result.strongest_level,
+            score=result.score,
+            shaft_frequency=result.shaft_frequency,
+            load=result.load,
+            rms=result.rms,
+            kurtosis=result.kurtosis,
+        )
+
+    @property
+    def is_fault(self) -> bool:
+        """Whether a fault is called."""
+        return self.verdict in FAULT_SYMBOLS
+
+    @property
+    def symbol(self) -> str:
+        """``BPFO``, ``BPFI`` or ``2 BSF``; '' without a fault."""
+        return FAULT_SYMBOLS.get(self.verdict, "")
+
+    @property
+    def deviation(self) -> float:
+        """Frequency found against geometry, relative, [-]."""
+        return self.found_order / self.expected_order - 1.0
+
+    def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
+        """Status for ``monitor/result``: a fault is a warning."""
+        values = [("verdict", self.verdict)]
+        for member in fields(self)[2:]:
+            number = float(getattr(self, member.name))
+            values.append((member.name, f"{number:.9g}" if isfinite(number) else "nan"))
+        return Diagnostic(name, 1 if self.is_fault else 0, self.reason, (*values, *extra))
+
+    @classmethod
+    def from_diagnostic(cls, status: Diagnostic) -> Finding | None:
+        """Finding of a status, ``None`` when it is none."""
+        verdict = status.value("verdict")
+        if verdict is None:
+            return None
+        numbers = {member.name: float(status.value(member.name) or "nan") for member in fields(cls)[2:]}
+        return cls(verdict, status.message, **numbers)
+
+
+@dataclass(frozen=True)
+class Conclusion:
+    """What a monitor's results over a run come to.
+
+    Parameters
+    ----------
+    finding : Finding or None
+        Latest of the most frequent verdict; ``None`` when there never was enough signal.
+    agreeing, analyses : int
+        Results with that verdict, and results at all.
+    """
+
+    finding: Finding | None
+    agreeing: int
+    analyses: int
+
+    @property
+    def verdict(self) -> str:
+        """Most frequent verdict; ``waiting`` without any."""
+        return self.finding.verdict if self.finding else WAITING
+
+
+def conclude(findings: Sequence[Finding]) -> Conclusion:
+    """Most frequent verdict of a run; results before there was enough signal do not count."""
+    judged = [finding for finding in findings if finding.verdict != WAITING]
+    if not judged:
+        return Conclusion(None, 0, 0)
+    verdict, agreeing = Counter(finding.verdict for finding in judged).most_common(1)[0]
+    latest = [finding for finding in judged if finding.verdict == verdict][-1]
+    return Conclusion(latest, agreeing, len(judged))

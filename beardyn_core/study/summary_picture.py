@@ -1,0 +1,194 @@
+"""One picture of a run: forces, load zone, envelope spectrum, speed. Needs no screen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.projections.polar import PolarAxes
+from numpy.typing import ArrayLike, NDArray
+
+Float = NDArray[np.float64]
+
+WIDTH_PX, HEIGHT_PX, DPI = 1600, 1000, 100
+_AXIS_COLOURS = ("#4C72B0", "#55A868", "#C44E52")
+_ROW_COLOURS = ("#C44E52", "#4C72B0")
+_FAULT_COLOURS = {"BPFO": "#C44E52", "BPFI": "#4C72B0", "2 BSF": "#DD8452", "FTF": "#8172B3"}
+_HARMONICS = 4
+
+
+@dataclass(frozen=True)
+class FaultMarker:
+    """A fault frequency to mark in the envelope spectrum.
+
+    Parameters
+    ----------
+    name : str
+        ``BPFO``, ``BPFI``, ``2 BSF`` or ``FTF``.
+    order : float
+        Per shaft revolution, [-].
+    """
+
+    name: str
+    order: float
+
+
+@dataclass(frozen=True)
+class SummaryData:
+    """Arrays of a run that the picture shows.
+
+    Parameters
+    ----------
+    title, verdict : str
+        Name of the scene; what the monitor says, in a sentence.
+    time : float64 array, shape [sample]
+        [s].
+    force : float64 array, shape [sample, 3]
+        Of the rollers on the cup, world axes, [N].
+    load : float64 array, shape [sample, 3]
+        On the journal, [N].
+    shaft_speed : float64 array, shape [sample]
+        [rad/s].
+    cage_speed : float64 array, shape [sample, row]
+        [rad/s].
+    roller_azimuth : float64 array, shape [row, roller] or [moment, row, roller]
+        From +z towards +x, [rad].
+    roller_load : float64 array, the shape of ``roller_azimuth``
+        Normal load between cup and roller, [N].
+    envelope_order : float64 array, shape [line]
+        Cycles per shaft revolution, [-].
+    envelope_amplitude : float64 array, shape [line]
+        Amplitude of the envelope, [m/s^2].
+    markers : tuple of FaultMarker
+    shaft_frequency : float
+        Mean during the analysis, for the frequency scale, [Hz].
+    """
+
+    title: str
+    verdict: str
+    time: Float
+    force: Float
+    load: Float
+    shaft_speed: Float
+    cage_speed: Float
+    roller_azimuth: Float
+    roller_load: Float
+    envelope_order: Float
+    envelope_amplitude: Float
+    markers: tuple[FaultMarker, ...]
+    shaft_frequency: float
+
+
+def summary_picture(data: SummaryData, path: Path) -> None:
+    """Draw the picture, 1600 x 1000 pixels.
+
+    Parameters
+    ----------
+    data : SummaryData
+    path : Path
+        Where the PNG goes.
+    """
+    figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
+    FigureCanvasAgg(figure)
+    figure.suptitle(f"{data.title}\n{data.verdict}", fontsize=15)
+    left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.75, 1.0))[0]
+    forces, speeds, spectrum = left.subplots(3, 1, height_ratios=(1.0, 0.7, 1.3))
+    zone = right.add_subplot(projection="polar")
+    _draw_forces(forces, data)
+    _draw_speeds(speeds, data)
+    speeds.sharex(forces)
+    _draw_spectrum(spectrum, data)
+    assert isinstance(zone, PolarAxes)
+    _draw_load_zone(zone, data)
+    figure.savefig(path, dpi=DPI, format="png")
+
+
+def _draw_forces(axes: Axes, data: SummaryData) -> None:
+    for column, (name, colour) in enumerate(zip("xyz", _AXIS_COLOURS, strict=True)):
+        axes.plot(data.time, data.force[:, column] / 1e3, color=colour, lw=0.9, label=f"cup force {name}")
+        axes.plot(data.time, data.load[:, column] / 1e3, color=colour, lw=0.9, ls=":", alpha=0.8)
+    axes.plot([], [], color="0.3", ls=":", label="load on the journal")
+    axes.set_ylabel("force [kN]")
+    axes.set_title("Bearing force: rollers on the cup", fontsize=11, loc="left")
+    axes.tick_params(labelbottom=False)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=8, ncols=4, frameon=False)
+    axes.grid(alpha=0.3)
+
+
+def _draw_speeds(axes: Axes, data: SummaryData) -> None:
+    rpm = 30.0 / np.pi
+    axes.plot(data.time, data.shaft_speed * rpm, color="0.2", label="shaft")
+    for row, colour in enumerate(_ROW_COLOURS[: data.cage_speed.shape[1]]):
+        name = f"cage, row {row} ({'inboard' if row == 0 else 'outboard'})"
+        axes.plot(data.time, data.cage_speed[:, row] * rpm, color=colour, ls=("-", "--")[row], label=name)
+    axes.set_ylim(bottom=min(0.0, 1.05 * float(np.min(data.shaft_speed, initial=0.0)) * rpm))
+    axes.set_ylabel("speed [rpm]")
+    axes.set_xlabel("time [s]")
+    axes.set_title("Speeds", fontsize=11, loc="left")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=8, ncols=3, frameon=False)
+    axes.grid(alpha=0.3)
+
+
+def _draw_spectrum(axes: Axes, data: SummaryData) -> None:
+    highest = (_HARMONICS + 0.5) * max((marker.order for marker in data.markers), default=10.0)
+    shown = (data.envelope_order <= highest) & (data.envelope_order > 0.1)
+    order, amplitude = data.envelope_order[shown], data.envelope_amplitude[shown]
+    axes.plot(order, amplitude, color="0.25", lw=0.8)
+    top = 1.25 * float(amplitude.max(initial=0.0)) or 1.0
+    axes.set_ylim(0.0, top)
+    axes.set_xlim(0.0, highest)
+    for level, marker in enumerate(data.markers):
+        colour = _FAULT_COLOURS.get(marker.name, "0.5")
+        harmonics = 1 if marker.name == "FTF" else _HARMONICS
+        for h in range(1, harmonics + 1):
+            axes.axvline(
+                h * marker.order, color=colour, lw=1.1, ls="--", alpha=0.9 if h == 1 else 0.45, zorder=0
+            )
+            text = f" {marker.name}" if h == 1 else f" {h}x"
+            # one line of text a marker: neighbours such as 2 BSF and BPFO do not overlap
+            axes.text(
+                h * marker.order, top * (0.985 - 0.062 * level), text, color=colour, fontsize=8.5, va="top"
+            )
+    axes.set_xlabel("order [cycles per shaft revolution]")
+    axes.set_ylabel("envelope [m/s²]")
+    axes.set_title("Envelope spectrum of the axlebox vibration", fontsize=11, loc="left")
+    axes.grid(alpha=0.3)
+    if data.shaft_frequency > 0.0:
+        rate = data.shaft_frequency
+
+        def frequency_of(order: ArrayLike) -> Float:
+            return np.asarray(order, dtype=np.float64) * rate
+
+        def order_of(frequency: ArrayLike) -> Float:
+            return np.asarray(frequency, dtype=np.float64) / rate
+
+        scale = axes.secondary_xaxis("top", functions=(frequency_of, order_of))
+        scale.set_xlabel(f"frequency [Hz] at {rate:.2f} Hz shaft speed", fontsize=9)
+        scale.tick_params(labelsize=8)
+
+
+def _draw_load_zone(axes: PolarAxes, data: SummaryData) -> None:
+    azimuth = np.atleast_3d(data.roller_azimuth.T).T if data.roller_azimuth.ndim == 2 else data.roller_azimuth
+    load = np.atleast_3d(data.roller_load.T).T if data.roller_load.ndim == 2 else data.roller_load
+    # azimuth 0 is up (+z), and forward (+x) is drawn to the right
+    axes.set_theta_zero_location("N")
+    axes.set_theta_direction(-1)
+    for row, colour in enumerate(_ROW_COLOURS[: azimuth.shape[1]]):
+        angle = np.mod(azimuth[:, row].ravel(), 2.0 * np.pi)
+        force = load[:, row].ravel() / 1e3
+        label = (
+            f"row {row} ({'inboard' if row == 0 else 'outboard'}), largest {force.max(initial=0.0):.2f} kN"
+        )
+        if len(azimuth) == 1:
+            axes.vlines(angle, 0.0, force, color=colour, alpha=0.5, lw=2)
+        axes.scatter(angle, force, color=colour, s=30 if len(azimuth) == 1 else 5, alpha=0.8, label=label)
+    axes.set_xticks(np.deg2rad(np.arange(0, 360, 45)))
+    axes.set_xticklabels(["0° (+z, up)", "45°", "90°\n(+x)", "135°", "180°", "225°", "270°", "315°"])
+    axes.set_ylim(0.0, 1.1 * float(load.max(initial=0.0)) / 1e3 or 1.0)
+    axes.set_rlabel_position(112.0)
+    axes.set_title("Load zone: cup–roller load [kN] by azimuth", fontsize=11, pad=18)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), fontsize=9)
