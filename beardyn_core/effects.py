@@ -40,16 +40,16 @@ class CoulombTraction:
 
 @dataclass(frozen=True)
 class MixedTraction:
-    """Boundary and fluid friction blended over the film parameter.
+    """Boundary and full-film friction blended over the film parameter, both regularised.
 
     Parameters
     ----------
     boundary_friction : float
         Coefficient of friction of the dry asperities.
+    full_film_friction : float
+        Coefficient of friction of the lubricant film at full slip.
     regularisation_speed : float
-        Slip speed at which 71 % of the boundary friction is reached, [m/s].
-    limiting_shear : float
-        Limiting shear stress of the lubricant over the mean contact pressure.
+        Slip speed at which 71 % of the friction is reached, [m/s].
     boundary_film_parameter : float
         Film parameter below which all load is carried by asperities.
     full_film_parameter : float
@@ -57,10 +57,34 @@ class MixedTraction:
     """
 
     boundary_friction: float = 0.1
+    full_film_friction: float = 0.02
     regularisation_speed: float = 0.02
-    limiting_shear: float = 0.045
     boundary_film_parameter: float = 0.01
     full_film_parameter: float = 1.5
+
+
+@dataclass(frozen=True)
+class ShearedFilmTraction:
+    """The blend of `MixedTraction` with a film that shears: Newtonian up to a limiting shear stress.
+
+    Light contacts have almost no traction then, so the bearing can skid as a real one does.
+
+    Parameters
+    ----------
+    boundary_friction, regularisation_speed, boundary_film_parameter, full_film_parameter : float
+        As in `MixedTraction`.
+    limiting_shear : float
+        Limiting shear stress of the lubricant over the mean contact pressure.
+    """
+
+    boundary_friction: float = 0.1
+    regularisation_speed: float = 0.02
+    boundary_film_parameter: float = 0.01
+    full_film_parameter: float = 1.5
+    limiting_shear: float = 0.045
+
+
+Traction = CoulombTraction | MixedTraction | ShearedFilmTraction
 
 
 @dataclass(frozen=True)
@@ -141,7 +165,7 @@ class EffectSet:
     """
 
     contact_damping: ContactDamping | None = ContactDamping()
-    traction: CoulombTraction | MixedTraction | None = MixedTraction()
+    traction: Traction | None = MixedTraction()
     film: LineFilm | None = LineFilm()
     rib: Rib | None = Rib()
     cage: Cage | None = Cage()

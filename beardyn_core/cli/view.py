@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 
 from beardyn_core.errors import InputError
@@ -61,12 +63,17 @@ def _view(args: argparse.Namespace) -> int:
         if args.screenshot:
             print(viewer.take_picture(target, Path(args.screenshot)))
         elif args.web:
-            with viewer.web_viewer(target, args.port) as page:
-                print(f"open {page.url}\nend with Ctrl-C", flush=True)
-                try:
-                    page.process.wait()
-                except KeyboardInterrupt:
-                    return 0
+            _serve(target, args.port)
         else:
             return 0 if viewer.open_window(target) == 0 else 2
     return 0
+
+
+def _serve(target: Path, port: int | None) -> None:
+    from beardyn_core.record import viewer
+
+    # A terminated command must not leave the server behind: both ways of ending it unwind the stack.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with suppress(KeyboardInterrupt), viewer.web_viewer(target, port) as page:
+        print(f"open {page.url}\nend with Ctrl-C", flush=True)
+        page.process.wait()

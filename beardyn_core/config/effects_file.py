@@ -31,6 +31,7 @@ from beardyn_core.effects import (
     LineFilm,
     MixedTraction,
     Rib,
+    ShearedFilmTraction,
 )
 
 Friction = Annotated[NonNegative, Field(le=1.0)]
@@ -58,13 +59,11 @@ class CoulombTractionKeys(FileModel):
         return CoulombTraction(friction=self.friction, regularisation_speed=self.regularisation_speed_m_per_s)
 
 
-class MixedTractionKeys(FileModel):
-    """Boundary and fluid friction blended over the film parameter."""
+class _BlendKeys(FileModel):
+    """What the blended tractions share."""
 
-    kind: Literal["mixed"]
     boundary_friction: Friction = MixedTraction.boundary_friction
     regularisation_speed_m_per_s: Positive = MixedTraction.regularisation_speed
-    limiting_shear: Annotated[Positive, Field(le=0.2)] = MixedTraction.limiting_shear
     boundary_film_parameter: NonNegative = MixedTraction.boundary_film_parameter
     full_film_parameter: Positive = MixedTraction.full_film_parameter
 
@@ -77,15 +76,36 @@ class MixedTractionKeys(FileModel):
             )
         return self
 
+    def shared(self) -> dict[str, float]:
+        """The shared options, SI."""
+        return {
+            "boundary_friction": self.boundary_friction,
+            "regularisation_speed": self.regularisation_speed_m_per_s,
+            "boundary_film_parameter": self.boundary_film_parameter,
+            "full_film_parameter": self.full_film_parameter,
+        }
+
+
+class MixedTractionKeys(_BlendKeys):
+    """Boundary and full-film friction blended over the film parameter."""
+
+    kind: Literal["mixed"]
+    full_film_friction: Friction = MixedTraction.full_film_friction
+
     def noun(self) -> MixedTraction:
         """The mixed traction, SI."""
-        return MixedTraction(
-            boundary_friction=self.boundary_friction,
-            regularisation_speed=self.regularisation_speed_m_per_s,
-            limiting_shear=self.limiting_shear,
-            boundary_film_parameter=self.boundary_film_parameter,
-            full_film_parameter=self.full_film_parameter,
-        )
+        return MixedTraction(full_film_friction=self.full_film_friction, **self.shared())
+
+
+class ShearedFilmTractionKeys(_BlendKeys):
+    """The blend with a film that shears up to a limiting stress: light contacts may skid."""
+
+    kind: Literal["sheared_film"]
+    limiting_shear: Annotated[Positive, Field(le=0.2)] = ShearedFilmTraction.limiting_shear
+
+    def noun(self) -> ShearedFilmTraction:
+        """The sheared-film traction, SI."""
+        return ShearedFilmTraction(limiting_shear=self.limiting_shear, **self.shared())
 
 
 class LineFilmKeys(FileModel):
@@ -152,7 +172,9 @@ class AuditKeys(FileModel):
 
 
 Traction = Annotated[
-    Annotated[CoulombTractionKeys, Tag("<coulomb>")] | Annotated[MixedTractionKeys, Tag("<mixed>")],
+    Annotated[CoulombTractionKeys, Tag("<coulomb>")]
+    | Annotated[MixedTractionKeys, Tag("<mixed>")]
+    | Annotated[ShearedFilmTractionKeys, Tag("<sheared_film>")],
     Discriminator(kind_tag),
 ]
 

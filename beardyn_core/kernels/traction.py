@@ -28,33 +28,67 @@ def coulomb_rate(load: Any, slip_squared: Any, coulomb: Any) -> Any:
 def mixed_rate(
     load: Any, slip_squared: Any, log2_film: Any, lamina: Any, ring: Any, laminae: Any, film: Any, mixed: Any
 ) -> Any:
-    """Blend of boundary and fluid friction over slip speed, [N s/m].
+    """Blend of boundary and full-film friction over slip speed, [N s/m].
 
-    The blend weight is the sixth-power law of the mixed regime over the film parameter; the fluid part
-    is Newtonian at the mean Hertz pressure up to a limiting shear stress. Neglects heating of the film.
+    The blend weight is the sixth-power law of the mixed regime over the film parameter. Neglects heating
+    of the film.
 
     References
     ----------
-    Santos (2017), Eq. 8, after Harada and Sakaguchi (2005), for the blend; Bair and Winer (1979) for the
-    limiting shear stress; Barus for the viscosity, capped at 2^30.
+    Santos (2017), Eq. 8, after Harada and Sakaguchi (2005).
     """
-    pressure = sqrt(load * laminae[LAMINA_PRESSURE + ring, lamina])
-    thickening = at_most(pressure * (film.pressure_viscosity * _LOG2_E), _LARGEST_LOG2_THICKENING)
-    shear_rate_factor = film.viscosity * exp2(thickening - log2_film)
-    limit = mixed.limiting_shear * pressure
-    # load / pressure is the area; 1e-30 keeps an unloaded lamina at zero friction, not 0/0
-    fluid = (
-        load
-        * mixed.limiting_shear
-        * shear_rate_factor
-        / sqrt(limit * limit + shear_rate_factor * shear_rate_factor * slip_squared + 1e-30)
+    dry = load / sqrt(slip_squared + mixed.regularisation * mixed.regularisation)
+    wet = film_rate(
+        load, slip_squared, dry, log2_film, lamina, ring, laminae, film, mixed, mixed.sheared_film
     )
-    boundary = mixed.friction * load / sqrt(slip_squared + mixed.regularisation * mixed.regularisation)
-    film_parameter = exp2(log2_film) / film.roughness
+    share = boundary_share(exp2(log2_film) / film.roughness, mixed)
+    return wet + (mixed.friction * dry - wet) * share
+
+
+@inline
+def boundary_share(film_parameter: Any, mixed: Any) -> Any:
+    """Weight of the boundary friction: 1 below the boundary film parameter, 0 above the full-film one."""
     share = (mixed.full_film - film_parameter) / (mixed.full_film - mixed.boundary_film)
     share = at_most(at_least(share, 0.0), 1.0)
     share2 = share * share
-    return fluid + (boundary - fluid) * (share2 * share2 * share2)
+    return share2 * share2 * share2
+
+
+@inline
+def film_rate(
+    load: Any,
+    slip_squared: Any,
+    dry: Any,
+    log2_film: Any,
+    lamina: Any,
+    ring: Any,
+    laminae: Any,
+    film: Any,
+    mixed: Any,
+    sheared_film: Any,
+) -> Any:
+    """Friction of the full film over slip speed, [N s/m].
+
+    A constant coefficient, or a film that is Newtonian at the mean Hertz pressure up to a limiting shear
+    stress.
+
+    References
+    ----------
+    Bair and Winer (1979) for the limiting shear stress; Barus for the viscosity, capped at 2^30.
+    """
+    if sheared_film is None:
+        return mixed.film_friction * dry
+    pressure = sqrt(load * laminae[LAMINA_PRESSURE + ring, lamina])
+    thickening = at_most(pressure * (film.pressure_viscosity * _LOG2_E), _LARGEST_LOG2_THICKENING)
+    shear = film.viscosity * exp2(thickening - log2_film)
+    limit = sheared_film.limiting_shear * pressure
+    # load / pressure is the area; 1e-30 keeps an unloaded lamina at zero friction, not 0/0
+    return (
+        load
+        * sheared_film.limiting_shear
+        * shear
+        / sqrt(limit * limit + shear * shear * slip_squared + 1e-30)
+    )
 
 
 @inline

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import line_contact_factor, rib_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.effects import CoulombTraction, EffectSet, MixedTraction
+from beardyn_core.effects import CoulombTraction, EffectSet, ShearedFilmTraction
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.film_factor import log2_film_factor
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
@@ -35,6 +35,7 @@ from beardyn_core.model.parameters import (
     RacewayParams,
     RibParams,
     RollerParams,
+    ShearedFilmParams,
     SpallParams,
 )
 from beardyn_core.scene.defect import Spall
@@ -147,13 +148,16 @@ def traction_params(scene: Scene) -> tuple[CoulombParams | None, MixedParams | N
         )
     if traction is None:
         return None, None, film
-    if isinstance(traction, MixedTraction) and film is not None:
+    if not isinstance(traction, CoulombTraction) and film is not None:
         mixed = MixedParams(
             friction=traction.boundary_friction,
             regularisation=traction.regularisation_speed,
-            limiting_shear=traction.limiting_shear,
+            film_friction=0.0 if isinstance(traction, ShearedFilmTraction) else traction.full_film_friction,
             boundary_film=traction.boundary_film_parameter,
             full_film=traction.full_film_parameter,
+            sheared_film=ShearedFilmParams(traction.limiting_shear)
+            if isinstance(traction, ShearedFilmTraction)
+            else None,
         )
         return None, mixed, film
     friction = traction.friction if isinstance(traction, CoulombTraction) else traction.boundary_friction

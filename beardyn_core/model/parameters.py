@@ -51,14 +51,21 @@ class CoulombParams(NamedTuple):
     regularisation: float  # [m/s]
 
 
+class ShearedFilmParams(NamedTuple):
+    """Film that shears up to a limit."""
+
+    limiting_shear: float
+
+
 class MixedParams(NamedTuple):
-    """Boundary and fluid friction blended over the film parameter."""
+    """Boundary and full-film friction blended over the film parameter."""
 
     friction: float
     regularisation: float  # [m/s]
-    limiting_shear: float
+    film_friction: float
     boundary_film: float
     full_film: float
+    sheared_film: ShearedFilmParams | None
 
 
 class DampingParams(NamedTuple):

@@ -13,14 +13,14 @@ Colour = tuple[int, int, int]
 
 ENTITY = "plots/envelope"
 WIDTH, HEIGHT = 1000.0, 175.0
-SPECTRUM_COLOUR: Colour = (130, 180, 255)
-FRAME_COLOUR: Colour = (110, 116, 130)
-GRID_COLOUR: Colour = (48, 53, 64)
+SPECTRUM_COLOUR: Colour = (80, 145, 255)
+FRAME_COLOUR: Colour = (128, 134, 148)
+GRID_COLOUR = (128, 134, 148, 70)
 MARKER_COLOURS: dict[str, Colour] = {
-    "BPFO": (255, 84, 100),
-    "BPFI": (255, 190, 60),
-    "2 BSF": (110, 220, 120),
-    "FTF": (200, 140, 255),
+    "BPFO": (240, 70, 90),
+    "BPFI": (230, 155, 30),
+    "2 BSF": (70, 185, 90),
+    "FTF": (175, 110, 240),
 }
 HARMONICS = {"BPFO": 3, "BPFI": 3, "2 BSF": 2, "FTF": 1}
 LABEL_ROW = {"BPFO": 2, "BPFI": 1, "2 BSF": 0, "FTF": 1}
@@ -85,7 +85,7 @@ def _frame(stream: rr.RecordingStream, last: float, top: float) -> None:
         f"{ENTITY}/grid",
         rr.LineStrips2D(
             [*grid, box],
-            colors=[GRID_COLOUR] * len(grid) + [FRAME_COLOUR],
+            colors=[GRID_COLOUR] * len(grid) + [(*FRAME_COLOUR, 255)],
             radii=rr.Radius.ui_points(0.6),
             draw_order=1.0,
         ),
@@ -119,7 +119,7 @@ def _marker(stream: rr.RecordingStream, name: str, order: float, last: float) ->
         f"{ENTITY}/{name.replace(' ', '')}",
         rr.LineStrips2D(
             [np.array([(x, heights[0]), (x, HEIGHT)]) for x in place],
-            colors=[(*colour, 150)],
+            colors=[(*colour, 190)],
             radii=rr.Radius.ui_points(0.9),
             draw_order=10.0,
         ),

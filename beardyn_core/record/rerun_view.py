@@ -92,7 +92,6 @@ def blueprint(
         rrb.Spatial2DView(
             origin="plots/envelope",
             name="envelope spectrum, m/s² over orders of the shaft",
-            background=BACKGROUND,
             visual_bounds=bounds(),
         ),
         curves("force", "force on the cup, kN"),

@@ -172,14 +172,13 @@ class _Trend:
     def summary(self, scene: Scene, wall_time: float, status: str) -> RunSummary:
         """Means over the last whole cage revolutions after the settling time."""
         duration = (self._end_ns - (self._start_ns or 0)) * 1e-9
-        rows = self._blocks[0][4].shape[1] if self._blocks else 2
-        nothing = (math.nan, math.nan, math.nan)
-        force, torque, shaft, cage = nothing, math.nan, math.nan, (math.nan,) * rows
+        force, torque, shaft = (math.nan, math.nan, math.nan), math.nan, math.nan
+        cage: tuple[float, ...] = (math.nan, math.nan)
         averaged, revolutions = (0.0, 0.0), 0
-        if self._blocks:
-            times, forces, torques, shafts, cages = (
-                np.concatenate(part) for part in zip(*self._blocks, strict=True)
-            )
+        # The filters' delay is compensated, so the first block may hold no trend yet.
+        if any(len(times) for times, *_ in self._blocks):
+            parts = zip(*self._blocks, strict=True)
+            times, forces, torques, shafts, cages = (np.concatenate(part) for part in parts)
             first, revolutions = averaging_start(times, cages[:, 0])
             averaged = (first, float(times[-1]))
             fx, fy, fz = (time_mean(times, component, first) for component in forces.T)

@@ -1,0 +1,207 @@
+"""Bad configuration: every mistake at once, each a sentence with file, key, value and what is allowed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from beardyn_core.config import load_bearing, load_effects, load_scene
+from beardyn_core.config.folders import find
+from beardyn_core.config.yaml_text import read_file, write_mapping
+from beardyn_core.errors import InputError
+
+GOOD = """\
+scene: mine
+bearing: HS130x230
+lubricant: L055
+operation: {kind: constant, force_kN: [0, 0, 80], speed_rpm: 1000}
+defects:
+  - {on: cup, row: 0, width_mm: 6, depth_um: 100, length_mm: 20}
+"""
+
+Write = Callable[[str], Path]
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Write:
+    def write(text: str, name: str = "mine.yaml") -> Path:
+        path = tmp_path / name
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def problems_of(path: Path | str, **overrides: object) -> list[str]:
+    with pytest.raises(InputError) as caught:
+        load_scene(path, **overrides)  # type: ignore[arg-type]
+    return caught.value.problems
+
+
+def test_the_unspoilt_scene_loads(write: Write) -> None:
+    assert load_scene(write(GOOD)).defects[0].width == 6e-3
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "words"),
+    [
+        ("width_mm: 6", "width_cm: 0.6", ["defects[0].width_cm", "`width_mm`", "millimetres"]),
+        ("width_mm: 6", "width_mm: 3 mm", ["defects[0].width_mm is '3 mm'", "number", "millimetres"]),
+        ("width_mm: 6", "width_mm: -6", ["defects[0].width_mm is -6", "greater than 0"]),
+        ("width_mm: 6", "width_mm: .nan", ["defects[0].width_mm is nan", "finite"]),
+        ("width_mm: 6", "width_mm: true", ["defects[0].width_mm is True", "number"]),
+        ("speed_rpm: 1000", "speed_rpm: .inf", ["operation.speed_rpm is inf", "finite"]),
+        (
+            "speed_rpm: 1000",
+            "speed_rad_s: 100",
+            ["operation.speed_rad_s", "`speed_rpm`", "revolutions per minute"],
+        ),
+        (
+            "force_kN: [0, 0, 80]",
+            "force_N: [0, 0, 80000]",
+            ["operation.force_N", "`force_kN`", "kilonewtons"],
+        ),
+        ("force_kN: [0, 0, 80]", "force_kN: [0, 80]", ["operation.force_kN is [0, 80]", "3 entries"]),
+        ("force_kN: [0, 0, 80]", "force_kN: 80", ["operation.force_kN is 80", "list"]),
+        ("kind: constant", "kind: constnat", ["operation.kind is 'constnat'", "did you mean 'constant'"]),
+        ("kind: constant, ", "", ["operation.kind is missing", "'quarter_vehicle'"]),
+        ("on: cup", "on: cone_ring", ["defects[0].on is 'cone_ring'", "'cup', 'cone', 'roller'"]),
+        ("row: 0", "row: 2", ["defects[0].row is 2", "at most 1"]),
+        ("row: 0", "row: 0.5", ["defects[0].row is 0.5", "whole number"]),
+        ("length_mm: 20", "length_mm: 60", ["defects[0].length_mm is 60", "50"]),
+        ("length_mm: 20", "length_mm: 20, offset_mm: 20", ["defects[0].offset_mm is 20", "beyond"]),
+        ("on: cup", "on: roller, roller: 17", ["defects[0].roller is 17", "0 to 16"]),
+        ("bearing: HS130x230", "bearing: HS130x231", ["bearing", "'HS130x231'", "did you mean HS130x230?"]),
+        ("bearing: HS130x230", "bearing: ./mine_own.yaml", ["bearing", "mine_own.yaml", "searched"]),
+        ("bearing: HS130x230", "bearing: 7", ["bearing is 7", "a name or a mapping"]),
+        ("lubricant: L055", "lubricants: L055", ["lubricants", "did you mean `lubricant`?"]),
+        ("scene: mine\n", "", ["scene is missing"]),
+        ("scene: mine", "scene: mine\nscene: yours", ["line 2", "'scene' is given twice", "line 1"]),
+        ("scene: mine", "scene: [mine", ["line 2"]),
+        ("scene: mine", "scene: mine\neffects: standart", ["effects", "did you mean standard?"]),
+        ("scene: mine", "scene: mine\neffects: {preset: dry, flim: true}", ["effects.flim", "`film`"]),
+        ("scene: mine", "scene: mine\neffects: {preset: dry, film: 3}", ["effects.film is 3"]),
+        ("scene: mine", "scene: mine\ntier: lumped", ["tier is 'lumped'", "'full'"]),
+        ("scene: mine", "scene: mine\ntemperature_K: 340", ["temperature_K", "`temperature_C`", "Celsius"]),
+        ("scene: mine", "scene: mine\nduration_s: 0", ["duration_s is 0", "greater than 0"]),
+        ("scene: mine", "scene: mine\nsensors: []", ["sensors is []", "at least 1"]),
+        ("scene: mine", "scene: mine\nsensors: [{}, {}]", ["sensors[1].name", "twice"]),
+        ("scene: mine", "scene: mine\n3: 4", ["line 2", "the key 3 is not a word"]),
+    ],
+)
+def test_a_mistake_is_one_sentence_with_file_key_value_and_what_is_allowed(
+    write: Write, good: str, bad: str, words: list[str]
+) -> None:
+    assert good in GOOD
+    path = write(GOOD.replace(good, bad, 1))
+    (problem,) = problems_of(path)
+    assert problem.startswith(str(path))
+    for word in words:
+        assert word in problem
+
+
+def test_all_mistakes_of_the_scene_and_its_files_are_reported_together(write: Write, tmp_path: Path) -> None:
+    bearing = read_file(find("bearings", "HS130x230"))
+    bearing["roller_count"] = "seventeen"
+    del bearing["bore_mm"]
+    own = tmp_path / "own.yaml"
+    own.write_text(write_mapping(bearing))
+    text = GOOD.replace("HS130x230", "own.yaml").replace("width_mm: 6", "width_mm: 0").replace("L055", "L55")
+    found = problems_of(write(text + "colour: red\n"))
+    assert len(found) == 5
+    assert sum(problem.startswith(f"{own}: ") for problem in found) == 2
+    assert any(problem.startswith(f"{own}: roller_count is 'seventeen'") for problem in found)
+    assert any(problem.startswith(f"{own}: bore_mm is missing") for problem in found)
+    assert any("'L55'" in problem for problem in found)
+    assert any("colour" in problem for problem in found)
+    assert any("width_mm is 0" in problem for problem in found)
+
+
+def test_contradictory_geometry_is_refused_with_the_numbers(tmp_path: Path) -> None:
+    bearing = read_file(find("bearings", "HS130x230"))
+    bearing["effective_length_mm"] = 54.0
+    bearing["outer_diameter_mm"] = 200.0
+    path = tmp_path / "own.yaml"
+    path.write_text(write_mapping(bearing))
+    with pytest.raises(InputError) as caught:
+        load_bearing(path)
+    first, second = caught.value.problems
+    assert "54 mm" in first
+    assert "52 mm" in first
+    assert "outer_diameter" in second
+    assert "100 mm" in second
+
+
+def test_missing_scene_names_the_places_searched(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (problem,) = problems_of("none/there.yaml")
+    assert str(tmp_path / "none" / "there.yaml") in problem
+
+
+def test_missing_configuration_folder_names_the_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("BEARDYN_CONFIG", str(tmp_path / "nowhere"))
+    (problem,) = problems_of("cup_spall")
+    assert str(tmp_path / "nowhere") in problem
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"- 1\n- 2\n", b"just words", b"\xff\xfe\x00", b"a: {b: [", b"\ta: 1"]
+)
+def test_a_file_that_is_no_mapping_is_refused(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "odd.yaml"
+    path.write_bytes(content)
+    (problem,) = problems_of(path)
+    assert problem.startswith(str(path))
+
+
+def test_overrides_are_checked_like_the_file(write: Write) -> None:
+    found = problems_of(write(GOOD), duration=-1.0, laminae=0, effects="standart", seed=-1)
+    assert len(found) == 4
+    assert all(problem.startswith("override: ") for problem in found)
+
+
+def test_overrides_replace_what_the_file_says(write: Write) -> None:
+    scene = load_scene(write(GOOD), duration=0.5, laminae=8, seed=3, effects="dry", tier="full")
+    assert (scene.duration, scene.numerics.laminae, scene.seed) == (0.5, 8, 3)
+    assert scene.effects == load_effects("dry")
+
+
+def test_effects_of_a_preset_can_be_changed_one_by_one(write: Write) -> None:
+    text = GOOD + "effects: {preset: standard, film: null, cage: {initial_speed_ratio: 0.9}, rib: true}\n"
+    standard, changed = load_effects("standard"), load_scene(write(text)).effects
+    assert changed.film is None
+    assert changed.cage is not None
+    assert standard.cage is not None
+    assert changed.cage.initial_speed_ratio == 0.9
+    assert changed.cage.friction == standard.cage.friction
+    assert changed.rib == standard.rib
+
+
+def test_effects_without_a_preset_are_those_named(write: Write) -> None:
+    effects = load_scene(
+        write(GOOD + "effects: {traction: {kind: coulomb, friction: 0.05}, gravity: true}\n")
+    ).effects
+    assert effects.names() == ("traction", "gravity")
+
+
+def test_yaml_words_and_numbers_are_those_of_yaml_1_2(write: Write) -> None:
+    text = GOOD.replace("width_mm: 6", "width_mm: 6e0").replace("scene: mine", "scene: off")
+    scene = load_scene(write(text))
+    assert scene.name == "off"
+    assert scene.defects[0].on == "cup"
+    assert scene.defects[0].width == 6e-3
+    assert write_mapping({"a": "1e3", "b": "on", "c": 1e-7}) == "{a: '1e3', b: 'on', c: 1.0e-07}\n"
+
+
+def test_measured_load_is_checked_with_the_scene(write: Write, tmp_path: Path) -> None:
+    (tmp_path / "load.csv").write_text("time_s,speed_rpm,fx_N,fy_N,fz_N\n0,1000,0,0,5e4\n0.1,1000,0,0,nan\n")
+    text = GOOD.replace(
+        "{kind: constant, force_kN: [0, 0, 80], speed_rpm: 1000}", "{kind: csv, path: load.csv}"
+    )
+    found = problems_of(write(text.replace("width_mm: 6", "width_mm: 0")))
+    assert any("load.csv" in problem and "nan" in problem for problem in found)
+    assert any("width_mm" in problem for problem in found)

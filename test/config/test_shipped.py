@@ -1,0 +1,162 @@
+"""Everything that is shipped loads, and a resolved scene says the same again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, fields, replace
+from typing import Any
+
+import pytest
+
+from beardyn_core import effects
+from beardyn_core.config import (
+    SCHEMA_KINDS,
+    effects_file,
+    json_schema,
+    load_bearing,
+    load_effects,
+    load_lubricant,
+    load_scene,
+    load_vehicle,
+    scene_file,
+    scene_from_text,
+    shipped_names,
+)
+from beardyn_core.config.file_model import FileModel
+from beardyn_core.config.folders import find
+from beardyn_core.config.units import stem_of
+from beardyn_core.config.yaml_text import read_file, read_mapping
+from beardyn_core.effects import EffectSet
+from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation
+from beardyn_core.scene.scene import Numerics
+from beardyn_core.scene.sensor import Accelerometer
+
+LOADERS: dict[str, Callable[[str], Any]] = {
+    "bearings": load_bearing,
+    "lubricants": load_lubricant,
+    "vehicles": load_vehicle,
+    "effects": load_effects,
+    "scenes": load_scene,
+}
+
+
+def approximately(given: EffectSet) -> dict[str, object]:
+    """Options of the effects; degrees cost the last digit of an angle."""
+    return {
+        name: pytest.approx(options) for name, options in asdict(given).items() if isinstance(options, dict)
+    }
+
+
+@pytest.mark.parametrize("kind", LOADERS)
+def test_every_shipped_file_loads_and_bears_its_name(kind: str) -> None:
+    names = shipped_names(kind)
+    assert names
+    for name in names:
+        thing = LOADERS[kind](name)
+        if kind != "effects":
+            assert thing.name == name
+
+
+@pytest.mark.parametrize("name", shipped_names("scenes"))
+def test_resolved_scene_loads_again_to_the_same_scene(name: str) -> None:
+    scene = load_scene(name, seed=7, laminae=9)
+    again = scene_from_text(scene.source_text)
+    assert replace(again, source_text="") == replace(scene, source_text="")
+    assert again.source_text == scene.source_text
+
+
+@pytest.mark.parametrize("name", shipped_names("scenes"))
+def test_resolved_scene_refers_to_no_other_file(name: str) -> None:
+    resolved = read_mapping(load_scene(name).source_text, name)
+    assert isinstance(resolved["bearing"], dict)
+    assert isinstance(resolved["lubricant"], dict)
+    assert isinstance(resolved["effects"], dict)
+    assert isinstance(resolved["operation"].get("vehicle", {}), dict)
+
+
+def test_every_scene_states_its_purpose_in_one_line() -> None:
+    for name in shipped_names("scenes"):
+        purpose = load_scene(name).purpose
+        assert purpose
+        assert "\n" not in purpose
+
+
+def test_static_scene_is_80_kN_upwards_at_122_rad_per_s() -> None:
+    scene = load_scene("static_80kN")
+    assert isinstance(scene.operation, ConstantOperation)
+    assert scene.operation.force == (0.0, 0.0, 80e3)
+    assert scene.operation.speed == pytest.approx(122.0, rel=1e-4)
+    assert scene.end_play == 0.0
+    assert scene.mounting.cup == "held"
+    assert scene.temperature == pytest.approx(343.15)
+
+
+def test_spalled_scene_in_si() -> None:
+    scene = load_scene("cup_spall")
+    assert isinstance(scene.operation, QuarterVehicleOperation)
+    assert scene.operation.speed_profile[0] == pytest.approx((0.0, 200 / 3.6))
+    (spall,) = scene.defects
+    assert (spall.on, spall.row, spall.azimuth) == ("cup", 0, 0.0)
+    assert (spall.width, spall.depth, spall.length) == pytest.approx((6e-3, 0.1e-3, 25e-3))
+
+
+def test_standard_preset_is_the_effect_set_with_everything_on() -> None:
+    standard = load_effects("standard")
+    assert standard.names() == EffectSet().names()
+    assert asdict(standard) == approximately(EffectSet())
+
+
+def test_dry_preset_has_no_film_and_coulomb_friction() -> None:
+    dry = load_effects("dry")
+    assert dry.film is None
+    assert isinstance(dry.traction, effects.CoulombTraction)
+
+
+def test_numbers_keep_their_sources() -> None:
+    sources = dict(load_bearing("HS130x230").sources)
+    assert "Table 2" in sources["roller_count"]
+    assert sources["row_spacing"] == "assumed"
+    assert "cage.mass" in sources
+
+
+@pytest.mark.parametrize("kind", SCHEMA_KINDS)
+def test_schema_refuses_unknown_keys_and_describes_the_shipped_ones(kind: str) -> None:
+    schema = json_schema(kind)
+    assert schema["additionalProperties"] is False
+    folder = kind if kind == "effects" else f"{kind}s"
+    for name in shipped_names(folder):
+        assert set(read_file(find(folder, name))) <= set(schema["properties"])
+
+
+@pytest.mark.parametrize(
+    ("keys", "noun"),
+    [
+        (effects_file.ContactDampingKeys, effects.ContactDamping),
+        (effects_file.CoulombTractionKeys, effects.CoulombTraction),
+        (effects_file.MixedTractionKeys, effects.MixedTraction),
+        (effects_file.ShearedFilmTractionKeys, effects.ShearedFilmTraction),
+        (effects_file.LineFilmKeys, effects.LineFilm),
+        (effects_file.RibKeys, effects.Rib),
+        (effects_file.CageEffectKeys, effects.Cage),
+        (effects_file.GravityKeys, effects.Gravity),
+        (effects_file.AuditKeys, effects.Audit),
+        (effects_file.EffectsKeys, effects.EffectSet),
+        (scene_file.MountingKeys, Mounting),
+        (scene_file.NumericsKeys, Numerics),
+        (scene_file.SensorKeys, Accelerometer),
+    ],
+)
+def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(
+    keys: type[FileModel], noun: type[Any]
+) -> None:
+    of_the_file = {"kind", "name", "purpose", "preset"} - {field.name for field in fields(noun)}
+    assert {stem_of(key) for key in keys.model_fields} - of_the_file == {field.name for field in fields(noun)}
+    if keys is not effects_file.EffectsKeys:
+        kind = {"kind": "coulomb"} if noun is effects.CoulombTraction else {}
+        kind = {"kind": "mixed"} if noun is effects.MixedTraction else kind
+        kind = {"kind": "sheared_film"} if noun is effects.ShearedFilmTraction else kind
+        described: Any = keys.model_validate(kind)
+        for name, value in vars(noun()).items():
+            found = getattr(described.noun(), name)
+            assert found == (value if isinstance(value, str) else pytest.approx(value, rel=1e-12))
