@@ -20,7 +20,6 @@ from beardyn_core.model.layout import (
 LARGEST_PENETRATION = 2.0e-4
 LARGEST_CHATTER_INDEX = 0.05
 CHATTER_LOAD_FLOOR = 5.0
-FATAL_NAMES = ("NOT_FINITE", "PENETRATION")
 
 
 class Status(IntFlag):
@@ -34,10 +33,10 @@ class Status(IntFlag):
 
 
 SENTENCES = {
-    Status.NOT_FINITE: "a number became NaN or infinite: use a smaller time step (numerics.steps_per_sample) or "
-    "check the load",
-    Status.PENETRATION: f"a roller is pressed more than {LARGEST_PENETRATION * 1e6:.0f} um into a raceway, where the "
-    "contact law does not hold: lower the load",
+    Status.NOT_FINITE: "a number became NaN or infinite: use a smaller time step "
+    "(numerics.steps_per_sample) or check the load",
+    Status.PENETRATION: f"a roller is pressed more than {LARGEST_PENETRATION * 1e6:.0f} um into a raceway, "
+    "where the contact law does not hold: lower the load",
     Status.CHATTER: "a friction force flips from step to step, so torque and slip are not converged: raise "
     "numerics.steps_per_sample",
     Status.LOAD_STALE: "the load stopped coming: the load was older than max_age",

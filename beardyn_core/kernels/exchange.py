@@ -119,7 +119,7 @@ def watch_chatter(lanes: Any, rollers: Any, block: Any, ring: Any, friction: Any
 
 @inline
 def implicit_time(step: Any, damping: Any) -> Any:
-    """Time that turns tangent stiffness into implicit resistance: h/4 of the spring, all of the damper, [s]."""
+    """Time that makes tangent stiffness an implicit resistance: h/4 for spring, all for damper, [s]."""
     if damping is None:
         return 0.25 * step
     return 0.25 * step + damping.time_constant

@@ -36,19 +36,19 @@ def floor(a: Value) -> Value:
 @primitive(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), b, a))
 def at_least(a: Value, b: Value) -> Value:
     """Larger of ``a`` and the bound ``b``; a NaN in ``a`` stays."""
-    return np.where(np.less(a, b), b, a)[()]
+    return np.asarray(np.where(np.less(a, b), b, a))[()]
 
 
 @primitive(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), b, a))
 def at_most(a: Value, b: Value) -> Value:
     """Smaller of ``a`` and the bound ``b``; a NaN in ``a`` stays."""
-    return np.where(np.greater(a, b), b, a)[()]
+    return np.asarray(np.where(np.greater(a, b), b, a))[()]
 
 
 @primitive(lambda builder, a, b, c, d: builder.select(builder.fcmp_ordered(">", a, b), c, d))
 def where_greater(a: Value, b: Value, c: Value, d: Value) -> Value:
     """``c`` where ``a > b``, else ``d``."""
-    return np.where(np.greater(a, b), c, d)[()]
+    return np.asarray(np.where(np.greater(a, b), c, d))[()]
 
 
 _ONE_BITS = float(0x3FF0000000000000)

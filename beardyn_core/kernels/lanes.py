@@ -40,6 +40,9 @@ _INT32 = ir.IntType(32)
 _INT64 = ir.IntType(64)
 
 
+_typed_intrinsic: Callable[[Callable[..., Any]], Any] = intrinsic  # called without the typing context
+
+
 class VectorType(types.Type):
     """numba type of a lane value of width two or more."""
 
@@ -114,7 +117,7 @@ def _unbox_lanes(_type: LanesType, _object: Any, context: Any) -> NativeValue:
 
 
 @overload_attribute(LanesType, "width")
-def _lanes_width(lanes):  # type: ignore[no-untyped-def]
+def _lanes_width(lanes):
     width = lanes.width
     return lambda lanes: width
 
@@ -147,18 +150,18 @@ def _address(
     return pointer if width == 1 else builder.bitcast(pointer, ir.VectorType(_DOUBLE, width).as_pointer())
 
 
-def _require_lane_array(array: types.Type) -> None:
+def _require_lane_array(array: Any) -> None:
     contiguous = isinstance(array, types.Array) and array.ndim == 3 and array.layout == "C"
     if not contiguous or array.dtype != types.float64:
         raise TypeError(f"a lane array is C-contiguous float64 [block, field, lane], not {array}")
 
 
-@intrinsic
+@_typed_intrinsic
 def _load(_typing: Any, lanes: Any, array: Any, block: Any, field: Any) -> Any:
     _require_lane_array(array)
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer = _address(context, builder, signature.args[1], *args[1:], lanes.width)
+        pointer = _address(context, builder, signature.args[1], args[1], args[2], args[3], lanes.width)
         element = _DOUBLE if lanes.width == 1 else ir.VectorType(_DOUBLE, lanes.width)
         try:
             return builder.load(pointer, align=8, typ=element)
@@ -168,19 +171,19 @@ def _load(_typing: Any, lanes: Any, array: Any, block: Any, field: Any) -> Any:
     return lanes.value(lanes, array, types.intp, types.intp), generate
 
 
-@intrinsic
+@_typed_intrinsic
 def _store(_typing: Any, lanes: Any, array: Any, block: Any, field: Any, value: Any) -> Any:
     _require_lane_array(array)
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer = _address(context, builder, signature.args[1], *args[1:4], lanes.width)
+        pointer = _address(context, builder, signature.args[1], args[1], args[2], args[3], lanes.width)
         builder.store(args[4], pointer, align=8)
         return context.get_dummy_value()
 
     return types.void(lanes, array, types.intp, types.intp, lanes.value), generate
 
 
-@intrinsic
+@_typed_intrinsic
 def _constant(_typing: Any, lanes: Any, number: Any) -> Any:
     def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return _broadcast(builder, args[1], signature.args[1], lanes.value)
@@ -189,17 +192,17 @@ def _constant(_typing: Any, lanes: Any, number: Any) -> Any:
 
 
 @overload_method(LanesType, "load")
-def _lanes_load(lanes, array, block, field):  # type: ignore[no-untyped-def]
+def _lanes_load(lanes, array, block, field):
     return lambda lanes, array, block, field: _load(lanes, array, block, field)
 
 
 @overload_method(LanesType, "store")
-def _lanes_store(lanes, array, block, field, value):  # type: ignore[no-untyped-def]
+def _lanes_store(lanes, array, block, field, value):
     return lambda lanes, array, block, field, value: _store(lanes, array, block, field, value)
 
 
 @overload_method(LanesType, "constant")
-def _lanes_constant(lanes, number):  # type: ignore[no-untyped-def]
+def _lanes_constant(lanes, number):
     return lambda lanes, number: _constant(lanes, number)
 
 
@@ -247,7 +250,7 @@ _NEG = _instruction(lambda builder, a: builder.fneg(a, flags=FASTMATH), 1)
 
 def _overload_arithmetic(function: Any, instruction: Any) -> None:
     @overload(function)
-    def _arithmetic(a, b):  # type: ignore[no-untyped-def]
+    def _arithmetic(a, b):
         if (
             (isinstance(a, VectorType) or isinstance(b, VectorType))
             and _is_lane_value(a)
@@ -271,7 +274,7 @@ for _function, _emitted in (
 
 
 @overload(operator.neg)
-def _negate(a):  # type: ignore[no-untyped-def]
+def _negate(a):
     return (lambda a: _NEG(a)) if isinstance(a, VectorType) else None
 
 

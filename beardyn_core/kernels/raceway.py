@@ -124,7 +124,7 @@ def sliding(line: Any, centre: Any, velocity: Any, omega: Any, ring_velocity: An
 
 @inline
 def spring_push(approach: Any, rate: Any, damping: Any) -> Any:
-    """Approach that the tangent stiffness turns into force: 9/10 of it for the 10/9 law, plus damping, [m]."""
+    """What the tangent stiffness turns into force: 9/10 of the approach (10/9 law) plus damping, [m]."""
     if damping is None:
         return 0.9 * approach
     return 0.9 * approach + damping.time_constant * rate
@@ -227,7 +227,7 @@ def line_wrench(line: Any, normal_force: Any, around_force: Any, along_force: An
     around_force, along_force : tuple of 2 lane values
         Sums of the friction against the slip with x^0, x^1.
     """
-    arm, arm_slope, normal, around, along, _approach, bend = line
+    arm, arm_slope, bend = line[0], line[1], line[6]
     around_0 = around_force[0] + bend * normal_force[1]
     around_1 = around_force[1] + bend * normal_force[2]
     force = _combine(line, normal_force[0], around_0, along_force[0])

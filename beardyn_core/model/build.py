@@ -236,7 +236,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
 
     Returns
     -------
-    Parameters
+    parameters : Parameters
     """
     bearing, effects = scene.bearing, scene.effects
     offset = bearing.roller_mass_offset

@@ -117,7 +117,7 @@ def web_viewer(recording: Path, port: int | None = None) -> Iterator[WebViewer]:
     try:
         _wait_for(process, page)
         _wait_for(process, data)
-        url = f"http://127.0.0.1:{page}?url=rerun%2Bhttp%3A%2F%2F127.0.0.1%3A{data}%2Fproxy&theme=dark"
+        url = f"http://127.0.0.1:{page}/?url=rerun%2Bhttp%3A%2F%2F127.0.0.1%3A{data}%2Fproxy&theme=dark"
         yield WebViewer(url, process)
     finally:
         _end_session(process)

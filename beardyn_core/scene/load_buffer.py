@@ -28,12 +28,12 @@ def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
         return None
     values = np.concatenate([load.wrench, load.shaft_speed[:, None], load.bogie], axis=1)
     if not np.isfinite(values).all():
-        return "the load has a NaN or an infinite number; all of force, moment, speed and bogie must be finite"
+        return (
+            "the load has a NaN or an infinite number; all of force, moment, speed and bogie must be finite"
+        )
     if np.any(np.diff(load.time_ns) <= 0) or (after_ns is not None and load.time_ns[0] <= after_ns):
         return "the load goes back in time; samples must follow each other"
-    limits = np.repeat(
-        [LARGEST_FORCE, LARGEST_MOMENT, LARGEST_SPEED, LARGEST_DISPLACEMENT], [3, 3, 1, 3]
-    )
+    limits = np.repeat([LARGEST_FORCE, LARGEST_MOMENT, LARGEST_SPEED, LARGEST_DISPLACEMENT], [3, 3, 1, 3])
     if np.any(np.abs(values) > limits):
         return (
             f"the load is absurd; allowed are {LARGEST_FORCE:.0e} N, {LARGEST_MOMENT:.0e} N m, "
