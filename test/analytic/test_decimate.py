@@ -1,0 +1,94 @@
+"""The decimator keeps the passband, rejects aliases, and does not see how the stream is cut."""
+
+import time
+
+import numpy as np
+import pytest
+
+from beardyn_core.observe.decimate import Decimator
+
+
+def _gain(factor, frequency):
+    """Amplitude and phase that a wave of `frequency` (of the new rate) comes out with."""
+    decimator = Decimator(factor, 2)
+    n = np.arange(factor * 4000)
+    wave = 2 * np.pi * frequency / factor * n
+    out = decimator.push(np.column_stack([np.cos(wave), np.sin(wave)]))[1000:]
+    m = np.arange(1000, 4000)
+    # if the delay is as stated, the output is the wave at input m x factor - delay
+    place = m * factor - decimator.delay_samples
+    return np.mean((out[:, 0] + 1j * out[:, 1]) * np.exp(-2j * np.pi * frequency / factor * place))
+
+
+@pytest.mark.parametrize("factor", [2, 3, 4, 8, 64])
+def test_passband_is_flat_with_the_stated_delay(factor):
+    for frequency in np.linspace(0.0, 0.4, 21):
+        assert abs(20 * np.log10(abs(_gain(factor, frequency)))) < 0.1
+        assert abs(np.angle(_gain(factor, frequency))) < 1e-9
+
+
+@pytest.mark.parametrize("factor", [2, 4, 64])
+def test_stopband_is_70_db_down(factor):
+    frequencies = np.concatenate([np.linspace(0.6, 1.0, 25), np.linspace(1.0, factor / 2, 20)])
+    assert max(abs(_gain(factor, f)) for f in frequencies) < 10 ** (-70 / 20)
+
+
+@pytest.mark.parametrize("factor", [1, 4, 64])
+def test_any_cut_into_blocks_gives_the_same_bits(factor):
+    random = np.random.default_rng(1)
+    stream = random.normal(size=(factor * 700, 9)) * 1e3
+    whole = Decimator(factor, 9, initial=np.arange(9.0)).push(stream)
+    for _ in range(3):
+        cuts = factor * np.sort(random.integers(0, 700, 40))
+        pieces = Decimator(factor, 9, initial=np.arange(9.0))
+        parts = [pieces.push(part) for part in np.split(stream, cuts)]
+        assert np.array_equal(np.concatenate(parts), whole)
+
+
+def test_restored_state_continues_with_the_same_bits():
+    stream = np.random.default_rng(2).normal(size=(4096, 3))
+    decimator = Decimator(4, 3)
+    decimator.push(stream[:2048])
+    state = decimator.state
+    first = decimator.push(stream[2048:])
+    other = Decimator(4, 3)
+    other.restore(state)
+    assert np.array_equal(other.push(stream[2048:]), first)
+    assert not np.array_equal(Decimator(4, 3).push(stream[2048:]), first)
+
+
+def test_a_held_initial_value_gives_no_transient():
+    level = np.array([9.80665, -3.0])
+    out = Decimator(4, 2, initial=level).push(np.tile(level, (400, 1)))
+    assert np.allclose(out, level, rtol=1e-12, atol=0)
+
+
+def test_a_nan_is_not_hidden():
+    stream = np.zeros((400, 2))
+    stream[200, 0] = np.nan
+    out = Decimator(4, 2).push(stream)
+    assert np.isnan(out[:, 0]).any()
+    assert not np.isnan(out[:, 1]).any()
+
+
+@pytest.mark.parametrize("factor", [4, 64])
+def test_a_block_of_2048_by_9_takes_less_than_half_a_millisecond(factor):
+    decimator = Decimator(factor, 9)
+    block = np.random.default_rng(3).normal(size=(2048, 9))
+    decimator.push(block)
+    walls = []
+    for _ in range(50):
+        start = time.perf_counter()
+        decimator.push(block)
+        walls.append(time.perf_counter() - start)
+    # the best of many: the machine may be busy with others
+    assert min(walls) < 0.5e-3
+
+
+def test_wrong_shapes_and_factors_are_refused():
+    with pytest.raises(ValueError, match="multiple of 4"):
+        Decimator(4, 2).push(np.zeros((6, 2)))
+    with pytest.raises(ValueError, match="1 to 64"):
+        Decimator(65, 2)
+    with pytest.raises(ValueError, match="state has shape"):
+        Decimator(4, 2).restore(np.zeros((3, 3)))

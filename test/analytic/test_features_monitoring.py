@@ -1,0 +1,198 @@
+"""The monitor finds synthetic faults through noise, speed changes and slip, and is silent without."""
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from beardyn_core.bearing.kinematics import frequencies
+from beardyn_core.observe.diagnosis import MonitorResult, MonitorSettings, Stretch, analyse
+from beardyn_core.observe.monitoring import Monitor
+
+RATE = 25_600.0
+ROLLERS = 17
+ORDERS = frequencies(ROLLERS, 185.0, 26.7, np.deg2rad(10.5))
+SETTINGS = MonitorSettings()
+NOISE = 0.02 * np.sqrt(RATE / 2)  # deviation of 0.02 m/s^2/sqrt(Hz)
+
+
+def _signal(fault, seed, duration=3.0, speed=(19.2, 19.2), noise=1.0, slip=0.0, coloured=False):
+    """Impulses with 1 % jitter through a 4.5 kHz resonance, modulated as the fault's load is.
+
+    Returns time [s], shaft angle [rad], acceleration [m/s^2].
+    """
+    random = np.random.default_rng(seed)
+    count = int(duration * RATE)
+    time = np.arange(count) / RATE
+    revolution = speed[0] * time + 0.5 * (speed[1] - speed[0]) * time**2 / duration
+    background = random.normal(size=(count, 3))
+    if coloured:
+        background = lfilter([1.0], [1.0, -1.2, 0.7], background, axis=0)
+        background /= background.std()  # the same power, with its peak at 3 kHz in the band
+    acceleration = noise * NOISE * background
+    acceleration[:, 2] += 9.8 + 5.0 * np.sin(2 * np.pi * revolution)
+    if fault:
+        order = {"cup": ORDERS.bpfo, "cone": ORDERS.bpfi, "roller": 2 * ORDERS.bsf}[fault] * (1 + slip)
+        number = np.arange(1, int(revolution[-1] * order))
+        place = (number + random.normal(0.0, 0.01, len(number))) / order
+        strength = random.uniform(0.8, 1.2, len(number))
+        if fault == "cone":  # through the load zone once a revolution
+            strength *= np.maximum(0.0, np.cos(2 * np.pi * place + 1.0))
+        if fault == "roller":  # with the cage, and weaker on the cone
+            strength *= np.maximum(0.0, np.cos(2 * np.pi * ORDERS.ftf * place + 1.0))
+            strength *= np.where(number % 2, 1.0, 0.7)
+        impulses = np.zeros(count)
+        at = (np.interp(place, revolution, time) * RATE).astype(int)
+        np.add.at(impulses, np.clip(at, 0, count - 1), strength)
+        decay = np.arange(400) / RATE
+        ringing = np.exp(-1500 * decay) * np.sin(2 * np.pi * 4500 * decay)
+        acceleration += 20.0 * np.convolve(impulses, ringing)[:count, None] * [0.4, 0.2, 1.0]
+    return time, 2 * np.pi * revolution, acceleration
+
+
+def _analyse(*args, **kwargs):
+    time, angle, acceleration = _signal(*args, **kwargs)
+    end_ns = round(time[-1] * 1e9)
+    return analyse(Stretch(RATE, acceleration, angle, 8e4, end_ns), ORDERS, ROLLERS, SETTINGS)
+
+
+@pytest.mark.parametrize("fault", ["cup", "cone", "roller"])
+@pytest.mark.parametrize(
+    "situation",
+    [
+        {},
+        {"duration": 1.0},
+        {"speed": (17.0, 22.0)},
+        {"speed": (33.0, 33.0)},
+        {"slip": 0.007},
+        {"slip": -0.007},
+        {"noise": 2.0},
+        {"coloured": True},
+    ],
+)
+def test_fault_is_found_within_a_percent_of_its_frequency(fault, situation):
+    expected = {"cup": ORDERS.bpfo, "cone": ORDERS.bpfi, "roller": 2 * ORDERS.bsf}[fault]
+    speed = np.mean(situation.get("speed", (19.2, 19.2)))
+    for seed in (100, 101):
+        result = _analyse(fault, seed, **situation)
+        assert result.verdict == fault, result.reason
+        assert result.expected_order == pytest.approx(expected)
+        assert result.fault_order == pytest.approx(expected * (1 + situation.get("slip", 0.0)), rel=1e-3)
+        assert result.fault_frequency == pytest.approx(result.fault_order * speed, rel=1e-3)
+        assert result.score == max(result.scores) >= SETTINGS.alarm_threshold
+        assert result.score > sorted(result.scores)[1] + 6.0
+
+
+def test_cone_fault_shows_sidebands_at_shaft_speed_and_roller_fault_at_cage_speed():
+    cone = {line.name: line for line in _analyse("cone", 5).lines}
+    assert cone["BPFI - shaft"].order == pytest.approx(ORDERS.bpfi - 1.0, abs=0.01)
+    assert cone["BPFI + shaft"].order == pytest.approx(ORDERS.bpfi + 1.0, abs=0.01)
+    roller = {line.name: line for line in _analyse("roller", 5).lines}
+    assert roller["2 BSF - FTF"].order == pytest.approx(2 * ORDERS.bsf - ORDERS.ftf, abs=0.01)
+    assert roller["2 BSF + FTF"].order == pytest.approx(2 * ORDERS.bsf + ORDERS.ftf, abs=0.01)
+    assert not any("shaft" in line.name for line in _analyse("cup", 5).lines)
+
+
+def test_strongest_line_of_a_cup_fault_is_bpfo_and_10_db_above_the_healthy_run():
+    fault, healthy = _analyse("cup", 6), _analyse(None, 6)
+    multiple = fault.strongest_order / ORDERS.bpfo
+    assert multiple == pytest.approx(max(1, round(multiple)), rel=0.01)
+    assert fault.score > healthy.score + 10.0
+    assert fault.kurtosis > healthy.kurtosis
+
+
+@pytest.mark.parametrize(
+    "situation",
+    [{}, {"duration": 1.0}, {"coloured": True}, {"coloured": True, "speed": (10.0, 30.0)}],
+)
+def test_no_false_alarm_on_noise(situation):
+    results = [_analyse(None, seed, **situation) for seed in range(1000, 1060)]
+    assert {result.verdict for result in results} == {"healthy"}
+    # the threshold has room: not one of the candidates came near with lines that agree
+    assert max(result.score for result in results) < SETTINGS.alarm_threshold
+
+
+def test_impulses_that_match_no_fault_frequency_raise_no_alarm():
+    _, angle, acceleration = _signal("cup", 7, slip=0.12)
+    result = analyse(Stretch(RATE, acceleration, angle, 8e4, 0), ORDERS, ROLLERS, SETTINGS)
+    assert result.strongest_level > 20.0
+    assert result.verdict == "healthy"
+
+
+def _feed(monitor, signal, block=512, skip=()):
+    """Stream a signal block by block, tachometer at 400 Hz with wrapped angle; all results."""
+    time, angle, acceleration = signal
+    time_ns = np.round(time * 1e9).astype(np.int64)
+    results = []
+    for number, start in enumerate(range(0, len(time), block)):
+        part = slice(start, start + block)
+        if number not in skip:
+            monitor.push_vibration(time_ns[part], acceleration[part])
+        tach = slice(start + (-start) % 64, start + block, 64)
+        monitor.push_shaft(time_ns[tach], np.angle(np.exp(1j * angle[tach])))
+        monitor.push_load(time_ns[tach], np.full(len(time_ns[tach]), 8e4))
+        results.append(monitor.update())
+    return [result for result in results if result is not None]
+
+
+def test_stream_waits_then_finds_the_fault_through_a_speed_change():
+    monitor = Monitor(ORDERS, ROLLERS)
+    results = _feed(monitor, _signal("cup", 8, duration=4.0, speed=(18.0, 22.0)))
+    verdicts = [result.verdict for result in results]
+    assert verdicts[0] == "waiting"
+    assert set(verdicts[2:]) == {"cup"}
+    assert len(results) == pytest.approx(4.0 / SETTINGS.interval, abs=1)
+    assert results[-1].load == pytest.approx(8e4)
+    assert results[-1].revolutions == pytest.approx(SETTINGS.window_revolutions, rel=0.01)
+    assert (monitor.lost, monitor.refused) == (0, 0)
+
+
+def test_result_does_not_depend_on_how_the_stream_is_cut():
+    signal = _signal("cone", 9, duration=2.0)
+    one = _feed(Monitor(ORDERS, ROLLERS), signal, block=512)[-1]
+    two = _feed(Monitor(ORDERS, ROLLERS), signal, block=256)[-1]
+    assert one.end_ns == pytest.approx(two.end_ns, abs=20_000_000)
+    assert one.verdict == two.verdict == "cone"
+    assert one.fault_order == pytest.approx(two.fault_order, rel=1e-3)
+
+
+def test_gap_is_counted_and_what_is_before_it_is_dropped():
+    monitor = Monitor(ORDERS, ROLLERS)
+    results = _feed(monitor, _signal("cup", 10, duration=3.0), skip=(50,))
+    assert monitor.lost == 1
+    assert results[-1].verdict == "cup"
+    assert results[-1].revolutions < 2.0 * 19.2
+
+
+def test_nan_and_time_that_runs_back_are_refused():
+    monitor = Monitor(ORDERS, ROLLERS)
+    time_ns = np.arange(512, dtype=np.int64) * 39_062
+    monitor.push_vibration(time_ns, np.zeros((512, 3)))
+    monitor.push_vibration(time_ns, np.zeros((512, 3)))
+    monitor.push_vibration(time_ns + 20_000_000, np.full((512, 3), np.nan))
+    monitor.push_shaft(time_ns[::64], np.arange(8.0))
+    monitor.push_shaft(time_ns[::64], np.arange(8.0))
+    assert monitor.refused == 3
+
+
+def test_standstill_keeps_waiting_with_bounded_memory():
+    monitor = Monitor(ORDERS, ROLLERS, settings=MonitorSettings(longest_window=1.0))
+    time = np.arange(int(4 * RATE)) / RATE
+    results = _feed(monitor, (time, np.zeros_like(time), np.zeros((len(time), 3))))
+    assert {result.verdict for result in results} == {"waiting"}
+    assert len(monitor._time) <= 1.6 * RATE
+
+
+def test_running_backwards_is_analysed_alike():
+    time, angle, acceleration = _signal("cup", 11, duration=2.0)
+    assert _feed(Monitor(ORDERS, ROLLERS), (time, -angle, acceleration))[-1].verdict == "cup"
+
+
+def test_another_algorithm_takes_the_place_of_the_example():
+    def mine(stretch, orders, roller_count, settings):
+        return MonitorResult("cage", f"{len(stretch.acceleration)}", stretch.end_ns)
+
+    results = _feed(Monitor(ORDERS, ROLLERS, algorithm=mine), _signal(None, 12, duration=2.0))
+    assert results[-1].verdict == "cage"
+    assert all(two.end_ns > one.end_ns for one, two in itertools.pairwise(results))

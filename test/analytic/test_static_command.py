@@ -1,0 +1,96 @@
+"""`beardyn bearing`: the table and the JSON object."""
+
+import argparse
+import json
+import re
+
+import numpy as np
+import pytest
+
+from beardyn_core.cli import bearing as command
+
+
+@pytest.fixture
+def bearing_command(capsys):
+    """Run the command; exit status, standard output, standard error."""
+
+    def run(*words):
+        parser = argparse.ArgumentParser()
+        command.add_parser(parser.add_subparsers(required=True))
+        arguments = parser.parse_args(["bearing", *words])
+        status = arguments.run(arguments)
+        return status, *capsys.readouterr()
+
+    return run
+
+
+def test_json_is_one_object_with_the_promised_keys(bearing_command):
+    status, out, _ = bearing_command(
+        *(
+            "HS130x230",
+            "--json",
+            "--load",
+            "0",
+            "1e4",
+            "8e4",
+            "--end-play",
+            "0",
+            "--tilt",
+            "free",
+            "--laminae",
+            "4",
+        )
+    )
+    found = json.loads(out)
+    assert status == 0
+    assert {"geometry", "frequencies_per_rev", "static"} <= set(found)
+    assert set(found["frequencies_per_rev"]) == {"FTF", "BPFO", "BPFI", "BSF"}
+    static = found["static"]
+    assert static["applied_force_N"] == [0.0, 1e4, 8e4]
+    loads = np.array(static["roller_load_N"])
+    assert loads.shape == (2, found["geometry"]["roller_count"])
+    assert static["max_roller_load_N"] == loads.max()
+    assert (
+        static["loaded_roller_count"] == np.count_nonzero(loads) == sum(static["loaded_roller_count_per_row"])
+    )
+    for key in ("stiffness_tilt_held_N_per_m", "stiffness_tilt_free_N_per_m"):
+        assert np.array(static[key]).shape == (3, 3)
+    assert len(static["displacement_m"]) == 3
+    assert len(static["tilt_rad"]) == 2
+
+
+def test_anchor_of_the_issue_through_the_command(bearing_command):
+    """80 kN radial, zero end play, a roller on the load line: 9.83 kN within 0.5 %."""
+    _, out, _ = bearing_command("HS130x230", "--json", "--load", "0", "0", "80000", "--end-play", "0")
+    assert json.loads(out)["static"]["max_roller_load_N"] == pytest.approx(9.83e3, rel=5e-3)
+
+
+def test_table_names_the_default_load_and_shows_every_roller(bearing_command):
+    status, out, _ = bearing_command("HS130x230", "--speed", "1000")
+    assert status == 0
+    assert "(0, 0, 80) kN on the cone (default)" in out
+    assert len(re.findall(r"^ +[\d.]+ deg ", out, re.MULTILINE)) == 17
+    assert "121.563 Hz" in out
+    assert max(map(len, out.splitlines())) <= 100
+
+
+def test_bad_input_is_answered_with_sentences(bearing_command):
+    status, out, err = bearing_command(
+        "HS130x230", "--load", "0", "0", "nan", "--end-play", "4", "--laminae", "0"
+    )
+    assert (status, out) == (2, "")
+    assert len(err.splitlines()) == 3
+    status, out, err = bearing_command("HS130x231")
+    assert (status, out) == (2, "")
+    assert "HS130x231" in err
+    assert "HS130x230" in err
+
+
+def test_negative_numbers_may_have_an_exponent(bearing_command):
+    status, out, _ = bearing_command(
+        "HS130x230", "--json", "--load", "0", "-1.5e4", "-8e4", "--end-play", "-1e-5"
+    )
+    static = json.loads(out)["static"]
+    assert status == 0
+    assert static["applied_force_N"] == [0.0, -1.5e4, -8e4]
+    assert static["end_play_m"] == -1e-5

@@ -1,0 +1,140 @@
+"""The command line: exit codes, streams, messages."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from beardyn_core.cli import main as command
+from beardyn_core.config import shipped_names
+
+
+def beardyn(*words: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    root = str(Path(__file__).resolve().parents[2])
+    environment = {**os.environ, "PYTHONPATH": root}
+    return subprocess.run(
+        [sys.executable, "-m", "beardyn_core.cli.main", *words],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        cwd=cwd,
+        env=environment,
+        check=False,
+    )
+
+
+def test_help_has_one_line_for_each_command() -> None:
+    done = beardyn("--help")
+    assert done.returncode == 0
+    for name in command.command_names():
+        assert f"\n    {name} " in done.stdout
+    assert {"simulate", "bearing", "view", "report", "schema", "warmup"} <= set(command.command_names())
+
+
+def test_version() -> None:
+    assert beardyn("--version").stdout.startswith("beardyn ")
+
+
+def test_starting_imports_no_heavy_module() -> None:
+    heavy = ("numba", "scipy", "mcap", "rerun", "rosbags", "matplotlib", "rclpy")
+    code = (
+        "import sys; from beardyn_core.cli.main import build_parser; build_parser(); "
+        f"print([name for name in {heavy} if name in sys.modules])"
+    )
+    root = str(Path(__file__).resolve().parents[2])
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+        env={**os.environ, "PYTHONPATH": root},
+    )
+    assert done.stdout.strip() == "[]"
+
+
+def test_schema_is_one_json_object() -> None:
+    done = beardyn("schema")
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["title"] == "beardyn scene"
+
+
+@pytest.mark.parametrize(
+    "words", [[], ["simulat"], ["simulate"], ["simulate", "cup_spall", "--duration", "long"]]
+)
+def test_a_wrong_command_line_is_exit_code_2_with_usage(words: list[str]) -> None:
+    done = beardyn(*words)
+    assert done.returncode == 2
+    assert "usage: beardyn" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_bad_input_is_reported_all_at_once_and_writes_nothing(tmp_path: Path) -> None:
+    scene = tmp_path / "bad.yaml"
+    scene.write_text("scene: bad\nbearing: HS130\nlubricant: L055\nwidht: 3\noperation: {kind: constant}\n")
+    done = beardyn("simulate", "bad.yaml", "-o", "missing/run.mcap", "--json", cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert "Traceback" not in done.stderr
+    lines = done.stderr.strip().splitlines()
+    assert all(line.startswith("beardyn: ") for line in lines)
+    assert len(lines) == 5
+    for words in ("'HS130'", "widht", "force_kN is missing", "speed_rpm is missing", "missing/run.mcap"):
+        assert any(words in line for line in lines)
+    assert list(tmp_path.iterdir()) == [scene]
+
+
+def test_output_into_a_folder_is_refused_before_anything_starts(tmp_path: Path) -> None:
+    done = beardyn("simulate", "static_5kN", "-o", str(tmp_path))
+    assert done.returncode == 2
+    assert "is a folder" in done.stderr
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_output_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    path.touch(mode=0o400)
+    done = beardyn("simulate", "static_5kN", "-o", str(path))
+    assert done.returncode == 2
+    assert "cannot be written" in done.stderr
+
+
+@pytest.mark.parametrize("name", shipped_names("scenes"))
+def test_unknown_effects_of_a_shipped_scene_are_refused(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert command.main(["simulate", name, "--effects", "standart"]) == command.BAD_INPUT
+    assert "did you mean standard?" in capsys.readouterr().err
+
+
+def test_ctrl_c_ends_cleanly_and_leaves_a_readable_recording(tmp_path: Path) -> None:
+    recording = tmp_path / "run.mcap"
+    words = [sys.executable, "-m", "beardyn_core.cli.main", "simulate", "static_5kN", "--duration", "600"]
+    process = subprocess.Popen(
+        [*words, "--json", "-o", str(recording)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[2])},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    deadline = time.monotonic() + 120.0
+    while process.poll() is None and time.monotonic() < deadline:
+        if recording.exists() and recording.stat().st_size > 200_000:
+            break
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    stdout, stderr = process.communicate(timeout=60)
+    assert process.returncode == command.INTERRUPTED, stderr
+    assert stdout == ""
+    assert "Traceback" not in stderr
+    done = beardyn("report", str(recording))
+    assert done.returncode == 0
+    assert "interrupted" in done.stdout

@@ -1,0 +1,127 @@
+"""A monitor that hears only vibration, shaft and load finds spalls, and stays quiet on a healthy bearing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.signal import butter, hilbert, sosfiltfilt
+
+from beardyn_core.bearing.kinematics import FaultFrequencies, fault_frequencies
+from beardyn_core.config import load_scene
+from beardyn_core.observe.diagnosis import MonitorResult
+from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.rail.build import load_history
+from beardyn_core.twin import Twin
+
+DURATION = 2.2
+SETTLED = 0.1
+WAVEFORM_RATE = 25_600.0
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What a train has of a run, and what the monitor said."""
+
+    vibration: NDArray[np.float64]
+    shaft_frequency: float
+    orders: FaultFrequencies
+    roller_count: int
+    results: tuple[MonitorResult, ...]
+
+
+@cache
+def heard(scene_name: str, healthy: bool, seed: int | None = None) -> Heard:
+    """Run a scene, with or without its defects, and let the monitor listen."""
+    scene = load_scene(scene_name, seed=seed)
+    scene = replace(scene, defects=()) if healthy else scene
+    twin = Twin(scene)
+    twin.start(load_history(scene.operation, scene.mounting, DURATION, scene.seed))
+    orders = fault_frequencies(scene.bearing)
+    monitor = Monitor(orders, scene.bearing.roller_count)
+    vibration, speed, results = [], [], []
+    for _ in range(round(DURATION * 1e9) // twin.block_ns):
+        block = twin.advance()
+        monitor.push_vibration(block.waveform_time_ns, block.acceleration[0])
+        monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
+        monitor.push_load(block.trend_time_ns, block.load[:, 2])
+        result = monitor.update()
+        results += [result] if result is not None and result.verdict != "waiting" else []
+        vibration.append(block.acceleration[0])
+        speed.append(block.shaft_speed)
+    settled = np.concatenate(vibration)[int(SETTLED * WAVEFORM_RATE) :]
+    shaft_frequency = float(np.mean(np.concatenate(speed))) / (2.0 * np.pi)
+    return Heard(settled, shaft_frequency, orders, scene.bearing.roller_count, tuple(results))
+
+
+def envelope_spectrum(run: Heard) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Shaft orders and envelope amplitude of the vertical axis, 2 to 10 kHz, independent of the monitor."""
+    band = butter(4, [2000.0, 10_000.0], "bandpass", fs=WAVEFORM_RATE, output="sos")
+    envelope = np.abs(hilbert(sosfiltfilt(band, run.vibration[:, 2])))
+    window = np.hanning(len(envelope))
+    amplitude = np.abs(np.fft.rfft((envelope - envelope.mean()) * window)) * 2.0 / window.sum()
+    return np.fft.rfftfreq(len(envelope), 1.0 / WAVEFORM_RATE) / run.shaft_frequency, amplitude
+
+
+def line(orders: NDArray[np.float64], amplitude: NDArray[np.float64], order: float) -> float:
+    """Largest amplitude within 1 % of an order."""
+    return float(amplitude[np.abs(orders - order) < 0.01 * order].max())
+
+
+def test_strongest_envelope_line_and_a_harmonic_of_a_cup_spall_are_bpfo() -> None:
+    run = heard("cup_spall", healthy=False)
+    orders, amplitude = envelope_spectrum(run)
+    searched = (orders > 0.3 * run.roller_count) & (orders < 12.0 * run.roller_count)
+    strongest = orders[searched][amplitude[searched].argmax()]
+    assert strongest == pytest.approx(run.orders.bpfo, rel=0.01)
+    rest = searched & (np.abs(orders - strongest) > 0.01 * strongest)
+    second = orders[rest][amplitude[rest].argmax()]
+    assert second / run.orders.bpfo == pytest.approx(round(second / run.orders.bpfo), rel=0.01)
+
+
+def test_bpfo_stands_ten_decibels_above_the_identical_healthy_run() -> None:
+    faulty, healthy = heard("cup_spall", healthy=False), heard("cup_spall", healthy=True)
+    for harmonic in (1, 2):
+        order = harmonic * faulty.orders.bpfo
+        gain = line(*envelope_spectrum(faulty), order) / line(*envelope_spectrum(healthy), order)
+        assert 20.0 * np.log10(gain) >= 10.0
+
+
+def test_monitor_names_a_cup_spall_within_one_percent_of_bpfo() -> None:
+    results = heard("cup_spall", healthy=False).results
+    assert results
+    for result in results:
+        assert result.verdict == "cup"
+        assert result.fault_frequency == pytest.approx(result.expected_frequency, rel=0.01)
+
+
+def test_monitor_is_quiet_on_the_identical_healthy_run() -> None:
+    results = heard("cup_spall", healthy=True).results
+    assert results
+    assert {result.verdict for result in results} == {"healthy"}
+
+
+def test_cone_spall_gives_bpfi_with_shaft_sidebands() -> None:
+    run = heard("cone_spall", healthy=False)
+    assert {result.verdict for result in run.results} == {"cone"}
+    orders, amplitude = envelope_spectrum(run)
+    background = float(np.median(amplitude[(orders > 5.0) & (orders < 50.0)]))
+    for side in (-1.0, 0.0, 1.0):
+        assert line(orders, amplitude, run.orders.bpfi + side) > 4.0 * background
+
+
+# The alarm threshold of the monitor was set on synthetic noise; these seeds had no part in it.
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [101, 102, 103, 104, 105])
+def test_monitor_raises_no_alarm_on_healthy_runs_of_other_seeds(seed: int) -> None:
+    results = heard("smooth_run", healthy=True, seed=seed).results
+    assert {result.verdict for result in results} == {"healthy"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [201, 202, 203])
+def test_monitor_finds_the_cup_spall_on_other_seeds(seed: int) -> None:
+    assert {result.verdict for result in heard("cup_spall", healthy=False, seed=seed).results} == {"cup"}
