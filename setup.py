@@ -17,7 +17,7 @@ ROS_WHEELS = [
     "ros-kilted-std-msgs==5.5.1",
     "ros-kilted-std-srvs==5.5.1",
 ]
-TEST = ["pytest>=8", "hypothesis>=6.100", "psutil>=5.9", "setuptools>=64", "wheel"]
+TEST = ["hypothesis>=6.100", "mcap-ros2-support>=0.5", "pytest>=8", "setuptools>=64", "wheel"]
 DEV = [
     "import-linter>=2",
     "mypy>=1.11",
@@ -25,7 +25,6 @@ DEV = [
     "pytest-cov>=5",
     "ruff>=0.9",
     "types-PyYAML",
-    "types-psutil",
 ]
 
 
@@ -63,7 +62,7 @@ setup(
     ],
     install_requires=[
         "matplotlib>=3.8",
-        "mcap>=1.2",
+        "mcap>=1.6",
         "numba>=0.61",
         "numpy>=1.26",
         "pydantic>=2.7",

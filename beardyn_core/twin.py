@@ -241,7 +241,7 @@ class Twin:
             "purpose": scene.purpose,
             "bearing": scene.bearing.name,
             "tier": scene.tier,
-            "effects": [*scene.effects.names(), *(["faults"] if scene.defects else [])],
+            "effects": list(scene.effect_names),
             "faults": [vars(defect) for defect in scene.defects],
             "fault_frequencies_per_rev": {
                 "FTF": frequencies.ftf,

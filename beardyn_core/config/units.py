@@ -29,7 +29,6 @@ _WORDS = {
     "kN_s_per_m": "kilonewton seconds per metre",
     "N_s_per_m": "newton seconds per metre",
     "kN_per_mm": "kilonewtons per millimetre",
-    "kNs_per_m": "kilonewton seconds per metre",
     "MN_per_m": "meganewtons per metre",
     "kg_per_m": "kilograms per metre",
     "m_per_s2": "metres per second squared",

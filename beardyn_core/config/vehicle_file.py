@@ -27,7 +27,7 @@ class VehicleKeys(SourcedModel):
     secondary_stiffness_kN_per_mm: Annotated[Positive, Field(ge=0.01, le=100.0)] = Field(
         description="vertical, one side of one bogie"
     )
-    secondary_damping_kNs_per_m: Annotated[Positive, Field(le=10000.0)] = Field(
+    secondary_damping_kN_s_per_m: Annotated[Positive, Field(le=10000.0)] = Field(
         description="vertical, one side of one bogie"
     )
     wheel_profile: Literal["worn", "cone"] = "worn"
@@ -40,7 +40,7 @@ class VehicleKeys(SourcedModel):
             body_mass=self.body_mass_t * TONNE,
             bogie_mass=self.bogie_mass_t * TONNE,
             secondary_stiffness=self.secondary_stiffness_kN_per_mm * MEGA,
-            secondary_damping=self.secondary_damping_kNs_per_m * KN,
+            secondary_damping=self.secondary_damping_kN_s_per_m * KN,
             wheel_profile=self.wheel_profile,
             sources=tuple(self.sources.items()),
         )

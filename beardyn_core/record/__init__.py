@@ -14,6 +14,14 @@ mcap_writing       crash-safe MCAP that rosbag2 reads
 mcap_scanning      reading that survives a cut file
 reading            a recording as arrays
 reporting          what a recording holds, in words and as JSON
-meshes, views ...  the rerun view
+envelope           envelope order spectrum of a whole recording
+meshes             triangle meshes of the bearing's parts from its recorded shape
+rerun_bearing      the bearing in 3-D: motion, loads, contact forces
+rerun_plots        curves beside it
+rerun_spectrum     the envelope spectrum as a drawn plot
+rerun_view         a whole recording with its blueprint; ``.rrd`` files
+rerun_live         a running twin, fed with messages
+rerun_stream       where a live view goes: window, browser, file
+viewer             the rerun program: window, web page, picture without a screen
 =================  =============================================================================
 """

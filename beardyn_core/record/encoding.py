@@ -98,6 +98,7 @@ class BlockEncoder:
     """
 
     def __init__(self, roller_count: int, sensor_names: tuple[str, ...], frame: str = FRAME) -> None:
+        self._rollers = 2 * roller_count
         self._sensor_names = sensor_names
         self._force = force_template(frame)
         self._imu = imu_template(frame)
@@ -110,7 +111,8 @@ class BlockEncoder:
 
     def encode(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
         """Messages of a block: topic name, stamp [ns], CDR bytes; each topic in the order of time."""
-        yield from self._trend(block)
+        if len(block.trend_time_ns):
+            yield from self._trend(block)
         if len(block.waveform_time_ns):
             yield from self._waveforms(block)
         if len(block.snapshot_time_ns):
@@ -135,14 +137,14 @@ class BlockEncoder:
         position = np.hstack(
             (
                 block.cage_angle[every],
-                block.roller_angle[every].reshape(count, -1),
+                block.roller_angle[every].reshape(count, self._rollers),
                 block.shaft_angle[every, None],
             )
         )
         velocity = np.hstack(
             (
                 block.cage_speed[every],
-                block.roller_speed[every].reshape(count, -1),
+                block.roller_speed[every].reshape(count, self._rollers),
                 block.shaft_speed[every, None],
             )
         )

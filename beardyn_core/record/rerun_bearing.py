@@ -219,7 +219,7 @@ def _log_zone_outline(
     inner = ZONE_RADIUS * shape.outer_diameter / 2.0
     for row, side in enumerate(meshes.ROW_SIDE):
         azimuth, axial = _azimuths(run, row), side * shape.row_spacing / 2.0
-        ring = np.linspace(0.0, 2.0 * np.pi, 181)
+        ring = np.linspace(0.0, 2.0 * np.pi, 91)
         where = np.mod(azimuth.ravel(), 2.0 * np.pi)
         bins = np.clip(np.digitize(where, ring) - 1, 0, len(ring) - 2)
         envelope = np.zeros(len(ring) - 1)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import rerun as rr
 
 from beardyn_core.errors import InputError
-from beardyn_core.record.viewer import _free_port, _is_free, _wait_for, require_display, viewer_executable
+from beardyn_core.record.viewer import require_display, web_viewer
 
 APPLICATION = "beardyn"
 
@@ -50,43 +49,23 @@ def live_stream(target: str, path: Path | None = None, port: int = 0) -> Iterato
         No display for a window, no free port, or the file cannot be written.
     """
     stream = rr.RecordingStream(APPLICATION)
-    server: subprocess.Popen[bytes] | None = None
-    where = "a window"
-    if target == "window":
-        require_display()
-        stream.spawn()
-    elif target == "web":
-        server, page, data = _serve(port)
-        stream.connect_grpc(f"rerun+http://127.0.0.1:{data}/proxy")
-        where = f"http://127.0.0.1:{page}?url=rerun%2Bhttp%3A%2F%2F127.0.0.1%3A{data}%2Fproxy"
-    else:
-        where = str(_writable(path))
-        stream.save(where)
-    try:
-        yield LiveStream(stream, where)
-    finally:
-        stream.flush()
-        stream.disconnect()
-        if server is not None:
-            server.terminate()
-            server.wait()
-
-
-def _serve(port: int) -> tuple[subprocess.Popen[bytes], int, int]:
-    if port and not _is_free(port):
-        raise InputError(f"port {port} is in use; choose another, or 0 for a free one")
-    page, data = port or _free_port(), _free_port()
-    command = [viewer_executable(), "--serve-web", "--bind", "127.0.0.1"]
-    command += ["--port", str(data), "--web-viewer-port", str(page)]
-    server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        _wait_for(server, page)
-        _wait_for(server, data)
-    except InputError:
-        server.kill()
-        server.wait()
-        raise
-    return server, page, data
+    with ExitStack() as stack:
+        where = "a window"
+        if target == "window":
+            require_display()
+            stream.spawn()
+        elif target == "web":
+            page = stack.enter_context(web_viewer(port=port))
+            stream.connect_grpc(page.stream_url)
+            where = page.url
+        else:
+            where = str(_writable(path))
+            stream.save(where)
+        try:
+            yield LiveStream(stream, where)
+        finally:
+            stream.flush()
+            stream.disconnect()
 
 
 def _writable(path: Path | None) -> Path:

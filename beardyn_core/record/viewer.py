@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import shutil
 import signal
 import socket
 import subprocess
 import sys
-import sysconfig
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -30,8 +30,14 @@ def viewer_executable() -> str:
     InputError
         It is not installed.
     """
-    beside = Path(sysconfig.get_path("scripts")) / "rerun"
-    found = str(beside) if beside.exists() else shutil.which("rerun")
+    # The command ``rerun`` is a wrapper that outlives or is outlived by the viewer; this is the viewer.
+    package = importlib.util.find_spec("rerun_cli")
+    folders = list(package.submodule_search_locations or ()) if package is not None else []
+    for folder in folders:
+        for name in ("rerun", "rerun.exe"):
+            if (Path(folder) / name).is_file():
+                return str(Path(folder) / name)
+    found = shutil.which("rerun")
     if found is None:
         raise InputError("the program rerun is not installed: pip install rerun-sdk")
     return found
@@ -73,21 +79,24 @@ class WebViewer:
     ----------
     url : str
         The page.
+    stream_url : str
+        Where a recording stream connects to be shown.
     process : subprocess.Popen
     """
 
     url: str
+    stream_url: str
     process: subprocess.Popen[bytes]
 
 
 @contextmanager
-def web_viewer(recording: Path, port: int | None = None) -> Iterator[WebViewer]:
-    """Serve the viewer and a recording on this machine only, while the context lasts.
+def web_viewer(recording: Path | None = None, port: int | None = None) -> Iterator[WebViewer]:
+    """Serve the viewer on this machine only, while the context lasts.
 
     Parameters
     ----------
-    recording : Path
-        An ``.rrd`` file.
+    recording : Path, optional
+        An ``.rrd`` file to show; without one the page waits for a stream.
     port : int, optional
         Of the page; a free one by default.
 
@@ -96,29 +105,24 @@ def web_viewer(recording: Path, port: int | None = None) -> Iterator[WebViewer]:
     InputError
         The server did not start, or the port is taken.
     """
-    if port is not None and not _is_free(port):
-        raise InputError(f"--port {port}: the port is in use; choose another or leave the option away")
+    if port and not _is_free(port):
+        raise InputError(f"port {port} is in use; choose another, or none for a free one")
     page, data = port or _free_port(), _free_port()
-    command = [
-        viewer_executable(),
-        str(recording),
-        "--serve-web",
-        "--port",
-        str(data),
-        "--web-viewer-port",
-        str(page),
-        "--bind",
-        "127.0.0.1",
-    ]
-    # The program is a wrapper around the viewer: a session of their own lets both be ended together.
+    command = [viewer_executable(), *([str(recording)] if recording else []), "--serve-web"]
+    command += ["--port", str(data), "--web-viewer-port", str(page), "--bind", "127.0.0.1"]
+    # In a session of its own a Ctrl-C in the terminal does not reach it before it is ended here.
     process = subprocess.Popen(
         command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
     )
     try:
         _wait_for(process, page)
         _wait_for(process, data)
-        url = f"http://127.0.0.1:{page}/?url=rerun%2Bhttp%3A%2F%2F127.0.0.1%3A{data}%2Fproxy&theme=dark"
-        yield WebViewer(url, process)
+        source = f"rerun%2Bhttp%3A%2F%2F127.0.0.1%3A{data}%2Fproxy"
+        yield WebViewer(
+            f"http://127.0.0.1:{page}/?url={source}&theme=dark",
+            f"rerun+http://127.0.0.1:{data}/proxy",
+            process,
+        )
     finally:
         _end_session(process)
 

@@ -75,3 +75,8 @@ class Scene:
     duration: float
     seed: int
     source_text: str
+
+    @property
+    def effect_names(self) -> tuple[str, ...]:
+        """Names of the effects that are present, faults included."""
+        return (*self.effects.names(), *(("faults",) if self.defects else ()))

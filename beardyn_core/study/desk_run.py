@@ -192,7 +192,7 @@ class _Trend:
         return RunSummary(
             scene=scene.name,
             tier=scene.tier,
-            effects=scene.effects.names(),
+            effects=scene.effect_names,
             duration=duration,
             wall_time=wall_time,
             status=status,
