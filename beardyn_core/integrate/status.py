@@ -9,17 +9,29 @@ from numpy.typing import NDArray
 
 from beardyn_core.integrate.state import State
 from beardyn_core.model.layout import (
+    AXIS,
     CHATTER,
     CHATTER_FIELDS,
     CHATTER_LOAD,
     CHATTER_SQUARES,
+    CONE,
+    CONTACT_OUTPUT,
+    CUP,
+    OUTPUT_ARM,
+    OUTPUT_FIELDS,
+    OUTPUT_FILM,
+    OUTPUT_FORCE,
     PENETRATION,
+    RIB,
     ROLLER_STATES,
 )
 
 LARGEST_PENETRATION = 2.0e-4
 LARGEST_CHATTER_INDEX = 0.05
 CHATTER_LOAD_FLOOR = 5.0
+# Rib contacts and films are judged only where they carry this much [N].
+SMALLEST_JUDGED_LOAD = 100.0
+LARGEST_FILM = 1.0e-5
 
 
 class Status(IntFlag):
@@ -30,6 +42,8 @@ class Status(IntFlag):
     PENETRATION = 2
     CHATTER = 4
     LOAD_STALE = 8
+    OFF_RIB = 16
+    FILM_RANGE = 32
 
 
 SENTENCES = {
@@ -39,6 +53,10 @@ SENTENCES = {
     "where the contact law does not hold: lower the load",
     Status.CHATTER: "a friction force flips from step to step, so torque and slip are not converged: raise "
     "numerics.steps_per_sample",
+    Status.OFF_RIB: "a roller presses on its rib beyond the edge of its large end: lower the axial load "
+    "or the sphere ratio",
+    Status.FILM_RANGE: f"a loaded film is thicker than {LARGEST_FILM * 1e6:.0f} um, where the "
+    "elastohydrodynamic formula does not hold: raise the temperature or take a thinner lubricant",
     Status.LOAD_STALE: "the load stopped coming: the load was older than max_age",
 }
 
@@ -51,7 +69,8 @@ def describe(status: int) -> str:
 
 def is_fatal(status: int) -> bool:
     """Whether the run has to end."""
-    return bool(Status(status) & (Status.NOT_FINITE | Status.PENETRATION | Status.LOAD_STALE))
+    fatal = Status.NOT_FINITE | Status.PENETRATION | Status.LOAD_STALE | Status.OFF_RIB
+    return bool(Status(status) & fatal)
 
 
 def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
@@ -69,8 +88,52 @@ def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
     return np.array(index)
 
 
-def assess(state: State, step_count: int) -> Status:
-    """Status after a block."""
+def _output(state: State, kind: int, first: int, count: int) -> NDArray[np.float64]:
+    """Fields of one contact's output, shape [block, field, lane]."""
+    start = CONTACT_OUTPUT + kind * OUTPUT_FIELDS + first
+    return state.rollers[:, start : start + count]
+
+
+def is_off_rib(state: State, large_end_radius: float) -> bool:
+    """Whether a loaded rib contact lies outside the roller's large end.
+
+    Parameters
+    ----------
+    state : State
+    large_end_radius : float
+        [m].
+    """
+    load = np.linalg.norm(_output(state, RIB, OUTPUT_FORCE, 3), axis=1)
+    arm, axis = _output(state, RIB, OUTPUT_ARM, 3), state.rollers[:, AXIS : AXIS + 3]
+    from_axis = np.linalg.norm(np.cross(arm, axis, axis=1), axis=1)
+    return bool(np.any((load > SMALLEST_JUDGED_LOAD) & (from_axis > large_end_radius)))
+
+
+def is_film_out_of_range(state: State) -> bool:
+    """Whether a loaded raceway film is too thick for the elastohydrodynamic formula."""
+    for kind in (CUP, CONE):
+        load = np.linalg.norm(_output(state, kind, OUTPUT_FORCE, 3), axis=1)
+        film = _output(state, kind, OUTPUT_FILM, 1)[:, 0]
+        if np.any((load > SMALLEST_JUDGED_LOAD) & (film > LARGEST_FILM)):
+            return True
+    return False
+
+
+def assess(state: State, step_count: int, large_end_radius: float) -> Status:
+    """Status after a block.
+
+    Parameters
+    ----------
+    state : State
+    step_count : int
+        Steps of the block.
+    large_end_radius : float
+        Of a roller, [m].
+
+    Returns
+    -------
+    Status
+    """
     status = Status.FINE
     finite = np.isfinite(state.rollers[:, :ROLLER_STATES]).all() and np.isfinite(state.bodies).all()
     if not finite:
@@ -79,4 +142,8 @@ def assess(state: State, step_count: int) -> Status:
         status |= Status.PENETRATION
     if chatter_index(state, step_count).max() > LARGEST_CHATTER_INDEX:
         status |= Status.CHATTER
+    if is_off_rib(state, large_end_radius):
+        status |= Status.OFF_RIB
+    if is_film_out_of_range(state):
+        status |= Status.FILM_RANGE
     return status

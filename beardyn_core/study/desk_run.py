@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.status import describe
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.description import RunDescription
@@ -76,7 +77,7 @@ class RunSummary:
     @property
     def complete(self) -> bool:
         """Whether the run came to its end inside the model's validity."""
-        return self.status == COMPLETE
+        return self.status.startswith(COMPLETE)
 
 
 def run(
@@ -127,7 +128,9 @@ def run(
                 break
             wall_time += time.perf_counter() - began
             _deliver(block, opened, trend, progress)
-        closing = "" if status == COMPLETE else status
+        if status == COMPLETE and trend.warnings:
+            status = f"{COMPLETE}, but {describe(trend.warnings)}"
+        closing = "" if status.startswith(COMPLETE) else status
     finally:
         for sink in opened:
             sink.close(closing)
@@ -152,12 +155,14 @@ class _Trend:
         self._end_ns = 0
         self._start_ns: int | None = None
         self._residual: float | None = None
+        self.warnings = 0
 
     def add(self, block: Block) -> None:
         """Keep the trend of a block."""
         if self._start_ns is None:
             self._start_ns = block.start_ns
         self._end_ns = block.end_ns
+        self.warnings |= block.status
         self._residual = None if block.audit is None else block.audit.residual
         self._blocks.append(
             (
@@ -171,7 +176,7 @@ class _Trend:
 
     def summary(self, scene: Scene, wall_time: float, status: str) -> RunSummary:
         """Means over the last whole cage revolutions after the settling time."""
-        duration = (self._end_ns - (self._start_ns or 0)) * 1e-9
+        duration = round((self._end_ns - (self._start_ns or 0)) * 1e-9, 9)
         force, torque, shaft = (math.nan, math.nan, math.nan), math.nan, math.nan
         cage: tuple[float, ...] = (math.nan, math.nan)
         averaged, revolutions = (0.0, 0.0), 0
