@@ -1,0 +1,25 @@
+"""ROS 2 nodes of the twin, and what they are made of, in the order of the data.
+
+============== ==============================================================================
+module         responsibility
+============== ==============================================================================
+environment    what ROS 2 from wheels needs to start; says clearly when there is no ROS 2
+runtime        one process, one node: arguments, signals, executor, exit code
+parameters     parameters declared once from a table, refused with a sentence
+wire           topics of the table as publishers, and raw subscriptions that are emptied in one sweep
+load_gate      what comes in as load: checked, counted, queued
+load_node      replays an operation or a CSV as stamped load blocks, within the credit
+run_state      what a session is told, what it hands over, what it says about itself
+session        the twin in its own thread: compile, wait for load, advance, pace
+pacer          when a block is due on the wall clock
+twin_node      the lifecycle node around a session: topics, services, diagnostics
+twin_watch     is the twin there, has it ended, how
+recording      messages into files, one a run, with proof of what was lost
+recorder_node  every topic into a crash-safe MCAP file
+monitor_node   example of a monitoring algorithm: vibration, shaft and load, nothing else
+viewer_node    live view in rerun
+diagnostics    reports as diagnostic_msgs
+processes      child processes that never outlive their parent
+demo           all nodes as separate processes on one scene
+============== ==============================================================================
+"""

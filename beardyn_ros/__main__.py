@@ -1,0 +1,66 @@
+"""Start a node without ``ros2``: ``python -m beardyn_ros twin --ros-args -p scene:=smooth_run``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
+from beardyn_ros.runtime import EXIT_BAD_INPUT
+
+PROGRAMS = {
+    "twin": ("twin_node", "simulate the bearing and publish what its sensors read"),
+    "load": ("load_node", "replay a scene's operation or a CSV as load of the twin"),
+    "recorder": ("recorder_node", "record every topic into a crash-safe MCAP file"),
+    "viewer": ("viewer_node", "live view in rerun"),
+    "monitor": ("monitor_node", "example of a monitoring algorithm on vibration, shaft and load"),
+    "demo": ("demo", "all of them as separate processes on one scene"),
+}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one of `PROGRAMS`; gives the exit code."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    if not words or words[0] in ("-h", "--help"):
+        print(usage())
+        return 0 if words else EXIT_BAD_INPUT
+    name, rest = words[0], words[1:]
+    if name not in PROGRAMS:
+        print(f"beardyn: there is no node '{name}', choose one of {', '.join(PROGRAMS)}", file=sys.stderr)
+        return EXIT_BAD_INPUT
+    prepare_environment()
+    if not ros_available():
+        print(MISSING_ROS, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    if {"-h", "--help"} & set(rest) and name != "demo":
+        print(node_help(name))
+        return 0
+    return int(import_module(f"beardyn_ros.{PROGRAMS[name][0]}").main(rest))
+
+
+def usage() -> str:
+    """Overview of the programs."""
+    lines = ["usage: python -m beardyn_ros NODE [--ros-args -p NAME:=VALUE ... --params-file FILE]", ""]
+    lines += [f"  {name:9} {purpose}" for name, (_, purpose) in PROGRAMS.items()]
+    return "\n".join([*lines, "", "`python -m beardyn_ros NODE --help` lists a node's parameters."])
+
+
+def node_help(name: str) -> str:
+    """Parameters of a node, from its table."""
+    module, purpose = PROGRAMS[name]
+    lines = [f"{name}: {purpose}", "", "parameters (--ros-args -p NAME:=VALUE):"]
+    for parameter in import_module(f"beardyn_ros.{module}").PARAMETERS:
+        notes = [parameter.type_name, f"default {parameter.default!r}"]
+        if parameter.choices:
+            notes.append("one of " + ", ".join(parameter.choices))
+        elif parameter.allowed_range != "no range":
+            notes.append(parameter.allowed_range)
+        elif parameter.unit:
+            notes.append(parameter.unit)
+        lines.append(f"  {parameter.name:16} {parameter.description} ({'; '.join(notes)})")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

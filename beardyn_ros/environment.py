@@ -1,0 +1,60 @@
+"""What ROS 2 needs to start when it comes from wheels instead of a sourced installation."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+FASTDDS_PROFILE = Path(__file__).with_name("fastdds_profile.xml")
+PROFILE_VARIABLES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
+MISSING_ROS = (
+    "beardyn: rclpy is not importable, so there is no ROS 2 in this environment. Either install it with "
+    "`pip install .[ros]` in a clean virtual environment, or source a ROS 2 installation "
+    "(`source /opt/ros/<distro>/setup.bash`) and start again. The desk path (`beardyn demo`, "
+    "`beardyn simulate`) needs no ROS 2."
+)
+
+
+def ros_available() -> bool:
+    """Whether rclpy can be found; nothing is imported."""
+    return importlib.util.find_spec("rclpy") is not None
+
+
+def prepare_environment() -> None:
+    """Fill in what a sourced ROS 2 would have set; whatever is set already stays.
+
+    Notes
+    -----
+    The wheels leave `AMENT_PREFIX_PATH` unset, a missing or read-only home stops the logger, and the
+    announcements and acknowledgements of Fast DDS come up to 3 s apart unless a profile says otherwise.
+    """
+    if not (os.environ.get("ROS_LOG_DIR") or os.environ.get("ROS_HOME") or _home_is_writable()):
+        folder = Path(tempfile.gettempdir()) / f"ros_log_{os.getuid()}"
+        folder.mkdir(parents=True, exist_ok=True)
+        os.environ["ROS_LOG_DIR"] = str(folder)
+        os.environ.setdefault("HOME", str(folder))
+    if os.environ.get("ROS_DISTRO"):
+        return  # a sourced ROS 2: its Fast DDS may be of another version than the profile
+    if not os.environ.get("AMENT_PREFIX_PATH"):
+        os.environ["AMENT_PREFIX_PATH"] = str(_wheel_prefix())
+    chosen = any(os.environ.get(name) for name in PROFILE_VARIABLES)
+    if not chosen and FASTDDS_PROFILE.is_file():
+        os.environ[PROFILE_VARIABLES[0]] = str(FASTDDS_PROFILE)
+
+
+def _wheel_prefix() -> Path:
+    """Folder that holds `share/ament_index` of the wheels."""
+    spec = importlib.util.find_spec("rclpy")
+    if spec is not None and spec.origin:
+        for folder in Path(spec.origin).parents:
+            if (folder / "share" / "ament_index").is_dir():
+                return folder
+    return Path(sys.prefix)
+
+
+def _home_is_writable() -> bool:
+    home = os.environ.get("HOME")
+    return bool(home) and os.access(str(home), os.W_OK)

@@ -1,0 +1,188 @@
+"""An example of a monitoring algorithm: it reads what a train has, and knows the bearing's name plate.
+
+Inputs are ``vibration``, ``shaft`` and the load (``load/blocks`` or ``load/wrench``). It never reads
+``truth``, ``contacts``, ``bodies`` or ``joint_states``. The fault orders come from the parameter
+``bearing``. `beardyn_core.observe.monitoring.Monitor` does the work: put your own algorithm there.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+import numpy as np
+from rclpy.node import Node
+
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.config import load_bearing
+from beardyn_core.errors import InputError
+from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
+from beardyn_core.record.load_stream import decode_load
+from beardyn_core.record.messages import (
+    Diagnostic,
+    decode,
+    decode_diagnostics,
+    encode_diagnostics,
+    header_stamp,
+)
+from beardyn_core.record.topics import FRAME, JOINTS, WRENCH, topic
+from beardyn_core.study.finding import Finding, conclude
+from beardyn_ros.diagnostics import MONITOR, diagnostic_name
+from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.runtime import run_node
+from beardyn_ros.twin_watch import TwinWatch
+from beardyn_ros.wire import RawIntake, TopicPublishers
+
+TICK_S = 0.05
+REPORT_PERIOD_S = 0.5
+INPUTS = ("vibration", "shaft", "load/blocks")
+
+PARAMETERS = (
+    NodeParameter("bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"),
+    NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended"),
+)
+
+
+class MonitorNode(Node):
+    """Shows vibration, shaft and load to a `Monitor` and publishes what it says."""
+
+    def __init__(self) -> None:
+        super().__init__("monitor", namespace="axlebox")
+        self.finished = False
+        self.exit_code = 0
+        self._values = ParameterValues(self, PARAMETERS)
+        try:
+            self._bearing = load_bearing(self._values.bearing)
+        except InputError as error:
+            raise InputError(
+                [f"node monitor, parameter 'bearing': {each}" for each in error.problems]
+            ) from None
+        self._orders = fault_frequencies(self._bearing)
+        self._out = TopicPublishers(self, "monitor/result", "/diagnostics")
+        self._intake = RawIntake(self)
+        self._intake.add(topic("vibration"), self._on_vibration)
+        self._intake.add(topic("shaft"), self._on_shaft)
+        self._intake.add(topic("load/blocks"), self._on_load)
+        self._intake.add(topic("load/wrench"), self._on_wrench)
+        self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
+        self._watch = TwinWatch(lambda: self.count_publishers(topic("vibration").path(self.get_namespace())))
+        self._begin()
+        self._reported_at = 0.0
+        self.create_timer(TICK_S, self._tick)
+        self.get_logger().info(
+            f"{self._bearing.name}: BPFO {self._orders.bpfo:.4f}, BPFI {self._orders.bpfi:.4f}, "
+            f"BSF {self._orders.bsf:.4f}, FTF {self._orders.ftf:.4f} per shaft revolution"
+        )
+
+    def _begin(self) -> None:
+        self._monitor = Monitor(self._orders, self._bearing.roller_count)
+        self._findings: list[Finding] = []
+        self._last_sample = -1
+        self._shaft_time: list[int] = []
+        self._shaft_angle: list[float] = []
+        self._summed_up = False
+
+    # --- what a train has --------------------------------------------------------------------------
+
+    def _on_vibration(self, cdr: bytes) -> None:
+        points = cloud_to_arrays(cdr)
+        if not len(points):
+            return
+        if int(points["sample"][-1]) <= self._last_sample:
+            self.get_logger().info("the vibration starts again, so does the monitor")
+            self._begin()
+        self._last_sample = int(points["sample"][-1])
+        acceleration = np.stack([points[axis].astype(float) for axis in ("ax", "ay", "az")], axis=1)
+        self._monitor.push_vibration(cloud_times(cdr, points), acceleration)
+
+    def _on_shaft(self, cdr: bytes) -> None:
+        self._shaft_time.append(header_stamp(cdr))
+        self._shaft_angle.append(float(decode(JOINTS, cdr).position[0]))
+
+    def _on_load(self, cdr: bytes) -> None:
+        try:
+            load, _ = decode_load(cdr)
+        except Exception:  # somebody else's mistake; the twin tells about it
+            return
+        if len(load):
+            self._monitor.push_load(load.time_ns, load.wrench[:, 2])
+
+    def _on_wrench(self, cdr: bytes) -> None:
+        vertical = float(decode(WRENCH, cdr).wrench.force.z)
+        self._monitor.push_load(np.array([header_stamp(cdr)]), np.array([vertical]))
+
+    def _on_diagnostics(self, cdr: bytes) -> None:
+        self._watch.hear(decode_diagnostics(cdr)[1])
+
+    # --- what it says ------------------------------------------------------------------------------
+
+    def _tick(self) -> None:
+        self._intake.sweep()
+        if self._shaft_time:
+            self._monitor.push_shaft(np.array(self._shaft_time, np.int64), np.array(self._shaft_angle))
+            self._shaft_time, self._shaft_angle = [], []
+        result = self._monitor.update()
+        if result is not None:
+            self._tell(Finding.of(result))
+        if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
+            self._report()
+        if self._watch.ended and not self._summed_up:
+            self._sum_up()
+        if self._summed_up or self._watch.vanished():
+            self.finished = bool(self._values.exit_when_done)
+
+    def _tell(self, finding: Finding) -> None:
+        earlier = self._findings[-1].verdict if self._findings else ""
+        self._findings.append(finding)
+        self._publish(finding)
+        if finding.verdict != earlier:
+            if finding.is_fault:
+                self.get_logger().warning(finding.reason)
+            else:
+                self.get_logger().info(finding.reason)
+
+    def _publish(self, finding: Finding, *extra: tuple[str, str]) -> None:
+        status = finding.to_diagnostic(diagnostic_name(self.get_namespace(), MONITOR), extra)
+        stamp = round(finding.time * 1e9)
+        self._out.publish("monitor/result", encode_diagnostics(stamp, FRAME, [status]))
+
+    def _sum_up(self) -> None:
+        """Last word about the run: the most frequent verdict."""
+        self._summed_up = True
+        conclusion = conclude(self._findings)
+        finding = conclusion.finding or Finding("waiting", "not enough signal for a verdict", 0.0)
+        counts = (("agreeing", str(conclusion.agreeing)), ("analyses", str(conclusion.analyses)))
+        self._publish(finding, ("final", "true"), *counts)
+        self._report()
+        self._out.wait_until_received("monitor/result", 1.0)
+
+    def _report(self) -> None:
+        self._reported_at = time.monotonic()
+        counts = self._intake.publisher_counts()
+        namespace = self.get_namespace()
+        connected = all(counts.get(topic(name).path(namespace), 0) for name in INPUTS[:2])
+        verdict = self._findings[-1].verdict if self._findings else "waiting"
+        status = Diagnostic(
+            diagnostic_name(namespace, MONITOR),
+            1 if self._monitor.lost or self._monitor.refused else 0,
+            self._findings[-1].reason if self._findings else "listening",
+            (
+                ("connected", "true" if connected else "false"),
+                ("verdict", verdict),
+                ("analyses", str(len(self._findings))),
+                ("gaps_in_vibration", str(self._monitor.lost)),
+                ("refused_blocks", str(self._monitor.refused)),
+            ),
+        )
+        stamp = round(self._findings[-1].time * 1e9) if self._findings else 0
+        self._out.publish("/diagnostics", encode_diagnostics(stamp, FRAME, [status]))
+
+    def close(self) -> bool:
+        """Nothing to save; there is no thread to end."""
+        return False
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run the node until the twin has ended."""
+    return run_node(MonitorNode, argv)

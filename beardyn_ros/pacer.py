@@ -1,0 +1,65 @@
+"""When a block is due on the wall clock."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+LATE_AFTER_S = 0.040
+
+
+class Pacer:
+    """Maps simulated time to the wall clock; never touches what is simulated.
+
+    Parameters
+    ----------
+    speed_factor : float
+        Simulated seconds per wall second; 0: as fast as it goes.
+    """
+
+    def __init__(self, speed_factor: float) -> None:
+        self._lock = threading.Lock()
+        self._speed_factor = speed_factor
+        self.begin()
+
+    def begin(self) -> None:
+        """Start of a run: simulated time 0 is now."""
+        with self._lock:
+            self._origin_wall = time.monotonic()
+            self._origin_s = 0.0
+            self._now_s = 0.0
+            self.late_blocks = 0
+
+    @property
+    def speed_factor(self) -> float:
+        """Simulated seconds per wall second; 0: as fast as it goes."""
+        return self._speed_factor
+
+    def set_speed_factor(self, speed_factor: float) -> None:
+        """Change the pace from now on."""
+        with self._lock:
+            self._origin_wall = time.monotonic()
+            self._origin_s = self._now_s
+            self._speed_factor = speed_factor
+
+    def shift(self, seconds: float) -> None:
+        """Leave out time that was spent waiting for somebody else."""
+        with self._lock:
+            self._origin_wall += seconds
+
+    def delay(self, end_ns: int) -> float:
+        """Seconds until a block that ends at `end_ns` is due; 0 or negative: due."""
+        with self._lock:
+            if self._speed_factor == 0.0:
+                return 0.0
+            return self._due(end_ns) - time.monotonic()
+
+    def check_late(self, end_ns: int) -> None:
+        """Count the block when it is handed over more than 40 ms past due."""
+        with self._lock:
+            if self._speed_factor > 0.0 and time.monotonic() - self._due(end_ns) > LATE_AFTER_S:
+                self.late_blocks += 1
+            self._now_s = end_ns * 1e-9
+
+    def _due(self, end_ns: int) -> float:
+        return self._origin_wall + (end_ns * 1e-9 - self._origin_s) / self._speed_factor

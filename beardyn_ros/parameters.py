@@ -1,0 +1,163 @@
+"""Node parameters: declared once from a table, refused with a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+from beardyn_core.errors import InputError
+
+
+@dataclass(frozen=True)
+class NodeParameter:
+    """One parameter of a node.
+
+    Parameters
+    ----------
+    name : str
+    default : bool, int, float or str
+        Its type is the type of the parameter.
+    description : str
+    unit : str
+        '' when it has none.
+    minimum, maximum : float or None
+        Allowed range, both ends included.
+    choices : tuple of str
+        Allowed words; empty: any.
+    live : bool
+        May change while the node runs; otherwise it is read-only.
+    """
+
+    name: str
+    default: bool | int | float | str
+    description: str
+    unit: str = ""
+    minimum: float | None = None
+    maximum: float | None = None
+    choices: tuple[str, ...] = ()
+    live: bool = False
+
+    @property
+    def type_name(self) -> str:
+        """Type in the words of a ROS user."""
+        return {bool: "bool", int: "integer", float: "double", str: "string"}[type(self.default)]
+
+    def convert(self, value: bool | int | float | str) -> bool | int | float | str:
+        """Value in the parameter's type, or an `InputError` that says what is allowed."""
+        wanted = type(self.default)
+        if wanted is float and isinstance(value, int) and not isinstance(value, bool):
+            value = float(value)
+        if type(value) is not wanted:
+            raise InputError(
+                f"parameter '{self.name}': {value!r} is of type {type(value).__name__}, "
+                f"{self.type_name} is needed ({self.description})"
+            )
+        if self.choices and value not in self.choices:
+            raise InputError(
+                f"parameter '{self.name}': '{value}' is not allowed, choose one of {', '.join(self.choices)}"
+            )
+        low, high = self.minimum, self.maximum
+        if isinstance(value, (int, float)) and not (
+            (low is None or value >= low) and (high is None or value <= high) and isfinite(value)
+        ):
+            raise InputError(f"parameter '{self.name}': {value} is outside {self.allowed_range}")
+        return value
+
+    @property
+    def allowed_range(self) -> str:
+        """Range and unit as a sentence part."""
+        unit = f" {self.unit}" if self.unit else ""
+        if self.minimum is not None and self.maximum is not None:
+            return f"the range {self.minimum:g} to {self.maximum:g}{unit}"
+        if self.minimum is not None:
+            return f"the range from {self.minimum:g}{unit} upwards"
+        return f"the range up to {self.maximum:g}{unit}" if self.maximum is not None else "no range"
+
+
+class ParameterValues:
+    """Current values by attribute name; follows live changes.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Its overrides (command line, parameter file) are checked against the table.
+    table : sequence of NodeParameter
+
+    Raises
+    ------
+    InputError
+        Every unknown name and bad value at once; nothing is declared then.
+    """
+
+    def __init__(self, node: Any, table: Sequence[NodeParameter]) -> None:
+        from rclpy.parameter import Parameter
+
+        self._table = {parameter.name: parameter for parameter in table}
+        self._node = node
+        overrides = node._parameter_overrides
+        known = ", ".join(sorted(self._table))
+        problems = [
+            f"node {node.get_name()}: unknown parameter '{name}', known are {known}"
+            for name in overrides
+            if name not in self._table and not _owned_by_ros(name)
+        ]
+        for parameter in table:
+            if parameter.name not in overrides:
+                continue
+            try:
+                value = parameter.convert(overrides[parameter.name].value)
+            except InputError as error:
+                problems += [f"node {node.get_name()}: {sentence}" for sentence in error.problems]
+            else:
+                overrides[parameter.name] = Parameter(parameter.name, value=value)
+        if problems:
+            raise InputError(problems)
+        for parameter in table:
+            node.declare_parameter(parameter.name, parameter.default, _descriptor(parameter))
+        node.add_on_set_parameters_callback(self._check_live_change)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self._table:
+            raise AttributeError(name)
+        return self._node.get_parameter(name).value
+
+    def _check_live_change(self, changes: Sequence[Any]) -> Any:
+        from rcl_interfaces.msg import SetParametersResult
+
+        for change in changes:
+            if change.name in self._table:
+                try:
+                    self._table[change.name].convert(change.value)
+                except InputError as error:
+                    return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+
+def _owned_by_ros(name: str) -> bool:
+    return name == "use_sim_time" or name.startswith(("qos_overrides.", "start_type_description_service"))
+
+
+def _descriptor(parameter: NodeParameter) -> Any:
+    from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+
+    notes = [f"unit {parameter.unit}"] if parameter.unit else []
+    if parameter.choices:
+        notes.append("one of " + ", ".join(parameter.choices))
+    descriptor = ParameterDescriptor(
+        description=parameter.description,
+        additional_constraints="; ".join(notes),
+        read_only=not parameter.live,
+    )
+    if parameter.minimum is not None or parameter.maximum is not None:
+        low = -1.0e308 if parameter.minimum is None else float(parameter.minimum)
+        high = 1.0e308 if parameter.maximum is None else float(parameter.maximum)
+        if isinstance(parameter.default, float):
+            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high, step=0.0)]
+        else:
+            bound = 2**62
+            descriptor.integer_range = [
+                IntegerRange(from_value=int(max(low, -bound)), to_value=int(min(high, bound)), step=1)
+            ]
+    return descriptor

@@ -1,0 +1,143 @@
+"""Child processes in groups of their own that never outlive their parent."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+
+FIRST_DOMAIN, LAST_DOMAIN = 20, 99
+PR_SET_PDEATHSIG = 1
+
+
+def free_domain_id(taken: Sequence[int] = ()) -> int:
+    """A ROS domain that no process of this machine uses: its first discovery ports are free."""
+    span = LAST_DOMAIN - FIRST_DOMAIN + 1
+    begin = os.getpid() % span
+    for offset in range(span):
+        domain = FIRST_DOMAIN + (begin + offset) % span
+        if domain not in taken and all(_port_is_free(7400 + 250 * domain + 10 + 2 * k) for k in range(4)):
+            return domain
+    return FIRST_DOMAIN + begin
+
+
+def _port_is_free(port: int) -> bool:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.bind(("0.0.0.0", port))
+        except OSError:
+            return False
+    return True
+
+
+def local_environment(domain_id: int) -> dict[str, str]:
+    """Environment of a child that talks to this machine only, in one domain."""
+    return {
+        **os.environ,
+        "ROS_DOMAIN_ID": str(domain_id),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+class Processes:
+    """Named child processes; leaving the ``with`` block ends every one of them.
+
+    Parameters
+    ----------
+    environment : mapping
+    log_folder : Path
+        Each child's output goes to ``<name>.log`` in it.
+    """
+
+    def __init__(self, environment: Mapping[str, str], log_folder: Path) -> None:
+        self._environment = dict(environment)
+        self._log_folder = log_folder
+        self._children: dict[str, subprocess.Popen[bytes]] = {}
+
+    def start(self, name: str, *words: str) -> subprocess.Popen[bytes]:
+        """Start ``python <words>`` under a name."""
+        with self.log_path(name).open("wb") as log:
+            child = subprocess.Popen(
+                [sys.executable, *words],
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                env=self._environment,
+                start_new_session=True,
+                preexec_fn=_end_with_parent(),
+            )
+        self._children[name] = child
+        return child
+
+    def log_path(self, name: str) -> Path:
+        """Where a child's output goes."""
+        return self._log_folder / f"{name}.log"
+
+    def log(self, name: str) -> str:
+        """Output of a child so far."""
+        return self.log_path(name).read_text(errors="replace")
+
+    def exit_code(self, name: str) -> int | None:
+        """Exit code of a child, ``None`` while it runs."""
+        return self._children[name].poll()
+
+    def pid(self, name: str) -> int:
+        """Process id of a child."""
+        return self._children[name].pid
+
+    def failed(self) -> list[str]:
+        """Names of the children that have ended with something else than 0."""
+        return [name for name, child in self._children.items() if child.poll() not in (None, 0)]
+
+    def wait(self, name: str, timeout: float) -> int:
+        """Exit code of a child once it has ended."""
+        return self._children[name].wait(timeout)
+
+    def signal(self, name: str, number: signal.Signals) -> None:
+        """Send a signal to a child's whole group."""
+        _signal_group(self._children[name], number)
+
+    def end(self, patience: float = 5.0) -> None:
+        """SIGINT, then SIGTERM, then SIGKILL to whoever is still there."""
+        for number, wait in ((signal.SIGINT, patience), (signal.SIGTERM, 2.0), (signal.SIGKILL, 2.0)):
+            running = [child for child in self._children.values() if child.poll() is None]
+            for child in running:
+                _signal_group(child, number)
+            deadline = time.monotonic() + wait
+            while any(child.poll() is None for child in running) and time.monotonic() < deadline:
+                time.sleep(0.02)
+
+    def __enter__(self) -> Processes:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.end()
+
+
+def _signal_group(child: subprocess.Popen[bytes], number: signal.Signals) -> None:
+    if child.poll() is None:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(child.pid, number)
+
+
+def _end_with_parent() -> Callable[[], None] | None:
+    """For Linux: the kernel tells the child when its parent is gone, however that happened."""
+    if not sys.platform.startswith("linux"):
+        return None
+    library = ctypes.CDLL(None, use_errno=True)
+
+    def ask_kernel() -> None:
+        library.prctl(PR_SET_PDEATHSIG, int(signal.SIGTERM))
+
+    return ask_kernel

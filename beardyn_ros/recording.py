@@ -1,0 +1,218 @@
+"""Messages of one axlebox into files: one file a run, with proof of what was lost."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.clouds import CLOUD, cloud_to_arrays
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.mcap_writing import McapWriter
+from beardyn_core.record.messages import decode_string, header_stamp
+from beardyn_core.record.topics import STRING, Topic
+
+MESSAGES_BEFORE_TRUTH = 20_000
+COUNTED_CLOUDS = ("force_waveform", "bodies", "load/blocks")
+STAMP_STEPS_NS = {"force": 2_500_000, "imu": 2_500_000, "shaft": 2_500_000, "joint_states": 5_000_000}
+UNSTAMPED = (STRING,)
+
+
+class LossWatch:
+    """Finds holes in the running indices (clouds) and in the stamps (trends) of each topic."""
+
+    def __init__(self) -> None:
+        self.lost: dict[str, int] = {}
+        self.received: dict[str, int] = {}
+        self.missed_at_start = 0
+        self._next_sample: dict[str, int] = {}
+        self._last_ns: dict[str, int] = {}
+
+    def look_at(self, entry: Topic, cdr: bytes) -> None:
+        """Note one message."""
+        name = entry.name
+        if entry.type == CLOUD and (name in COUNTED_CLOUDS or name.startswith("vibration")):
+            samples = cloud_to_arrays(cdr)["sample"]
+            if len(samples):
+                first, last = int(samples[0]), int(samples[-1])
+                if name == "vibration" and name not in self.received:
+                    self.missed_at_start = first
+                self._count(name, first - self._next_sample.get(name, first), last + 1 - first)
+                self._next_sample[name] = last + 1
+        elif name in STAMP_STEPS_NS:
+            stamp, step = header_stamp(cdr), STAMP_STEPS_NS[name]
+            self._count(name, round((stamp - self._last_ns.get(name, stamp - step)) / step) - 1, 1)
+            self._last_ns[name] = stamp
+
+    def _count(self, name: str, missing: int, here: int) -> None:
+        self.received[name] = self.received.get(name, 0) + here
+        if missing > 0:
+            self.lost[name] = self.lost.get(name, 0) + missing
+
+    @property
+    def total(self) -> int:
+        """Samples that were published but never came."""
+        return sum(self.lost.values())
+
+
+class RunFile:
+    """One run in one MCAP file.
+
+    Parameters
+    ----------
+    path : Path
+    namespace : str
+    truth : str or None
+        Content of the topic; ``None`` when none has come.
+    """
+
+    def __init__(self, path: Path, namespace: str, truth: str | None) -> None:
+        self.path = path
+        self.run_id = ""
+        self.problem = ""
+        self.loss = LossWatch()
+        self.last_ns: dict[str, int] = {}
+        self._writer = McapWriter(path, namespace)
+        if truth is None:
+            self.problem = "no truth has come: the file does not say which scene it holds"
+            return
+        try:
+            self.run_id = run_id_of(truth)
+            self._writer.describe(RunDescription.from_json(truth))
+        except InputError as error:
+            self.problem = str(error)
+
+    def add(self, entry: Topic, cdr: bytes) -> None:
+        """Append one message."""
+        stamp = 0 if entry.type in UNSTAMPED else header_stamp(cdr)
+        last = self.last_ns.get(entry.name, 0)
+        if entry.name == "load/blocks" and stamp < last:
+            stamp = last  # the empty block that ends the stream carries no time
+        self.last_ns[entry.name] = stamp
+        self._writer.add(entry.name, stamp, cdr)
+        self.loss.look_at(entry, cdr)
+
+    def flush_if_due(self) -> None:
+        """Bring what has come to the operating system; also needed when nothing comes any more."""
+        self._writer.flush_if_due()
+
+    def close(self, status: str) -> None:
+        """Finish the file; `status` is empty when the run ended as asked."""
+        self._writer.close(status)
+
+    @property
+    def message_count(self) -> int:
+        """Messages written so far."""
+        return self._writer.message_count
+
+
+class Recording:
+    """Sorts messages into one file per run.
+
+    Parameters
+    ----------
+    path_of : callable
+        ``path_of(scene, number)`` gives the path of the next file; `number` counts from 1.
+    namespace : str
+        Of the topics.
+
+    Notes
+    -----
+    Topics are not ordered among each other. After a new truth a topic still belongs to the old run
+    until its stamps jump back, which is when its part of the new run begins.
+    """
+
+    def __init__(self, path_of: Callable[[str, int], Path], namespace: str) -> None:
+        self._path_of = path_of
+        self._namespace = namespace
+        self._early: list[tuple[Topic, bytes]] = []
+        self._old: RunFile | None = None
+        self._switched: set[str] = set()
+        self._old_since = 0.0
+        self.current: RunFile | None = None
+        self.paths: list[Path] = []
+
+    def add(self, entry: Topic, cdr: bytes) -> None:
+        """Take one message of the table."""
+        if entry.name == "truth":
+            self._on_truth(entry, cdr)
+            return
+        if self.current is None:
+            self._early.append((entry, cdr))
+            if len(self._early) > MESSAGES_BEFORE_TRUTH:
+                self._open(None)
+            return
+        self._file_for(entry, cdr).add(entry, cdr)
+
+    def _on_truth(self, entry: Topic, cdr: bytes) -> None:
+        text = decode_string(cdr)
+        if self.current is not None and self.current.run_id == run_id_of(text):
+            return
+        self._close_old()
+        if self.current is not None:
+            self._old, self._switched, self._old_since = self.current, set(), time.monotonic()
+        self._open(text)
+        assert self.current is not None
+        self.current.add(entry, cdr)
+
+    def _open(self, truth: str | None) -> None:
+        scene = "run"
+        if truth is not None:
+            scene = str(parsed_truth(truth).get("scene", "run"))
+        path = self._path_of(scene, len(self.paths) + 1)
+        self.current = RunFile(path, self._namespace, truth)
+        self.paths.append(path)
+        early, self._early = self._early, []
+        for entry, cdr in early:
+            self.current.add(entry, cdr)
+
+    def _file_for(self, entry: Topic, cdr: bytes) -> RunFile:
+        assert self.current is not None
+        if self._old is None or entry.name in self._switched or entry.type in UNSTAMPED:
+            return self.current
+        if header_stamp(cdr) > self._old.last_ns.get(entry.name, -1):
+            return self._old
+        self._switched.add(entry.name)
+        return self.current
+
+    def tidy(self, old_run_timeout: float) -> None:
+        """Flush, and close the old run when its stragglers have had `old_run_timeout` seconds."""
+        if self.current is not None:
+            self.current.flush_if_due()
+        if self._old is not None and time.monotonic() - self._old_since > old_run_timeout:
+            self._close_old()
+
+    def _close_old(self) -> None:
+        if self._old is not None:
+            self._old.close("the run was left by a reset")
+            self._old = None
+
+    def close(self, status: str) -> None:
+        """Finish the present run; messages of the next wait for its truth."""
+        self._close_old()
+        if self.current is None and self._early:
+            self._open(None)
+        if self.current is not None:
+            self.current.close(status)
+            self.current = None
+
+    @property
+    def lost_samples(self) -> int:
+        """Of the present run."""
+        return self.current.loss.total if self.current else 0
+
+
+def run_id_of(truth: str) -> str:
+    """Run id in the content of ``truth``; '' when it has none."""
+    return str(parsed_truth(truth).get("run_id", ""))
+
+
+def parsed_truth(truth: str) -> dict[str, object]:
+    """Content of ``truth`` as an object; empty when it is none."""
+    try:
+        content = json.loads(truth)
+    except ValueError:
+        return {}
+    return content if isinstance(content, dict) else {}

@@ -1,0 +1,123 @@
+"""What a twin session is told, what it hands over, and what it says about itself."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, field
+from typing import Any
+
+from beardyn_core.record.description import RunDescription
+
+IDLE = "idle"
+COMPILING = "compiling"
+READY = "ready"
+WAITING_FOR_LOAD = "waiting for load"
+EQUILIBRIUM = "static equilibrium"
+RUNNING = "running"
+PAUSED = "paused"
+FINISHED = "finished"
+STOPPED = "stopped"
+END_STATES = (FINISHED, STOPPED)
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A twin and what its run says about itself.
+
+    Parameters
+    ----------
+    twin : beardyn_core.twin.Twin
+        Or anything that keeps its contract.
+    description : RunDescription
+    """
+
+    twin: Any
+    description: RunDescription
+
+
+@dataclass(frozen=True)
+class SessionOptions:
+    """How a session is fed and when it gives up.
+
+    Parameters
+    ----------
+    mode : str
+        ``lockstep`` or ``live``.
+    load_timeout : float
+        Longest wait for load in a running lockstep, 0 for ever, [s].
+    start_timeout : float
+        Longest wait for the first load, 0 for ever, [s].
+    max_age : float
+        Oldest load that `live` may hold, [s].
+    queue_samples : int
+        Capacity of the load queue.
+    """
+
+    mode: str
+    load_timeout: float
+    start_timeout: float
+    max_age: float
+    queue_samples: int
+
+
+@dataclass(frozen=True)
+class Outgoing:
+    """Something to publish, in order.
+
+    Parameters
+    ----------
+    messages : tuple of (topic, bytes)
+    clock_ns : int or None
+        Simulated time after it; ``None``: not part of the run.
+    consumed_ns : int
+        The same in the time of the load, whose first sample may stand anywhere.
+    """
+
+    messages: tuple[tuple[str, bytes], ...]
+    clock_ns: int | None = None
+    consumed_ns: int = 0
+
+
+@dataclass
+class SessionReport:
+    """State of a session for diagnostics; a copy, free to read.
+
+    Parameters
+    ----------
+    state, sentence : str
+    run_id : str
+        Changes with every reset.
+    blocks, late_blocks : int
+    simulated_s, wall_s, waited_for_load_s : float
+        Since the start of the run; pauses are not counted.
+    compute_s : float
+        Time spent inside the twin.
+    window_rtf : float
+        Real-time factor of the last second or so.
+    status : int
+        Status bits of the last block.
+    energy_residual : float
+    load_waiting : int
+        Samples in the queue (lockstep).
+    load_age : float
+        Age of the held load (live), [s].
+    waveform_samples : int
+        Waveform samples delivered since the start of the run.
+    """
+
+    state: str = IDLE
+    sentence: str = "not configured"
+    run_id: str = ""
+    blocks: int = 0
+    late_blocks: int = 0
+    simulated_s: float = 0.0
+    wall_s: float = 0.0
+    waited_for_load_s: float = 0.0
+    compute_s: float = 0.0
+    window_rtf: float = 0.0
+    status: int = 0
+    energy_residual: float = 0.0
+    load_waiting: int = 0
+    load_age: float = 0.0
+    waveform_samples: int = 0
+    recent: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=50))

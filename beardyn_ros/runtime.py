@@ -1,0 +1,118 @@
+"""One process, one node: arguments, signals, executor and exit code."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from threading import Event
+from types import FrameType
+from typing import Any, Protocol
+
+from beardyn_core.errors import InputError
+from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
+
+EXIT_DONE = 0
+EXIT_BAD_INPUT = 2
+EXIT_INVALID_MODEL = 3
+EXIT_LOAD_LOST = 4
+
+SPIN_SLICE_S = 0.1
+
+
+class RunnableNode(Protocol):
+    """What a node shows to its process."""
+
+    finished: bool
+    exit_code: int
+
+    def close(self) -> None:
+        """End threads, publish last words, close files; called once, ROS still alive."""
+
+
+def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
+    """Run one node until it is finished or the process is told to stop.
+
+    Parameters
+    ----------
+    make_node : callable
+        Builds the node after ROS is initialised; gives a `RunnableNode`.
+    argv : sequence of str
+        Arguments after the node's name (``--ros-args ...``).
+
+    Returns
+    -------
+    int
+        0 done or stopped by SIGINT or SIGTERM, 2 bad input, 3 the model left its validity, 4 the load
+        stopped coming.
+    """
+    prepare_environment()
+    if not ros_available():
+        print(MISSING_ROS, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.signals import SignalHandlerOptions
+
+    logging.basicConfig(format="%(message)s", level=logging.INFO, stream=sys.stderr)
+    stop = Event()
+    previous = {number: signal.signal(number, _stopper(stop)) for number in (signal.SIGINT, signal.SIGTERM)}
+    node: Any = None
+    code = EXIT_DONE
+    try:
+        stray = stray_arguments(argv)
+        if stray:
+            raise InputError(
+                f"unknown argument(s) {' '.join(stray)}: parameters go behind --ros-args, "
+                "for example `--ros-args -p speed_factor:=1.0`"
+            )
+        try:
+            rclpy.init(args=["beardyn", *argv], signal_handler_options=SignalHandlerOptions.NO)
+        except Exception as error:  # rclpy has several, all about unreadable arguments
+            raise InputError(f"the ROS arguments cannot be read: {error}") from error
+        node = make_node()
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        while not (stop.is_set() or node.finished):
+            executor.spin_once(timeout_sec=SPIN_SLICE_S)
+        code = EXIT_DONE if stop.is_set() and not node.finished else node.exit_code
+    except InputError as error:
+        for sentence in error.problems:
+            print(f"beardyn: {sentence}", file=sys.stderr)
+        code = EXIT_BAD_INPUT
+    finally:
+        alive = False
+        if node is not None:
+            alive = bool(node.close())
+            node.destroy_node()
+        rclpy.try_shutdown()
+        for number, handler in previous.items():
+            signal.signal(number, handler)
+    if alive:
+        # A thread is inside the compiler, which cannot be interrupted; nothing is left to save.
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    return code
+
+
+def stray_arguments(argv: Sequence[str]) -> list[str]:
+    """Arguments outside of ``--ros-args ... --``, which no node understands."""
+    stray, inside = [], False
+    for word in argv:
+        if word == "--ros-args":
+            inside = True
+        elif word == "--":
+            inside = False
+        elif not inside:
+            stray.append(word)
+    return stray
+
+
+def _stopper(stop: Event) -> Callable[[int, FrameType | None], None]:
+    def handle(_number: int, _frame: FrameType | None) -> None:
+        stop.set()
+
+    return handle

@@ -1,0 +1,391 @@
+"""The twin in its own thread: compile, wait for load, advance block by block, pace.
+
+The executor's thread talks to the session through thread-safe calls and collects what is to be
+published; the simulation itself runs without the interpreter lock. Pacing only decides when a block is
+handed over, never what is in it.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+import traceback
+import uuid
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.observe.block import Block
+from beardyn_core.record.encoding import BlockEncoder
+from beardyn_core.record.messages import encode_string
+from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.load_gate import HeldLoad, LiveLoad, LoadGate, Refusals, shifted
+from beardyn_ros.pacer import Pacer
+from beardyn_ros.run_state import (
+    COMPILING,
+    END_STATES,
+    EQUILIBRIUM,
+    FINISHED,
+    IDLE,
+    PAUSED,
+    READY,
+    RUNNING,
+    STOPPED,
+    WAITING_FOR_LOAD,
+    Outgoing,
+    Rig,
+    SessionOptions,
+    SessionReport,
+)
+from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL, EXIT_LOAD_LOST
+
+BLOCKS_WAITING_TO_BE_PUBLISHED = 32
+
+
+class TwinSession:
+    """Drives one twin from a thread of its own.
+
+    Parameters
+    ----------
+    make_rig : callable
+        Builds a fresh twin with the description of its run.
+    options : SessionOptions
+    speed_factor : float
+        0: as fast as it goes.
+    wake : callable
+        Called from the thread whenever there is something to publish or the state has changed.
+    """
+
+    def __init__(
+        self,
+        make_rig: Callable[[], Rig],
+        options: SessionOptions,
+        speed_factor: float,
+        wake: Callable[[], None],
+    ) -> None:
+        self._make_rig = make_rig
+        self.options = options
+        self._wake = wake
+        self._condition = threading.Condition()  # guards load, commands and what is to be published
+        self.refusals = Refusals()
+        self.gate = LoadGate(options.queue_samples, self.refusals, self._condition)
+        self.live = LiveLoad(self.refusals, self._condition)
+        self.pacer = Pacer(speed_factor)
+        self.exit_code = EXIT_DONE
+        self._outgoing: deque[Outgoing] = deque()
+        self._active = False
+        self._paused = False
+        self._steps = 0
+        self._reset = False
+        self._ending = False
+        self._run_count = 0
+        self._report = SessionReport()
+        self._thread = threading.Thread(target=self._thread_main, name="twin", daemon=True)
+
+    # --- called from the executor's thread -------------------------------------------------------
+
+    def compile(self) -> None:
+        """Build and compile the twin in the background."""
+        self._set_state(COMPILING, "compiling the kernels of this scene (kept for the next start)")
+        self._thread.start()
+
+    def activate(self, active: bool) -> None:
+        """Run, or hold still without losing anything."""
+        with self._condition:
+            self._active = active
+            self._condition.notify_all()
+
+    def pause(self, paused: bool) -> None:
+        """Hold before the next block, or go on."""
+        with self._condition:
+            self._paused = paused
+            self._steps = 0
+            self._condition.notify_all()
+
+    def step(self) -> str | None:
+        """Advance one block while paused; a sentence when that is not possible."""
+        with self._condition:
+            if self._report.state in END_STATES:
+                return f"the run is {self._report.state}: call reset first"
+            if not self._paused:
+                return "the twin is running: call pause with true first"
+            self._steps += 1
+            self._condition.notify_all()
+        return None
+
+    def reset(self) -> str | None:
+        """Start the scene again at t = 0; a sentence when that is not possible."""
+        with self._condition:
+            if self._report.state in (IDLE, COMPILING):
+                return f"the twin is {self._report.state}: there is nothing to reset yet"
+            self._reset = True
+            self._condition.notify_all()
+        return None
+
+    def end(self, timeout: float) -> bool:
+        """Ask the thread to end; whether it is still alive after `timeout` seconds."""
+        with self._condition:
+            self._ending = True
+            self._condition.notify_all()
+        if self._thread.is_alive():
+            self._thread.join(timeout)
+        return self._thread.is_alive()
+
+    def collect(self) -> list[Outgoing]:
+        """Everything that waits to be published, oldest first."""
+        with self._condition:
+            waiting = list(self._outgoing)
+            self._outgoing.clear()
+            self._condition.notify_all()
+        return waiting
+
+    def report(self) -> SessionReport:
+        """Copy of the present state."""
+        with self._condition:
+            report = SessionReport(**vars(self._report))
+            recent = list(self._report.recent)
+        report.load_waiting = self.gate.waiting
+        held = self.live.held() if self.options.mode == "live" else None
+        report.load_age = held.age if held else 0.0
+        report.late_blocks = self.pacer.late_blocks
+        if len(recent) > 1:
+            (wall_0, simulated_0), (wall_1, simulated_1) = recent[0], recent[-1]
+            report.window_rtf = (simulated_1 - simulated_0) / max(wall_1 - wall_0, 1e-9)
+        return report
+
+    # --- the twin's thread -----------------------------------------------------------------------
+
+    def _thread_main(self) -> None:
+        try:
+            rig = self._make_rig()
+            rig.twin.warm()
+            self._set_state(READY, "compiled, waiting for activation")
+            while not self._ending:
+                try:
+                    self._one_run(rig)
+                except _InterruptedError:
+                    pass
+                except _StoppedError as stop:
+                    self.exit_code = stop.exit_code
+                    self._set_state(STOPPED, str(stop))
+                except ValidityError as error:
+                    self.exit_code = EXIT_INVALID_MODEL
+                    self._hand_over_last_block(error)
+                    self._set_state(STOPPED, str(error))
+                self._wait(lambda: self._reset, interruptible=False)
+                if self._reset:
+                    self._begin_again()
+                    rig = self._make_rig()
+        except InputError as error:
+            self.exit_code = EXIT_BAD_INPUT
+            self._set_state(STOPPED, "; ".join(error.problems))
+        except Exception as error:
+            # A defect of the twin must reach the user through the diagnostics, not die in a thread.
+            traceback.print_exc()
+            self.exit_code = EXIT_INVALID_MODEL
+            self._set_state(STOPPED, f"the twin failed: {type(error).__name__}: {error}")
+
+    def _begin_again(self) -> None:
+        with self._condition:
+            self._reset = False
+            self.exit_code = EXIT_DONE
+            self._report = SessionReport(state=READY, sentence="reset")
+        self.gate.restart()
+        self.live.forget_order()
+
+    def _one_run(self, rig: Rig) -> None:
+        twin, description = rig.twin, rig.description
+        self._encoder = BlockEncoder(description.roller_count, description.sensor_names)
+        self._wait(lambda: self._active)
+        run_id = f"{uuid.uuid4().hex[:8]}-{self._run_count}"
+        self._run_count += 1
+        with self._condition:
+            self._report.run_id = run_id
+        description = replace(description, truth={**description.truth, "run_id": run_id})
+        self._put(Outgoing((("truth", encode_string(description.to_json())),)))
+        first = self._first_load(twin.block_ns)
+        self._load_begin_ns = int(first.time_ns[0])
+        first = shifted(first, -self._load_begin_ns)
+        self._set_state(EQUILIBRIUM, "solving the static equilibrium under the first load")
+        twin.start(first)
+        self._set_state(RUNNING, "running")
+        self.pacer.begin()
+        begin, waited = time.monotonic(), 0.0
+        while True:
+            waited += self._hold()
+            starved = self._cover(twin)
+            if starved is None:
+                break
+            self.pacer.shift(starved)
+            block = twin.advance()
+            self._deliver(twin, block, time.monotonic() - begin - waited, starved)
+        self._set_state(FINISHED, "the load stream has ended, every block that it covers is published")
+
+    def _first_load(self, block_ns: int) -> LoadHistory:
+        topics = "load/wrench and load/shaft" if self.options.mode == "live" else "load/blocks"
+        self._set_state(WAITING_FOR_LOAD, f"waiting for the first load on {topics}")
+
+        def there() -> bool:
+            if self.options.mode == "live":
+                return self.live.held() is not None or self.gate.ended
+            return self.gate.waiting > 0 or self.gate.ended
+
+        timeout = self.options.start_timeout
+        if not self._wait(there, timeout):
+            raise _StoppedError(
+                f"no load has come within {timeout:g} s (parameter start_timeout) on {topics}", EXIT_LOAD_LOST
+            )
+        if self.options.mode == "live":
+            held = self.live.held()
+            if held is not None:
+                return _constant_load(held, 0)
+        else:
+            begin_ns = self.gate.first_time_ns()
+            if begin_ns is not None:
+                load = self.gate.take_through(begin_ns + block_ns)
+                assert load is not None
+                return load
+        raise _StoppedError("the load stream has ended before its first sample", EXIT_LOAD_LOST)
+
+    def _cover(self, twin: Any) -> float | None:
+        """Feed load until the next block is covered; seconds waited, ``None`` at the end of the stream."""
+        if self.options.mode == "live":
+            if self.gate.ended:
+                return None
+            held = self.live.held()
+            assert held is not None
+            if held.age > self.options.max_age:
+                raise _StoppedError(
+                    f"the live load is {held.age:.2f} s old, more than max_age = {self.options.max_age:g} s: "
+                    "its source has stopped",
+                    EXIT_LOAD_LOST,
+                )
+            twin.feed(_constant_load(held, twin.next_end_ns))
+            return 0.0
+        begin = time.monotonic()
+        while not twin.covered():
+            part = self.gate.take_through(twin.next_end_ns + self._load_begin_ns)
+            if part is not None:
+                twin.feed(shifted(part, -self._load_begin_ns))
+                continue
+            if self.gate.failure:
+                raise _StoppedError(self.gate.failure, EXIT_LOAD_LOST)
+            if self.gate.ended:
+                return None
+            timeout = self.options.load_timeout
+            ready = self._wait(
+                lambda: self.gate.waiting > 0 or self.gate.ended or bool(self.gate.failure), timeout
+            )
+            if not ready:
+                last = self.refusals.report().last_sentence
+                hint = f"; last refusal: {last}" if last else ""
+                raise _StoppedError(
+                    f"no usable load for {timeout:g} s (parameter load_timeout): load that covers "
+                    f"t = {(twin.next_end_ns + self._load_begin_ns) / 1e9:.3f} s is missing{hint}",
+                    EXIT_LOAD_LOST,
+                )
+        return time.monotonic() - begin
+
+    def _deliver(self, twin: Any, block: Block, wall: float, starved: float) -> None:
+        messages = self._messages(block)
+        while (delay := self.pacer.delay(block.end_ns)) > 0.0:
+            self._wait(lambda: False, delay)
+        self.pacer.check_late(block.end_ns)
+        simulated = (block.index + 1) * twin.block_ns * 1e-9
+        with self._condition:
+            report = self._report
+            report.blocks += 1
+            report.simulated_s = simulated
+            report.wall_s = wall
+            report.waited_for_load_s += starved
+            report.compute_s += block.wall_s
+            report.status = block.status
+            report.waveform_samples += len(block.waveform_time_ns)
+            if block.audit is not None:
+                report.energy_residual = block.audit.residual
+            report.recent.append((time.monotonic(), simulated))
+        self._put(Outgoing(messages, block.end_ns, block.end_ns + self._load_begin_ns))
+
+    def _hand_over_last_block(self, error: ValidityError) -> None:
+        block = getattr(error, "block", None)
+        if block is None:
+            return
+        with self._condition:
+            self._report.status = block.status
+            self._report.blocks += 1
+            self._report.waveform_samples += len(block.waveform_time_ns)
+        self._put(Outgoing(self._messages(block), block.end_ns, block.end_ns + self._load_begin_ns))
+
+    def _messages(self, block: Block) -> tuple[tuple[str, bytes], ...]:
+        return tuple((name, cdr) for name, _, cdr in self._encoder.encode(block))
+
+    def _hold(self) -> float:
+        """Wait while paused or inactive; seconds held."""
+        with self._condition:
+            if self._steps and self._active:
+                self._steps -= 1
+                return 0.0
+            if self._active and not self._paused:
+                return 0.0
+        begin = time.monotonic()
+        self._set_state(PAUSED, "paused: the service step advances one block, pause with false goes on")
+        self._wait(lambda: self._active and (not self._paused or self._steps > 0))
+        with self._condition:
+            if self._steps:
+                self._steps -= 1
+        held = time.monotonic() - begin
+        self.pacer.shift(held)
+        if not self._paused:
+            self._set_state(RUNNING, "running")
+        return held
+
+    def _put(self, outgoing: Outgoing) -> None:
+        self._wait(lambda: len(self._outgoing) < BLOCKS_WAITING_TO_BE_PUBLISHED)
+        with self._condition:
+            self._outgoing.append(outgoing)
+        self._wake()
+
+    def _set_state(self, state: str, sentence: str) -> None:
+        with self._condition:
+            self._report.state = state
+            self._report.sentence = sentence
+        self._wake()
+
+    def _wait(self, ready: Callable[[], bool], timeout: float = 0.0, interruptible: bool = True) -> bool:
+        """Wait until `ready`; False after `timeout` seconds (0: for ever)."""
+
+        def done() -> bool:
+            return self._ending or (interruptible and self._reset) or ready()
+
+        with self._condition:
+            self._condition.wait_for(done, timeout or None)
+            if self._ending or (interruptible and self._reset):
+                if interruptible:
+                    raise _InterruptedError
+                return True
+            return ready()
+
+
+class _InterruptedError(Exception):
+    """The run is left because of a reset or the end of the process."""
+
+
+class _StoppedError(Exception):
+    """The run cannot go on."""
+
+    def __init__(self, sentence: str, exit_code: int) -> None:
+        super().__init__(sentence)
+        self.exit_code = exit_code
+
+
+def _constant_load(held: HeldLoad, time_ns: int) -> LoadHistory:
+    return LoadHistory(
+        np.array([time_ns], np.int64),
+        np.asarray(held.wrench, float)[None, :],
+        np.array([held.shaft_speed]),
+        np.zeros((1, 3)),
+    )

@@ -1,0 +1,384 @@
+"""The lifecycle node of the twin.
+
+Parameters: `PARAMETERS`. Services: ``~/../pause`` (SetBool), ``step`` and ``reset`` (Trigger), all in
+the node's namespace. Exit codes: 0 the load stream has ended or the process was told to stop, 2 bad
+input, 3 the model left its validity, 4 the load stopped coming or overflowed.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from std_srvs.srv import SetBool, Trigger
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.load_stream import decode_load
+from beardyn_core.record.messages import decode, encode_clock, encode_diagnostics, encode_time, header_stamp
+from beardyn_core.record.topics import FRAME, TWIST, WRENCH, topic
+from beardyn_ros.diagnostics import diagnostic_name, needs_attention, twin_diagnostic
+from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.run_state import END_STATES, FINISHED, Outgoing, Rig, SessionOptions
+from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node
+from beardyn_ros.session import TwinSession
+from beardyn_ros.wire import RawIntake, TopicPublishers
+
+RigLoader = Callable[[str], Callable[[], Rig]]
+
+LOAD_RATE_HZ = 2000.0
+REPORT_PERIOD_S = 0.2
+LAST_WORDS_TIMEOUT_S = 2.0
+THREAD_END_TIMEOUT_S = 2.0
+SLOW_READER_TIMEOUT_S = 1.0
+READERS_IGNORED_S = 5.0
+BLOCKS_BEFORE_CONFIRMATION = 10  # of more than 100 that the shallowest history holds
+SIGNAL_TOPICS = (
+    "force",
+    "force_waveform",
+    "vibration",
+    "imu",
+    "shaft",
+    "joint_states",
+    "bodies",
+    "contacts",
+)
+
+PARAMETERS = (
+    NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
+    NodeParameter(
+        "mode",
+        "lockstep",
+        "lockstep waits for load/blocks; live holds the last load/wrench and load/shaft",
+        choices=("lockstep", "live"),
+    ),
+    NodeParameter(
+        "speed_factor",
+        0.0,
+        "simulated seconds per wall second, 1 is real time, 0 is as fast as it goes; "
+        "results do not depend on it",
+        minimum=0.0,
+        maximum=1000.0,
+        live=True,
+    ),
+    NodeParameter("autostart", True, "configure and activate at once, without a lifecycle manager"),
+    NodeParameter(
+        "exit_when_done", True, "end the process when the load stream has ended or the run has stopped"
+    ),
+    NodeParameter(
+        "start_timeout", 120.0, "longest wait for the first load, 0 for ever", "s", minimum=0.0, maximum=1e6
+    ),
+    NodeParameter(
+        "load_timeout",
+        10.0,
+        "longest wait for load that stopped coming in lockstep, 0 for ever",
+        "s",
+        minimum=0.0,
+        maximum=1e6,
+    ),
+    NodeParameter(
+        "max_age", 0.5, "oldest load that the live mode may hold", "s", minimum=0.02, maximum=3600.0
+    ),
+    NodeParameter(
+        "load_queue",
+        60.0,
+        "load that may wait at 2 kHz; more is an error that ends the run",
+        "s",
+        minimum=0.1,
+        maximum=3600.0,
+    ),
+    NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
+)
+
+
+class TwinNode(LifecycleNode):
+    """Publishes what a `TwinSession` simulates.
+
+    Parameters
+    ----------
+    load_rig : callable or None
+        Gives, for the parameter ``scene``, a builder of rigs; ``None``: scenes of the config room.
+    """
+
+    def __init__(self, load_rig: RigLoader | None = None) -> None:
+        super().__init__("twin", namespace="axlebox")
+        self.finished = False
+        self.exit_code = 0
+        self._load_rig = load_rig or scene_rig
+        self._values = ParameterValues(self, PARAMETERS)
+        if self._values.mode == "live" and self._values.speed_factor == 0.0:
+            raise InputError(
+                "node twin: mode 'live' needs a clock, but speed_factor is 0 (as fast as it goes); "
+                "set speed_factor to 1.0"
+            )
+        self._session: TwinSession | None = None
+        self._consumed_ns: int | None = None
+        self._clock_ns = 0
+        self._announced = ""
+        self._readers_ignored_until = 0.0
+        self._blocks_unconfirmed = 0
+        self._out = TopicPublishers(self, "truth", *SIGNAL_TOPICS, "load/consumed", "/diagnostics")
+        if self._values.publish_clock:
+            self._out.publisher("/clock")
+        self._intake = RawIntake(self)
+        self._guard = self.create_guard_condition(self._publish_waiting)
+        self.create_timer(REPORT_PERIOD_S, self._report)
+        self.create_service(SetBool, "pause", self._on_pause)
+        self.create_service(Trigger, "step", self._on_step)
+        self.create_service(Trigger, "reset", self._on_reset)
+        self.add_on_set_parameters_callback(self._refuse_live_without_pace)
+        self.add_post_set_parameters_callback(self._on_parameters)
+        if self._values.autostart:
+            self._autostart = self.create_timer(0.0, self._start_up)
+
+    # --- lifecycle ---------------------------------------------------------------------------------
+
+    def _start_up(self) -> None:
+        self._autostart.cancel()
+        if self.trigger_configure() == TransitionCallbackReturn.SUCCESS:
+            self.trigger_activate()
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Read the scene and start compiling it in the background."""
+        values = self._values
+        try:
+            make_rig = self._load_rig(values.scene)
+        except InputError as error:
+            for sentence in error.problems:
+                self.get_logger().error(sentence)
+            if values.autostart:
+                self.exit_code, self.finished = EXIT_BAD_INPUT, True
+            return TransitionCallbackReturn.FAILURE
+        options = SessionOptions(
+            mode=values.mode,
+            load_timeout=values.load_timeout,
+            start_timeout=values.start_timeout,
+            max_age=values.max_age,
+            queue_samples=round(values.load_queue * LOAD_RATE_HZ),
+        )
+        self._session = TwinSession(make_rig, options, values.speed_factor, self._guard.trigger)
+        if not self._intake.publisher_counts():
+            self._intake.add(topic("load/blocks"), self._on_load)
+            if values.mode == "live":
+                self._intake.add(topic("load/wrench"), self._on_wrench)
+                self._intake.add(topic("load/shaft"), self._on_shaft)
+        self._session.compile()
+        return super().on_configure(state)
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Run, as soon as the scene is compiled and load is there."""
+        assert self._session is not None
+        self._session.activate(True)
+        return super().on_activate(state)
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Hold before the next block."""
+        assert self._session is not None
+        self._session.activate(False)
+        return super().on_deactivate(state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Forget the twin; a new configure reads the scene again."""
+        self._end_session()
+        return super().on_cleanup(state)
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """End the process."""
+        self._end_session()
+        self.finished = True
+        return super().on_shutdown(state)
+
+    def close(self) -> bool:
+        """Publish the last state and end the thread; whether the thread is still alive."""
+        if self._session is None:
+            return False
+        if not self.finished:
+            self._publish_waiting()
+            self._report()
+            self._flush()
+        return self._end_session()
+
+    def _end_session(self) -> bool:
+        session, self._session = self._session, None
+        self._consumed_ns = None
+        return session.end(THREAD_END_TIMEOUT_S) if session is not None else False
+
+    # --- load --------------------------------------------------------------------------------------
+
+    def _on_load(self, cdr: bytes) -> None:
+        if self._session is None:
+            return
+        try:
+            load, samples = decode_load(cdr)
+        except Exception as error:  # a foreign message may break the decoder in any way
+            refusal: str | None = self._session.gate.refuse(
+                "wrong fields",
+                "it is not a block of load samples with the fields sample, t, fx..mz, shaft_speed "
+                f"({error!r})",
+            )
+        else:
+            refusal = self._session.gate.offer(load, samples)
+        self._tell_refusal(refusal)
+
+    def _on_wrench(self, cdr: bytes) -> None:
+        if self._session is None:
+            return
+        content = decode(WRENCH, cdr).wrench
+        force, torque = content.force, content.torque
+        wrench = np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
+        self._tell_refusal(self._session.live.offer_wrench(wrench, header_stamp(cdr)))
+
+    def _on_shaft(self, cdr: bytes) -> None:
+        if self._session is None:
+            return
+        speed = float(decode(TWIST, cdr).twist.angular.y)
+        self._tell_refusal(self._session.live.offer_speed(speed, header_stamp(cdr)))
+
+    def _tell_refusal(self, sentence: str | None) -> None:
+        if sentence is not None:
+            self.get_logger().warning(sentence, throttle_duration_sec=1.0)
+
+    # --- services ----------------------------------------------------------------------------------
+
+    def _on_pause(self, request: Any, response: Any) -> Any:
+        if self._session is None:
+            response.success, response.message = False, "the twin is not configured"
+        else:
+            self._session.pause(request.data)
+            response.success, response.message = True, "paused" if request.data else "running on"
+        return response
+
+    def _on_step(self, _request: Any, response: Any) -> Any:
+        return self._answer(response, "step", "one block of 20 ms ordered")
+
+    def _on_reset(self, _request: Any, response: Any) -> Any:
+        response = self._answer(response, "reset", "the scene starts again at t = 0 with a new recording")
+        if response.success:
+            self._consumed_ns, self._clock_ns = None, 0
+        return response
+
+    def _answer(self, response: Any, order: str, done: str) -> Any:
+        problem = "the twin is not configured"
+        if self._session is not None:
+            problem = getattr(self._session, order)() or ""
+        response.success, response.message = not problem, problem or done
+        return response
+
+    def _refuse_live_without_pace(self, changes: Sequence[Any]) -> Any:
+        from rcl_interfaces.msg import SetParametersResult
+
+        for change in changes:
+            if change.name == "speed_factor" and change.value == 0.0 and self._values.mode == "live":
+                return SetParametersResult(
+                    successful=False, reason="mode 'live' needs a speed_factor above 0"
+                )
+        return SetParametersResult(successful=True)
+
+    def _on_parameters(self, changes: Sequence[Any]) -> None:
+        for change in changes:
+            if change.name == "speed_factor" and self._session is not None:
+                self._session.pacer.set_speed_factor(float(change.value))
+
+    # --- publishing --------------------------------------------------------------------------------
+
+    def _publish_waiting(self) -> None:
+        if self._session is None:
+            return
+        report = self._session.report()
+        for outgoing in self._session.collect():
+            self._publish(outgoing)
+        sentence = f"{report.state}: {report.sentence}"
+        if needs_attention(report) and sentence != self._announced:
+            if self._session.exit_code:
+                self.get_logger().error(sentence)
+            else:
+                self.get_logger().info(sentence)
+        if sentence != self._announced:
+            self._announced = sentence
+            self._report()
+        if report.state in END_STATES and not self.finished:
+            self._finish(report.state)
+
+    def _publish(self, outgoing: Outgoing) -> None:
+        for name, cdr in outgoing.messages:
+            self._out.publish(name, cdr)
+        if outgoing.clock_ns is None:
+            return
+        self._clock_ns, self._consumed_ns = outgoing.clock_ns, outgoing.consumed_ns
+        if self._values.publish_clock:
+            self._out.publish("/clock", encode_clock(outgoing.clock_ns))
+        self._out.publish("load/consumed", encode_time(outgoing.consumed_ns))
+        self._blocks_unconfirmed += 1
+        if self._blocks_unconfirmed >= BLOCKS_BEFORE_CONFIRMATION and self._values.speed_factor == 0.0:
+            self._wait_for_readers()
+
+    def _wait_for_readers(self) -> None:
+        """Without a pace the readers set it: what a reliable reader wants is not overwritten.
+
+        A reader that has died must not hold the twin, so its silence is believed for a while.
+        """
+        self._blocks_unconfirmed = 0
+        if time.monotonic() < self._readers_ignored_until:
+            return
+        for name in SIGNAL_TOPICS:
+            if not self._out.wait_until_received(name, SLOW_READER_TIMEOUT_S):
+                self._readers_ignored_until = time.monotonic() + READERS_IGNORED_S
+                return
+
+    def _report(self) -> None:
+        if self._consumed_ns is not None:
+            self._out.publish("load/consumed", encode_time(self._consumed_ns))
+        if self._session is None:
+            return
+        status = twin_diagnostic(
+            diagnostic_name(self.get_namespace(), "twin"),
+            self._session.report(),
+            self._session.refusals.report(),
+            self._out.lost_messages,
+            self._values.mode,
+            self._values.speed_factor,
+            sum(self._intake.publisher_counts().values()),
+        )
+        self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, FRAME, [status]))
+
+    def _finish(self, state: str) -> None:
+        """End of the run: everything out first, then the last report, then rest or the end."""
+        assert self._session is not None
+        for outgoing in self._session.collect():
+            self._publish(outgoing)
+        self._flush()
+        self._report()
+        self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)
+        if self._values.exit_when_done:
+            self.exit_code = self._session.exit_code
+            self.trigger_deactivate()
+            self.finished = True
+        elif state == FINISHED:
+            self.get_logger().info("finished; the service reset starts the scene again")
+
+    def _flush(self) -> None:
+        deadline = time.monotonic() + LAST_WORDS_TIMEOUT_S
+        for name in self._out.names:
+            self._out.wait_until_received(name, max(deadline - time.monotonic(), 0.0))
+
+
+def scene_rig(scene_name: str) -> Callable[[], Rig]:
+    """Builder of rigs for a scene by name or path; the scene is read and checked at once."""
+    from beardyn_core.config import load_scene
+    from beardyn_core.record.description import RunDescription
+    from beardyn_core.twin import Twin
+
+    scene = load_scene(scene_name)
+
+    def build() -> Rig:
+        twin = Twin(scene)
+        return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names))
+
+    return build
+
+
+def main(argv: Sequence[str], load_rig: RigLoader | None = None) -> int:
+    """Run the node until the run is over."""
+    return run_node(lambda: TwinNode(load_rig), argv)

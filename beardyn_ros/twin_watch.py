@@ -1,0 +1,61 @@
+"""What the other nodes need to know about the twin: is it there, has it ended, how."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from beardyn_core.record.messages import Diagnostic
+from beardyn_ros.diagnostics import TWIN, is_from
+from beardyn_ros.run_state import END_STATES, FINISHED
+
+VANISHED_AFTER_S = 3.0
+
+
+class TwinWatch:
+    """Follows the twin's diagnostics and the presence of its publishers.
+
+    Parameters
+    ----------
+    publisher_count : callable
+        How many publishers one of the twin's topics has.
+    """
+
+    def __init__(self, publisher_count: Callable[[], int]) -> None:
+        self._publisher_count = publisher_count
+        self._seen = False
+        self._missing_since: float | None = None
+        self.last: Diagnostic | None = None
+
+    def hear(self, statuses: tuple[Diagnostic, ...]) -> None:
+        """Take the statuses of one diagnostics message."""
+        for status in statuses:
+            if is_from(status, TWIN):
+                self.last = status
+
+    def value(self, key: str, default: Any = None) -> Any:
+        """A value of the twin's last status."""
+        found = self.last.value(key) if self.last else None
+        return default if found is None else found
+
+    @property
+    def ended(self) -> bool:
+        """Whether the twin has said that its run is over."""
+        return self.value("state") in END_STATES
+
+    @property
+    def end_sentence(self) -> str:
+        """Empty when the run ended as asked."""
+        return "" if self.value("state") == FINISHED or self.last is None else self.last.message
+
+    def vanished(self) -> bool:
+        """Whether the twin was there and is gone without a word."""
+        if self._publisher_count() > 0:
+            self._seen, self._missing_since = True, None
+            return False
+        if not self._seen:
+            return False
+        if self._missing_since is None:
+            self._missing_since = time.monotonic()
+        return time.monotonic() - self._missing_since > VANISHED_AFTER_S

@@ -1,0 +1,93 @@
+"""Live view in rerun: a window, a page in the browser on this machine, or an ``.rrd`` file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+
+from rclpy.node import Node
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.messages import decode_diagnostics
+from beardyn_core.record.rerun_live import LiveView
+from beardyn_core.record.rerun_stream import live_stream
+from beardyn_core.record.topics import topic
+from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.runtime import run_node
+from beardyn_ros.twin_watch import TwinWatch
+from beardyn_ros.wire import RawIntake
+
+TICK_S = 0.1
+DRAWN = (
+    "truth",
+    "force",
+    "force_waveform",
+    "vibration",
+    "imu",
+    "shaft",
+    "joint_states",
+    "bodies",
+    "contacts",
+    "load/blocks",
+    "monitor/result",
+)
+
+PARAMETERS = (
+    NodeParameter("target", "window", "where to draw", choices=("window", "web", "file")),
+    NodeParameter("output", "run.rrd", "file for target file"),
+    NodeParameter("port", 0, "port of the page for target web, 0 for a free one", minimum=0, maximum=65535),
+    NodeParameter("exit_when_done", False, "end the process when the twin has ended"),
+)
+
+
+class ViewerNode(Node):
+    """Feeds a `LiveView` with every message."""
+
+    def __init__(self) -> None:
+        super().__init__("viewer", namespace="axlebox")
+        self.finished = False
+        self.exit_code = 0
+        self._values = ParameterValues(self, PARAMETERS)
+        self._stack = ExitStack()
+        stream = self._stack.enter_context(
+            live_stream(self._values.target, Path(self._values.output).expanduser(), self._values.port)
+        )
+        self._view = LiveView(stream.stream)
+        self._intake = RawIntake(self)
+        for name in DRAWN:
+            self._intake.add(topic(name), self._drawer(name))
+        self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
+        self._watch = TwinWatch(lambda: self.count_publishers(topic("truth").path(self.get_namespace())))
+        self.create_timer(TICK_S, self._tick)
+        self.get_logger().info(f"drawing into {stream.where}")
+
+    def _drawer(self, name: str) -> Callable[[bytes], None]:
+        def draw(cdr: bytes) -> None:
+            try:
+                self._view.feed(name, cdr)
+            except InputError as error:
+                self.get_logger().error(str(error), throttle_duration_sec=5.0)
+
+        return draw
+
+    def _on_diagnostics(self, cdr: bytes) -> None:
+        self._watch.hear(decode_diagnostics(cdr)[1])
+
+    def _tick(self) -> None:
+        self._intake.sweep()
+        self._view.flush()
+        if self._watch.ended or self._watch.vanished():
+            self.finished = bool(self._values.exit_when_done)
+
+    def close(self) -> bool:
+        """Draw the rest and close the stream; there is no thread to end."""
+        self._intake.sweep()
+        self._view.flush()
+        self._stack.close()
+        return False
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run the node until it is stopped."""
+    return run_node(ViewerNode, argv)

@@ -1,0 +1,169 @@
+"""Topics of the table on the wire: publishers of ready-made bytes, raw subscriptions.
+
+Messages per second are the limit of rclpy, not bytes: one wake-up of the executor costs as much as
+a hundred takes. A raw subscription therefore empties its own queue, and the queues of all its
+sisters, in one sweep.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+from rclpy.duration import Duration
+from rclpy.exceptions import InvalidHandle
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+from beardyn_core.record.topics import Topic, topic
+
+# Our publishers keep more than the table promises: a reader that gets no processor for a second or two
+# can still ask for what it missed.
+HISTORY_FACTOR = 20
+PUBLISH_TRIES = 20
+PUBLISH_RETRY_S = 0.005
+DEEPEST_HISTORY = 4000
+LONGEST_SWEEP = 5000
+
+
+@cache
+def message_class(type_name: str) -> Any:
+    """Python class of ``package/msg/Type``."""
+    package, kind, name = type_name.split("/")
+    return getattr(import_module(f"{package}.{kind}"), name)
+
+
+def quality_of_service(
+    entry: Topic, keep_all: bool = False, complete: bool = False, offered: bool = False
+) -> QoSProfile:
+    """QoS of a topic of the table.
+
+    Parameters
+    ----------
+    entry : Topic
+    keep_all : bool
+        Nothing is dropped in the queue of a reader that is busy.
+    complete : bool
+        Reliable also where the table asks for sensor data QoS: for a reader that wants every message.
+    offered : bool
+        For a publisher: reliable and deep, which serves readers with sensor data QoS as well. A topic that
+        only its latest message matters on (`truth`) keeps its depth.
+    """
+    reliable = complete or offered or entry.reliability == "reliable"
+    deep = offered and entry.durability == "volatile" and entry.depth > 0
+    return QoSProfile(
+        depth=(entry.depth or DEEPEST_HISTORY) * (HISTORY_FACTOR if deep else 1),
+        history=HistoryPolicy.KEEP_ALL if keep_all or entry.depth == 0 else HistoryPolicy.KEEP_LAST,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL
+        if entry.durability == "transient_local"
+        else DurabilityPolicy.VOLATILE,
+    )
+
+
+class TopicPublishers:
+    """Publishers of CDR bytes, one per topic, made when first needed.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+    names : str
+        Topics of the table that are announced at once, so that readers find them.
+    """
+
+    def __init__(self, node: Any, *names: str) -> None:
+        self._node = node
+        self._publishers: dict[str, Any] = {}
+        self.lost_messages = 0
+        for name in names:
+            self.publisher(name)
+
+    def publisher(self, name: str) -> Any:
+        """Publisher of a topic of the table."""
+        if name not in self._publishers:
+            entry = topic(name)
+            self._publishers[name] = self._node.create_publisher(
+                message_class(entry.type), entry.name, quality_of_service(entry, offered=True)
+            )
+        return self._publishers[name]
+
+    def publish(self, name: str, cdr: bytes) -> bool:
+        """Publish, trying again for a moment when the middleware is full; False when given up."""
+        publisher = self.publisher(name)
+        for attempt in range(PUBLISH_TRIES):
+            try:
+                publisher.publish(cdr)
+                return True
+            except rclpy_implementation.RCLError:  # noqa: PERF203 - "cannot publish data": full
+                if attempt + 1 < PUBLISH_TRIES:
+                    time.sleep(PUBLISH_RETRY_S)
+        self.lost_messages += 1
+        return False
+
+    def wait_until_received(self, name: str, timeout: float) -> bool:
+        """Whether every reliable reader has acknowledged everything on a topic within `timeout` seconds."""
+        publisher = self._publishers.get(name)
+        if publisher is None or publisher.get_subscription_count() == 0:
+            return True
+        return bool(publisher.wait_for_all_acked(Duration(seconds=timeout)))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Topics with a publisher."""
+        return tuple(self._publishers)
+
+
+class RawIntake:
+    """Subscriptions that hand over CDR bytes, all queues emptied in one sweep.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+    """
+
+    def __init__(self, node: Any) -> None:
+        self._node = node
+        self._subscriptions: list[tuple[Any, Any, Callable[[bytes], None]]] = []
+
+    def add(
+        self,
+        entry: Topic,
+        handler: Callable[[bytes], None],
+        keep_all: bool = True,
+        complete: bool = False,
+    ) -> None:
+        """Subscribe to a topic; `handler` gets the bytes of each message, in order."""
+        kind = message_class(entry.type)
+
+        def on_message(cdr: bytes) -> None:
+            handler(cdr)
+            self.sweep()
+
+        subscription = self._node.create_subscription(
+            kind, entry.name, on_message, quality_of_service(entry, keep_all, complete), raw=True
+        )
+        self._subscriptions.append((subscription, kind, handler))
+
+    def sweep(self) -> int:
+        """Take everything that has arrived; how many messages that were."""
+        count = 0
+        for subscription, kind, handler in self._subscriptions:
+            handle = subscription.handle
+            try:
+                with handle:
+                    while count < LONGEST_SWEEP and (taken := handle.take_message(kind, True)) is not None:
+                        handler(taken[0])
+                        count += 1
+            except InvalidHandle:
+                continue
+        return count
+
+    def publisher_counts(self) -> dict[str, int]:
+        """Publishers that each subscription is connected to, by absolute topic name."""
+        return {
+            subscription.topic_name: subscription.get_publisher_count()
+            for subscription, _, _ in self._subscriptions
+        }

@@ -1,0 +1,28 @@
+"""Twin, load, recorder and monitor on one scene: ``ros2 launch beardyn demo.launch.py scene:=cup_spall``."""
+
+from pathlib import Path
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration
+
+
+def generate_launch_description() -> LaunchDescription:
+    twin = PythonLaunchDescriptionSource(str(Path(__file__).with_name("twin.launch.py")))
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("scene", default_value="cup_spall", description="scene by name or path"),
+            DeclareLaunchArgument("output", default_value="run.mcap", description="file of the recorder"),
+            IncludeLaunchDescription(
+                twin,
+                launch_arguments={
+                    "scene": LaunchConfiguration("scene"),
+                    "output": LaunchConfiguration("output"),
+                    "speed_factor": "0.0",
+                    "recorder": "true",
+                    "monitor": "true",
+                }.items(),
+            ),
+        ]
+    )

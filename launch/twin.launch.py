@@ -1,0 +1,58 @@
+"""Twin and load on one scene: ``ros2 launch beardyn twin.launch.py scene:=cup_spall speed_factor:=1.0``."""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+
+ARGUMENTS = (
+    ("namespace", "axlebox", "namespace of the axlebox; several twins live side by side"),
+    ("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
+    ("speed_factor", "1.0", "simulated seconds per wall second, 0 is as fast as it goes"),
+    ("publish_clock", "true", "publish /clock; one twin of several"),
+    ("load", "true", "start the load node too; false: the load comes from elsewhere"),
+    ("recorder", "false", "start the recorder too"),
+    ("output", "", "file of the recorder; empty: <scene>_<date>.mcap"),
+    ("monitor", "false", "start the monitor too"),
+    ("bearing", "HS130x230", "name plate that the monitor reads"),
+    ("viewer", "false", "open a rerun window too"),
+)
+
+
+def generate_launch_description() -> LaunchDescription:
+    namespace = LaunchConfiguration("namespace")
+
+    def text(name: str) -> ParameterValue:
+        return ParameterValue(LaunchConfiguration(name), value_type=str)
+
+    def node(name: str, parameters: dict[str, ParameterValue], wanted: str | None = None) -> Node:
+        return Node(
+            package="beardyn",
+            executable=name,
+            name=name,
+            namespace=namespace,
+            parameters=[parameters],
+            condition=IfCondition(LaunchConfiguration(wanted)) if wanted else None,
+            output="screen",
+        )
+
+    twin = {
+        "scene": text("scene"),
+        "speed_factor": ParameterValue(LaunchConfiguration("speed_factor"), value_type=float),
+        "publish_clock": ParameterValue(LaunchConfiguration("publish_clock"), value_type=bool),
+    }
+    return LaunchDescription(
+        [
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=description)
+                for name, default, description in ARGUMENTS
+            ),
+            node("twin", twin),
+            node("load", {"scene": text("scene")}, "load"),
+            node("recorder", {"output": text("output")}, "recorder"),
+            node("monitor", {"bearing": text("bearing")}, "monitor"),
+            node("viewer", {}, "viewer"),
+        ]
+    )

@@ -1,0 +1,89 @@
+"""The queue between the subscription and the twin's thread."""
+
+from __future__ import annotations
+
+import threading
+from itertools import pairwise
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.load_gate import LiveLoad, LoadGate, Refusals
+
+STEP_NS = 500_000
+
+
+def history(count: int) -> LoadHistory:
+    wrench = np.arange(6.0 * count).reshape(count, 6)
+    return LoadHistory(np.arange(count) * STEP_NS, wrench, np.full(count, 100.0), np.zeros((count, 3)))
+
+
+def new_gate(capacity: int = 10_000) -> LoadGate:
+    return LoadGate(capacity, Refusals(), threading.Condition())
+
+
+@given(
+    cuts=st.lists(st.integers(1, 399), max_size=8),
+    ends=st.lists(st.integers(0, 400 * STEP_NS), min_size=1, max_size=12),
+)
+def test_what_goes_in_comes_out_in_order_however_it_is_cut(cuts: list[int], ends: list[int]) -> None:
+    whole, gate = history(400), new_gate()
+    edges = sorted({0, 400, *cuts})
+    for first, last in pairwise(edges):
+        assert gate.offer(whole.part(first, last), np.arange(first, last)) is None
+    taken: list[int] = []
+    for end in [*sorted(ends), 10**12]:
+        part = gate.take_through(end)
+        if part is None:
+            continue
+        taken += part.time_ns.tolist()
+        assert np.count_nonzero(part.time_ns >= end) <= 1
+        if gate.waiting:
+            assert part.time_ns[-1] >= end
+    assert taken == whole.time_ns.tolist()
+    assert gate.waiting == 0
+
+
+def test_block_with_a_hole_inside_is_a_gap() -> None:
+    gate = new_gate()
+    samples = np.array([0, 1, 3, 4])
+    assert "do not run on" in (gate.offer(history(4), samples) or "")
+    assert gate.refusals.report().by_reason == (("gap", 1),)
+
+
+def test_refused_block_can_be_sent_again_and_the_end_is_then_clean() -> None:
+    gate, whole = new_gate(), history(30)
+    assert gate.offer(whole.part(0, 10), np.arange(0, 10)) is None
+    assert gate.offer(whole.part(20, 30), np.arange(20, 30)) is not None
+    assert gate.offer(whole.part(10, 30), np.arange(10, 30)) is None
+    gate.offer(whole.part(0, 0), np.arange(0))
+    assert gate.ended
+    assert gate.failure == ""
+
+
+def test_leftovers_of_the_old_stream_are_dropped_after_a_restart() -> None:
+    gate, whole = new_gate(), history(30)
+    gate.offer(whole.part(0, 10), np.arange(0, 10))
+    gate.restart()
+    assert gate.offer(whole.part(10, 20), np.arange(10, 20)) is None
+    gate.offer(whole.part(0, 0), np.arange(0))
+    assert gate.waiting == 0
+    assert not gate.ended
+    assert gate.offer(whole.part(0, 10), np.arange(0, 10)) is None
+    assert gate.waiting == 10
+    assert gate.refusals.report().count == 0
+
+
+def test_live_load_refuses_old_stamps_and_absurd_numbers() -> None:
+    live = LiveLoad(Refusals(), threading.Condition())
+    assert live.held() is None
+    assert live.offer_wrench(np.full(6, 5.0), 10) is None
+    assert live.offer_speed(100.0, 10) is None
+    assert "not after" in (live.offer_speed(101.0, 10) or "")
+    assert "allowed is up to" in (live.offer_wrench(np.array([0, 0, 1.1e7, 0, 0, 0]), 20) or "")
+    held = live.held()
+    assert held is not None
+    assert held.shaft_speed == 100.0
+    assert live.refusals.report().count == 2

@@ -1,0 +1,41 @@
+"""The monitor node: finds the fault from what a train has, and asks for nothing else."""
+
+from __future__ import annotations
+
+from beardyn_core.record.messages import decode_diagnostics
+from beardyn_core.study.finding import Finding
+from test.ros.graph import Graph
+
+ALLOWED = {"/axlebox/vibration", "/axlebox/shaft", "/axlebox/load/blocks", "/axlebox/load/wrench"}
+HOUSEKEEPING = {"/diagnostics", "/parameter_events"}
+
+
+def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_not(graph: Graph) -> None:
+    graph.listen("monitor/result")
+    graph.fake_twin(speed_factor=2.0)
+    graph.node_process("monitor", bearing="HS130x230")
+    graph.until(
+        lambda: any(status.value("connected") == "true" for status in graph.statuses("monitor")),
+        "the monitor's connection",
+    )
+    heard = graph.node.get_subscriber_names_and_types_by_node("monitor", "/axlebox")
+    assert {name for name, _ in heard} - HOUSEKEEPING == ALLOWED
+    graph.fake_load(duration=3.0)
+    assert graph.exit_code("monitor") == 0
+    statuses = [decode_diagnostics(cdr)[1][0] for cdr in graph.messages["monitor/result"]]
+    last = Finding.from_diagnostic(statuses[-1])
+    assert last is not None
+    assert statuses[-1].value("final") == "true"
+    assert last.verdict == "cup"
+    assert abs(last.deviation) < 0.01
+    assert last.signal_to_background > 10.0
+    assert statuses[0].value("verdict") == "waiting"
+
+
+def test_unknown_bearing_is_refused_with_the_known_ones(graph: Graph) -> None:
+    graph.node_process("monitor", bearing="HS999")
+    assert graph.exit_code("monitor") == 2
+    log = graph.processes.log("monitor")
+    assert "parameter 'bearing'" in log
+    assert "HS130x230" in log
+    assert "Traceback" not in log

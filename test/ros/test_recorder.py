@@ -1,0 +1,141 @@
+"""The recorder node: complete, self-describing, safe against kill -9, one file a run."""
+
+from __future__ import annotations
+
+import signal
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.record.clouds import cloud_to_arrays
+from beardyn_core.record.reading import read_run
+from beardyn_core.record.topics import TOPICS, topic
+from test.ros.graph import Graph
+
+LIVE_ONLY = ("load/wrench", "load/shaft")
+
+
+def recorder_is_connected(graph: Graph) -> None:
+    graph.until(
+        lambda: any(status.value("connected") == "true" for status in graph.statuses("recorder")),
+        "the recorder's connection to every topic of the twin",
+    )
+
+
+def record(graph: Graph, path: Path, duration: float, *others: str, **parameters: object) -> None:
+    graph.fake_twin(speed_factor=2.0, **parameters)
+    graph.node_process("recorder", output=str(path))
+    for other in others:
+        graph.node_process(other)
+    recorder_is_connected(graph)
+    graph.fake_load(duration=duration)
+
+
+def test_recording_is_complete_and_an_independent_reader_decodes_every_topic(graph: Graph) -> None:
+    from rosbags.highlevel import AnyReader
+
+    path = graph.folder / "run.mcap"
+    graph.listen("vibration", "force_waveform")
+    record(graph, path, 1.6, "monitor")
+    for name in ("twin", "load", "monitor", "recorder"):
+        assert graph.exit_code(name) == 0, graph.processes.log(name)
+    run = read_run(path)
+    assert run.complete
+    assert run.status == ""
+    assert np.array_equal(run.vibration["vibration"].sample, np.arange(80 * 512))
+    assert np.array_equal(run.force_waveform.sample, np.arange(80 * 512))
+    assert len(run.force) == len(run.shaft) == len(run.specific_force) == 640
+    assert len(run.orbit) == len(run.bodies) == 320
+    assert np.array_equal(run.load_sample, np.arange(3201))
+    assert run.described().scene == "synthetic"
+    assert run.truth["run_id"]
+    assert run.results[-1][1][0].value("verdict") == "cup"
+
+    namespace_free = {entry.path(): entry.type for entry in TOPICS if entry.name not in LIVE_ONLY}
+    with AnyReader([path]) as reader:
+        assert {connection.topic: connection.msgtype for connection in reader.connections} == namespace_free
+        decoded = {connection.topic: 0 for connection in reader.connections}
+        waveforms = []
+        for connection, _, raw in reader.messages():
+            message: Any = reader.deserialize(raw, connection.msgtype)
+            decoded[connection.topic] += 1
+            if connection.topic == "/axlebox/vibration":
+                waveforms.append(message.data.tobytes())
+    assert min(decoded.values()) > 0
+    assert decoded["/axlebox/force"] == 640
+    heard = [cloud_to_arrays(cdr).tobytes() for cdr in graph.messages["vibration"]]
+    assert waveforms == heard
+
+
+def test_kill_9_of_the_recorder_leaves_a_recoverable_file_and_the_twin_runs_on(graph: Graph) -> None:
+    path = graph.folder / "run.mcap"
+    graph.listen("vibration")
+    record(graph, path, 60.0)
+    graph.until(
+        lambda: any(float(s.value("simulated_time")) > 4.0 for s in graph.statuses("twin")), "4 s recorded"
+    )
+    graph.processes.signal("recorder", signal.SIGKILL)
+    simulated = float(graph.statuses("twin")[-1].value("simulated_time"))
+    run = read_run(path)
+    assert not run.complete
+    assert run.problem
+    assert run.described().scene == "synthetic"
+    # At a speed factor of 2 one second on the wall is 2 s of simulated time.
+    assert run.vibration["vibration"].seconds[-1] > simulated - 2.0
+    assert np.all(np.diff(run.vibration["vibration"].sample) == 1)
+    before = len(graph.messages["vibration"])
+    graph.until(
+        lambda: len(graph.messages["vibration"]) > before + 50,
+        "a second of blocks without the recorder",
+        check_processes=False,
+    )
+
+
+def test_reset_begins_a_new_file(graph: Graph) -> None:
+    from std_srvs.srv import Trigger
+
+    path = graph.folder / "run.mcap"
+    graph.fake_twin(speed_factor=2.0)
+    graph.node_process("recorder", output=str(path))
+    recorder_is_connected(graph)
+    graph.fake_load(duration=1.5, exit_when_done=False)
+    graph.until(
+        lambda: any(float(s.value("simulated_time")) > 0.3 for s in graph.statuses("twin")), "some blocks"
+    )
+    assert graph.call("reset", Trigger).success
+    assert graph.exit_code("twin") == 0
+    assert graph.exit_code("recorder") == 0
+    first, second = read_run(path), read_run(path.with_name("run_2.mcap"))
+    assert first.complete
+    assert second.complete
+    assert first.status == "the run was left by a reset"
+    assert second.status == ""
+    assert first.truth["run_id"] != second.truth["run_id"]
+    assert np.array_equal(second.vibration["vibration"].sample, np.arange(75 * 512))
+    old = first.vibration["vibration"]
+    assert np.array_equal(old.sample, np.arange(len(old)))
+    assert np.array_equal(old.values, second.vibration["vibration"].values[: len(old)])
+    assert np.array_equal(np.unique(second.load_sample), np.arange(3001))
+
+
+def test_kill_9_of_the_twin_is_noticed_by_everybody(graph: Graph) -> None:
+    path = graph.folder / "run.mcap"
+    record(graph, path, 60.0, "monitor")
+    graph.until_state("running")
+    graph.processes.signal("twin", signal.SIGKILL)
+    assert graph.exit_code("recorder") == 0
+    assert graph.exit_code("monitor") == 0
+    assert graph.exit_code("load") == 4
+    assert "vanished" in (read_run(path).status or "")
+
+
+def test_recorder_of_a_validity_error_says_how_the_run_ended(graph: Graph) -> None:
+    path = graph.folder / "run.mcap"
+    record(graph, path, 1.0, scene="fake_invalid")
+    assert graph.exit_code("recorder") == 0
+    run = read_run(path)
+    assert run.complete
+    assert "a roller has left its rib" in (run.status or "")
+    assert len(run.vibration["vibration"]) == 6 * 512
+    assert topic("vibration").path() == "/axlebox/vibration"
