@@ -131,7 +131,7 @@ TOPICS: tuple[Topic, ...] = (
         "every 0.2 s",
         "real-time factor, status bits, energy residual, late and lost blocks",
     ),
-    Topic("/clock", CLOCK, *_RELIABLE, 10, "200 Hz", "simulated time"),
+    Topic("/clock", CLOCK, *_RELIABLE, 10, "every 20 ms", "simulated time"),
 )
 
 _BY_NAME = {topic.name: topic for topic in TOPICS}

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import pytest
+
 from test.ros.graph import Graph
 
 README = Path(__file__).parents[2] / "README.md"
@@ -20,19 +22,23 @@ def subscriber_example() -> str:
     return chosen[0]
 
 
+@pytest.mark.usefixtures("compiled_kernels")
 def test_subscriber_of_the_readme_prints_blocks_of_a_live_twin(graph: Graph) -> None:
     code = subscriber_example()
     assert len(code.strip().splitlines()) <= 25
     script = graph.folder / "subscriber.py"
+
+    def printed() -> list[str]:
+        return [line for line in graph.processes.log("subscriber").splitlines() if line.strip()]
+
     script.write_text(code)
     graph.processes.start("subscriber", str(script))
-    graph.fake_twin(speed_factor=1.0)
+    graph.node_process("twin", scene="cup_spall")
     graph.until(
         lambda: graph.node.count_subscribers("/axlebox/vibration") > 0, "the subscriber of the README"
     )
-    graph.fake_load(duration=60.0)
-    graph.until(
-        lambda: len([line for line in graph.processes.log("subscriber").splitlines() if line.strip()]) >= 5,
-        "five lines of the subscriber",
-    )
+    graph.node_process("load", scene="cup_spall")
+    graph.until(lambda: len(printed()) >= 5, "five lines of the subscriber")
     assert "Traceback" not in graph.processes.log("subscriber")
+    form = re.compile(r"sample \d+: \d+ samples, az \d+\.\d\d m/s\^2 rms")
+    assert all(form.fullmatch(line) for line in printed()[:5])
