@@ -1,0 +1,77 @@
+"""The summary picture is drawn without a screen, at its size, and shows what it is given."""
+
+import dataclasses
+
+import matplotlib.image
+import numpy as np
+import pytest
+
+from beardyn_core.study.summary_picture import FaultMarker, SummaryData, summary_picture
+
+
+def _data():
+    time = np.linspace(0.0, 3.0, 1200)
+    load = np.column_stack([0 * time, 5e3 + 0 * time, 68e3 + 5e3 * np.sin(8 * time)])
+    azimuth = np.mod(2 * np.pi * np.arange(17) / 17 + np.array([[0.1], [0.3]]), 2 * np.pi)
+    order = np.linspace(0.0, 200.0, 20_000)
+    amplitude = np.full_like(order, 0.05)
+    for h in range(1, 6):
+        amplitude += 2.0 / h * np.exp(-(((order - h * 7.294) / 0.03) ** 2))
+    return SummaryData(
+        title="cup_spall",
+        verdict="cup fault: BPFO found at 140.02 Hz, 140.04 Hz from geometry (-0.01 %), 24.1 dB",
+        time=time,
+        force=load + np.random.default_rng(1).normal(size=load.shape) * 300,
+        load=load,
+        shaft_speed=120 + 4 * time,
+        cage_speed=np.column_stack([0.429 * (120 + 4 * time), 0.428 * (120 + 4 * time)]),
+        roller_azimuth=azimuth,
+        roller_load=9.8e3 * np.maximum(0.0, np.cos(azimuth)) ** (10 / 9),
+        envelope_order=order,
+        envelope_amplitude=amplitude,
+        markers=(
+            FaultMarker("BPFO", 7.294),
+            FaultMarker("BPFI", 9.706),
+            FaultMarker("2 BSF", 6.789),
+            FaultMarker("FTF", 0.429),
+        ),
+        shaft_frequency=20.0,
+    )
+
+
+def _picture(data, path):
+    summary_picture(data, path)
+    return matplotlib.image.imread(path)
+
+
+def test_picture_is_1600_by_1000_and_changes_with_every_array(tmp_path):
+    data = _data()
+    picture = _picture(data, tmp_path / "summary.png")
+    assert picture.shape[:2] == (1000, 1600)
+    assert picture[..., :3].std() > 0.05
+    for name in ("force", "load", "shaft_speed", "cage_speed", "roller_load", "envelope_amplitude"):
+        other = dataclasses.replace(data, **{name: 0.5 * getattr(data, name)})
+        assert not np.array_equal(_picture(other, tmp_path / "other.png"), picture), name
+
+
+@pytest.mark.parametrize("moments", [1, 40])
+def test_load_zone_takes_one_moment_or_many(tmp_path, moments):
+    data = _data()
+    many = dataclasses.replace(
+        data,
+        roller_azimuth=np.repeat(data.roller_azimuth[None], moments, axis=0),
+        roller_load=np.repeat(data.roller_load[None], moments, axis=0),
+    )
+    picture = _picture(many, tmp_path / "many.png")
+    assert np.array_equal(picture, _picture(data, tmp_path / "one.png")) == (moments == 1)
+
+
+def test_run_too_short_for_a_spectrum_is_still_drawn(tmp_path):
+    data = dataclasses.replace(
+        _data(),
+        envelope_order=np.empty(0),
+        envelope_amplitude=np.empty(0),
+        shaft_frequency=0.0,
+        verdict="waiting",
+    )
+    assert _picture(data, tmp_path / "short.png").shape[:2] == (1000, 1600)
