@@ -1,1 +1,1 @@
-"""."""
+"""The ``beardyn`` command; `main` dispatches, every other module is one subcommand."""

@@ -1,1 +1,15 @@
-"""."""
+"""The scene: one bearing under one operation, with all that is asked of the run.
+
+=========== =====================================================
+module      responsibility, in the order of the data
+=========== =====================================================
+operation   where load and speed come from
+speed       speed and distance over time
+load        load on the journal as samples
+load_buffer the load as a stream: accepted, refused, interpolated
+mounting    axlebox, suspension, journal
+defect      spalls
+sensor      accelerometers
+scene       all of it
+=========== =====================================================
+"""

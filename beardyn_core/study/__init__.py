@@ -1,1 +1,13 @@
-"""."""
+"""What is done with a twin on the desk.
+
+=================== =========================================
+module              responsibility, in the order of the data
+=================== =========================================
+desk_run            a scene from start to end, with its means
+monitored_recording a recording with a monitor listening
+finding             a monitor's result in words and messages
+summary_picture     one picture of a run
+demo_console        arguments and progress of the demo
+demo_report         what the demo prints and draws
+=================== =========================================
+"""
