@@ -14,7 +14,8 @@ from typing import Any
 
 import numba
 
-# No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars agree to the last bit.
+# No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars then differ by the rounding of
+# fused multiplications only, and one machine always gives the same bits.
 FASTMATH = ("nsz", "arcp", "contract", "afn")
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": set(FASTMATH)}
 

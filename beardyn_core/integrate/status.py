@@ -27,7 +27,7 @@ from beardyn_core.model.layout import (
 )
 
 LARGEST_PENETRATION = 2.0e-4
-LARGEST_CHATTER_INDEX = 0.05
+LARGEST_CHATTER_INDEX = 0.2
 CHATTER_LOAD_FLOOR = 5.0
 # Rib contacts and films are judged only where they carry this much [N].
 SMALLEST_JUDGED_LOAD = 100.0

@@ -251,13 +251,17 @@ def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
         ax, ay, az = ring_direction(bodies, body)
         spinning = cage.polar_inertia * bodies[body, RATE]
         about_axis = wrenches[body, 3] * ax + wrenches[body, 4] * ay + wrenches[body, 5] * az
-        wx, wz = bodies[body, ANGULAR + X], bodies[body, ANGULAR + Z]
-        # transverse Euler equations of a spinning ring: I_t w' + w x (I_p rate y) = M
+        # transverse Euler equations of a spinning ring, I_t w' + w x (I_p rate y) = M, one axis after the
+        # other: that keeps free nutation from growing
         bodies[body, ANGULAR + X] += (
-            step * (wrenches[body, 3] - about_axis * ax + spinning * wz) / cage.transverse_inertia
+            step
+            * (wrenches[body, 3] - about_axis * ax + spinning * bodies[body, ANGULAR + Z])
+            / cage.transverse_inertia
         )
         bodies[body, ANGULAR + Z] += (
-            step * (wrenches[body, 5] - about_axis * az - spinning * wx) / cage.transverse_inertia
+            step
+            * (wrenches[body, 5] - about_axis * az - spinning * bodies[body, ANGULAR + X])
+            / cage.transverse_inertia
         )
         bodies[body, RATE] += step * about_axis / cage.polar_inertia
 

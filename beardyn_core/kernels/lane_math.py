@@ -134,9 +134,8 @@ def exp2(a: Value) -> Value:
     bounded = at_most(at_least(a, -1000.0), 1000.0)
     whole = floor(bounded + 0.5)
     f = (bounded - whole) * 0.6931471805599453
-    series = 1.0 + f * (
-        1.0 + f * (0.5 + f * (1 / 6 + f * (1 / 24 + f * (1 / 120 + f * (1 / 720 + f * (1 / 5040))))))
-    )
+    tail = 1 / 24 + f * (1 / 120 + f * (1 / 720 + f * (1 / 5040 + f * (1 / 40320))))
+    series = 1.0 + f * (1.0 + f * (0.5 + f * (1 / 6 + f * tail)))
     return _whole_power_of_two(whole) * series
 
 

@@ -26,7 +26,8 @@ def pocket_contact(
 
     Disc against plane at two abscissae of both bars, and end against plane at both pocket ends: linear
     springs with damping that never pull, and regularised Coulomb friction. The bar faces lean, so that the
-    rollers guide the cage radially. Neglects the lubricant in the pocket and the bending of the bars.
+    rollers guide the cage radially. Neglects the lubricant in the pocket, the bending of the bars, and the
+    turn of the touching points under skew (1 um per mrad).
 
     Parameters
     ----------

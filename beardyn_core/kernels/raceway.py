@@ -1,7 +1,7 @@
 """Contact of a laminated roller with a conical raceway.
 
 The contact points of all laminae of a rigid tapered roller lie on one *generator line*. In the ring's
-frame the approach is quadratic along it and the slip is affine, so geometry is worked out once per roller
+frame the approach is a cubic along it and the slip is affine, so geometry is worked out once per roller
 and raceway, and a lamina costs only its force law. What leaves the lamina loop are sums weighted by powers
 of the abscissa, from which force, moment and tangent matrix follow.
 """
@@ -42,16 +42,17 @@ def generator_line(centre: Any, axis: Any, ring_axis: Any, oversize: Any, racewa
         Contact point from the centre of mass at abscissa x: ``arm + x arm_slope``, [m].
     normal, around, along : vector
         Unit normal into the ring, circumferential and generator direction at x = 0.
-    approach : tuple of 3 lane values
-        Penetration at abscissa x: ``a0 + x (a1 + x a2)``, [m].
+    approach : tuple of 4 lane values
+        Penetration at abscissa x: ``a0 + x (a1 + x (a2 + x a3))``, [m].
     bend : lane value
         Turn of the normal towards `around` per abscissa, [1/m].
 
     Notes
     -----
     Two passes of the closed form: the contact point of a disc on a cone is taken where the normal points,
-    first at the disc centre, then at the point so found. The gap is good to 0.01 nm at 1 degree of skew;
-    the second pass is for the direction of the force, which must do no work on the spin.
+    first at the disc centre, then at the point so found. At the centre of mass the gap is good to
+    0.001 nm at 1 degree of skew; along the line to 0.05 nm at 2 mrad and 4 nm at 1 degree. The second pass
+    is for the direction of the force, which must do no work on the spin.
     """
     from_apex = add_scaled(centre, -roller.apex, ring_axis)
     outward, centre_distance = _radial_direction(from_apex, ring_axis)
@@ -78,6 +79,7 @@ def generator_line(centre: Any, axis: Any, ring_axis: Any, oversize: Any, racewa
         side_cosine * distance - side_sine * dot(point, ring_axis) - raceway.gap,
         side_cosine * slope_out - side_sine * slope_along,
         0.5 * side_cosine * walk * skew,
+        -0.5 * side_cosine * walk * skew * dot(axis, outward) / centre_distance,
     )
     normal = add_scaled(scale(side_cosine, outward), -side_sine, ring_axis)
     along = add_scaled(scale(raceway.sine, outward), raceway.cosine, ring_axis)
@@ -168,7 +170,12 @@ def lamina_sums(
         gap = spall_gap(lanes, block, azimuths[0], k, radius, spalls[0]) + spall_gap(
             lanes, block, azimuths[1], k, radius, spalls[1]
         )
-        depth = approach[0] + x * (approach[1] + x * approach[2]) - laminae[LAMINA_DROP, k] - gap
+        depth = (
+            approach[0]
+            + x * (approach[1] + x * (approach[2] + x * approach[3]))
+            - laminae[LAMINA_DROP, k]
+            - gap
+        )
         touching = at_least(depth, _SMALLEST_APPROACH)
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
         tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)

@@ -13,6 +13,9 @@ Int = NDArray[np.int64]
 CONTACT_KINDS = ("cup", "cone", "rib", "pocket")
 CONTACT_FIELDS = ("x", "y", "z", "fx", "fy", "fz", "slip", "film")
 
+# The residual is relative to the losses, but to no less than this [J].
+SMALLEST_LOSS = 0.1
+
 
 @dataclass(frozen=True)
 class EnergyAudit:
@@ -39,7 +42,7 @@ class EnergyAudit:
     def residual(self) -> float:
         """Part of the energy that the audit cannot account for, relative to the dissipation."""
         missing = self.external - self.dissipated - self.numerical - self.stored
-        return abs(missing) / max(self.dissipated, 1e-3)
+        return abs(missing) / max(self.dissipated, SMALLEST_LOSS)
 
 
 @dataclass(frozen=True)

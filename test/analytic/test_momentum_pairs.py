@@ -1,0 +1,187 @@
+"""Every contact acts on roller and ring with one and the same force, and no force makes energy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from beardyn_core.model.layout import (
+    ANGULAR,
+    CAGE_BODY,
+    CONE_BODY,
+    CUP_BODY,
+    ENERGY_DISSIPATED,
+    LINEAR,
+    POSITION,
+    RATE,
+    ROLLER_STATES,
+    TILT,
+    TURN,
+)
+from test.kernels.naive_step import rotated
+from test.kernels.rig import Rig
+from test.kernels.test_step import cartesian, shaken
+
+Float = NDArray[np.float64]
+FAR = 1.0
+CONTACTS = ("all", "cup", "cone", "rib", "pocket")
+
+
+def world(vector: Float, row: int, *, axial: bool = False) -> Float:
+    """Row frame z, x, outward to world x, y, z; row 0 is a mirror image."""
+    side = 2 * row - 1
+    z, x, y = vector
+    return np.array([side * x, y, side * z]) if axial else np.array([x, side * y, z])
+
+
+def momenta(rig: Rig) -> tuple[Float, Float, float]:
+    """Linear and angular momentum of all rollers about the world's origin, and their sum of sizes."""
+    fields = rig.fields()[:ROLLER_STATES]
+    mass = rig.parameters.roller.mass
+    linear, angular, size = np.zeros(3), np.zeros(3), 0.0
+    for row in (0, 1):
+        for k in range(fields.shape[2]):
+            state = cartesian(fields[:, row, k])
+            velocity = world(state.velocity, row)
+            place = world(state.centre, row) + rig.state.bodies[CUP_BODY, POSITION : POSITION + 3]
+            linear += mass * velocity
+            angular += mass * np.cross(place, velocity) + world(state.momentum, row, axial=True)
+            size += mass * float(np.linalg.norm(velocity))
+    return linear, angular, size
+
+
+def only_contact(rig: Rig, name: str) -> None:
+    """Take the other contacts so far away that they never touch; same kernel, other numbers."""
+    p = rig.parameters
+    assert p.effects.rib is not None
+    assert p.effects.cage is not None
+    rib, cage = p.effects.rib, p.effects.cage
+    if name not in ("cup", "all"):
+        p = p._replace(cup=p.cup._replace(gap=FAR))
+    if name not in ("cone", "all"):
+        p = p._replace(cone=p.cone._replace(gap=FAR))
+    if name not in ("rib", "all"):
+        rib = rib._replace(distance=rib.distance + FAR)
+    if name not in ("pocket", "all"):
+        cage = cage._replace(half_clearance=FAR, half_end_clearance=FAR)
+    rig.parameters = p._replace(effects=p.effects._replace(rib=rib, cage=cage))
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+@pytest.mark.parametrize("seed", [11, 12, 13])
+def test_force_and_moment_on_rollers_and_rings_vanish_in_sum(contact: str, seed: int) -> None:
+    """Momentum won by the rollers in a step is what the rings lost, less the weight, to rounding."""
+    rig = shaken(seed)
+    only_contact(rig, contact)
+    p = rig.parameters
+    assert p.effects.cage is not None
+    assert p.effects.gravity is not None
+    linear_before, angular_before, size = momenta(rig)
+    rig.run(1)
+    linear_after, angular_after, _ = momenta(rig)
+    # reactions act at the places of the end of the drift, where the bodies still stand
+    wrenches, bodies = rig.work.wrenches, rig.state.bodies
+    force, moment, pushed = np.zeros(3), np.zeros(3), 0.0
+    for body in range(4):
+        lift = np.array([0.0, p.effects.cage.place * (1.0 if body == 3 else -1.0), 0.0])
+        place = bodies[body, POSITION : POSITION + 3] + (lift if body >= CAGE_BODY else 0.0)
+        force += wrenches[body, :3]
+        moment += wrenches[body, 3:] + np.cross(place, wrenches[body, :3])
+        pushed += float(np.linalg.norm(wrenches[body, :3]))
+    weight = -p.roller.mass * p.effects.gravity.acceleration
+    fields = rig.fields()
+    gravity, torque = np.zeros(3), np.zeros(3)
+    for row in (0, 1):
+        for k in range(fields.shape[2]):
+            pull = np.array([0.0, 0.0, weight])
+            gravity += pull
+            place = world(cartesian(fields[:ROLLER_STATES, row, k]).centre, row)
+            torque += np.cross(place + bodies[CUP_BODY, POSITION : POSITION + 3], pull)
+    assert pushed > 10.0
+    rounding = 1e-12 * size
+    won = linear_after - linear_before - p.step * gravity
+    assert np.abs(won + p.step * force).max() < rounding
+    # the inertial angular momentum moves with the drift only by rounding: r_new x v = r_old x v
+    won = angular_after - angular_before - p.step * torque
+    assert np.abs(won + p.step * moment).max() < rounding * 0.1
+
+
+@pytest.mark.parametrize("seed", [21, 22])
+def test_rings_move_by_the_force_they_are_said_to_get(seed: int) -> None:
+    """Cone: rollers and load over the journal's mass; cages: pockets and weight; the cup is held."""
+    rig = shaken(seed)
+    bodies = rig.state.bodies
+    before = bodies.copy()
+    rig.run(1)
+    p, h = rig.parameters, rig.parameters.step
+    assert p.effects.cage is not None
+    change = (bodies - before)[:, LINEAR : LINEAR + 3]
+    force = rig.work.wrenches[:, :3]
+    expected = h * (force[CONE_BODY] + rig.load[:3]) / p.mounting.journal_mass
+    np.testing.assert_allclose(change[CONE_BODY], expected, rtol=1e-9, atol=1e-15)
+    pull = np.array([0.0, 0.0, -p.effects.cage.mass * 9.80665])
+    for body in (CAGE_BODY, CAGE_BODY + 1):
+        np.testing.assert_allclose(
+            change[body], h * (force[body] + pull) / p.effects.cage.mass, rtol=1e-9, atol=1e-14
+        )
+    spun = (bodies - before)[:, RATE]
+    cage = p.effects.cage
+    for body in (CAGE_BODY, CAGE_BODY + 1):
+        axis = rotated(bodies[body, TILT : TILT + 3], np.array([0.0, 1.0, 0.0]))
+        moment = rig.work.wrenches[body, 3:]
+        about = float(moment @ axis)
+        assert spun[body] == pytest.approx(h * about / cage.polar_inertia, rel=1e-5, abs=1e-15)
+        # Euler: I_t w' = M - about axis - w x (I_p rate y)
+        spin = np.array([0.0, cage.polar_inertia * before[body, RATE], 0.0])
+        # one axis after the other: z meets the turn about x that the step has just given
+        met = before[body, ANGULAR : ANGULAR + 3].copy()
+        met[0] = bodies[body, ANGULAR]
+        gyroscopic = np.cross(met, spin)
+        expected = h * (moment - about * axis - gyroscopic) / cage.transverse_inertia
+        turned = bodies[body, ANGULAR : ANGULAR + 3] - before[body, ANGULAR : ANGULAR + 3]
+        np.testing.assert_allclose(turned[[0, 2]], expected[[0, 2]], rtol=1e-5, atol=1e-9)
+    np.testing.assert_array_equal(bodies[CUP_BODY], 0.0)
+    assert bodies[CONE_BODY, RATE] == rig.load[6]
+    assert bodies[CONE_BODY, TURN] == pytest.approx(before[CONE_BODY, TURN] + h * before[CONE_BODY, RATE])
+
+
+def losses(rig: Rig, steps: int) -> Float:
+    """Energy dissipated in each step, [J]."""
+    spent = []
+    for _ in range(steps):
+        before = rig.state.energy[ENERGY_DISSIPATED]
+        rig.run(1)
+        spent.append(rig.state.energy[ENERGY_DISSIPATED] - before)
+    return np.array(spent)
+
+
+@pytest.mark.parametrize("contact", ["cup", "cone", "rib"])
+@pytest.mark.parametrize("seed", [31, 32, 33])
+def test_raceways_and_rib_lose_energy_in_every_step(contact: str, seed: int) -> None:
+    """Linearly implicit: the loss of a step is a sum of squares."""
+    rig = shaken(seed)
+    only_contact(rig, contact)
+    rig.state.energy[:] = 0.0
+    spent = losses(rig, 20)
+    assert np.all(spent >= 0.0)
+    assert spent[0] > 0.0
+
+
+@pytest.mark.parametrize("seed", [41, 42])
+def test_pockets_lose_energy_in_the_long_run_and_nearly_always(seed: int) -> None:
+    """Explicit: a step that turns a velocity round may book a small gain, never more than it loses around."""
+    rig = shaken(seed)
+    only_contact(rig, "pocket")
+    rig.state.energy[:] = 0.0
+    spent = losses(rig, 200)
+    assert spent.sum() > 0.0
+    assert -spent[spent < 0.0].sum() < 0.01 * spent.sum()
+
+
+def test_whole_bearing_loses_energy_in_every_step() -> None:
+    rig = Rig.at_equilibrium(shaken(1).scene)
+    spent: Any = losses(rig, 300)
+    assert np.all(spent > 0.0)

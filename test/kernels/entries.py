@@ -1,0 +1,201 @@
+"""Small compiled entries around kernel parts: lane values come from and go to arrays [case, field, lane].
+
+With ``NUMBA_DISABLE_JIT=1`` the same entries run as plain Python on NumPy arrays.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import entry
+from beardyn_core.kernels.defect import spall_gap
+from beardyn_core.kernels.exchange import load_vector, store_vector
+from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness
+from beardyn_core.kernels.lane_math import (
+    at_least,
+    at_most,
+    cos_sin,
+    exp2,
+    floor,
+    log2,
+    magnitude,
+    ninth_root,
+    sqrt,
+    where_greater,
+    wrap,
+)
+from beardyn_core.kernels.pocket import pocket_contact, pocket_sum
+from beardyn_core.kernels.raceway import generator_line, lamina_sums, sliding
+from beardyn_core.kernels.raceway_step import raceway_wrench
+from beardyn_core.kernels.rib import rib_contact
+from beardyn_core.kernels.rib_step import rib_wrench
+from beardyn_core.kernels.solve import add_line, add_point, solve
+from beardyn_core.kernels.traction import friction_rate
+
+MATH_NAMES = (
+    "ninth_root", "log2", "exp2", "wrap", "cos", "sin", "sqrt", "magnitude", "floor", "at_least", "at_most",
+    "where_greater", "negated", "quotient",
+)  # fmt: skip
+
+
+@entry
+def lane_math(lanes: Any, values: Any, out: Any, bound: Any) -> None:
+    """All elementary functions of values [case, 1, lane] into out [case, len(MATH_NAMES), lane]."""
+    for case in range(values.shape[0]):
+        a = lanes.load(values, case, 0)
+        cosine, sine = cos_sin(a)
+        lanes.store(out, case, 0, ninth_root(a))
+        lanes.store(out, case, 1, log2(a))
+        lanes.store(out, case, 2, exp2(a))
+        lanes.store(out, case, 3, wrap(a))
+        lanes.store(out, case, 4, cosine)
+        lanes.store(out, case, 5, sine)
+        lanes.store(out, case, 6, sqrt(a))
+        lanes.store(out, case, 7, magnitude(a))
+        lanes.store(out, case, 8, floor(a))
+        lanes.store(out, case, 9, at_least(a, bound))
+        lanes.store(out, case, 10, at_most(a, bound))
+        # the kernels' idiom: the other branch is made of the operand, so a NaN stays visible
+        lanes.store(out, case, 11, where_greater(a, bound, 1.0 + 0.0 * a, 0.0 * a))
+        lanes.store(out, case, 12, -a)
+        lanes.store(out, case, 13, 1.0 / a)
+
+
+RACEWAY_INPUTS = 22  # centre, axis, ring axis, velocity, omega, ring velocity, ring omega, oversize
+RACEWAY_OUTPUTS = 19  # force, moment, energy, approach (3), arm, arm slope, normal
+
+
+@entry
+def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: Any, p: Any) -> None:
+    """Raceway contact of each case: wrench at the beginning of a step, energy and generator line."""
+    for case in range(states.shape[0]):
+        centre = load_vector(lanes, states, case, 0)
+        axis = load_vector(lanes, states, case, 3)
+        ring_axis = load_vector(lanes, states, case, 6)
+        velocity = load_vector(lanes, states, case, 9)
+        omega = load_vector(lanes, states, case, 12)
+        ring_velocity = load_vector(lanes, states, case, 15)
+        ring_omega = load_vector(lanes, states, case, 18)
+        zero = lanes.constant(0.0)
+        line = generator_line(centre, axis, ring_axis, lanes.load(states, case, 21), raceway, p.roller)
+        slip = sliding(line, centre, velocity, omega, ring_velocity, ring_omega)
+        log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
+        sums = lamina_sums(
+            lanes, 0, line, slip, log2_speed, (zero, zero), ring, p.laminae, (None, None), p.effects
+        )
+        force, moment = raceway_wrench((line, slip, sums, log2_speed, centre), p.effects.damping)
+        store_vector(lanes, out, case, 0, force)
+        store_vector(lanes, out, case, 3, moment)
+        lanes.store(out, case, 6, sums[3])
+        store_vector(lanes, out, case, 7, line[5])
+        store_vector(lanes, out, case, 10, line[0])
+        store_vector(lanes, out, case, 13, line[1])
+        store_vector(lanes, out, case, 16, line[2])
+
+
+@entry
+def ribs(lanes: Any, states: Any, out: Any, rib: Any, damping: Any) -> None:
+    """Rib contact of each case (inputs as `raceways`): force, moment, energy."""
+    for case in range(states.shape[0]):
+        contact = rib_contact(
+            load_vector(lanes, states, case, 0),
+            load_vector(lanes, states, case, 3),
+            load_vector(lanes, states, case, 9),
+            load_vector(lanes, states, case, 12),
+            load_vector(lanes, states, case, 6),
+            load_vector(lanes, states, case, 15),
+            load_vector(lanes, states, case, 18),
+            rib,
+            damping,
+        )
+        force, moment = rib_wrench((contact[0], contact))
+        store_vector(lanes, out, case, 0, force)
+        store_vector(lanes, out, case, 3, moment)
+        lanes.store(out, case, 6, contact[6])
+
+
+@entry
+def pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
+    """Pocket contact of each case (inputs as `raceways`, advance in the place of the oversize)."""
+    for case in range(states.shape[0]):
+        touches, _bar = pocket_contact(
+            load_vector(lanes, states, case, 0),
+            load_vector(lanes, states, case, 3),
+            load_vector(lanes, states, case, 9),
+            load_vector(lanes, states, case, 12),
+            lanes.load(states, case, 21),
+            load_vector(lanes, states, case, 6),
+            load_vector(lanes, states, case, 15),
+            load_vector(lanes, states, case, 18),
+            roller,
+            cage,
+        )
+        force, moment, energy = pocket_sum(touches)
+        store_vector(lanes, out, case, 0, force)
+        store_vector(lanes, out, case, 3, moment)
+        lanes.store(out, case, 6, energy)
+
+
+@entry
+def solves(lanes: Any, systems: Any, out: Any) -> None:
+    """Solve systems [case, 21 + 6, lane] into out [case, 6, lane]."""
+    for case in range(systems.shape[0]):
+        matrix = (
+            lanes.load(systems, case, 0), lanes.load(systems, case, 1), lanes.load(systems, case, 2),
+            lanes.load(systems, case, 3), lanes.load(systems, case, 4), lanes.load(systems, case, 5),
+            lanes.load(systems, case, 6), lanes.load(systems, case, 7), lanes.load(systems, case, 8),
+            lanes.load(systems, case, 9), lanes.load(systems, case, 10), lanes.load(systems, case, 11),
+            lanes.load(systems, case, 12), lanes.load(systems, case, 13), lanes.load(systems, case, 14),
+            lanes.load(systems, case, 15), lanes.load(systems, case, 16), lanes.load(systems, case, 17),
+            lanes.load(systems, case, 18), lanes.load(systems, case, 19), lanes.load(systems, case, 20),
+        )  # fmt: skip
+        right = (
+            lanes.load(systems, case, 21), lanes.load(systems, case, 22), lanes.load(systems, case, 23),
+            lanes.load(systems, case, 24), lanes.load(systems, case, 25), lanes.load(systems, case, 26),
+        )  # fmt: skip
+        first, second = solve(matrix, right)
+        store_vector(lanes, out, case, 0, first)
+        store_vector(lanes, out, case, 3, second)
+
+
+@entry
+def contact_matrices(lanes: Any, cases: Any, out: Any) -> None:
+    """A line and a point contact added to a zero matrix.
+
+    Inputs: direction, arm, arm slope, three weights; outputs: 21 entries each.
+    """
+    for case in range(cases.shape[0]):
+        zero = lanes.constant(0.0)
+        empty = (
+            zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero,
+            zero, zero, zero, zero, zero,
+        )  # fmt: skip
+        direction = load_vector(lanes, cases, case, 0)
+        arm = load_vector(lanes, cases, case, 3)
+        slope = load_vector(lanes, cases, case, 6)
+        weights = load_vector(lanes, cases, case, 9)
+        line = add_line(empty, direction, arm, slope, weights)
+        point = add_point(empty, direction, arm, weights[0])
+        for i in range(7):
+            store_vector(lanes, out, case, 3 * i, (line[3 * i], line[3 * i + 1], line[3 * i + 2]))
+            store_vector(lanes, out, case, 21 + 3 * i, (point[3 * i], point[3 * i + 1], point[3 * i + 2]))
+
+
+@entry
+def frictions(lanes: Any, cases: Any, out: Any, lamina: Any, ring: Any, p: Any) -> None:
+    """Film thickness (log2) and friction rate: inputs load, slip squared, entrainment speed."""
+    for case in range(cases.shape[0]):
+        load = lanes.load(cases, case, 0)
+        log2_speed = log2_entrainment(lanes.load(cases, case, 2), p.effects.film)
+        thickness = log2_film_thickness(load, log2_speed, lamina, ring, p.laminae, p.effects.film)
+        rate = friction_rate(load, lanes.load(cases, case, 1), thickness, lamina, ring, p.laminae, p.effects)
+        lanes.store(out, case, 0, thickness + lanes.constant(0.0))
+        lanes.store(out, case, 1, rate + lanes.constant(0.0))
+
+
+@entry
+def spalls(lanes: Any, azimuths: Any, out: Any, lamina: Any, roller_radius: Any, spall: Any) -> None:
+    """Spall gap at azimuths [case, 1, lane], all cases seen by block 0."""
+    for case in range(azimuths.shape[0]):
+        gap = spall_gap(lanes, 0, lanes.load(azimuths, case, 0), lamina, roller_radius, spall)
+        lanes.store(out, case, 0, gap + lanes.constant(0.0))

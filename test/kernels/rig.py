@@ -1,0 +1,160 @@
+"""Drive `advance` directly: any lane width, any number of steps, any change of parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.config import load_scene
+from beardyn_core.effects import EffectSet
+from beardyn_core.integrate.imex import advance
+from beardyn_core.integrate.state import State, WorkSpace, initial_state, work_space
+from beardyn_core.integrate.static import solve
+from beardyn_core.kernels.lanes import Lanes
+from beardyn_core.model.arrangement import Arrangement
+from beardyn_core.model.build import build_parameters
+from beardyn_core.model.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
+from beardyn_core.model.parameters import Parameters
+from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+
+Float = NDArray[np.float64]
+
+SPEED = 122.0
+LOAD_80_KN = (0.0, 0.0, 8.0e4)
+
+
+@cache
+def standard_scene() -> Scene:
+    """The shipped 80 kN scene: cup held, no play, standard effects."""
+    return load_scene("static_80kN")
+
+
+def scene_with(
+    effects: EffectSet | None = None,
+    *,
+    end_play: float | None = None,
+    defects: tuple[Spall, ...] = (),
+    laminae: int = 6,
+    steps_per_sample: int = 4,
+    roller_count: int | None = None,
+    **mounting: Any,
+) -> Scene:
+    """The standard scene with a few things changed."""
+    scene = standard_scene()
+    bearing = scene.bearing
+    if roller_count is not None:
+        bearing = replace(bearing, roller_count=roller_count)
+    return replace(
+        scene,
+        bearing=bearing,
+        effects=scene.effects if effects is None else effects,
+        end_play=scene.end_play if end_play is None else end_play,
+        defects=defects,
+        mounting=replace(scene.mounting, **mounting),
+        numerics=replace(scene.numerics, laminae=laminae, steps_per_sample=steps_per_sample),
+    )
+
+
+@dataclass
+class Rig:
+    """A bearing under a constant load, stepped by hand.
+
+    Parameters
+    ----------
+    scene : Scene
+    width : int
+        Lanes.
+    load : float64 array, shape [10]
+        Wrench on the journal, shaft speed, bogie displacement.
+    """
+
+    scene: Scene
+    arrangement: Arrangement
+    parameters: Parameters
+    state: State
+    work: WorkSpace
+    load: Float
+    audit: Float
+
+    @staticmethod
+    def at_equilibrium(
+        scene: Scene,
+        force: tuple[float, float, float] = LOAD_80_KN,
+        speed: float = SPEED,
+        *,
+        width: int = 8,
+        cage_ratio: float = 1.0,
+    ) -> Rig:
+        bearing = scene.bearing
+        arrangement = Arrangement(bearing.roller_count, width)
+        static = solve(
+            bearing,
+            np.array(force),
+            end_play=scene.end_play,
+            laminae=scene.numerics.laminae,
+            speed=speed,
+        )
+        orbit = cage_ratio * cage_speed(bearing, speed)
+        parameters = build_parameters(scene, arrangement, np.zeros(6))
+        state = initial_state(bearing, arrangement, static, speed, orbit)
+        load = np.array([*force, 0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0])
+        return Rig(
+            scene, arrangement, parameters, state, work_space(arrangement), load, np.zeros(ENERGY_TERMS)
+        )
+
+    def run(
+        self, steps: int, trends: int = 1, kernel: Callable[..., None] = advance
+    ) -> tuple[Float, Float, Float]:
+        """Advance; returns signals [step, channel] and trends of rollers and bodies."""
+        signals = np.zeros((steps, SIGNAL_CHANNELS))
+        rollers = np.zeros((trends, *self.state.rollers.shape))
+        bodies = np.zeros((trends, *self.state.bodies.shape))
+        loads = np.repeat(self.load[None], steps + 1, axis=0)
+        work = self.work
+        kernel(
+            Lanes(self.arrangement.width), self.state.rollers, self.state.bodies, work.rings, work.sums,
+            work.wrenches, work.box, loads, signals, rollers, bodies, self.state.energy, self.audit,
+            self.parameters,
+        )  # fmt: skip
+        return signals, rollers, bodies
+
+    def fields(self) -> Float:
+        """Roller fields [field, row, roller]."""
+        return self.arrangement.to_rollers(np.moveaxis(self.state.rollers, 1, 0))
+
+    def set_fields(self, fields: Float) -> None:
+        """Write roller states [ROLLER_STATES, row, roller]."""
+        for field in range(ROLLER_STATES):
+            self.state.rollers[:, field] = self.arrangement.to_lanes(fields[field])
+
+
+def constant_load(
+    force: tuple[float, float, float], speed: float, duration: float = 10.0, *moment: float
+) -> LoadHistory:
+    """One load and one speed."""
+    wrench = np.array([*force, *(moment or (0.0, 0.0, 0.0))])
+    times = np.array([0, round(duration * 1e9)], dtype=np.int64)
+    return LoadHistory(times, np.repeat(wrench[None], 2, axis=0), np.full(2, speed), np.zeros((2, 3)))
+
+
+def stepped_load(points: list[tuple[float, tuple[float, float, float], float]]) -> LoadHistory:
+    """Points of time [s], force on the journal [N] and shaft speed [rad/s], linear in between."""
+    times = np.array([round(time * 1e9) for time, _, _ in points], dtype=np.int64)
+    wrench = np.array([[*force, 0.0, 0.0, 0.0] for _, force, _ in points])
+    return LoadHistory(times, wrench, np.array([s for _, _, s in points]), np.zeros((len(points), 3)))
+
+
+def started(scene: Scene, load: LoadHistory) -> Twin:
+    """A twin at t = 0."""
+    twin = Twin(scene)
+    twin.start(load)
+    return twin
