@@ -63,7 +63,8 @@ def envelope_spectrum(run: Heard) -> tuple[NDArray[np.float64], NDArray[np.float
     envelope = np.abs(hilbert(sosfiltfilt(band, run.vibration[:, 2])))
     window = np.hanning(len(envelope))
     amplitude = np.abs(np.fft.rfft((envelope - envelope.mean()) * window)) * 2.0 / window.sum()
-    return np.fft.rfftfreq(len(envelope), 1.0 / WAVEFORM_RATE) / run.shaft_frequency, amplitude
+    frequency = np.fft.rfftfreq(len(envelope), 1.0 / WAVEFORM_RATE)
+    return np.asarray(frequency / run.shaft_frequency, dtype=np.float64), amplitude
 
 
 def line(orders: NDArray[np.float64], amplitude: NDArray[np.float64], order: float) -> float:
