@@ -15,7 +15,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow lint format clean
+.PHONY: help demo test slow bench lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -29,6 +29,9 @@ test: $(VENV)/.ready-test ## set up, then the tests
 
 slow: $(VENV)/.ready-test ## set up, then the long tests as well
 	@$(BIN)/python -m pytest -m "slow or not slow" $(ARGS)
+
+bench: $(VENV)/.ready ## set up, then the real-time factor of every shipped scene
+	@$(BIN)/python benchmarks/real_time_factor.py $(ARGS)
 
 lint: $(VENV)/.ready-dev ## style, types and the direction of imports
 	@failed=; \
