@@ -9,7 +9,7 @@ from scipy.signal import firwin, kaiserord, upfirdn
 from beardyn_core.errors import InputError
 from beardyn_core.rail.irregularity import rail_profile
 from beardyn_core.rail.measured import read_measurement
-from beardyn_core.rail.vehicle import quarter_vehicle, ride
+from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
@@ -94,6 +94,39 @@ def _rise(time: Float, ramp: float) -> Float:
     return 0.5 - 0.5 * np.cos(np.pi * np.clip(time / ramp, 0.0, 1.0))
 
 
+def ride_of(
+    operation: QuarterVehicleOperation, mounting: Mounting, duration: float, seed: int
+) -> tuple[Ride, float]:
+    """The rail model's own motion behind a load history.
+
+    Parameters
+    ----------
+    operation : QuarterVehicleOperation
+    mounting : Mounting
+    duration : float
+        [s].
+    seed : int
+
+    Returns
+    -------
+    Ride
+    step : float
+        Its time step, [s].
+    """
+    rate = SAMPLE_RATE * RIDE_FACTOR
+    return _ride(operation, mounting, round(duration * rate) + 1, seed), 1.0 / rate
+
+
+def _ride(operation: QuarterVehicleOperation, mounting: Mounting, steps: int, seed: int) -> Ride:
+    rate = SAMPLE_RATE * RIDE_FACTOR
+    time = np.arange(steps) / rate
+    position = distance_at(operation.speed_profile, time)
+    profile = rail_profile(operation.irregularity, float(position[-1]), seed)
+    height = profile.height_at(position)
+    height = (height - height[0]) * _rise(time, FADE_IN)
+    return ride(quarter_vehicle(operation, mounting), height, 1.0 / rate)
+
+
 def _quarter_vehicle(
     operation: QuarterVehicleOperation, mounting: Mounting, count: int, seed: int
 ) -> LoadHistory:
@@ -103,16 +136,11 @@ def _quarter_vehicle(
     wrench has no moment. Above 0.8 kHz the signal is filtered away; the ringing of the filter around a
     loss of contact may take the force below that of an open contact.
     """
-    rate = SAMPLE_RATE * RIDE_FACTOR
     kernel = _low_pass(RIDE_FACTOR)
     # run past the end by what the filter looks ahead
-    time = np.arange((count - 1) * RIDE_FACTOR + 1 + len(kernel) // 2) / rate
-    position = distance_at(operation.speed_profile, time)
-    profile = rail_profile(operation.irregularity, float(position[-1]), seed)
-    height = profile.height_at(position)
-    height = (height - height[0]) * _rise(time, FADE_IN)
+    steps = (count - 1) * RIDE_FACTOR + 1 + len(kernel) // 2
+    response = _ride(operation, mounting, steps, seed)
     vehicle = quarter_vehicle(operation, mounting)
-    response = ride(vehicle, height, 1.0 / rate)
     wrench = np.zeros((count, 6))
     wrench[:, 1] = operation.lateral_force
     wrench[:, 2] = _decimate(response.contact_force, RIDE_FACTOR, kernel)[:count] - vehicle.journal_weight
