@@ -7,7 +7,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account, implicit_time, output_contact, react, watch_chatter
 from beardyn_core.kernels.film import film_output, log2_entrainment
-from beardyn_core.kernels.lane_math import at_least, sqrt
+from beardyn_core.kernels.lane_math import at_least, at_most, sqrt
 from beardyn_core.kernels.orbit import entrainment_speed
 from beardyn_core.kernels.raceway import generator_line, lamina_sums, line_wrench, power, sliding, weighted
 from beardyn_core.kernels.solve import add_line
@@ -154,7 +154,9 @@ def finish_raceway(
         contact, change, p.step, p.effects.damping
     )
     react(lanes, sums, ring, mask, centre, force, moment, cosine, sine)
+    # a grazing contact has hardly any force to divide by
     pressure_centre = normal[1] / at_least(normal[0], 1e-3)
+    pressure_centre = at_most(at_least(pressure_centre, -p.roller.half_length), p.roller.half_length)
     arm = add_scaled(line[0], pressure_centre, line[1])
     sliding_speed = sqrt(slip[1][0] * slip[1][0] + slip[2][0] * slip[2][0])
     film = film_output(normal[0], log2_speed, ring, p.laminae, p.effects.film) + lanes.constant(0.0)

@@ -351,5 +351,11 @@ def _sentence(best: _Candidate, called: bool, shaft_frequency: float, settings: 
     return (
         f"{best.pattern.fault} fault: {symbol} found at {best.order * shaft_frequency:.2f} Hz, "
         f"{best.pattern.order * shaft_frequency:.2f} Hz from geometry ({deviation:+.2f} %), "
-        f"{best.score:.1f} dB over the background"
+        f"{_fundamental_level(best):.1f} dB over the background, score {best.score:.1f} dB"
     )
+
+
+def _fundamental_level(candidate: _Candidate) -> float:
+    """Level of the fundamental over the background; of the strongest line when it was not found, [dB]."""
+    levels = [line.level for line in candidate.lines if line.expected_order == candidate.pattern.order]
+    return levels[0] if levels else max((line.level for line in candidate.lines), default=float("nan"))
