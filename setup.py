@@ -17,7 +17,15 @@ ROS_WHEELS = [
     "ros-kilted-std-msgs==5.5.1",
     "ros-kilted-std-srvs==5.5.1",
 ]
-TEST = ["hypothesis>=6.100", "mcap-ros2-support>=0.5", "psutil>=5.9", "pytest>=8", "setuptools>=64", "wheel"]
+TEST = [
+    "hypothesis>=6.100",
+    "jsonschema>=4.18",
+    "mcap-ros2-support>=0.5",
+    "psutil>=5.9",
+    "pytest>=8",
+    "setuptools>=64",
+    "wheel",
+]
 DEV = [
     "import-linter>=2",
     "mypy>=1.11",

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
-from beardyn_ros.runtime import EXIT_BAD_INPUT
+from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_CODES
 
 PROGRAMS = {
     "twin": ("twin_node", "simulate the bearing and publish what its sensors read"),
@@ -43,6 +43,7 @@ def usage() -> str:
     """Overview of the programs."""
     lines = ["usage: python -m beardyn_ros NODE [--ros-args -p NAME:=VALUE ... --params-file FILE]", ""]
     lines += [f"  {name:9} {purpose}" for name, (_, purpose) in PROGRAMS.items()]
+    lines += ["", "exit codes:", *(f"  {code:<9} {meaning}" for code, meaning in EXIT_CODES.items())]
     return "\n".join([*lines, "", "`python -m beardyn_ros NODE --help` lists a node's parameters."])
 
 

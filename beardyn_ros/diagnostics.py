@@ -17,6 +17,7 @@ OK, WARN, ERROR = 0, 1, 2
 TWIN = "twin"
 RECORDER = "recorder"
 MONITOR = "monitor"
+LONGEST_LIVE_LAG_S = 0.5
 
 
 def diagnostic_name(namespace: str, part: str) -> str:
@@ -42,8 +43,12 @@ def twin_diagnostic(
     level, sentence = OK, report.sentence
     if report.state == STOPPED:
         level = ERROR
-    elif refused.count or lost_messages:
-        level = WARN
+    else:
+        lags = mode == "live" and report.lag_s > LONGEST_LIVE_LAG_S
+        if refused.count or lost_messages or lags:
+            level = WARN
+        if lags and report.state not in END_STATES:
+            sentence += f"; the run is {report.lag_s:.2f} s behind the wall clock"
         if refused.count:
             sentence += f"; {refused.count} load message(s) refused, the last: {refused.last_sentence}"
         if lost_messages:
@@ -71,7 +76,7 @@ def twin_diagnostic(
             ("energy_residual", f"{report.energy_residual:.3e}"),
         ]
     if mode == "live":
-        values.append(("load_age", f"{report.load_age:.3f}"))
+        values += [("load_age", f"{report.load_age:.3f}"), ("lag", f"{report.lag_s:.3f}")]
     else:
         values.append(("load_queue", str(report.load_waiting)))
     values.append(("refused_messages", str(refused.count)))

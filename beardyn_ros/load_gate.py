@@ -16,7 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.scene.load import WRENCH_AXES, LoadHistory
-from beardyn_core.scene.load_buffer import LARGEST_DISPLACEMENT, LARGEST_FORCE, LARGEST_MOMENT, LARGEST_SPEED
+from beardyn_core.scene.load_buffer import (
+    LARGEST_DISPLACEMENT,
+    LARGEST_FORCE,
+    LARGEST_MOMENT,
+    LARGEST_SPEED,
+    speed_jump,
+)
 
 
 @dataclass(frozen=True)
@@ -113,7 +119,7 @@ class LoadGate:
         self._expected = expected
         self._after_reset = expected is not None
         self._hole_until = -1
-        self._last_ns: int | None = None
+        self._last: LoadHistory | None = None
         self.ended = False
         self.failure = ""
 
@@ -142,7 +148,7 @@ class LoadGate:
             self._parts.append(load)
             self._waiting += len(load)
             self._expected = int(samples[-1]) + 1
-            self._last_ns = int(load.time_ns[-1])
+            self._last = load.part(len(load) - 1, len(load))
             self.condition.notify_all()
         return None
 
@@ -178,10 +184,14 @@ class LoadGate:
                 "gap",
                 f"{first_sample - self._expected} samples are missing from sample {self._expected} on",
             )
-        if self._last_ns is not None and load.time_ns[0] <= self._last_ns:
+        if self._last is not None and load.time_ns[0] <= self._last.time_ns[0]:
             return "out of order", (
-                f"it begins at {load.time_ns[0] / 1e9:.6f} s, not after {self._last_ns / 1e9:.6f} s"
+                f"it begins at {load.time_ns[0] / 1e9:.6f} s, not after {self._last.time_ns[0] / 1e9:.6f} s"
             )
+        run = load if self._last is None else joined([self._last, load])
+        jump = speed_jump(run.time_ns, run.shaft_speed)
+        if jump is not None:
+            return "absurd", jump
         if self._waiting + len(load) > self.capacity:
             sentence = (
                 f"{self._waiting + len(load)} load samples are waiting, the queue holds {self.capacity}: the "
@@ -296,6 +306,9 @@ class LiveLoad:
                     "out of order",
                     f"its stamp {stamp_ns / 1e9:.6f} s is not after {self._stamp[topic] / 1e9:.6f} s",
                 )
+            if problem is None and speed is not None and self._speed is not None and topic in self._stamp:
+                jump = speed_jump(np.array([self._stamp[topic], stamp_ns]), np.array([self._speed, speed]))
+                problem = ("absurd", jump) if jump else None
             if problem is not None:
                 return self.refusals.add(problem[0], f"{topic} refused: {problem[1]}")
             self._stamp[topic] = stamp_ns

@@ -32,6 +32,7 @@ LAST_WORDS_TIMEOUT_S = 5.0
 ALONE_TIMEOUT_S = 3.0
 SETTLED_AFTER_S = 0.3  # a recorder may be found a moment later than the twin
 LOOK_PERIOD_S = 0.1
+IDLE_PERIOD_S = 0.2
 
 PARAMETERS = (
     NodeParameter(
@@ -44,7 +45,7 @@ PARAMETERS = (
     NodeParameter(
         "mode",
         "lockstep",
-        "lockstep sends load/blocks; live sends load/wrench and load/shaft",
+        "lockstep sends load/blocks; live sends load/wrench and load/shaft, stamped in time of the load",
         choices=("lockstep", "live"),
     ),
     NodeParameter("horizon", 1.0, "how far to stay ahead of the credit", "s", minimum=0.1, maximum=60.0),
@@ -53,7 +54,14 @@ PARAMETERS = (
         "live_rate", 200.0, "messages per wall second in live mode", "Hz", minimum=1.0, maximum=1000.0
     ),
     NodeParameter(
-        "speed_factor", 1.0, "simulated seconds per wall second in live mode", minimum=0.01, maximum=100.0
+        "speed_factor",
+        1.0,
+        "simulated seconds per wall second in live mode, 0 means 1, as in the twin",
+        minimum=0.0,
+        maximum=100.0,
+    ),
+    NodeParameter(
+        "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
     ),
     NodeParameter("exit_when_done", True, "end the process when everything is replayed and received"),
 )
@@ -94,11 +102,11 @@ class LoadNode(Node):
         self._listeners_since = time.monotonic()
         self._heard = False
         self._looked_at = 0.0
-        self._alone_since = time.monotonic()
+        self._alone_since = self._twinless_since = time.monotonic()
         span = (self._history.time_ns[-1] - self._history.time_ns[0]) * 1e-9
         self.get_logger().info(f"{len(self._history)} load samples over {span:.2f} s, waiting for a twin")
-        period = 1.0 / self._values.live_rate if self._live else PUMP_PERIOD_S
-        self.create_timer(period, self._pump_live if self._live else self._pump)
+        self._busy_period_s = 1.0 / self._values.live_rate if self._live else PUMP_PERIOD_S
+        self._timer = self.create_timer(IDLE_PERIOD_S, self._on_timer)
 
     def _restart(self) -> None:
         self._next = 0
@@ -117,6 +125,13 @@ class LoadNode(Node):
             self._restart()
         self._run_id = run_id
 
+    def _on_timer(self) -> None:
+        (self._pump_live if self._live else self._pump)()
+        idle = not self._announced or (self._ended and not self._values.exit_when_done)
+        period_ns = round((IDLE_PERIOD_S if idle else self._busy_period_s) * 1e9)
+        if self._timer.timer_period_ns != period_ns:
+            self._timer.timer_period_ns = period_ns
+
     def _twin_listens(self) -> bool:
         """Whether the twin gets what is sent; looked up at intervals, it costs more than a send."""
         now = time.monotonic()
@@ -134,6 +149,12 @@ class LoadNode(Node):
         elif self._values.exit_when_done and now - self._alone_since > ALONE_TIMEOUT_S:
             self.get_logger().error("the twin has gone before everything was replayed")
             self.exit_code, self.finished = EXIT_LOAD_LOST, True
+        timeout = self._values.start_timeout
+        if not self._announced and 0.0 < timeout < now - self._twinless_since:
+            self.get_logger().error(
+                f"there has been no twin in {self.get_namespace()} for start_timeout = {timeout:g} s"
+            )
+            self.exit_code, self.finished = EXIT_LOAD_LOST, True
         return self._heard
 
     def _all_connected(self) -> bool:
@@ -147,6 +168,8 @@ class LoadNode(Node):
             self._listeners, self._listeners_since = counts, time.monotonic()
         givers = self.get_publishers_info_by_topic(self.resolve_topic_name("load/consumed"))
         twins = {(info.node_namespace, info.node_name) for info in givers}
+        if twins:
+            self._twinless_since = time.monotonic()
         for name, count in zip(names, counts, strict=True):
             known = self.get_subscriptions_info_by_topic(self.resolve_topic_name(name))
             if count < len(known) or not twins & {(info.node_namespace, info.node_name) for info in known}:
@@ -175,8 +198,9 @@ class LoadNode(Node):
             return
         if self._live_begin is None:
             self._live_begin = time.monotonic()
+        pace = self._values.speed_factor or 1.0
         times = self._history.time_ns
-        now_ns = times[0] + round((time.monotonic() - self._live_begin) * self._values.speed_factor * 1e9)
+        now_ns = times[0] + round((time.monotonic() - self._live_begin) * pace * 1e9)
         index = int(np.searchsorted(times, now_ns, side="right")) - 1
         if index >= self._next:
             stamp, sample = int(times[index]), self._history.wrench[index]

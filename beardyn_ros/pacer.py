@@ -29,6 +29,7 @@ class Pacer:
             self._origin_s = 0.0
             self._now_s = 0.0
             self.late_blocks = 0
+            self.lag_s = 0.0  # of the last block behind its due time
 
     @property
     def speed_factor(self) -> float:
@@ -55,10 +56,11 @@ class Pacer:
             return self._due(end_ns) - time.monotonic()
 
     def check_late(self, end_ns: int) -> None:
-        """Count the block when it is handed over more than 40 ms past due."""
+        """Note how late the block is, and count it when that is more than 40 ms."""
         with self._lock:
-            if self._speed_factor > 0.0 and time.monotonic() - self._due(end_ns) > LATE_AFTER_S:
-                self.late_blocks += 1
+            if self._speed_factor > 0.0:
+                self.lag_s = max(time.monotonic() - self._due(end_ns), 0.0)
+                self.late_blocks += self.lag_s > LATE_AFTER_S
             self._now_s = end_ns * 1e-9
 
     def _due(self, end_ns: int) -> float:

@@ -14,7 +14,7 @@ from beardyn_core.record.topics import FRAME, TOPICS, Topic, topic
 from beardyn_ros.diagnostics import OK, RECORDER, WARN, diagnostic_name
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recording import Recording, parsed_truth
-from beardyn_ros.runtime import run_node
+from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
@@ -42,6 +42,9 @@ PARAMETERS = (
         "file to write, replaced when it exists; further runs get _2, _3; empty: <scene>_<date>.mcap here",
     ),
     NodeParameter("exit_when_done", True, "close the file and end the process when the twin has ended"),
+    NodeParameter(
+        "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
+    ),
 )
 
 
@@ -134,6 +137,17 @@ class RecorderNode(Node):
             self._end_when_complete()
         elif self._watch.vanished() and self._recording.current is not None:
             self._end("the twin has vanished without a last word")
+        if not self._recording.paths:
+            self._give_up_without_twin()
+
+    def _give_up_without_twin(self) -> None:
+        timeout = self._values.start_timeout
+        if 0.0 < timeout < self._watch.absent_for():
+            self.get_logger().error(
+                f"there has been no twin in {self.get_namespace()} for start_timeout = {timeout:g} s, "
+                "nothing is recorded"
+            )
+            self.exit_code, self.finished = EXIT_LOAD_LOST, True
 
     def _end_when_complete(self) -> None:
         if self._recording.current is None:

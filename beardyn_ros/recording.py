@@ -18,6 +18,8 @@ MESSAGES_BEFORE_TRUTH = 20_000
 COUNTED_CLOUDS = ("force_waveform", "bodies", "load/blocks")
 STAMP_STEPS_NS = {"force": 2_500_000, "imu": 2_500_000, "shaft": 2_500_000, "joint_states": 5_000_000}
 UNSTAMPED = (STRING,)
+LIVE_LOAD = ("load/wrench", "load/shaft")  # stamped by the clock of their source, whichever that is
+SIMULATED = ("force", "force_waveform", "vibration", "imu", "shaft", "joint_states")
 
 
 class LossWatch:
@@ -74,6 +76,7 @@ class RunFile:
         self.problem = ""
         self.loss = LossWatch()
         self.last_ns: dict[str, int] = {}
+        self._simulated_ns = 0
         self._writer = McapWriter(path, namespace)
         if truth is None:
             self.problem = "no truth has come: the file does not say which scene it holds"
@@ -85,8 +88,12 @@ class RunFile:
             self.problem = str(error)
 
     def add(self, entry: Topic, cdr: bytes) -> None:
-        """Append one message."""
+        """Append one message; live load stands at the last simulated time seen, its header as it came."""
         stamp = 0 if entry.type in UNSTAMPED else header_stamp(cdr)
+        if entry.name in LIVE_LOAD:
+            stamp = self._simulated_ns
+        elif entry.name in SIMULATED:
+            self._simulated_ns = max(self._simulated_ns, stamp)
         last = self.last_ns.get(entry.name, 0)
         if entry.name == "load/blocks" and stamp < last:
             stamp = last  # the empty block that ends the stream carries no time
@@ -172,6 +179,8 @@ class Recording:
         assert self.current is not None
         if self._old is None or entry.name in self._switched or entry.type in UNSTAMPED:
             return self.current
+        if entry.name in LIVE_LOAD:
+            return self.current  # its clock may run on through a reset
         if header_stamp(cdr) > self._old.last_ns.get(entry.name, -1):
             return self._old
         self._switched.add(entry.name)

@@ -101,6 +101,8 @@ class SessionReport:
         Samples in the queue (lockstep).
     load_age : float
         Age of the held load (live), [s].
+    lag_s : float
+        How late the last block was on the wall clock, [s].
     waveform_samples : int
         Waveform samples delivered since the start of the run.
     """
@@ -119,5 +121,6 @@ class SessionReport:
     energy_residual: float = 0.0
     load_waiting: int = 0
     load_age: float = 0.0
+    lag_s: float = 0.0
     waveform_samples: int = 0
     recent: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=50))

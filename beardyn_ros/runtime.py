@@ -18,6 +18,14 @@ EXIT_DONE = 0
 EXIT_BAD_INPUT = 2
 EXIT_INVALID_MODEL = 3
 EXIT_LOAD_LOST = 4
+EXIT_CODES = {
+    EXIT_DONE: "done, or stopped by SIGINT or SIGTERM",
+    1: "demo only: a node has ended early or has fallen silent",
+    EXIT_BAD_INPUT: "bad input: an argument, a parameter, a scene or another file",
+    EXIT_INVALID_MODEL: "the model has left its validity, or the twin has failed",
+    EXIT_LOAD_LOST: "the load never came, stopped coming or overflowed; load and recorder: there is no twin",
+    130: "demo only: interrupted by Ctrl+C",
+}
 
 SPIN_SLICE_S = 0.1
 
@@ -45,8 +53,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
     Returns
     -------
     int
-        0 done or stopped by SIGINT or SIGTERM, 2 bad input, 3 the model left its validity, 4 the load
-        stopped coming.
+        One of `EXIT_CODES`.
     """
     prepare_environment()
     if not ros_available():

@@ -151,7 +151,7 @@ class TwinSession:
         report.load_waiting = self.gate.waiting
         held = self.live.held() if self.options.mode == "live" else None
         report.load_age = held.age if held else 0.0
-        report.late_blocks = self.pacer.late_blocks
+        report.late_blocks, report.lag_s = self.pacer.late_blocks, self.pacer.lag_s
         if len(recent) > 1:
             (wall_0, simulated_0), (wall_1, simulated_1) = recent[0], recent[-1]
             report.window_rtf = (simulated_1 - simulated_0) / max(wall_1 - wall_0, 1e-9)
@@ -196,6 +196,7 @@ class TwinSession:
             self._report = SessionReport(state=READY, sentence="reset")
         self.gate.restart()
         self.live.forget_order()
+        self.pacer.begin()
 
     def _one_run(self, rig: Rig) -> None:
         twin, description = rig.twin, rig.description
@@ -223,7 +224,13 @@ class TwinSession:
             self.pacer.shift(starved)
             block = twin.advance()
             self._deliver(twin, block, time.monotonic() - begin - waited, starved)
-        self._set_state(FINISHED, "the load stream has ended, every block that it covers is published")
+        sentence = "the load stream has ended, every block that it covers is published"
+        if self.options.mode == "live":
+            sentence = (
+                f"the live load has ended at simulated t = {self._report.simulated_s:.3f} s, "
+                f"{self.pacer.lag_s:.2f} s behind the wall clock"
+            )
+        self._set_state(FINISHED, sentence)
 
     def _first_load(self, block_ns: int) -> LoadHistory:
         topics = "load/wrench and load/shaft" if self.options.mode == "live" else "load/blocks"

@@ -1,8 +1,7 @@
 """The lifecycle node of the twin.
 
 Parameters: `PARAMETERS`. Services: ``~/../pause`` (SetBool), ``step`` and ``reset`` (Trigger), all in
-the node's namespace. Exit codes: 0 the load stream has ended or the process was told to stop, 2 bad
-input, 3 the model left its validity, 4 the load stopped coming or overflowed.
+the node's namespace. Exit codes: `beardyn_ros.runtime.EXIT_CODES`.
 """
 
 from __future__ import annotations
@@ -51,14 +50,15 @@ PARAMETERS = (
     NodeParameter(
         "mode",
         "lockstep",
-        "lockstep waits for load/blocks; live holds the last load/wrench and load/shaft",
+        "lockstep waits for load/blocks; live holds the last load/wrench and load/shaft, whose stamps may "
+        "be of any one clock as long as they increase",
         choices=("lockstep", "live"),
     ),
     NodeParameter(
         "speed_factor",
         0.0,
-        "simulated seconds per wall second, 1 is real time, 0 is as fast as it goes; "
-        "results do not depend on it",
+        "simulated seconds per wall second, 1 is real time, 0 is as fast as it goes (in live mode: 1); "
+        "in lockstep the results do not depend on it",
         minimum=0.0,
         maximum=1000.0,
         live=True,
@@ -108,11 +108,6 @@ class TwinNode(LifecycleNode):
         self.exit_code = 0
         self._load_rig = load_rig or scene_rig
         self._values = ParameterValues(self, PARAMETERS)
-        if self._values.mode == "live" and self._values.speed_factor == 0.0:
-            raise InputError(
-                "node twin: mode 'live' needs a clock, but speed_factor is 0 (as fast as it goes); "
-                "set speed_factor to 1.0"
-            )
         self._session: TwinSession | None = None
         self._consumed_ns: int | None = None
         self._clock_ns = 0
@@ -128,7 +123,6 @@ class TwinNode(LifecycleNode):
         self.create_service(SetBool, "pause", self._on_pause)
         self.create_service(Trigger, "step", self._on_step)
         self.create_service(Trigger, "reset", self._on_reset)
-        self.add_on_set_parameters_callback(self._refuse_live_without_pace)
         self.add_post_set_parameters_callback(self._on_parameters)
         if self._values.autostart:
             self._autostart = self.create_timer(0.0, self._start_up)
@@ -158,7 +152,7 @@ class TwinNode(LifecycleNode):
             max_age=values.max_age,
             queue_samples=round(values.load_queue * LOAD_RATE_HZ),
         )
-        self._session = TwinSession(make_rig, options, values.speed_factor, self._guard.trigger)
+        self._session = TwinSession(make_rig, options, self._speed_factor, self._guard.trigger)
         if not self._intake.publisher_counts():
             self._intake.add(topic("load/blocks"), self._on_load)
             if values.mode == "live":
@@ -266,20 +260,16 @@ class TwinNode(LifecycleNode):
         response.success, response.message = not problem, problem or done
         return response
 
-    def _refuse_live_without_pace(self, changes: Sequence[Any]) -> Any:
-        from rcl_interfaces.msg import SetParametersResult
-
-        for change in changes:
-            if change.name == "speed_factor" and change.value == 0.0 and self._values.mode == "live":
-                return SetParametersResult(
-                    successful=False, reason="mode 'live' needs a speed_factor above 0"
-                )
-        return SetParametersResult(successful=True)
+    @property
+    def _speed_factor(self) -> float:
+        """Pace of the run; live load needs a clock, so there 0 means real time."""
+        factor = float(self._values.speed_factor)
+        return factor or (1.0 if self._values.mode == "live" else 0.0)
 
     def _on_parameters(self, changes: Sequence[Any]) -> None:
         for change in changes:
             if change.name == "speed_factor" and self._session is not None:
-                self._session.pacer.set_speed_factor(float(change.value))
+                self._session.pacer.set_speed_factor(self._speed_factor)
 
     # --- publishing --------------------------------------------------------------------------------
 
@@ -311,7 +301,7 @@ class TwinNode(LifecycleNode):
             self._out.publish("/clock", encode_clock(outgoing.clock_ns))
         self._out.publish("load/consumed", encode_time(outgoing.consumed_ns))
         self._blocks_unconfirmed += 1
-        if self._blocks_unconfirmed >= BLOCKS_BEFORE_CONFIRMATION and self._values.speed_factor == 0.0:
+        if self._blocks_unconfirmed >= BLOCKS_BEFORE_CONFIRMATION and self._speed_factor == 0.0:
             self._wait_for_readers()
 
     def _wait_for_readers(self) -> None:
@@ -338,7 +328,7 @@ class TwinNode(LifecycleNode):
             self._session.refusals.report(),
             self._out.lost_messages,
             self._values.mode,
-            self._values.speed_factor,
+            self._speed_factor,
             sum(self._intake.publisher_counts().values()),
         )
         self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, FRAME, [status]))

@@ -26,6 +26,7 @@ class TwinWatch:
         self._publisher_count = publisher_count
         self._seen = False
         self._missing_since: float | None = None
+        self._absent_since = time.monotonic()
         self.last: Diagnostic | None = None
 
     def hear(self, statuses: tuple[Diagnostic, ...]) -> None:
@@ -48,6 +49,12 @@ class TwinWatch:
     def end_sentence(self) -> str:
         """Empty when the run ended as asked."""
         return "" if self.value("state") == FINISHED or self.last is None else self.last.message
+
+    def absent_for(self) -> float:
+        """Seconds since the twin was last there, or since the start of the watch, [s]."""
+        if self._publisher_count() > 0:
+            self._absent_since = time.monotonic()
+        return time.monotonic() - self._absent_since
 
     def vanished(self) -> bool:
         """Whether the twin was there and is gone without a word."""

@@ -13,6 +13,7 @@ from beardyn_core.record.messages import decode_diagnostics
 from beardyn_core.record.rerun_live import LiveView
 from beardyn_core.record.rerun_stream import live_stream
 from beardyn_core.record.topics import topic
+from beardyn_core.record.viewer import has_display
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node
 from beardyn_ros.twin_watch import TwinWatch
@@ -49,6 +50,11 @@ class ViewerNode(Node):
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
+        if self._values.target == "window" and not has_display():
+            raise InputError(
+                "node viewer: no display is set (DISPLAY, WAYLAND_DISPLAY): use `-p target:=web` for a page "
+                "in a browser, or `-p target:=file` for an .rrd file"
+            )
         self._stack = ExitStack()
         stream = self._stack.enter_context(
             live_stream(self._values.target, Path(self._values.output).expanduser(), self._values.port)

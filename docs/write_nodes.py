@@ -10,6 +10,7 @@ from pathlib import Path
 
 from beardyn_core.record.topics import TOPICS
 from beardyn_ros.__main__ import PROGRAMS
+from beardyn_ros.runtime import EXIT_CODES
 
 PAGE = Path(__file__).with_name("nodes.md")
 NODES = ("twin", "load", "recorder", "monitor", "viewer")
@@ -20,7 +21,7 @@ Written by `python docs/write_nodes.py` from the tables in the code.
 
 Every node starts with `ros2 run beardyn NODE` or `python -m beardyn_ros NODE`, takes parameters as
 `--ros-args -p NAME:=VALUE` or `--params-file FILE`, refuses unknown names and bad values with a
-sentence, ends cleanly on SIGINT and SIGTERM, and with code 2 on bad input.
+sentence, and ends cleanly on SIGINT and SIGTERM.
 """
 
 SERVICES = """
@@ -55,7 +56,8 @@ def parameter_rows(node: str) -> list[str]:
 
 def page() -> str:
     """The whole page."""
-    lines = [HEAD]
+    lines = [HEAD, "| exit code | meaning |", "|---|---|"]
+    lines += [*(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items()), ""]
     for node in NODES:
         lines += [f"## {node}", "", f"{PROGRAMS[node][1].capitalize()}.", ""]
         lines += ["| parameter | type | default | allowed | meaning |", "|---|---|---|---|---|"]

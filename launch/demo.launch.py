@@ -13,11 +13,15 @@ def generate_launch_description() -> LaunchDescription:
     return LaunchDescription(
         [
             DeclareLaunchArgument("scene", default_value="cup_spall", description="scene by name or path"),
+            DeclareLaunchArgument("mode", default_value="lockstep", description="lockstep or live"),
+            DeclareLaunchArgument("csv", default_value="", description="CSV file replayed as load"),
             DeclareLaunchArgument("output", default_value="run.mcap", description="file of the recorder"),
             IncludeLaunchDescription(
                 twin,
                 launch_arguments={
                     "scene": LaunchConfiguration("scene"),
+                    "mode": LaunchConfiguration("mode"),
+                    "csv": LaunchConfiguration("csv"),
                     "output": LaunchConfiguration("output"),
                     "speed_factor": "0.0",
                     "recorder": "true",

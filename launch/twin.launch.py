@@ -10,7 +10,9 @@ from launch_ros.parameter_descriptions import ParameterValue
 ARGUMENTS = (
     ("namespace", "axlebox", "namespace of the axlebox; several twins live side by side"),
     ("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
-    ("speed_factor", "1.0", "simulated seconds per wall second, 0 is as fast as it goes"),
+    ("mode", "lockstep", "lockstep or live: how twin and load talk to each other"),
+    ("csv", "", "CSV file of time, speed and force for the load node; empty: the scene's operation"),
+    ("speed_factor", "1.0", "simulated seconds per wall second, 0 is as fast as it goes (live: 1)"),
     ("publish_clock", "true", "publish /clock; one twin of several"),
     ("load", "true", "start the load node too; false: the load comes from elsewhere"),
     ("recorder", "false", "start the recorder too"),
@@ -38,9 +40,11 @@ def generate_launch_description() -> LaunchDescription:
             output="screen",
         )
 
+    pace = ParameterValue(LaunchConfiguration("speed_factor"), value_type=float)
     twin = {
         "scene": text("scene"),
-        "speed_factor": ParameterValue(LaunchConfiguration("speed_factor"), value_type=float),
+        "mode": text("mode"),
+        "speed_factor": pace,
         "publish_clock": ParameterValue(LaunchConfiguration("publish_clock"), value_type=bool),
     }
     return LaunchDescription(
@@ -50,7 +54,11 @@ def generate_launch_description() -> LaunchDescription:
                 for name, default, description in ARGUMENTS
             ),
             node("twin", twin),
-            node("load", {"scene": text("scene")}, "load"),
+            node(
+                "load",
+                {"scene": text("scene"), "csv": text("csv"), "mode": text("mode"), "speed_factor": pace},
+                "load",
+            ),
             node("recorder", {"output": text("output")}, "recorder"),
             node("monitor", {"bearing": text("bearing")}, "monitor"),
             node("viewer", {}, "viewer"),

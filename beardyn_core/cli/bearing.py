@@ -7,17 +7,16 @@ import json
 import math
 import re
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import FaultFrequencies, fault_frequencies
-from beardyn_core.bearing.life import dynamic_rating
-from beardyn_core.config import load_bearing
 from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.integrate.static import TILT_MODES, StaticSolution, solve
 
+if TYPE_CHECKING:
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.kinematics import FaultFrequencies
+    from beardyn_core.integrate.static import StaticSolution
+
+TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
 _DEFAULT_LOAD = (0.0, 0.0, 80.0e3)
 _BAR_WIDTH = 28
 _RPM = 2.0 * math.pi / 60.0
@@ -59,6 +58,9 @@ def add_parser(subparsers: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve and print; 0 on success, 2 for bad input, 3 when no equilibrium is found."""
+    from beardyn_core.config import load_bearing
+    from beardyn_core.integrate.static import solve
+
     try:
         bearing = load_bearing(args.bearing)
         load = _DEFAULT_LOAD if args.load is None else tuple(args.load)
@@ -93,6 +95,8 @@ def _report(
     solution: StaticSolution,
 ) -> dict[str, Any]:
     """Content of the JSON object, SI units in the keys."""
+    from beardyn_core.bearing.kinematics import fault_frequencies
+
     frequencies = fault_frequencies(bearing)
     return {
         "bearing": bearing.name,
@@ -122,6 +126,8 @@ def _report(
 
 
 def _geometry(bearing: Bearing) -> dict[str, float | int]:
+    from beardyn_core.bearing.life import dynamic_rating
+
     return {
         "roller_count": bearing.roller_count,
         "row_count": 2,
@@ -161,6 +167,8 @@ def _table(
     args: argparse.Namespace,
     solution: StaticSolution,
 ) -> str:
+    from beardyn_core.bearing.kinematics import fault_frequencies
+
     lines = [f"{bearing.name}   {bearing.description}".rstrip(), "", "Geometry (closed on a common apex)"]
     lines += _geometry_lines(bearing)
     lines += ["", "Frequencies per shaft revolution"]
@@ -177,6 +185,8 @@ def _table(
 
 
 def _geometry_lines(bearing: Bearing) -> list[str]:
+    from beardyn_core.bearing.life import dynamic_rating
+
     rating = dynamic_rating(bearing)
     entries = [
         (
@@ -250,6 +260,6 @@ def _static_lines(solution: StaticSolution) -> list[str]:
     ):
         lines += ["", f"  stiffness with {title}, MN/m (rows and columns x, y, z)"]
         lines += [
-            "   " + " ".join(f"{value / 1e6 + 0.0:11.2f}" for value in line) for line in np.round(matrix, 1)
+            "   " + " ".join(f"{value / 1e6 + 0.0:11.2f}" for value in line) for line in matrix.round(1)
         ]
     return lines

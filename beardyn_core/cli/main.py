@@ -1,23 +1,22 @@
 """The ``beardyn`` command: one module of this package for each subcommand.
 
-Exit codes: 0 done, 2 bad input (nothing written), 3 the model left its range of validity (recording closed
-and readable), 130 interrupted.
+Exit codes: 0 done, 2 bad input (nothing written) or a full disk, 3 the model left its range of
+validity (recording closed and readable), 130 interrupted.
 """
 
 from __future__ import annotations
 
-import argparse
-import contextlib
-import importlib
-import logging
 import os
-import pkgutil
+import signal
 import sys
-from collections.abc import Sequence
-from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING
 
-import beardyn_core.cli
 from beardyn_core.errors import InputError, ValidityError
+
+# The rest is imported inside `main`, where a Ctrl-C while it loads is answered.
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Sequence
 
 DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
 _ORDER = ("demo", "simulate", "bearing", "view", "report", "schema", "warmup")
@@ -25,6 +24,10 @@ _ORDER = ("demo", "simulate", "bearing", "view", "report", "schema", "warmup")
 
 def command_names() -> list[str]:
     """Names of the subcommands, the most used first."""
+    import pkgutil
+
+    import beardyn_core.cli
+
     found = [
         module.name for module in pkgutil.iter_modules(beardyn_core.cli.__path__) if module.name != "main"
     ]
@@ -33,6 +36,8 @@ def command_names() -> list[str]:
 
 def program_version() -> str:
     """Version that is installed."""
+    from importlib.metadata import PackageNotFoundError, version
+
     try:
         return version("beardyn")
     except PackageNotFoundError:
@@ -41,6 +46,9 @@ def program_version() -> str:
 
 def build_parser() -> argparse.ArgumentParser:
     """Parser of all subcommands; heavy modules are imported only by the one that runs."""
+    import argparse
+    import importlib
+
     parser = argparse.ArgumentParser(
         prog="beardyn",
         description="Real-time digital twin of a railway axlebox double-row tapered roller bearing.",
@@ -66,9 +74,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     int
         The exit code.
     """
-    args = build_parser().parse_args(argv)
-    _announce_on_stderr()
     try:
+        args = build_parser().parse_args(argv)
+        _announce_on_stderr()
         return int(args.run(args))
     except InputError as error:
         _complain(error.problems)
@@ -77,11 +85,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         _complain([str(error)])
         return INVALID
     except KeyboardInterrupt:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the end is near; a second one would only be noise
         _complain(["interrupted"])
         return INTERRUPTED
     except BrokenPipeError:
         # The reader of a pipe has gone; keep the interpreter from complaining about it at exit.
-        with contextlib.suppress(OSError):
+        from contextlib import suppress
+
+        with suppress(OSError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
 
@@ -92,6 +103,8 @@ def _complain(problems: Sequence[str]) -> None:
 
 
 def _announce_on_stderr() -> None:
+    import logging
+
     logger = logging.getLogger("beardyn")
     if not logger.handlers:
         handler = logging.StreamHandler()

@@ -24,8 +24,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "simulate",
         help="run a scene as fast as this machine can, with a recording if asked for",
-        description="Run a scene as fast as this machine can. Exit code 2: bad input, nothing written; "
-        "3: the model left its range of validity, the recording up to there is closed and readable.",
+        description="Run a scene as fast as this machine can. Exit code 2: bad input, nothing written, or a "
+        "disk that is full; 3: the model left its range of validity, the recording up to there is closed and "
+        "readable.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument("-o", "--output", metavar="run.mcap", type=Path, help="record the run to this file")

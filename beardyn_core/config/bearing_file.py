@@ -12,20 +12,20 @@ from beardyn_core.bearing.material import Material
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config.file_model import (
     Count,
-    FileModel,
     Name,
     NonNegative,
     Number,
     Positive,
     PositiveVector,
     SourcedModel,
+    SourcedPart,
     Text,
     problem,
 )
 from beardyn_core.config.units import DEG, GIGA, MEGA, MM, UM
 
 
-class ProfileKeys(FileModel):
+class ProfileKeys(SourcedPart):
     """Generator profile of the rollers."""
 
     kind: Literal["straight", "crowned", "logarithmic"] = "straight"
@@ -50,7 +50,7 @@ class ProfileKeys(FileModel):
         return Profile(self.kind, (self.drop_um or 0.0) / UM, (self.design_pressure_MPa or 0.0) * MEGA)
 
 
-class MaterialKeys(FileModel):
+class MaterialKeys(SourcedPart):
     """Steel of rings and rollers."""
 
     youngs_modulus_GPa: Annotated[Positive, Field(ge=10.0, le=1000.0)] = 206.0
@@ -62,7 +62,7 @@ class MaterialKeys(FileModel):
         return Material(self.youngs_modulus_GPa * GIGA, self.poisson_ratio, self.density_kg_per_m3)
 
 
-class CageKeys(FileModel):
+class CageKeys(SourcedPart):
     """Cage of one row."""
 
     mass_kg: Positive

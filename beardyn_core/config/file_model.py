@@ -135,16 +135,16 @@ def problem(sentence: str) -> PydanticCustomError:
     return PydanticCustomError("problem", "{advice}", {"advice": sentence})
 
 
-class SourcedModel(FileModel):
-    """A file whose numbers may say where they come from: ``{value: 17, source: catalogue}``."""
-
-    sources: dict[str, Text] = Field({}, description="key without unit -> where its value comes from")
+class SourcedPart(FileModel):
+    """A mapping inside a file whose numbers may say where they come from."""
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core_schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         schema = handler.resolve_ref_schema(handler(core_schema))
         for key, plain in schema["properties"].items():
-            if key not in ("name", "description", "sources", "profile", "material", "cage"):
+            if key not in ("name", "description", "sources") and not _is_part(
+                cls.model_fields[key].annotation
+            ):
                 about = {
                     name: plain.pop(name) for name in ("title", "description", "default") if name in plain
                 }
@@ -156,6 +156,16 @@ class SourcedModel(FileModel):
                 }
                 schema["properties"][key] = {**about, "anyOf": [plain, sourced]}
         return schema
+
+
+def _is_part(annotation: Any) -> bool:
+    return isinstance(annotation, type) and issubclass(annotation, SourcedPart)
+
+
+class SourcedModel(SourcedPart):
+    """A file whose numbers may say where they come from: ``{value: 17, source: catalogue}``."""
+
+    sources: dict[str, Text] = Field({}, description="key without unit -> where its value comes from")
 
     @classmethod
     def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:

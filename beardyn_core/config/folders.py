@@ -86,12 +86,18 @@ def find(kind: str, name: str, beside: Path | None = None) -> Path:
         for path in dict.fromkeys(places):
             if path.is_file():
                 return path
+        if folders := [path for path in dict.fromkeys(places) if path.is_dir()]:
+            raise InputError(
+                f"{folders[0]}: is a folder; give the path of a {singular} file, ending in .yaml"
+            )
         searched = " and ".join(str(path.absolute()) for path in dict.fromkeys(places))
         raise InputError(f"the {singular} file {name!r} was not found; searched {searched}")
     folder = config_folder() / kind
     for suffix in _SUFFIXES:
         if (path := folder / f"{name}{suffix}").is_file():
             return path
+    if Path(name).is_dir():
+        raise InputError(f"{name}: is a folder; give the path of a {singular} file, ending in .yaml")
     names = shipped_names(kind)
     guess = closest(name, names)
     hint = f"did you mean {guess}? " if guess else ""

@@ -17,6 +17,7 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.lubricant_file import LubricantKeys
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
 from beardyn_core.config.scene_file import DefectKeys, SceneKeys
+from beardyn_core.config.units import stem_of
 from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import EffectSet
@@ -144,7 +145,8 @@ class _Reading:
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = located(place, self.origins)
-        self.problems += [f"{label}: {key}: {text}" for text in problems]
+        where = label if label.startswith("--") else f"{label}: {key}"
+        self.problems += [f"{where}: {text}" for text in problems]
 
     def _override(self, place: Place, value: Any) -> None:
         owner = self.data
@@ -156,7 +158,7 @@ class _Reading:
             owner[str(key)] = copy
             owner = copy
         owner[str(place[-1])] = value
-        self.origins.append(Origin(place, "override", place))
+        self.origins.append(Origin(place, f"--{stem_of(str(place[-1]))}", place))
 
     def _inline(self, owner: dict[str, Any], key: str, kind: str, above: Place) -> None:
         """Replace a reference by what it refers to."""

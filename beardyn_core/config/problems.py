@@ -136,6 +136,8 @@ def sentences(error: ValidationError, origins: Sequence[Origin]) -> list[str]:
     found = []
     short_lists: set[Place] = set()
     for mistake in error.errors():
+        if _only_lacks_refused_entries(mistake):
+            continue
         place = tuple(part for part in mistake["loc"] if not str(part).startswith("<"))
         if mistake["type"] == "missing" and isinstance(place[-1], int):
             place = place[:-1]
@@ -144,8 +146,21 @@ def sentences(error: ValidationError, origins: Sequence[Origin]) -> list[str]:
             short_lists.add(place)
         unit = unit_of(str(next((part for part in reversed(place) if isinstance(part, str)), "")))
         label, key = located(place, origins)
-        found.append(f"{label}: {_complaint(key, mistake, unit)}")
+        if label.startswith("--"):
+            found.append(_complaint(label, mistake, unit).replace(f"{label} is ", f"{label} ", 1))
+        else:
+            found.append(f"{label}: {_complaint(key, mistake, unit)}")
     return found
+
+
+def _only_lacks_refused_entries(mistake: Any) -> bool:
+    """Whether a list is called too short only because its refused entries, told apart, were not counted."""
+    given = mistake["input"]
+    return (
+        mistake["type"] == "too_short"
+        and isinstance(given, (list, tuple))
+        and len(given) >= mistake["ctx"]["min_length"]
+    )
 
 
 def located(place: Place, origins: Sequence[Origin]) -> tuple[str, str]:

@@ -114,7 +114,9 @@ def _read_rows(path: Path) -> tuple[list[str], list[int], list[list[str]]]:
                     rows.append(row)
     except FileNotFoundError:
         raise InputError(f"{path}: no such file; give the path of a CSV file of load and speed") from None
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: the file is not UTF-8 text; save it as UTF-8") from None
+    except (OSError, csv.Error) as error:
         raise InputError(f"{path}: cannot be read as CSV text: {error}") from None
     if not rows:
         raise InputError(f"{path}: the file is empty; the first line must name columns: {', '.join(COLUMNS)}")

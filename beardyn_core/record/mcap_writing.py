@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from time import monotonic
@@ -22,6 +24,7 @@ DESCRIPTION_FILE = "run.json"
 SCENE_FILE = "scene.yaml"
 SUMMARY_RECORD = "beardyn"
 END_RECORD = "beardyn_end"
+COMPLETE = "complete"
 
 _FOREVER = {"sec": 9223372036, "nsec": 854775807}
 
@@ -31,7 +34,8 @@ class McapWriter:
 
     Messages are gathered into zstd chunks of at most `CHUNK_BYTES`; `flush_if_due`, which every
     `add` calls, hands the chunk in progress to the operating system twice a second. A caller that
-    can fall silent calls it from a timer too.
+    can fall silent calls it from a timer too. A disk that refuses is an `InputError`; the file is then
+    left with what it holds, further writing raises the same and `close` does nothing.
 
     Parameters
     ----------
@@ -52,7 +56,6 @@ class McapWriter:
                 "choose a file in a folder that exists and is writable"
             ) from error
         self._writer = Writer(self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
-        self._writer.start(profile="ros2", library=f"beardyn {_package_version()}")
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._topics: dict[str, Topic] = {}
@@ -60,16 +63,21 @@ class McapWriter:
         self._first_ns: int | None = None
         self._last_ns = 0
         self._flushed = monotonic()
+        self._kept_ns: int | None = None
+        self._failure: InputError | None = None
         self._closed = False
+        with self._disk():
+            self._writer.start(profile="ros2", library=f"beardyn {_package_version()}")
 
     def describe(self, run: RunDescription) -> None:
         """Store the resolved scene and the description as attachments, the main facts as metadata."""
-        self._writer.add_attachment(0, 0, SCENE_FILE, "application/yaml", run.scene_text.encode())
-        self._writer.add_attachment(0, 0, DESCRIPTION_FILE, "application/json", run.to_json().encode())
         facts = {"scene": run.scene, "bearing": run.shape.name, "beardyn": _package_version()}
         facts.update({key: _text(value) for key, value in run.truth.items()})
-        self._writer.add_metadata(SUMMARY_RECORD, facts)
-        self._writer.flush()
+        with self._disk():
+            self._writer.add_attachment(0, 0, SCENE_FILE, "application/yaml", run.scene_text.encode())
+            self._writer.add_attachment(0, 0, DESCRIPTION_FILE, "application/json", run.to_json().encode())
+            self._writer.add_metadata(SUMMARY_RECORD, facts)
+            self._writer.flush()
 
     def add(self, name: str, stamp_ns: int, cdr: bytes) -> None:
         """Append a message of the topic table.
@@ -83,12 +91,13 @@ class McapWriter:
             MCAP does not know them; the header keeps the true one.
         cdr : bytes
         """
-        channel = self._channels.get(name)
-        if channel is None:
-            channel = self._open_channel(topic(name))
         log_time = max(int(stamp_ns), 0)
-        sequence = self._counts[name] = self._counts[name] + 1
-        self._writer.add_message(channel, log_time, cdr, log_time, sequence & 0xFFFFFFFF)
+        with self._disk():
+            channel = self._channels.get(name)
+            if channel is None:
+                channel = self._open_channel(topic(name))
+            sequence = self._counts[name] = self._counts[name] + 1
+            self._writer.add_message(channel, log_time, cdr, log_time, sequence & 0xFFFFFFFF)
         self._first_ns = log_time if self._first_ns is None else min(self._first_ns, log_time)
         self._last_ns = max(self._last_ns, log_time)
         self.flush_if_due()
@@ -98,7 +107,9 @@ class McapWriter:
         now = monotonic()
         if now - self._flushed >= FLUSH_SECONDS:
             self._flushed = now
-            self._writer.flush()
+            with self._disk():
+                self._writer.flush()
+            self._kept_ns = self._last_ns if self._counts else None
 
     def close(self, status: str = "") -> None:
         """Write the summary and close the file; a second call does nothing.
@@ -106,20 +117,48 @@ class McapWriter:
         Parameters
         ----------
         status : str
-            How the run ended, a sentence; empty for a run that ended as asked.
+            How the run ended, a sentence; empty for a run that ended as asked, which the file calls
+            `COMPLETE`.
+
+        Raises
+        ------
+        InputError
+            The disk refused; the file is closed all the same.
         """
         if self._closed:
             return
-        self._closed = True
-        self._writer.add_metadata(END_RECORD, {"status": status})
-        self._writer.add_metadata("rosbag2", {"serialized_metadata": self._rosbag2_metadata()})
-        self._writer.finish()
-        self._file.close()
+        with self._disk():
+            self._closed = True
+            self._writer.add_metadata(END_RECORD, {"status": status or COMPLETE})
+            self._writer.add_metadata("rosbag2", {"serialized_metadata": self._rosbag2_metadata()})
+            self._writer.finish()
+            self._file.close()
 
     @property
     def message_count(self) -> int:
         """Messages written so far."""
         return sum(self._counts.values())
+
+    @contextmanager
+    def _disk(self) -> Iterator[None]:
+        if self._failure is not None:
+            raise self._failure
+        try:
+            yield
+        except OSError as error:
+            self._closed = True
+            with suppress(OSError):  # it tries once more to write what the disk has refused
+                self._file.close()
+            kept = (
+                f"what was written until {self._kept_ns * 1e-9:.3f} s is readable with `beardyn report`"
+                if self._kept_ns is not None
+                else "nothing of the run has been kept"
+            )
+            self._failure = InputError(
+                f"cannot write on {self.path}: {error.strerror or error}; {kept}; "
+                "free space or choose a file on another disk"
+            )
+            raise self._failure from error
 
     def _open_channel(self, entry: Topic) -> int:
         schema = self._schemas.get(entry.type)

@@ -18,7 +18,7 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES, force_template, imu_template, joint_template
 from beardyn_core.record.load_stream import decode_load
 from beardyn_core.record.mcap_scanning import McapScan
-from beardyn_core.record.mcap_writing import DESCRIPTION_FILE, END_RECORD, SCENE_FILE
+from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, SCENE_FILE
 from beardyn_core.record.messages import Diagnostic, Template, decode, decode_diagnostics, decode_string
 from beardyn_core.record.topics import IMU, JOINTS, NAMESPACE, WRENCH, namespace_of, relative_name
 from beardyn_core.scene.load import WRENCH_AXES, LoadHistory
@@ -110,7 +110,7 @@ class Run:
     problem : str
         Where and why reading stopped; empty when complete.
     status : str or None
-        How the run ended: empty as asked, else a sentence; ``None`` when the file does not say.
+        How the run ended: ``complete`` as asked, else a sentence; ``None`` when the file does not say.
     description : RunDescription or None
     scene_text : str
         Resolved YAML of the scene.
@@ -209,7 +209,7 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
         path=scan.path,
         complete=scan.complete,
         problem=scan.problem,
-        status=scan.metadata[END_RECORD]["status"] if END_RECORD in scan.metadata else None,
+        status=scan.metadata[END_RECORD]["status"] or COMPLETE if END_RECORD in scan.metadata else None,
         scene_text=scene_text or (description.scene_text if description else ""),
     )
 

@@ -11,9 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.reading import Run, read_run
 
 SAMPLE_RANGE = 1 << 32
+# What others say to the twin or about it, and what is said once: their times are not those of its signals.
+NOT_OF_THE_TWIN = (
+    *("/load/blocks", "/load/consumed", "/load/wrench", "/load/shaft"),
+    *("/monitor/result", "/truth", "/diagnostics"),
+)
 
 
 @dataclass(frozen=True)
@@ -25,14 +31,14 @@ class TopicCount:
     name, type : str
     count : int
         Messages.
-    rate : float
-        Messages per second of the recording's span, [1/s].
+    rate : float or None
+        Messages per second between its first and its last one, [1/s]; ``None`` without such a span.
     """
 
     name: str
     type: str
     count: int
-    rate: float
+    rate: float | None
 
 
 @dataclass(frozen=True)
@@ -65,9 +71,9 @@ class Report:
     problem : str
         Where and why reading stopped.
     status : str or None
-        How the run ended: empty as asked, ``None`` not known.
+        How the run ended: ``complete`` as asked, ``None`` not known.
     begin, end : float
-        First and last log time, [s].
+        First and last log time of what the twin says, [s]: a live load stream runs ahead of it.
     topics : tuple of TopicCount
     attachments : mapping of name to bytes
     gaps : tuple of Gap
@@ -122,14 +128,14 @@ def report(path: Path | str) -> Report:
     scan = McapScan(path)
     counts: dict[str, int] = {}
     types: dict[str, str] = {}
-    begin, end = None, 0
+    spans: dict[str, tuple[int, int]] = {}
     for message in scan.messages():
         counts[message.topic] = counts.get(message.topic, 0) + 1
         types[message.topic] = message.type
-        begin = message.log_time if begin is None else min(begin, message.log_time)
-        end = max(end, message.log_time)
+        begin, end = spans.get(message.topic, (message.log_time, message.log_time))
+        spans[message.topic] = (min(begin, message.log_time), max(end, message.log_time))
     run = read_run(path)
-    span = max((end - (begin or 0)) * 1e-9, 1e-9)
+    begin, end = _twin_span(spans)
     description = run.description
     speed = run.shaft.velocity[:, 0] if len(run.shaft) else np.zeros(0)
     return Report(
@@ -139,9 +145,11 @@ def report(path: Path | str) -> Report:
         complete=scan.complete,
         problem=scan.problem,
         status=run.status,
-        begin=(begin or 0) * 1e-9,
+        begin=begin * 1e-9,
         end=end * 1e-9,
-        topics=tuple(TopicCount(name, types[name], n, n / span) for name, n in sorted(counts.items())),
+        topics=tuple(
+            TopicCount(name, types[name], n, _rate(n, spans[name])) for name, n in sorted(counts.items())
+        ),
         attachments={name: len(data) for name, data in scan.attachments.items()},
         gaps=gaps(run),
         scene=description.scene if description else None,
@@ -153,6 +161,19 @@ def report(path: Path | str) -> Report:
         energy_residual=_last(_diagnosed(run, "energy_residual")),
         monitor=run.results[-1][1][0].message if run.results and run.results[-1][1] else None,
     )
+
+
+def _twin_span(spans: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
+    """First and last log time of the twin's own signals, [ns]; of everything when there are none."""
+    own = [span for topic, span in spans.items() if not topic.endswith(NOT_OF_THE_TWIN)] or list(
+        spans.values()
+    )
+    return min(begin for begin, _ in own), max(end for _, end in own)
+
+
+def _rate(count: int, span: tuple[int, int]) -> float | None:
+    begin, end = span
+    return (count - 1) * 1e9 / (end - begin) if end > begin else None
 
 
 def gaps(run: Run) -> tuple[Gap, ...]:
@@ -202,7 +223,11 @@ def _last(values: list[float]) -> float | None:
 def _lines(r: Report) -> list[str]:
     lines = [f"{r.path}: {r.size_bytes / 1e6:.2f} MB, {r.begin:.3f} s to {r.end:.3f} s"]
     if r.complete:
-        lines.append("closed properly" if not r.status else f"closed properly; the run ended: {r.status}")
+        lines.append(
+            "closed properly"
+            if r.status in (None, COMPLETE)
+            else f"closed properly; the run ended: {r.status}"
+        )
     else:
         lines.append(r.problem)
     lines.append("")
@@ -226,7 +251,9 @@ def _lines(r: Report) -> list[str]:
     if r.monitor is not None:
         lines.append(f"monitor  {r.monitor}")
     lines += ["", f"{'topic':32}{'messages':>10}{'per s':>9}  type"]
-    lines += [f"{t.name:32}{t.count:>10}{t.rate:>9.1f}  {t.type}" for t in r.topics]
+    lines += [
+        f"{t.name:32}{t.count:>10}{'-' if t.rate is None else f'{t.rate:.1f}':>9}  {t.type}" for t in r.topics
+    ]
     lines.append("")
     if r.attachments:
         lines.append("attached " + ", ".join(f"{name} ({size} B)" for name, size in r.attachments.items()))

@@ -9,6 +9,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from beardyn_core.errors import InputError
+from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.reading import Run
 from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
 from beardyn_core.record.rerun_plots import log_plots
@@ -159,7 +160,7 @@ def about(run: Run) -> str:
     ]
     if run.problem:
         lines.append(f"**The file was cut off:** {run.problem}")
-    if run.status:
+    if run.status not in (None, COMPLETE):
         lines.append(f"**The run ended:** {run.status}")
     faults = [f"- {d.on}, row {d.row}, {d.width * 1e3:.1f} mm wide" for d in description.defects]
     lines += ["## Faults", *(faults or ["none"]), "## Fault frequencies per shaft revolution"]

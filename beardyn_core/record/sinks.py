@@ -84,10 +84,10 @@ class McapSink:
         """Create the file; it holds the description from the first moment on."""
         self._run = run
         self._encoder = BlockEncoder(run.roller_count, run.sensor_names, self._frame)
-        self._writer = McapWriter(self._path, self._namespace)
-        self._writer.describe(run)
         self._load_written = 0
         self._first = True
+        self._writer = McapWriter(self._path, self._namespace)
+        self._writer.describe(run)
 
     def write(self, block: Block) -> None:
         """Append the messages of a block."""

@@ -13,6 +13,8 @@ LARGEST_FORCE = 1.0e7
 LARGEST_MOMENT = 1.0e6
 LARGEST_SPEED = 2000.0
 LARGEST_DISPLACEMENT = 1.0
+LARGEST_SPEED_JUMP = 50.0
+SPEED_JUMP_WINDOW_NS = 100_000_000
 
 
 def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
@@ -39,7 +41,28 @@ def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
             f"the load is absurd; allowed are {LARGEST_FORCE:.0e} N, {LARGEST_MOMENT:.0e} N m, "
             f"{LARGEST_SPEED:.0f} rad/s and {LARGEST_DISPLACEMENT:.0f} m"
         )
-    return None
+    jump = speed_jump(load.time_ns, load.shaft_speed)
+    return f"the load is absurd; {jump}" if jump else None
+
+
+def speed_jump(time_ns: NDArray[np.int64], shaft_speed: NDArray[np.float64]) -> str | None:
+    """Sentence when the shaft speed jumps as no wheelset can, ``None`` when it does not.
+
+    Parameters
+    ----------
+    time_ns : int64 array, shape [sample], [ns]
+    shaft_speed : array, shape [sample], [rad/s]
+    """
+    change = np.abs(np.diff(shaft_speed))
+    jumps = np.flatnonzero((change > LARGEST_SPEED_JUMP) & (np.diff(time_ns) < SPEED_JUMP_WINDOW_NS))
+    if len(jumps) == 0:
+        return None
+    first = int(jumps[0])
+    return (
+        f"shaft_speed jumps from {shaft_speed[first]:g} to {shaft_speed[first + 1]:g} rad/s within "
+        f"{(time_ns[first + 1] - time_ns[first]) / 1e6:g} ms; allowed is a change of up to "
+        f"{LARGEST_SPEED_JUMP:g} rad/s between samples closer than {SPEED_JUMP_WINDOW_NS / 1e9:g} s"
+    )
 
 
 @dataclass

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+import signal
+import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.errors import ValidityError
+from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
@@ -98,7 +101,8 @@ def run(
     Raises
     ------
     InputError
-        The load could not be made; no sink has been opened.
+        The load could not be made and no sink has been opened; or a sink could not be written, then all
+        are closed.
     """
     twin = Twin(scene)
     block_count = max(1, math.ceil(scene.duration * 1e9 / twin.block_ns - 1e-6))
@@ -131,10 +135,40 @@ def run(
         if status == COMPLETE and trend.warnings:
             status = f"{COMPLETE}, but {describe(trend.warnings)}"
         closing = "" if status.startswith(COMPLETE) else status
-    finally:
-        for sink in opened:
-            sink.close(closing)
+    except InputError as error:
+        _close(opened, str(error))
+        raise
+    except BaseException:
+        _close(opened, closing)
+        raise
+    if failures := _close(opened, closing):
+        raise InputError(failures)
     return trend.summary(scene, wall_time, status)
+
+
+def _close(sinks: Sequence[Sink], status: str) -> list[str]:
+    """Close every sink, also when one fails; gives what went wrong."""
+    failures: list[str] = []
+    with _undisturbed():
+        for sink in sinks:
+            try:
+                sink.close(status)
+            except InputError as error:  # noqa: PERF203 - the others are closed all the same
+                failures += error.problems
+    return failures
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Ignore Ctrl-C: an impatient second one must not cut the file that the first one closes."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before if before is not None else signal.SIG_DFL)
 
 
 def _deliver(

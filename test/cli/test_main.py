@@ -12,8 +12,10 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_core.cli import bearing
 from beardyn_core.cli import main as command
 from beardyn_core.config import shipped_names
+from beardyn_core.integrate import static
 
 
 def beardyn(*words: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
@@ -43,7 +45,7 @@ def test_version() -> None:
 
 
 def test_starting_imports_no_heavy_module() -> None:
-    heavy = ("numba", "scipy", "mcap", "rerun", "rosbags", "matplotlib", "rclpy")
+    heavy = ("numpy", "pydantic", "numba", "scipy", "mcap", "rerun", "rosbags", "matplotlib", "rclpy")
     code = (
         "import sys; from beardyn_core.cli.main import build_parser; build_parser(); "
         f"print([name for name in {heavy} if name in sys.modules])"
@@ -112,6 +114,46 @@ def test_unknown_effects_of_a_shipped_scene_are_refused(
 ) -> None:
     assert command.main(["simulate", name, "--effects", "standart"]) == command.BAD_INPUT
     assert "did you mean standard?" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("module", ["argparse", "pkgutil", "beardyn_core.config", "tqdm"])
+def test_ctrl_c_while_modules_load_ends_cleanly(module: str) -> None:
+    code = (
+        "import signal, sys\n"
+        "from beardyn_core.cli.main import main\n"
+        "class Impatient:\n"
+        "    def find_spec(self, name, path=None, target=None):\n"
+        f"        if name == {module!r}:\n"
+        "            signal.raise_signal(signal.SIGINT)\n"
+        f"sys.modules.pop({module!r}, None)\n"
+        "sys.meta_path.insert(0, Impatient())\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "sys.exit(main(['simulate', 'static_5kN', '--duration', '0.1']))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[2])},
+    )
+    assert done.returncode == command.INTERRUPTED, done.stderr
+    assert done.stderr.splitlines()[-1] == "beardyn: interrupted"
+    assert "Traceback" not in done.stderr
+
+
+def test_the_bearing_command_offers_the_tilts_that_the_solution_knows() -> None:
+    assert bearing.TILT_MODES == static.TILT_MODES
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")
+def test_a_full_disk_is_exit_code_2_with_a_sentence() -> None:
+    done = beardyn("simulate", "static_5kN", "--duration", "0.02", "-o", "/dev/full", "--json")
+    assert done.returncode == command.BAD_INPUT
+    assert done.stdout == ""
+    assert "cannot write on /dev/full: No space left on device" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def test_ctrl_c_ends_cleanly_and_leaves_a_readable_recording(tmp_path: Path) -> None:

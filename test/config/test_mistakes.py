@@ -11,6 +11,7 @@ from beardyn_core.config import load_bearing, load_effects, load_scene
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
 from beardyn_core.errors import InputError
+from beardyn_core.rail.measured import read_measurement
 
 GOOD = """\
 scene: mine
@@ -161,7 +162,38 @@ def test_a_file_that_is_no_mapping_is_refused(tmp_path: Path, content: bytes) ->
 def test_overrides_are_checked_like_the_file(write: Write) -> None:
     found = problems_of(write(GOOD), duration=-1.0, laminae=0, effects="standart", seed=-1)
     assert len(found) == 4
-    assert all(problem.startswith("override: ") for problem in found)
+    for words in (
+        "--duration -1.0; it must",
+        "--laminae 0; it must",
+        "--effects: there is no",
+        "--seed -1; it",
+    ):
+        assert any(problem.startswith(words) for problem in found)
+    (problem,) = problems_of(write(GOOD), duration=float("nan"))
+    assert problem.startswith("--duration nan; it must be a finite number")
+
+
+def test_a_refused_entry_does_not_make_its_list_too_short(write: Write) -> None:
+    profile = "kind: quarter_vehicle, vehicle: emu_300, speed_profile: [{time_s: 0, speed_kmh: %s}]"
+    good = GOOD[: GOOD.index("operation:")] + "operation: {" + profile + "}\n"
+    found = problems_of(write(good % "-5"))
+    assert any("speed_kmh is -5" in problem for problem in found)
+    assert not [problem for problem in found if "entries" in problem]
+
+
+def test_a_folder_is_not_a_scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "mine").mkdir()
+    monkeypatch.chdir(tmp_path)
+    for name in (str(tmp_path), "mine", "mine/"):
+        (problem,) = problems_of(name)
+        assert "is a folder; give the path of a scene file" in problem
+
+
+def test_a_measured_load_that_is_not_utf_8_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "load.csv"
+    path.write_bytes("time_s,fz_N\n0,1 # München\n".encode("latin-1"))
+    with pytest.raises(InputError, match="is not UTF-8 text"):
+        read_measurement(path)
 
 
 def test_overrides_replace_what_the_file_says(write: Write) -> None:

@@ -7,6 +7,7 @@ from dataclasses import asdict, fields, replace
 from typing import Any
 
 import pytest
+import yaml
 
 from beardyn_core import effects
 from beardyn_core.config import (
@@ -127,6 +128,31 @@ def test_schema_refuses_unknown_keys_and_describes_the_shipped_ones(kind: str) -
     folder = kind if kind == "effects" else f"{kind}s"
     for name in shipped_names(folder):
         assert set(read_file(find(folder, name))) <= set(schema["properties"])
+
+
+@pytest.mark.parametrize("kind", SCHEMA_KINDS)
+def test_every_shipped_file_fits_its_schema_and_a_spoilt_one_does_not(kind: str) -> None:
+    jsonschema = pytest.importorskip("jsonschema")
+    validator = jsonschema.Draft202012Validator(json_schema(kind))
+    folder = kind if kind == "effects" else f"{kind}s"
+    for name in shipped_names(folder):
+        mapping = read_file(find(folder, name))
+        assert [error.message for error in validator.iter_errors(mapping)] == []
+        assert not validator.is_valid({**mapping, "nonsense": 1})
+
+
+def test_schema_of_a_sourced_part_wants_a_number_and_its_source() -> None:
+    jsonschema = pytest.importorskip("jsonschema")
+    validator = jsonschema.Draft202012Validator(json_schema("bearing"))
+    bearing = read_file(find("bearings", "HS130x230"))
+    for spoilt in ({"value": "heavy", "source": "guess"}, {"value": 1.0}, "heavy"):
+        assert not validator.is_valid({**bearing, "cage": {**bearing["cage"], "mass_kg": spoilt}})
+
+
+@pytest.mark.parametrize("name", shipped_names("scenes"))
+def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None:
+    path = find("scenes", name)
+    assert yaml.safe_load(path.read_text(encoding="utf-8")) == read_file(path)
 
 
 @pytest.mark.parametrize(

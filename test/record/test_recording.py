@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -24,6 +25,7 @@ from rosbags.interfaces import ConnectionExtRosbag2
 from beardyn_core.cli import report as report_command
 from beardyn_core.errors import InputError
 from beardyn_core.record.encoding import BlockEncoder
+from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.mcap_scanning import McapScan, recover
 from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import encode_string
@@ -145,7 +147,7 @@ def test_a_recording_comes_back_as_the_arrays_of_its_blocks(recording: Path) -> 
     blocks = memory.blocks
     assert run.complete
     assert run.problem == ""
-    assert run.status == ""
+    assert run.status == "complete"
     np.testing.assert_array_equal(run.force.values, np.concatenate([b.force for b in blocks]))
     np.testing.assert_array_equal(run.force.time_ns, np.concatenate([b.trend_time_ns for b in blocks]))
     np.testing.assert_array_equal(
@@ -367,3 +369,69 @@ def test_report_refuses_what_is_no_recording_with_a_sentence(
 def test_a_recording_cannot_be_written_where_there_is_no_folder(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot write the recording"):
         McapSink(tmp_path / "no" / "run.mcap").open(description())
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")
+def test_a_full_disk_is_a_sentence_and_closing_does_nothing_more() -> None:
+    sink = McapSink("/dev/full")
+    with pytest.raises(InputError, match=r"cannot write on /dev/full: No space left on device; nothing"):
+        sink.open(description())
+    with pytest.raises(InputError, match="No space left on device"):
+        sink.write(SyntheticRun().block(0))
+    sink.close()
+
+
+def test_what_came_before_the_disk_was_full_is_readable(tmp_path: Path) -> None:
+    path = tmp_path / "full.mcap"
+    script = (
+        "import resource, sys\n"
+        "from beardyn_core.errors import InputError\n"
+        "from beardyn_core.record import mcap_writing\n"
+        "from beardyn_core.record.sinks import McapSink\n"
+        "from test.record.synthetic_run import SyntheticRun, description\n"
+        "mcap_writing.FLUSH_SECONDS = 0.0\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (500_000, 500_000))\n"
+        "sink = McapSink(sys.argv[1])\n"
+        "sink.open(description())\n"
+        "try:\n"
+        "    for block in SyntheticRun().blocks(10**6):\n"
+        "        sink.write(block)\n"
+        "except InputError as error:\n"
+        "    print(error)\n"
+        "sink.close()\n"
+    )
+    root = Path(__file__).resolve().parents[2]
+    done = subprocess.run(
+        [sys.executable, "-c", script, str(path)],
+        cwd=root,
+        env={**os.environ, "PYTHONPATH": str(root)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    said = re.search(r"File too large; what was written until ([0-9.]+) s is readable", done.stdout)
+    assert said, done.stdout
+    found = report(path)
+    assert not found.complete
+    assert 0.0 < float(said[1]) <= max(found.end, 1e-9) + 0.02
+
+
+def test_a_load_stream_that_runs_ahead_does_not_stretch_the_recording(tmp_path: Path) -> None:
+    path, run = tmp_path / "live.mcap", description()
+    assert run.load is not None
+    writer = McapWriter(path)
+    writer.describe(run)
+    for stamp in (0, 5_000_000_000, 10_000_000_000):
+        writer.add("load/blocks", stamp, encode_load(run.load.part(0, 2), 0, "frame"))
+    for block in SyntheticRun().blocks(20):
+        for name, stamp, cdr in BlockEncoder(17, run.sensor_names).encode(block):
+            writer.add(name, stamp, cdr)
+    writer.close()
+    found = report(path)
+    assert found.end == pytest.approx(0.4, abs=0.02)
+    rates = {relative_name(count.name): count.rate for count in found.topics}
+    assert rates["force"] == pytest.approx(400.0, rel=1e-6)
+    assert rates["load/blocks"] == pytest.approx(0.2)
+    assert found.status == "complete"
+    assert found.to_json()["status"] == "complete"

@@ -6,10 +6,12 @@ import threading
 from itertools import pairwise
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.load_buffer import problem_with
 from beardyn_ros.load_gate import LiveLoad, LoadGate, Refusals
 
 STEP_NS = 500_000
@@ -87,3 +89,32 @@ def test_live_load_refuses_old_stamps_and_absurd_numbers() -> None:
     assert held is not None
     assert held.shaft_speed == 100.0
     assert live.refusals.report().count == 2
+
+
+@pytest.mark.parametrize("cut", [10, 15])
+def test_a_jump_of_the_shaft_speed_is_absurd_inside_a_block_and_between_blocks(cut: int) -> None:
+    whole, gate = history(30), new_gate()
+    speed = whole.shaft_speed.copy()
+    speed[15:] = 151.0
+    jumping = LoadHistory(whole.time_ns, whole.wrench, speed, whole.bogie)
+    assert "shaft_speed jumps from 100 to 151 rad/s within 0.5 ms" in (problem_with(jumping, None) or "")
+    assert gate.offer(jumping.part(0, cut), np.arange(cut)) is None
+    assert "jumps from 100 to 151" in (gate.offer(jumping.part(cut, 30), np.arange(cut, 30)) or "")
+    assert gate.refusals.report().by_reason == (("absurd", 1),)
+    assert gate.offer(whole.part(cut, 30), np.arange(cut, 30)) is None
+
+
+def test_a_change_of_50_rad_per_s_or_one_over_a_tenth_of_a_second_is_taken() -> None:
+    whole = history(2)
+    for last_ns, speed in ((STEP_NS, 150.0), (100_000_000, 300.0)):
+        time_ns = np.array([0, last_ns])
+        load = LoadHistory(time_ns, whole.wrench, np.array([100.0, speed]), whole.bogie)
+        assert problem_with(load, None) is None
+
+
+def test_live_load_refuses_a_jump_of_the_shaft_speed() -> None:
+    live = LiveLoad(Refusals(), threading.Condition())
+    assert live.offer_speed(100.0, 0) is None
+    assert "jumps from 100 to 160" in (live.offer_speed(160.0, 20_000_000) or "")
+    assert live.offer_speed(101.0, 40_000_000) is None
+    assert live.refusals.report().by_reason == (("absurd", 1),)

@@ -52,6 +52,12 @@ def test_load_replays_a_csv_of_time_speed_and_force(graph: Graph) -> None:
     assert np.allclose(speed, np.linspace(1000, 1050, 1001) * np.pi / 30)
 
 
+def test_load_without_a_twin_gives_up_with_a_sentence(graph: Graph) -> None:
+    graph.fake_load(start_timeout=0.5)
+    assert graph.exit_code("load") == 4
+    assert "no twin in /axlebox for start_timeout = 0.5 s" in graph.processes.log("load")
+
+
 def test_bad_csv_and_unknown_scene_are_told_without_traceback(graph: Graph) -> None:
     file = graph.folder / "bad.csv"
     file.write_text("time_s,speed_rpm,fx_N,fy_N\n0,1000,0,0\n")

@@ -14,7 +14,6 @@ BAD: dict[str, tuple[dict[str, object], list[str]]] = {
     "nan": ({"max_age": ".nan"}, ["parameter 'max_age': nan is outside the range 0.02 to 3600 s"]),
     "type": ({"autostart": 3}, ["parameter 'autostart': 3 is of type int, bool is needed"]),
     "choice": ({"mode": "lively"}, ["'lively' is not allowed, choose one of lockstep, live"]),
-    "pair": ({"mode": "live", "speed_factor": 0}, ["mode 'live' needs a clock"]),
     "scene": ({"scene": "no_such_scene"}, ["scene 'no_such_scene' does not exist"]),
 }
 

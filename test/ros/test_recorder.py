@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import signal
+import time
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from beardyn_core.record.clouds import cloud_to_arrays
+from beardyn_core.record.load_stream import encode_load
+from beardyn_core.record.messages import header_stamp
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.topics import TOPICS, topic
+from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 
 LIVE_ONLY = ("load/wrench", "load/shaft")
@@ -42,7 +46,7 @@ def test_recording_is_complete_and_an_independent_reader_decodes_every_topic(gra
         assert graph.exit_code(name) == 0, graph.processes.log(name)
     run = read_run(path)
     assert run.complete
-    assert run.status == ""
+    assert run.status == "complete"
     assert np.array_equal(run.vibration["vibration"].sample, np.arange(80 * 512))
     assert np.array_equal(run.force_waveform.sample, np.arange(80 * 512))
     assert len(run.force) == len(run.shaft) == len(run.specific_force) == 640
@@ -92,6 +96,48 @@ def test_kill_9_of_the_recorder_leaves_a_recoverable_file_and_the_twin_runs_on(g
     )
 
 
+def test_live_load_stamped_with_wall_time_leaves_the_span_of_the_file_alone(graph: Graph) -> None:
+    from mcap.reader import make_reader
+
+    from beardyn_ros.load_node import encode_shaft, encode_wrench
+
+    path = graph.folder / "run.mcap"
+    graph.fake_twin(mode="live")
+    graph.node_process("recorder", output=str(path))
+    recorder_is_connected(graph)
+    graph.connected("load/wrench", "load/shaft", "load/blocks")
+    stamps: list[int] = []
+
+    def send_until_one_second() -> bool:
+        stamps.append(time.time_ns())
+        graph.out.publish("load/wrench", encode_wrench(np.array([0.0, 0.0, 8e4, 0.0, 0.0, 0.0]), stamps[-1]))
+        graph.out.publish("load/shaft", encode_shaft(100.0, stamps[-1]))
+        return any(float(s.value("simulated_time")) > 1.0 for s in graph.statuses("twin"))
+
+    graph.until(send_until_one_second, "a second under live load")
+    empty = fake_history("", "", 1.0).part(0, 0)
+    graph.out.publish("load/blocks", encode_load(empty, 0))
+    assert graph.exit_code("twin") == 0
+    assert graph.exit_code("recorder") == 0
+    with path.open("rb") as stream:
+        messages = list(make_reader(stream).iter_messages())
+    logged = np.array([message.log_time for _, _, message in messages])
+    shaft = [message for _, channel, message in messages if channel.topic == "/axlebox/load/shaft"]
+    times = np.array([message.log_time for message in shaft])
+    assert logged.max() < 3_000_000_000
+    assert times.max() > 800_000_000
+    assert np.all(np.diff(times) >= 0)
+    assert {header_stamp(message.data) for message in shaft} <= set(stamps)
+
+
+def test_recorder_without_a_twin_gives_up_with_a_sentence(graph: Graph) -> None:
+    path = graph.folder / "run.mcap"
+    graph.node_process("recorder", output=str(path), start_timeout=0.5)
+    assert graph.exit_code("recorder") == 4
+    assert "no twin in /axlebox for start_timeout = 0.5 s" in graph.processes.log("recorder")
+    assert not path.exists()
+
+
 def test_reset_begins_a_new_file(graph: Graph) -> None:
     from std_srvs.srv import Trigger
 
@@ -110,7 +156,7 @@ def test_reset_begins_a_new_file(graph: Graph) -> None:
     assert first.complete
     assert second.complete
     assert first.status == "the run was left by a reset"
-    assert second.status == ""
+    assert second.status == "complete"
     assert first.truth["run_id"] != second.truth["run_id"]
     assert np.array_equal(second.vibration["vibration"].sample, np.arange(75 * 512))
     old = first.vibration["vibration"]

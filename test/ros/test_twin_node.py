@@ -246,6 +246,25 @@ def test_live_mode_holds_the_last_load_and_stops_when_it_is_too_old(graph: Graph
     assert "more than max_age = 0.4 s" in last.message
 
 
+def test_live_mode_alone_runs_in_real_time_and_says_how_far_it_lags(graph: Graph) -> None:
+    graph.fake_twin(scene="fake_slow", mode="live")
+    graph.fake_load(mode="live", duration=1.5)
+    assert graph.exit_code("twin") == 0
+    assert graph.exit_code("load") == 0
+    last = graph.statuses("twin")[-1]
+    assert last.value("state") == "finished"
+    assert last.value("speed_factor") == "1"
+    lag = float(last.value("lag"))
+    assert lag > 0.5
+    assert last.level == 1
+    simulated = float(last.value("simulated_time"))
+    assert simulated < 1.4
+    ended = f"the live load has ended at simulated t = {simulated:.3f} s, {lag:.2f} s behind the wall clock"
+    assert last.message == ended
+    running = [status.message for status in graph.statuses("twin") if status.value("state") == "running"]
+    assert any("behind the wall clock" in message for message in running)
+
+
 def test_validity_error_publishes_the_last_block_and_exits_with_3(graph: Graph) -> None:
     graph.listen("vibration")
     graph.fake_twin(scene="fake_invalid")

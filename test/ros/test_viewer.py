@@ -29,4 +29,7 @@ def test_viewer_without_a_display_says_what_else_can_be_done(graph: Graph) -> No
     assert graph.exit_code("viewer") == 2
     log = graph.processes.log("viewer")
     assert "no display is set" in log
+    assert "-p target:=web" in log
+    assert "-p target:=file" in log
+    assert "--web" not in log
     assert "Traceback" not in log

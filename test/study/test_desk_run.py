@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import signal
 from dataclasses import replace
 from typing import Any
 
@@ -111,6 +112,39 @@ def test_an_interrupt_closes_the_sinks(rolling: type[PureRolling]) -> None:
         desk_run.run(load_scene("static_80kN", duration=0.5), [sink])
     assert len(sink.blocks) == 2
     assert "interrupted" in (sink.status or "")
+
+
+class FullSink(MemorySink):
+    """Refuses to be finished."""
+
+    def close(self, status: str = "") -> None:
+        raise InputError("cannot write on full.mcap: No space left on device")
+
+
+def test_a_sink_that_cannot_be_closed_leaves_no_other_open(rolling: type[PureRolling]) -> None:
+    other = MemorySink()
+    with pytest.raises(InputError, match="No space left"):
+        desk_run.run(load_scene("static_80kN", duration=0.1), [FullSink(), other])
+    assert other.status == ""
+    rolling.interrupted_at = 2
+    with pytest.raises(KeyboardInterrupt):
+        desk_run.run(load_scene("static_80kN", duration=0.1), [FullSink(), other])
+    assert "interrupted" in (other.status or "")
+
+
+class ImpatientSink(MemorySink):
+    """Gets a second Ctrl-C while it closes."""
+
+    def close(self, status: str = "") -> None:
+        signal.raise_signal(signal.SIGINT)
+        super().close(status)
+
+
+def test_ctrl_c_while_closing_is_ignored(rolling: type[PureRolling]) -> None:
+    sink, before = ImpatientSink(), signal.getsignal(signal.SIGINT)
+    desk_run.run(load_scene("static_80kN", duration=0.1), [sink])
+    assert sink.status == ""
+    assert signal.getsignal(signal.SIGINT) == before
 
 
 def test_a_load_that_cannot_be_made_opens_no_sink(rolling: type[PureRolling], tmp_path: Any) -> None:
