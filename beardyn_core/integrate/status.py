@@ -41,9 +41,8 @@ class Status(IntFlag):
     NOT_FINITE = 1
     PENETRATION = 2
     CHATTER = 4
-    LOAD_STALE = 8
-    OFF_RIB = 16
-    FILM_RANGE = 32
+    OFF_RIB = 8
+    FILM_RANGE = 16
 
 
 SENTENCES = {
@@ -57,7 +56,6 @@ SENTENCES = {
     "or the sphere ratio",
     Status.FILM_RANGE: f"a loaded film is thicker than {LARGEST_FILM * 1e6:.0f} um, where the "
     "elastohydrodynamic formula does not hold: raise the temperature or take a thinner lubricant",
-    Status.LOAD_STALE: "the load stopped coming: the load was older than max_age",
 }
 
 
@@ -69,7 +67,7 @@ def describe(status: int) -> str:
 
 def is_fatal(status: int) -> bool:
     """Whether the run has to end."""
-    fatal = Status.NOT_FINITE | Status.PENETRATION | Status.LOAD_STALE | Status.OFF_RIB
+    fatal = Status.NOT_FINITE | Status.PENETRATION | Status.OFF_RIB
     return bool(Status(status) & fatal)
 
 

@@ -163,7 +163,7 @@ def kick_cup(
     load: Any,
     load_before: Any,
     energy: Any,
-    spring: Any,
+    box: Any,
     step: Any,
     mounting: Any,
     gravity: Any,
@@ -178,12 +178,12 @@ def kick_cup(
         Load row at the end and at the beginning of the step; bogie displacement from `LOAD_BOGIE`.
     energy : float64 array, shape [ENERGY_TERMS]
         Added to.
-    spring : float64 array, shape [6]
+    box : float64 array, shape [6]
         Written: acceleration of the box, linear and angular.
     """
     stored = 0.0
     if mounting.cup_moves == 0.0:
-        spring[:] = 0.0
+        box[:] = 0.0
         return stored
     for i in range(6):
         if i < 3:
@@ -200,7 +200,7 @@ def kick_cup(
         suspension = mounting.preload[i] - mounting.stiffness[i] * stretch - damper
         pull = -mounting.box_mass * fall(gravity) if i == Z else 0.0
         acceleration = (wrench[i] + suspension + pull) / inertia
-        spring[i] = acceleration
+        box[i] = acceleration
         middle = speed + 0.5 * step * acceleration
         energy[ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
         energy[ENERGY_DISSIPATED] += step * damper * (middle - bogie_speed)
