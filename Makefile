@@ -74,9 +74,9 @@ $(VENV)/.ready-dev: $(METADATA) | $(BIN)/python
 
 $(BIN)/python:
 	@command -v $(PYTHON) >/dev/null || { \
-		echo "There is no $(PYTHON): install Python 3.10 or newer (sudo apt-get install python3 python3-venv)."; exit 2; }
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { \
-		echo "$(PYTHON) is $$($(PYTHON) -V), too old: give a Python 3.10 to 3.13 with make PYTHON=/path/to/python3."; \
+		echo "There is no $(PYTHON): install Python 3.11 or newer (sudo apt-get install python3 python3-venv)."; exit 2; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+		echo "$(PYTHON) is $$($(PYTHON) -V), too old: give a Python 3.11 to 3.13 with make PYTHON=/path/to/python3."; \
 		exit 2; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
 		echo "$(PYTHON) cannot make virtual environments: sudo apt-get install python3-venv, then again."; exit 2; }

@@ -59,7 +59,7 @@ setup(
     maintainer_email="beardyn@example.org",
     license="Apache-2.0",
     keywords=["railway", "rolling bearing", "digital twin", "multibody dynamics", "ROS 2", "MCAP"],
-    python_requires=">=3.10",
+    python_requires=">=3.11",
     packages=find_packages(include=["beardyn_core", "beardyn_core.*", "beardyn_ros", "beardyn_ros.*"]),
     package_data={"": ["*.xml", "*.json", "py.typed"]},
     data_files=[
