@@ -21,12 +21,13 @@ from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
 from beardyn_core.model.layout import (
-    ENERGY_DISSIPATED,
     ENERGY_ELASTIC,
     ENERGY_EXTERNAL,
     ENERGY_KINETIC,
+    ENERGY_LOST,
     ENERGY_NUMERICAL,
     ENERGY_TERMS,
+    LOSSES,
     SIGNAL_CHANNELS,
     SIGNAL_FORCE,
 )
@@ -228,7 +229,7 @@ class Twin:
         since = self._audit - self._first_audit
         return EnergyAudit(
             external=float(since[ENERGY_EXTERNAL]),
-            dissipated=float(since[ENERGY_DISSIPATED]),
+            dissipated=float(since[ENERGY_LOST : ENERGY_LOST + LOSSES].sum()),
             numerical=float(since[ENERGY_NUMERICAL]),
             stored=float(since[ENERGY_ELASTIC] + since[ENERGY_KINETIC]),
         )

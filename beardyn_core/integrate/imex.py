@@ -26,12 +26,13 @@ from beardyn_core.model.layout import (
     CONE_BODY,
     CUP_BODY,
     ELASTIC,
-    ENERGY_DISSIPATED,
     ENERGY_ELASTIC,
     ENERGY_EXTERNAL,
     ENERGY_KINETIC,
+    ENERGY_LOST,
     ENERGY_NUMERICAL,
     LINEAR,
+    LOSSES,
     MASK,
     MOMENTUM,
     PENETRATION,
@@ -184,7 +185,8 @@ def advance(
         )
         kick_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         energy[ENERGY_EXTERNAL] += sum_lanes(sums, WORK_GRAVITY)
-        energy[ENERGY_DISSIPATED] += sum_lanes(sums, WORK_LOST)
+        for source in range(LOSSES):
+            energy[ENERGY_LOST + source] += sum_lanes(sums, WORK_LOST + source)
         energy[ENERGY_NUMERICAL] += sum_lanes(sums, WORK_NUMERICAL)
         if step == 0:
             for i in range(ENERGY_ELASTIC):

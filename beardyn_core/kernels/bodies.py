@@ -16,9 +16,10 @@ from beardyn_core.model.layout import (
     CONE_BODY,
     CUP_BODY,
     ELASTIC,
-    ENERGY_DISSIPATED,
     ENERGY_EXTERNAL,
+    ENERGY_LOST,
     LINEAR,
+    LOSS_SUSPENSION,
     POSITION,
     RATE,
     REACTION,
@@ -203,7 +204,7 @@ def kick_cup(
         box[i] = acceleration
         middle = speed + 0.5 * step * acceleration
         energy[ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
-        energy[ENERGY_DISSIPATED] += step * damper * (middle - bogie_speed)
+        energy[ENERGY_LOST + LOSS_SUSPENSION] += step * damper * (middle - bogie_speed)
         stored += 0.5 * mounting.stiffness[i] * stretch * stretch - mounting.preload[i] * stretch
         if i < 3:
             bodies[CUP_BODY, LINEAR + i] = speed + step * acceleration

@@ -73,13 +73,20 @@ def react(
 
 
 @inline
-def account(lanes: Any, sums: Any, mask: Any, lost: Any, numerical: Any, elastic: Any, audit: Any) -> None:
-    """Add the energy terms of one contact to the audit."""
+def account(lanes: Any, sums: Any, mask: Any, numerical: Any, elastic: Any, audit: Any) -> None:
+    """Add what a contact lost to the time step and what it stores to the audit."""
     if audit is None:
         return
-    accumulate(lanes, sums, WORK_LOST, mask * lost)
     accumulate(lanes, sums, WORK_NUMERICAL, mask * numerical)
     accumulate(lanes, sums, ELASTIC, mask * elastic)
+
+
+@inline
+def account_loss(lanes: Any, sums: Any, mask: Any, source: Any, lost: Any, audit: Any) -> None:
+    """Add what a contact dissipated over the step to the audit, under its source (``LOSS_...``)."""
+    if audit is None:
+        return
+    accumulate(lanes, sums, WORK_LOST + source, mask * lost)
 
 
 @inline

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.exchange import account, output_contact, react
+from beardyn_core.kernels.exchange import account, account_loss, output_contact, react
 from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.orbit import ring_view
 from beardyn_core.kernels.pocket import pocket_contact, pocket_loss, pocket_sum
 from beardyn_core.kernels.vectors import add, dot, subtract
-from beardyn_core.model.layout import CAGE_BODY, POCKET, POCKET_ANGLE, RING_TURN
+from beardyn_core.model.layout import CAGE_BODY, LOSS_POCKET, POCKET, POCKET_ANGLE, RING_TURN
 
 
 @inline
@@ -74,4 +74,5 @@ def finish_cage(
     slip = touches[0][3]
     output_contact(lanes, rollers, block, POCKET, force, bar, sqrt(dot(slip, slip)), lanes.constant(0.0))
     lost = p.step * pocket_loss(touches, change)
-    account(lanes, sums, mask, lost, lanes.constant(0.0), energy, p.effects.audit)
+    account_loss(lanes, sums, mask, LOSS_POCKET, lost, p.effects.audit)
+    account(lanes, sums, mask, lanes.constant(0.0), energy, p.effects.audit)

@@ -5,7 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.exchange import account, implicit_time, output_contact, react, watch_chatter
+from beardyn_core.kernels.exchange import (
+    account,
+    account_loss,
+    implicit_time,
+    output_contact,
+    react,
+    watch_chatter,
+)
 from beardyn_core.kernels.film import film_output, log2_entrainment
 from beardyn_core.kernels.lane_math import at_least, at_most, sqrt
 from beardyn_core.kernels.orbit import entrainment_speed
@@ -13,7 +20,7 @@ from beardyn_core.kernels.raceway import generator_line, lamina_sums, line_wrenc
 from beardyn_core.kernels.solve import add_line
 from beardyn_core.kernels.traction import traction_capacity
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, subtract
-from beardyn_core.model.layout import PENETRATION
+from beardyn_core.model.layout import LOSS_DAMPING, LOSS_SLIDING, PENETRATION
 
 
 @inline
@@ -97,8 +104,8 @@ def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
     force, moment : vector
     normal_force : tuple of 3 lane values
     around_force : lane value
-    lost, numerical : lane value
-        Dissipated by the contact, and by the time step, over the step, [J].
+    slid, damped, numerical : lane value
+        Dissipated by sliding, by contact damping, and by the time step, over the step, [J].
     """
     line, slip, sums, _log2_speed, _centre = contact
     d_rate = affine_change(line, line[2], change)
@@ -118,10 +125,10 @@ def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
     force, moment = line_wrench(line, normal, friction_around, weighted(sums[2], along))
     middle_around = shifted(slip[1], d_around, 0.5)
     middle_along = shifted(slip[2], d_along, 0.5)
-    lost = power(sums[2], middle_around, middle_around) + power(sums[2], middle_along, middle_along)
+    slid = power(sums[2], middle_around, middle_around) + power(sums[2], middle_along, middle_along)
     numerical = 0.5 * (power(sums[2], d_around, middle_around) + power(sums[2], d_along, middle_along))
     damped, extra = damping_loss(sums, slip[0], d_rate, damping)
-    return force, moment, normal, friction_around[0], step * (lost + damped), step * (numerical + extra)
+    return force, moment, normal, friction_around[0], step * slid, step * damped, step * (numerical + extra)
 
 
 @inline
@@ -150,7 +157,7 @@ def finish_raceway(
 ) -> Any:
     """Settle one raceway contact after the solve: reaction, output, audit; returns its wrench."""
     line, slip, lamina, log2_speed, centre = contact
-    force, moment, normal, friction, lost, numerical = settled_wrench(
+    force, moment, normal, friction, slid, damped, numerical = settled_wrench(
         contact, change, p.step, p.effects.damping
     )
     react(lanes, sums, ring, mask, centre, force, moment, cosine, sine)
@@ -165,5 +172,7 @@ def finish_raceway(
     watch_chatter(lanes, rollers, block, ring, friction, capacity)
     deepest = at_least(lanes.load(rollers, block, PENETRATION), line[5][0])
     lanes.store(rollers, block, PENETRATION, deepest)
-    account(lanes, sums, mask, lost, numerical, lamina[3], p.effects.audit)
+    account_loss(lanes, sums, mask, LOSS_SLIDING, slid, p.effects.audit)
+    account_loss(lanes, sums, mask, LOSS_DAMPING, damped, p.effects.audit)
+    account(lanes, sums, mask, numerical, lamina[3], p.effects.audit)
     return force, moment

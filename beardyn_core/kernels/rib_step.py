@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.exchange import account, implicit_time, output_contact, react
+from beardyn_core.kernels.exchange import account, account_loss, implicit_time, output_contact, react
 from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.rib import rib_contact
 from beardyn_core.kernels.solve import add_point
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
-from beardyn_core.model.layout import CONE, RIB
+from beardyn_core.model.layout import CONE, LOSS_DAMPING, LOSS_RIB, RIB
 
 
 @inline
@@ -91,7 +91,9 @@ def finish_rib(
     react(lanes, sums, CONE, mask, centre, rib_force, rib_moment, cosine, sine)
     output_contact(lanes, rollers, block, RIB, rib_force, arm, sqrt(dot(before, before)), lanes.constant(0.0))
     damping = time_constant * tangent
-    lost = friction * dot(middle, middle) + damping * middle_rate * middle_rate
     numerical = 0.5 * (friction * dot(d_sliding, middle) + damping * d_rate * middle_rate)
-    account(lanes, sums, mask, p.step * lost, p.step * numerical, energy, p.effects.audit)
+    audit = p.effects.audit
+    account_loss(lanes, sums, mask, LOSS_RIB, p.step * friction * dot(middle, middle), audit)
+    account_loss(lanes, sums, mask, LOSS_DAMPING, p.step * damping * middle_rate * middle_rate, audit)
+    account(lanes, sums, mask, p.step * numerical, energy, audit)
     return add(force, rib_force), add(moment, rib_moment)

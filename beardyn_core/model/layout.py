@@ -62,13 +62,40 @@ RING_OMEGA = 9
 RING_TURN = 12
 RING_FIELDS = 13
 
+# --- where energy is lost
+LOSS_NAMES = (
+    "raceway_sliding",
+    "contact_damping",
+    "rolling_resistance",
+    "rib",
+    "small_rib",
+    "pocket",
+    "cage_land",
+    "drag",
+    "seal",
+    "suspension",
+)
+(
+    LOSS_SLIDING,
+    LOSS_DAMPING,
+    LOSS_ROLLING,
+    LOSS_RIB,
+    LOSS_SMALL_RIB,
+    LOSS_POCKET,
+    LOSS_LAND,
+    LOSS_DRAG,
+    LOSS_SEAL,
+    LOSS_SUSPENSION,
+) = range(10)
+LOSSES = 10
+
 # --- sums over the rollers, lanes [0, field, lane]
 REACTION = 0  # 3 rings x (force, moment)
-WORK_LOST = 18  # dissipated energy of the step [J]
-WORK_NUMERICAL = 19
-WORK_GRAVITY = 20
-ELASTIC = 21  # elastic energy at the beginning of the step [J]
-SUM_FIELDS = 22
+WORK_LOST = 18  # dissipated energy of the step by source, LOSSES fields [J]
+WORK_NUMERICAL = WORK_LOST + LOSSES
+WORK_GRAVITY = WORK_NUMERICAL + 1
+ELASTIC = WORK_NUMERICAL + 2  # elastic energy at the beginning of the step [J]
+SUM_FIELDS = WORK_NUMERICAL + 3
 
 # --- signals of every step [step, channel]
 SIGNAL_FORCE = 0  # 6: rollers on the cup, about the bearing centre [N, N m]
@@ -78,5 +105,7 @@ SIGNAL_TORQUE = 12  # bearing on the shaft, about +y [N m]
 SIGNAL_CHANNELS = 13
 
 # --- energy terms since the start [J]
-ENERGY_EXTERNAL, ENERGY_DISSIPATED, ENERGY_NUMERICAL, ENERGY_ELASTIC, ENERGY_KINETIC = range(5)
-ENERGY_TERMS = 5
+ENERGY_EXTERNAL, ENERGY_NUMERICAL, ENERGY_LOST = range(3)  # ENERGY_LOST: by source, LOSSES fields
+ENERGY_ELASTIC = ENERGY_LOST + LOSSES
+ENERGY_KINETIC = ENERGY_ELASTIC + 1
+ENERGY_TERMS = ENERGY_KINETIC + 1

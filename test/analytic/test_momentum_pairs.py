@@ -13,8 +13,9 @@ from beardyn_core.model.layout import (
     CAGE_BODY,
     CONE_BODY,
     CUP_BODY,
-    ENERGY_DISSIPATED,
+    ENERGY_LOST,
     LINEAR,
+    LOSSES,
     POSITION,
     RATE,
     ROLLER_STATES,
@@ -152,9 +153,9 @@ def losses(rig: Rig, steps: int) -> Float:
     """Energy dissipated in each step, [J]."""
     spent = []
     for _ in range(steps):
-        before = rig.state.energy[ENERGY_DISSIPATED]
+        before = rig.state.energy[ENERGY_LOST : ENERGY_LOST + LOSSES].sum()
         rig.run(1)
-        spent.append(rig.state.energy[ENERGY_DISSIPATED] - before)
+        spent.append(rig.state.energy[ENERGY_LOST : ENERGY_LOST + LOSSES].sum() - before)
     return np.array(spent)
 
 

@@ -23,6 +23,7 @@ from beardyn_core.config import (
     scene_from_text,
     shipped_names,
 )
+from beardyn_core.config.effect_keys import audit, cage, contact_damping, film, gravity, rib, traction
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.units import stem_of
@@ -158,15 +159,15 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
 @pytest.mark.parametrize(
     ("keys", "noun"),
     [
-        (effects_file.ContactDampingKeys, effects.ContactDamping),
-        (effects_file.CoulombTractionKeys, effects.CoulombTraction),
-        (effects_file.MixedTractionKeys, effects.MixedTraction),
-        (effects_file.ShearedFilmTractionKeys, effects.ShearedFilmTraction),
-        (effects_file.LineFilmKeys, effects.LineFilm),
-        (effects_file.RibKeys, effects.Rib),
-        (effects_file.CageEffectKeys, effects.Cage),
-        (effects_file.GravityKeys, effects.Gravity),
-        (effects_file.AuditKeys, effects.Audit),
+        (contact_damping.ContactDampingKeys, effects.ContactDamping),
+        (traction.CoulombTractionKeys, effects.CoulombTraction),
+        (traction.MixedTractionKeys, effects.MixedTraction),
+        (traction.ShearedFilmTractionKeys, effects.ShearedFilmTraction),
+        (film.LineFilmKeys, effects.LineFilm),
+        (rib.RibKeys, effects.Rib),
+        (cage.CageEffectKeys, effects.Cage),
+        (gravity.GravityKeys, effects.Gravity),
+        (audit.AuditKeys, effects.Audit),
         (effects_file.EffectsKeys, effects.EffectSet),
         (scene_file.MountingKeys, Mounting),
         (scene_file.NumericsKeys, Numerics),

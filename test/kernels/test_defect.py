@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters, surface_radius
+from beardyn_core.model.build import build_parameters
+from beardyn_core.model.fault_params import surface_radius
 from beardyn_core.model.parameters import SpallParams
 from beardyn_core.scene.defect import Spall
 from test.kernels import naive

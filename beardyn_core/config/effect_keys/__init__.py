@@ -1,0 +1,1 @@
+"""Keys of the effects, one file each."""

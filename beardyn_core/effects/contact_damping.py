@@ -1,0 +1,29 @@
+"""Loss of contacts that are pressed together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from beardyn_core.effects.about import About
+
+
+@dataclass(frozen=True)
+class ContactDamping:
+    """Velocity-proportional loss of raceway and rib contacts.
+
+    Parameters
+    ----------
+    time_constant : float
+        Damping force over tangent stiffness and normal velocity, [s].
+    """
+
+    about: ClassVar[About] = About(
+        adds="Velocity-proportional normal loss in raceway and rib contacts.",
+        states="none",
+        cost="low",
+        validity="Persistent, lubricated contacts; impacts lose less than a restitution law would say.",
+        source="Kraemer (1992), damping time 2.5e-6 to 2.5e-5 s; clipped so that a contact never pulls",
+    )
+
+    time_constant: float = 5e-6
