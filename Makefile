@@ -15,11 +15,11 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow bench lint format clean
+.PHONY: help demo test slow bench validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
 
 demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view
 	@$(BIN)/python -m beardyn_ros demo $(ARGS)
@@ -32,6 +32,9 @@ slow: $(VENV)/.ready-test ## set up, then the long tests as well
 
 bench: $(VENV)/.ready ## set up, then the real-time factor of every shipped scene
 	@$(BIN)/python benchmarks/real_time_factor.py $(ARGS)
+
+validation: $(VENV)/.ready-test ## set up, then run every anchor and write docs/validation.md
+	@$(BIN)/python docs/write_validation.py $(ARGS)
 
 lint: $(VENV)/.ready-dev ## style, types and the direction of imports
 	@failed=; \

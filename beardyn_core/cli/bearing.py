@@ -1,4 +1,4 @@
-"""`beardyn bearing`: geometry, fault frequencies, static load distribution and stiffness of one bearing."""
+"""`beardyn bearing`: geometry, fault frequencies, load distribution, stiffness and life of one bearing."""
 
 from __future__ import annotations
 
@@ -15,19 +15,21 @@ if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.kinematics import FaultFrequencies
     from beardyn_core.integrate.static import StaticSolution
+    from beardyn_core.study.rating_life import RatingLife
 
 TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
 _DEFAULT_LOAD = (0.0, 0.0, 80.0e3)
 _BAR_WIDTH = 28
 _RPM = 2.0 * math.pi / 60.0
+_ZERO_CELSIUS = 273.15
 
 
 def add_parser(subparsers: Any) -> None:
     """Add the command to the subparsers of the command line."""
     parser = subparsers.add_parser(
         "bearing",
-        help="geometry, fault frequencies, static load distribution and stiffness of a bearing",
-        description="Geometry, fault frequencies, static load distribution and stiffness of a bearing.",
+        help="geometry, fault frequencies, load distribution, stiffness and life of a bearing",
+        description="Geometry, fault frequencies, static load distribution, stiffness and life of a bearing.",
     )
     # Before Python 3.14 argparse takes -1e-5 for an option.
     parser._negative_number_matcher = re.compile(r"^-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
@@ -52,6 +54,18 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--laminae", type=int, default=1, metavar="N", help="laminae of each raceway contact; default 1"
     )
+    parser.add_argument(
+        "--lubricant", metavar="NAME", help="shipped lubricant or path of a YAML file; with it film and life"
+    )
+    parser.add_argument(
+        "--temperature", type=float, default=70.0, metavar="C", help="of the lubricant, deg C; default 70"
+    )
+    parser.add_argument(
+        "--contamination",
+        type=float,
+        metavar="EC",
+        help="e_C of ISO 281, 0 to 1: 1 extreme cleanliness; default 0.6, sealed and greased",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
     parser.set_defaults(run=run)
 
@@ -62,6 +76,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.integrate.static import solve
 
     try:
+        _refuse_absurd(args)
         bearing = load_bearing(args.bearing)
         load = _DEFAULT_LOAD if args.load is None else tuple(args.load)
         end_play = bearing.end_play if args.end_play is None else args.end_play
@@ -73,6 +88,7 @@ def run(args: argparse.Namespace) -> int:
             laminae=args.laminae,
             speed=args.speed * _RPM,
         )
+        life = _life(bearing, load, end_play, args)
     except InputError as error:
         for problem in error.problems:
             print(problem, file=sys.stderr)
@@ -80,11 +96,50 @@ def run(args: argparse.Namespace) -> int:
     except ValidityError as error:
         print(error, file=sys.stderr)
         return 3
+    from beardyn_core.study.life_text import life_lines, life_object
+
     if args.json:
-        print(json.dumps(_report(bearing, load, end_play, args, solution)))
+        report = _report(bearing, load, end_play, args, solution)
+        print(json.dumps({**report, "life": None if life is None else life_object(life)}))
     else:
         print(_table(bearing, load, end_play, args, solution))
+        if life is not None:
+            print("\n".join(["", *life_lines(life)]))
     return 0
+
+
+def _refuse_absurd(args: argparse.Namespace) -> None:
+    """Raise `InputError` when temperature or contamination make no sense."""
+    problems = []
+    if not -60.0 <= args.temperature <= 200.0:
+        problems.append(f"--temperature is {args.temperature:g}; it must be from -60 to 200 deg C")
+    if args.contamination is not None and not 0.0 <= args.contamination <= 1.0:
+        problems.append(f"--contamination is {args.contamination:g}; it must be from 0 to 1")
+    if args.lubricant is not None and args.speed == 0.0:
+        problems.append("--lubricant is given, but --speed is 0; life needs a shaft that turns")
+    if problems:
+        raise InputError(problems)
+
+
+def _life(
+    bearing: Bearing, load: tuple[float, ...], end_play: float, args: argparse.Namespace
+) -> RatingLife | None:
+    """Life under the load of the command line; ``None`` without a lubricant."""
+    if args.lubricant is None:
+        return None
+    from beardyn_core.config import load_lubricant
+    from beardyn_core.study.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
+
+    always = LoadClass(1.0, (load[0], load[1], load[2]), (0.0, 0.0, 0.0), abs(args.speed) * _RPM)
+    return rating_life(
+        bearing,
+        (always,),
+        load_lubricant(args.lubricant),
+        args.temperature + _ZERO_CELSIUS,
+        end_play=end_play,
+        tilt=args.tilt,
+        contamination=USUAL_CONTAMINATION if args.contamination is None else args.contamination,
+    )
 
 
 def _report(

@@ -41,6 +41,8 @@ class StaticSolution:
         Rotation of the cone about x and z, [rad].
     cup_load, cone_load, rib_load : float64 arrays, shape [row, roller]
         Contact forces of each roller, laminae summed, [N].
+    cup_lamina_load, cone_lamina_load : float64 arrays, shape [row, roller, lamina]
+        The same by lamina, from the small end to the large end, [N].
     roller_radial, roller_axial : float64 arrays, shape [row, roller]
         Displacement of the roller's mid-length from its nominal place, where it touches both raceways
         and the rib without end play: radial outwards, axial outwards along its row, [m].
@@ -64,6 +66,8 @@ class StaticSolution:
     cup_load: Float
     cone_load: Float
     rib_load: Float
+    cup_lamina_load: Float
+    cone_lamina_load: Float
     roller_radial: Float
     roller_axial: Float
     roller_tilt: Float
@@ -145,6 +149,8 @@ def solve(
         cup_load=state.cup.force.sum(axis=-1),
         cone_load=state.cone.force.sum(axis=-1),
         rib_load=state.rib.force.sum(axis=-1),
+        cup_lamina_load=state.cup.force.copy(),
+        cone_lamina_load=state.cone.force.copy(),
         roller_radial=state.position[..., 0].copy(),
         roller_axial=state.position[..., 1].copy(),
         roller_tilt=state.position[..., 2].copy(),

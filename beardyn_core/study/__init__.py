@@ -9,5 +9,7 @@ finding             a monitor's result in words and messages
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
+rating_life         rating life under a load history
+life_text           rating life in words
 =================== =========================================
 """

@@ -94,3 +94,26 @@ def test_negative_numbers_may_have_an_exponent(bearing_command):
     assert status == 0
     assert static["applied_force_N"] == [0.0, -1.5e4, -8e4]
     assert static["end_play_m"] == -1e-5
+
+
+def test_life_comes_with_a_lubricant_and_a_speed(bearing_command):
+    words = ("HS130x230", "--load", "0", "0", "8e4", "--lubricant", "L055", "--speed", "2000")
+    status, out, _ = bearing_command(*words, "--json")
+    life = json.loads(out)["life"]
+    assert status == 0
+    assert life["equivalent_load_N"] == pytest.approx(80e3)
+    assert life["L10_million_rev"] == pytest.approx((977.4 / 80.0) ** (10 / 3), rel=0.02)
+    assert life["L10mr_million_rev"] > life["L10r_million_rev"] > life["L10_million_rev"]
+    status, out, _ = bearing_command(*words)
+    assert "ISO 16281" in out
+    assert json.loads(bearing_command("HS130x230", "--json")[1])["life"] is None
+
+
+def test_absurd_life_options_are_refused_all_at_once(bearing_command):
+    status, out, error = bearing_command(
+        "HS130x230", "--lubricant", "L055", "--temperature", "900", "--contamination", "2"
+    )
+    assert (status, out) == (2, "")
+    assert "--temperature is 900" in error
+    assert "--contamination is 2" in error
+    assert "--speed is 0" in error

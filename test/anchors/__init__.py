@@ -1,0 +1,1 @@
+"""Published numbers beside ours: what the literature tests assert and the validation page lists."""

@@ -1,0 +1,255 @@
+"""Contact laws, load zones and static load distributions."""
+
+from __future__ import annotations
+
+import math
+
+from beardyn_core.bearing.contact_law import (
+    PointContact,
+    curvature_difference,
+    curvature_sum,
+    line_contact_factor,
+)
+from beardyn_core.bearing.force_triangle import roller_forces
+from beardyn_core.bearing.load_zone import axial_integral, radial_integral
+from beardyn_core.config import load_bearing
+from beardyn_core.integrate.static import StaticSolution, solve
+from test.anchors.anchor import Anchor
+from test.anchors.zhang import published_model, solved_model
+
+ZHANG = "Zhang, Lv, Han, Li 2023, Sensors 23:4967, Table 3"
+KUMAR = "Kumar 2005 REBM as quoted by TRB_StiffnessSolver.m; K = 7.86e4 l^(8/9) taken for the whole roller"
+HARRIS = "Harris, Rolling Bearing Analysis"
+D_BRAIN = "D-BRAIN unit tests (NSK core technology)"
+SOFTER = "dossier computed with the ISO constant, 3.7 % softer per contact than Palmgren's"
+
+
+def static(load: tuple[float, float, float], tilt: str = "locked") -> StaticSolution:
+    return solve(load_bearing("HS130x230"), load, end_play=0.0, tilt=tilt)
+
+
+def kumar_stiffness(axial: float) -> float:
+    """Axial stiffness of a single row under pure thrust, MN/mm, closed form."""
+    count, length, angle = 20, 18.251, math.radians(31.128)
+    factor = 7.86e4 * length ** (8.0 / 9.0)
+    load = axial / (count * math.sin(angle))
+    approach = (load / factor) ** 0.9
+    return 10.0 / 9.0 * axial / (approach / math.sin(angle)) / 1e6
+
+
+def ball_curvature(outer: bool) -> tuple[float, float, float, float]:
+    ball, pitch, groove = 12.7, 65.0, 0.52 * 12.7
+    gamma = ball / pitch
+    ring = -2 * gamma / (ball * (1 + gamma)) if outer else 2 * gamma / (ball * (1 - gamma))
+    return (2 / ball, 2 / ball, ring, -1 / groove)
+
+
+def zhang_triangle(which: int) -> float:
+    cup, cone, rib = (math.radians(angle) for angle in (22.54, 16.24, 70.20))
+    centrifugal = 0.126 * (1200.0 * math.pi / 30.0) ** 2 * 0.19893 / 2.0
+    return float(roller_forces(1304.8, cup, cone, rib, centrifugal)[which])
+
+
+def bounce_frequency(load: float) -> float:
+    """Natural frequency of a roller between both raceways, Hz."""
+    bearing = load_bearing("HS130x230")
+    factor = line_contact_factor(bearing.material, bearing.effective_length)
+    tangent = 10.0 / 9.0 * factor**0.9 * load**0.1
+    return math.sqrt(2.0 * tangent / bearing.roller_mass) / (2.0 * math.pi)
+
+
+HERTZ = PointContact(5.5289e-3, 189.645e-3, 228.571e9)
+TEXTBOOK = PointContact(10.7e-3, 20.0e-3, 231e9)
+
+ANCHORS = (
+    Anchor(
+        "D5",
+        "roller bounce at 615 N",
+        16.4,
+        "kHz",
+        SOFTER,
+        lambda: bounce_frequency(615.0) / 1e3,
+        tolerance=0.02,
+    ),
+    Anchor(
+        "D6",
+        "load-zone integral J_r(0.5), exponent 10/9",
+        0.2448,
+        "",
+        "dossier, numerical",
+        lambda: radial_integral(0.5),
+        absolute=1e-3,
+    ),
+    Anchor(
+        "D6",
+        "load-zone integral J_a(0.5), exponent 10/9",
+        0.3080,
+        "",
+        "dossier, numerical",
+        lambda: axial_integral(0.5),
+        absolute=1e-3,
+    ),
+    Anchor(
+        "D6",
+        "load-zone integral J_r(0.5), exponent 1.1",
+        0.2453,
+        "",
+        HARRIS,
+        lambda: radial_integral(0.5, 1.1),
+        absolute=1e-3,
+    ),
+    Anchor(
+        "D7",
+        "largest roller load, 80 kN radial, no clearance",
+        9835.0,
+        "N",
+        "34 rollers one by one (dossier)",
+        lambda: static((0, 0, 80e3)).largest_roller_load,
+        tolerance=5e-3,
+    ),
+    Anchor(
+        "D7",
+        "the same after Stribeck, 4.08 F/(i Z cos a)",
+        9810.0,
+        "N",
+        "Stribeck's number for line contact",
+        lambda: static((0, 0, 80e3)).largest_roller_load,
+        tolerance=5e-3,
+    ),
+    Anchor(
+        "D8",
+        "HH926700, 1.5 kN radial, 5 kN axial: the published model",
+        1304.8,
+        "N",
+        ZHANG,
+        lambda: published_model(1500.0, 5000.0),
+        tolerance=1e-3,
+    ),
+    Anchor(
+        "D8",
+        "the same with rollers between cup, cone and rib",
+        1304.8,
+        "N",
+        ZHANG,
+        lambda: solved_model(1500.0, 5000.0).largest_roller_load,
+        tolerance=5e-3,
+    ),
+    Anchor("D8", "its cone load", 1119.3, "N", ZHANG, lambda: zhang_triangle(0), tolerance=1e-3),
+    Anchor("D8", "its rib load", 198.9, "N", ZHANG, lambda: zhang_triangle(1), tolerance=1e-3),
+    Anchor(
+        "D9",
+        "REBM axial stiffness at 4 kN, published convention",
+        2.80,
+        "MN/mm",
+        KUMAR,
+        lambda: kumar_stiffness(4e3),
+        tolerance=5e-3,
+    ),
+    Anchor(
+        "D9",
+        "REBM axial stiffness at 40 kN, published convention",
+        3.53,
+        "MN/mm",
+        KUMAR,
+        lambda: kumar_stiffness(40e3),
+        tolerance=5e-3,
+    ),
+    Anchor(
+        "D10",
+        "Hertz point contact, force at 9.164 um",
+        972.39,
+        "N",
+        D_BRAIN,
+        lambda: HERTZ.factor * 9.164e-6**1.5,
+        tolerance=1e-4,
+    ),
+    Anchor(
+        "D10",
+        "its larger semi-axis",
+        1.6211,
+        "mm",
+        D_BRAIN,
+        lambda: HERTZ.semi_axes(HERTZ.factor * 9.164e-6**1.5)[0] * 1e3,
+        tolerance=1e-4,
+    ),
+    Anchor(
+        "D10",
+        "its smaller semi-axis",
+        0.16553,
+        "mm",
+        D_BRAIN,
+        lambda: HERTZ.semi_axes(HERTZ.factor * 9.164e-6**1.5)[1] * 1e3,
+        tolerance=1e-4,
+    ),
+    Anchor(
+        "D11",
+        "textbook point contact, force at 1.89 um",
+        50.0,
+        "N",
+        D_BRAIN,
+        lambda: TEXTBOOK.factor * 1.89e-6**1.5,
+        tolerance=0.025,
+    ),
+    Anchor(
+        "D12",
+        "209 ball bearing, curvature sum of the inner ring",
+        0.202,
+        "1/mm",
+        HARRIS,
+        lambda: curvature_sum(ball_curvature(False)),
+        absolute=5e-4,
+    ),
+    Anchor(
+        "D12",
+        "its curvature difference, inner ring",
+        0.9399,
+        "",
+        HARRIS,
+        lambda: curvature_difference(ball_curvature(False)),
+        tolerance=1e-3,
+    ),
+    Anchor(
+        "D12",
+        "its curvature difference, outer ring",
+        0.9120,
+        "",
+        HARRIS,
+        lambda: curvature_difference(ball_curvature(True)),
+        tolerance=1e-3,
+    ),
+    Anchor(
+        "static",
+        "80 kN radial: radial displacement",
+        13.9,
+        "um",
+        SOFTER,
+        lambda: static((0, 0, 80e3)).displacement[2] * 1e6,
+        tolerance=0.035,
+    ),
+    Anchor(
+        "static",
+        "80 kN radial: radial stiffness, tilt held",
+        6.38,
+        "GN/m",
+        SOFTER,
+        lambda: static((0, 0, 80e3)).stiffness_tilt_held[2, 2] / 1e9,
+        tolerance=0.035,
+    ),
+    Anchor(
+        "static",
+        "80 kN radial, 15 kN axial, tilt free: largest roller load",
+        11875.0,
+        "N",
+        "dossier",
+        lambda: static((0, 15e3, 80e3), "free").largest_roller_load,
+        tolerance=5e-3,
+    ),
+    Anchor(
+        "static",
+        "the same: loaded rollers in the loaded row",
+        17.0,
+        "",
+        "dossier",
+        lambda: float(max(static((0, 15e3, 80e3), "free").loaded_roller_count)),
+    ),
+)
