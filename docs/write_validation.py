@@ -11,6 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
+from docs.validation_pictures import PICTURES  # noqa: E402
 from test.anchors.anchor import Anchor, Finding, Trend  # noqa: E402
 from test.anchors.every import ANCHORS, TRENDS, UNREACHED  # noqa: E402
 
@@ -88,6 +89,8 @@ def main() -> None:
         held += finding.holds
         trends += trend_lines(trend, finding)
         print(trend.label, finding.holds, finding.sentence, flush=True)
+    for name, draw in PICTURES.items():
+        draw(PAGE.with_name("pictures") / name)
     unreached = ["## Not compared", ""]
     unreached += [f"- {label}: {why}" for label, why in UNREACHED]
     total = (

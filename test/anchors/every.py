@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from test.anchors import catalogue_values, dynamics, life, rail, statics
+from test.anchors import catalogue_values, dynamics, life, rail, statics, trends
 from test.anchors.anchor import Anchor, Trend
 
 ANCHORS: tuple[Anchor, ...] = (
@@ -13,6 +13,6 @@ ANCHORS: tuple[Anchor, ...] = (
     *rail.ANCHORS,
 )
 
-TRENDS: tuple[Trend, ...] = ()
+TRENDS: tuple[Trend, ...] = (*trends.TRENDS,)
 
 UNREACHED: tuple[tuple[str, str], ...] = ()

@@ -1,0 +1,87 @@
+"""Published trends, checked with dynamic runs."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from test.anchors.anchor import Finding, Trend
+from test.anchors.posture import Condition, Posture, posture
+
+ZHAO = "Zhao et al. 2026, J. Braz. Soc. Mech. Sci. Eng. 48:241, and J. Tribol. 148(2):024301"
+BASE = Condition()
+LOADED = 0.05
+
+
+def loaded_mean(run: Posture, part: str) -> float:
+    """Mean magnitude of skew or tilt over the loaded rollers of both rows, mrad."""
+    values = np.abs(getattr(run, part))
+    chosen = np.nan_to_num(run.load) > LOADED * np.nanmax(run.load, axis=1, keepdims=True)
+    return float(np.mean(values[chosen]))
+
+
+def at_most_loaded(run: Posture, row: int, part: str) -> float:
+    return float(getattr(run, part)[row, np.nanargmax(run.load[row])])
+
+
+def monotone(part: str, conditions: tuple[Condition, ...], rises: bool, over: str) -> Finding:
+    """Whether the mean magnitude rises (or falls) from condition to condition."""
+    values = [loaded_mean(posture(condition), part) for condition in conditions]
+    steps = np.diff(values)
+    holds = bool((steps > 0.0).all() if rises else (steps < 0.0).all())
+    shown = ", ".join(f"{value:.3f}" for value in values)
+    return Finding(holds, f"Mean {part} of the loaded rollers over {over}: {shown} mrad.")
+
+
+def attitude_of_the_most_loaded() -> Finding:
+    run = posture(BASE)
+    sentences, holds = [], True
+    for row, name in ((0, "inboard"), (1, "outboard")):
+        loaded = np.nan_to_num(run.load[row]) > LOADED * np.nanmax(run.load[row])
+        skew, tilt = at_most_loaded(run, row, "skew"), at_most_loaded(run, row, "tilt")
+        mean_skew = float(np.mean(np.abs(run.skew[row][loaded])))
+        mean_tilt = float(np.mean(np.abs(run.tilt[row][loaded])))
+        holds &= abs(skew) < mean_skew and abs(tilt) > mean_tilt
+        sentences.append(
+            f"{name}: skew {skew:+.3f} against a mean of {mean_skew:.3f}, "
+            f"tilt {tilt:+.3f} against {mean_tilt:.3f} mrad"
+        )
+    return Finding(holds, "At the most loaded roller, " + "; ".join(sentences) + ".")
+
+
+def rows_tilt_opposite() -> Finding:
+    tilts = [at_most_loaded(posture(BASE), row, "tilt") for row in (0, 1)]
+    return Finding(
+        tilts[0] * tilts[1] < 0.0,
+        f"Tilt of the most loaded roller: {tilts[0]:+.3f} mrad inboard, {tilts[1]:+.3f} mrad outboard.",
+    )
+
+
+ECCENTRICITIES = tuple(Condition(eccentricity=value) for value in (0.0, 20.0, 40.0))
+THRUSTS = tuple(Condition(axial=value) for value in (12.0, 15.0, 18.0))
+SPEEDS = tuple(Condition(speed=value) for value in (1000.0, 1500.0, 2000.0))
+RADIALS = tuple(Condition(radial=value) for value in (70.0, 80.0, 90.0))
+TEMPERATURES = tuple(Condition(temperature=value) for value in (50.0, 70.0, 90.0))
+
+TRENDS = (
+    Trend(
+        "D22", "skew is least and tilt largest at the most loaded roller", ZHAO, attitude_of_the_most_loaded,
+        picture="posture.png",
+    ),
+    Trend("D22", "the rows tilt opposite ways", ZHAO, rows_tilt_opposite),
+    *(
+        Trend(
+            "D22", f"{part} {'rises' if rises else 'falls'} with {over.split(' from')[0]}", ZHAO,
+            partial(monotone, part, conditions, rises, over),
+        )
+        for conditions, rises, over in (
+            (ECCENTRICITIES, True, "load eccentricity from 0 over 20 to 40 mm"),
+            (THRUSTS, True, "axial load from 12 over 15 to 18 kN"),
+            (SPEEDS, True, "speed from 1000 over 1500 to 2000 rpm"),
+            (RADIALS, False, "radial load from 70 over 80 to 90 kN"),
+            (TEMPERATURES, False, "temperature from 50 over 70 to 90 deg C"),
+        )
+        for part in ("skew", "tilt")
+    ),
+)  # fmt: skip
