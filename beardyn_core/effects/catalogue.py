@@ -1,0 +1,43 @@
+"""The catalogue: every effect a scene can switch on, with what is known of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from types import NoneType
+from typing import Any, get_args, get_type_hints
+
+from beardyn_core.effects.about import About
+from beardyn_core.effects.effect_set import EffectSet
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One choice of the catalogue.
+
+    Parameters
+    ----------
+    member : str
+        Name of the effect in an `EffectSet` and in a scene.
+    options : type
+        Its options; several choices of one effect have the same member.
+    about : About
+    """
+
+    member: str
+    options: type
+    about: About
+
+
+def catalogue() -> tuple[Entry, ...]:
+    """All effects in the order of `EffectSet`."""
+    hints = get_type_hints(EffectSet)
+    return tuple(
+        Entry(field.name, options, options.about)
+        for field in fields(EffectSet)
+        for options in _choices(hints[field.name])
+    )
+
+
+def _choices(hint: Any) -> tuple[Any, ...]:
+    """The options classes of a union with ``None``."""
+    return tuple(choice for choice in get_args(hint) if choice is not NoneType)

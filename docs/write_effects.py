@@ -1,0 +1,97 @@
+"""Write docs/effects.md from the catalogue of effects: ``python docs/write_effects.py``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, get_args
+
+from pydantic import BaseModel
+
+from beardyn_core.config.effects_file import EffectsKeys
+from beardyn_core.effects.catalogue import Entry, catalogue
+
+PAGE = Path(__file__).with_name("effects.md")
+
+HEAD = """# Effects
+
+Written by `python docs/write_effects.py` from the catalogue in the code.
+
+A scene names a preset (`effects: standard`) or switches effects itself:
+
+```yaml
+effects:
+  preset: standard
+  film: {starvation: 0.5}   # options of an effect
+  rib: true                 # with its usual options
+  cage: false               # absent: compiled away, costs nothing
+```
+
+Faults are not listed: they are present when the scene has them. Costs are shares of the time step:
+*low* below 3 %, *medium* below 15 %, *high* above.
+
+| effect | kind | adds | states | cost | valid for | source |
+|---|---|---|---|---|---|---|
+"""
+
+
+def models_of(annotation: Any) -> Iterator[type[BaseModel]]:
+    """All key models inside an annotation."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from models_of(part)
+
+
+def keys_of(entry: Entry) -> type[BaseModel]:
+    """Key model whose noun is the entry's options."""
+    field = EffectsKeys.model_fields[entry.member]
+    models = list(models_of(field.annotation))
+    for metadata in field.metadata:
+        models += list(models_of(metadata))
+    for model in models:
+        if model.noun.__annotations__["return"] == entry.options.__name__:
+            return model
+    raise LookupError(f"{entry.options.__name__} has no keys")
+
+
+def kind_of(model: type[BaseModel]) -> str:
+    """Value of the key that chooses among the kinds of an effect."""
+    kind = model.model_fields.get("kind")
+    return f"`{get_args(kind.annotation)[0]}`" if kind else ""
+
+
+def option_rows(model: type[BaseModel]) -> list[str]:
+    """Table rows of the options of one kind."""
+    rows = []
+    for name, field in model.model_fields.items():
+        if name == "kind":
+            continue
+        default = (
+            "required" if field.is_required() else f"`{_plain(field.get_default(call_default_factory=True))}`"
+        )
+        rows.append(f"| `{name}` | {default} | {field.description or ''} |")
+    return rows
+
+
+def _plain(value: Any) -> str:
+    if value is None or isinstance(value, bool):
+        return {None: "null", True: "true", False: "false"}[value]
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def page() -> str:
+    """The whole page."""
+    lines, options = [], []
+    for entry in catalogue():
+        model, about = keys_of(entry), entry.about
+        cells = (f"`{entry.member}`", kind_of(model), about.adds, about.states, about.cost, about.validity)
+        lines.append("| " + " | ".join((*cells, about.source)) + " |")
+        if rows := option_rows(model):
+            title = f"## {entry.member} {kind_of(model)}".rstrip()
+            options += ["", title, "", "| option | usual | |", "|---|---|---|", *rows]
+    return HEAD + "\n".join([*lines, *options]) + "\n"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
