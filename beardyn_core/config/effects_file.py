@@ -32,11 +32,11 @@ class EffectsKeys(FileModel):
     contact_damping: Switch[ContactDampingKeys] = False
     traction: Traction | None = None
     film: Switch[LineFilmKeys] = False
-    rolling_resistance: Switch[RollingResistanceKeys] = False
-    drag: Switch[DragKeys] = False
+    rolling_resistance: Switch[RollingResistanceKeys] = None
+    drag: Switch[DragKeys] = None
     rib: Switch[RibKeys] = False
     cage: Switch[CageEffectKeys] = False
-    seal: Switch[SealKeys] = False
+    seal: Switch[SealKeys] = None
     gravity: Switch[GravityKeys] = False
     audit: Switch[AuditKeys] = False
 

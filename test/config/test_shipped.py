@@ -57,7 +57,8 @@ LOADERS: dict[str, Callable[[str], Any]] = {
 def approximately(given: EffectSet) -> dict[str, object]:
     """Options of the effects; degrees cost the last digit of an angle."""
     return {
-        name: pytest.approx(options) for name, options in asdict(given).items() if isinstance(options, dict)
+        name: pytest.approx(options) if isinstance(options, dict) else options
+        for name, options in asdict(given).items()
     }
 
 
