@@ -136,7 +136,7 @@ def bearing_32216() -> tuple[Bearing, StaticSolution]:
 TOO_HIGH = pytest.mark.xfail(
     strict=True,
     raises=AssertionError,
-    reason="flooded and without the geometry of the test bearing: 22 % and 16 % too high"
+    reason="flooded and without the geometry of the test bearing: 22 % and 16 % too high",
 )
 
 
@@ -178,7 +178,7 @@ def test_power_loss_of_the_high_speed_axlebox_bearing() -> None:
     """Zhao et al. (2026), J. Braz. Soc. Mech. Sci. Eng. 48:241: 80/15 kN, 2000 rpm, 1641.7 W; 15 %.
 
     Aihara's law, grease at 100 C, the bearing's usual end play and tilt held. The source measured 5
-    loaded rollers a row; here 7 and 3 are loaded. It prints a convex cup (+9 %) and another entrainment speed.
+    loaded rollers a row; here 7 and 3 are loaded. It prints a convex cup (+9 %) and another speed.
     """
     bearing = load_bearing("HS130x230")
     static = solve(bearing, (0.0, 15e3, 80e3), end_play=bearing.end_play)
