@@ -232,6 +232,7 @@ class Twin:
             dissipated=float(since[ENERGY_LOST : ENERGY_LOST + LOSSES].sum()),
             numerical=float(since[ENERGY_NUMERICAL]),
             stored=float(since[ENERGY_ELASTIC] + since[ENERGY_KINETIC]),
+            losses=tuple(since[ENERGY_LOST : ENERGY_LOST + LOSSES].tolist()),
         )
 
     def truth(self) -> dict[str, Any]:

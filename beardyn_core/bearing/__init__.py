@@ -13,5 +13,6 @@ module                  responsibility
 ``load_zone``           load-zone integrals of one row
 ``life``                basic load rating (ISO 281)
 ``lubricant``           viscosity and pressure-viscosity with temperature
+``rolling_resistance``  rolling couple of one lubricated contact
 ======================  ==================================================================
 """

@@ -127,6 +127,7 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "shaft_torque_Nm": _number(summary.shaft_torque),
         "cage_speed_ratio": [_number(ratio) for ratio in summary.cage_speed_ratio],
         "energy_residual": _number(summary.energy_residual),
+        "torque_budget": None if summary.budget is None else summary.budget.to_json(),
         "recording": None if recording is None else str(recording),
     }
 
@@ -161,4 +162,5 @@ def text(summary: RunSummary, recording: Path | None) -> str:
     if recording is not None:
         size = f", {recording.stat().st_size / 1e6:.1f} MB" if recording.exists() else ""
         lines.append(("recording", f"{recording}{size}"))
-    return "\n".join(f"{name:20} {value}" for name, value in lines)
+    table = [] if summary.budget is None else ["", *summary.budget.lines()]
+    return "\n".join([*(f"{name:20} {value}" for name, value in lines), *table])

@@ -10,9 +10,12 @@ from pydantic import Field
 from beardyn_core.config.effect_keys.audit import AuditKeys
 from beardyn_core.config.effect_keys.cage import CageEffectKeys
 from beardyn_core.config.effect_keys.contact_damping import ContactDampingKeys
+from beardyn_core.config.effect_keys.drag import DragKeys
 from beardyn_core.config.effect_keys.film import LineFilmKeys
 from beardyn_core.config.effect_keys.gravity import GravityKeys
 from beardyn_core.config.effect_keys.rib import RibKeys
+from beardyn_core.config.effect_keys.rolling_resistance import RollingResistanceKeys
+from beardyn_core.config.effect_keys.seal import SealKeys
 from beardyn_core.config.effect_keys.traction import Traction
 from beardyn_core.config.file_model import FileModel, Name, Switch, Text
 from beardyn_core.effects import EffectSet
@@ -29,8 +32,11 @@ class EffectsKeys(FileModel):
     contact_damping: Switch[ContactDampingKeys] = False
     traction: Traction | None = None
     film: Switch[LineFilmKeys] = False
+    rolling_resistance: Switch[RollingResistanceKeys] = None
+    drag: Switch[DragKeys] = None
     rib: Switch[RibKeys] = False
     cage: Switch[CageEffectKeys] = False
+    seal: Switch[SealKeys] = None
     gravity: Switch[GravityKeys] = False
     audit: Switch[AuditKeys] = False
 

@@ -31,6 +31,7 @@ _WORDS = {
     "kN_per_mm": "kilonewtons per millimetre",
     "MN_per_m": "meganewtons per metre",
     "kg_per_m": "kilograms per metre",
+    "rad_per_s": "radians per second",
     "m_per_s2": "metres per second squared",
     "m_per_s": "metres per second",
     "per_GPa": "1 per gigapascal",
@@ -38,6 +39,7 @@ _WORDS = {
     "MN_m2": "meganewton square metres",
     "kg_m2": "kilogram square metres",
     "kN_m": "kilonewton metres",
+    "N_m": "newton metres",
     "kmh": "kilometres per hour",
     "rpm": "revolutions per minute",
     "deg": "degrees",
@@ -65,7 +67,6 @@ _FOREIGN = (
         "F",
         "rad",
         "rad_s",
-        "rad_per_s",
         "mph",
         "m_s",
         "Hz",
@@ -74,7 +75,7 @@ _FOREIGN = (
         "min",
         "h",
     ),
-    *("N", "MN", "lbf", "N_m", "Nm", "kNm", "N_per_m", "kN_per_m", "g", "lb", "Pa", "kPa", "bar"),
+    *("N", "MN", "lbf", "Nm", "kNm", "N_per_m", "kN_per_m", "g", "lb", "Pa", "kPa", "bar"),
 )
 _ENDINGS = tuple(sorted((*_WORDS, *_FOREIGN), key=len, reverse=True))
 

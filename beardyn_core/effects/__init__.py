@@ -10,10 +10,13 @@ from beardyn_core.effects.about import About
 from beardyn_core.effects.audit import Audit
 from beardyn_core.effects.cage import Cage
 from beardyn_core.effects.contact_damping import ContactDamping
+from beardyn_core.effects.drag import Drag
 from beardyn_core.effects.effect_set import EffectSet
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
+from beardyn_core.effects.rolling_resistance import RollingResistance
+from beardyn_core.effects.seal import Seal
 from beardyn_core.effects.traction import CoulombTraction, MixedTraction, ShearedFilmTraction, Traction
 
 __all__ = [
@@ -22,11 +25,14 @@ __all__ = [
     "Cage",
     "ContactDamping",
     "CoulombTraction",
+    "Drag",
     "EffectSet",
     "Gravity",
     "LineFilm",
     "MixedTraction",
     "Rib",
+    "RollingResistance",
+    "Seal",
     "ShearedFilmTraction",
     "Traction",
 ]

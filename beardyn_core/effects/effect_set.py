@@ -7,9 +7,12 @@ from dataclasses import dataclass, fields
 from beardyn_core.effects.audit import Audit
 from beardyn_core.effects.cage import Cage
 from beardyn_core.effects.contact_damping import ContactDamping
+from beardyn_core.effects.drag import Drag
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
+from beardyn_core.effects.rolling_resistance import RollingResistance
+from beardyn_core.effects.seal import Seal
 from beardyn_core.effects.traction import MixedTraction, Traction
 
 
@@ -23,8 +26,11 @@ class EffectSet:
     contact_damping: ContactDamping | None = ContactDamping()
     traction: Traction | None = MixedTraction()
     film: LineFilm | None = LineFilm()
+    rolling_resistance: RollingResistance | None = None
+    drag: Drag | None = None
     rib: Rib | None = Rib()
     cage: Cage | None = Cage()
+    seal: Seal | None = None
     gravity: Gravity | None = Gravity()
     audit: Audit | None = Audit()
 

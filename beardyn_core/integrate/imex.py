@@ -15,6 +15,7 @@ from beardyn_core.kernels.bodies import (
     sum_lanes,
 )
 from beardyn_core.kernels.roller import step_rollers
+from beardyn_core.kernels.seal import add_seals
 from beardyn_core.model.layout import (
     ANGULAR,
     AXIS,
@@ -174,6 +175,7 @@ def advance(
         collect_reactions(sums, wrenches)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
+        add_seals(bodies, wrenches, energy, p.step, p.effects.seal)
         stored = kick_cup(
             bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
             p.effects.gravity,

@@ -13,6 +13,8 @@ traction     friction of a lamina
 defect       gap over spalls
 rib          large end on the cone rib
 pocket       roller in its cage pocket
+rolling      couple against rolling, and its part of a step
+drag         medium around the rollers, and its part of a step
 exchange     what a contact hands to rings, audit and outputs
 raceway_step the raceway contact within a step
 rib_step     the rib contact within a step
@@ -20,5 +22,6 @@ pocket_step  the pocket contact within a step
 solve        the 6x6 system of one roller
 roller       one step of a block of rollers
 bodies       cup, cone and cages as scalar rigid bodies
+seal         seals between cup and shaft
 ============ ======================================================
 """

@@ -11,12 +11,14 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.drag import add_drag, drag_before, drag_matrix, finish_drag
 from beardyn_core.kernels.exchange import account_gravity, load_vector, store_vector
 from beardyn_core.kernels.lane_math import cos_sin
 from beardyn_core.kernels.orbit import angular_velocity, drift, ring_view, weight
 from beardyn_core.kernels.pocket_step import add_cage, cage_before, finish_cage
 from beardyn_core.kernels.raceway_step import finish_raceway, raceway_contact, raceway_matrix, raceway_wrench
 from beardyn_core.kernels.rib_step import add_rib, finish_rib, rib_before, rib_matrix
+from beardyn_core.kernels.rolling import add_rolling, finish_rolling, rolling_before, rolling_matrix
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.vectors import add, add_scaled, dot, turn_in
 from beardyn_core.model.layout import (
@@ -79,12 +81,18 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
         lanes, block, CONE, cone_view, body, oversize,
         (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin), p.cone, (faults.cone, faults.roller), p,
     )  # fmt: skip
+    cup_rolling = rolling_before(cup, CUP, cup_view, body, effects.rolling)
+    cone_rolling = rolling_before(cone, CONE, cone_view, body, effects.rolling)
+    drag = drag_before(body, cup_view, effects.drag)
     rib = rib_before(body, cone_view, zero, effects.rib, effects.damping)
     cage = cage_before(lanes, rings, p.rollers, block, body, azimuth, cosine, sine, roller, effects.cage)
 
     matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, axis, zero)
     matrix = raceway_matrix(matrix, cup, step, effects.damping)
     matrix = raceway_matrix(matrix, cone, step, effects.damping)
+    matrix = rolling_matrix(matrix, cup_rolling, step, effects.rolling)
+    matrix = rolling_matrix(matrix, cone_rolling, step, effects.rolling)
+    matrix = drag_matrix(matrix, drag, step, effects.drag)
     matrix = rib_matrix(matrix, rib, cone_view[1], step, effects.rib, effects.damping)
 
     cup_force, cup_moment = raceway_wrench(cup, effects.damping)
@@ -92,6 +100,8 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     gravity = weight(cosine, sine, roller.mass, effects.gravity)
     force = add(add(cup_force, cone_force), gravity)
     moment = add(cup_moment, cone_moment)
+    moment = add_rolling(add_rolling(moment, cup_rolling, effects.rolling), cone_rolling, effects.rolling)
+    force, moment = add_drag(force, moment, drag, effects.drag)
     force, moment = add_rib(force, moment, rib, effects.rib)
     force, moment = add_cage(force, moment, cage, effects.cage)
     turning_force = (
@@ -116,6 +126,13 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     )
     force = add(add(force, cone_force), gravity)
     moment = add(moment, cone_moment)
+    moment = finish_rolling(
+        lanes, sums, CUP, cup_rolling, change, moment, mask, cosine, sine, effects.rolling, p
+    )
+    moment = finish_rolling(
+        lanes, sums, CONE, cone_rolling, change, moment, mask, cosine, sine, effects.rolling, p
+    )
+    force, moment = finish_drag(lanes, sums, drag, change, force, moment, mask, cosine, sine, effects.drag, p)
     force, moment = finish_rib(
         lanes, rollers, sums, block, rib, change, force, moment, mask, cosine, sine, effects.rib, p
     )

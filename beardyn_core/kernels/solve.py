@@ -72,6 +72,19 @@ def add_point(matrix: Any, direction: Any, arm: Any, weight: Any) -> Any:
 
 
 @inline
+def add_couple(matrix: Any, direction: Any, weight: Any) -> Any:
+    """Add a rotary damper about one direction; `weight` is its coefficient times the step."""
+    m = matrix
+    x, y, z = direction
+    b = (weight * x, weight * y, weight * z)
+    return (
+        m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9] + b[0] * x,
+        m[10], m[11], m[12], m[13] + b[1] * x, m[14] + b[1] * y,
+        m[15], m[16], m[17], m[18] + b[2] * x, m[19] + b[2] * y, m[20] + b[2] * z,
+    )  # fmt: skip
+
+
+@inline
 def _add_blocks(m: Any, d: Any, force: Any, b: Any, p: Any, c: Any, r: Any) -> Any:
     return (
         m[0] + force[0] * d[0],

@@ -13,6 +13,7 @@ from beardyn_core.model.cage_params import cage_params
 from beardyn_core.model.fault_params import spall_params
 from beardyn_core.model.lamina_table import lamina_table
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
+from beardyn_core.model.loss_params import drag_params, rolling_params, seal_params
 from beardyn_core.model.parameters import (
     AuditParams,
     DampingParams,
@@ -101,8 +102,11 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             film=film,
             coulomb=coulomb,
             mixed=mixed,
+            rolling=rolling_params(scene),
+            drag=drag_params(scene),
             rib=rib_params(bearing, effects),
             cage=cage_params(bearing, effects),
+            seal=seal_params(effects),
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=FaultParams(*(spall_params(scene, on, arrangement) for on in ("cup", "cone", "roller"))),
             audit=AuditParams(1.0) if effects.audit else None,

@@ -74,6 +74,61 @@ class DampingParams(NamedTuple):
     time_constant: float  # [s]
 
 
+class PowerLawRollingParams(NamedTuple):
+    """Rolling couple as powers of speed and load."""
+
+    log2_couple: Any  # [ring], at 1 N and 1 m/s [log2 N m]
+    speed_exponent: float
+    load_exponent: float
+
+
+class BibouletHoupertParams(NamedTuple):
+    """Rolling couple between the rigid and the elastic regime."""
+
+    log2_rigid: Any  # [ring], at 1 N and 1 m/s [log2 N m]
+    log2_elastic: Any  # [ring], at 1 m/s [log2 N m]
+
+
+class ThermalRollingParams(NamedTuple):
+    """Heating of the inlet."""
+
+    log2_loading: float  # thermal loading parameter at 1 m/s
+
+
+class HysteresisParams(NamedTuple):
+    """Elastic hysteresis."""
+
+    couple: Any  # [ring], at 1 N [N m]
+
+
+class RollingParams(NamedTuple):
+    """Couple of the raceway contacts against rolling."""
+
+    power_law: PowerLawRollingParams | None
+    biboulet_houpert: BibouletHoupertParams | None
+    thermal: ThermalRollingParams | None
+    hysteresis: HysteresisParams | None
+    supply: float
+    regularisation: Any  # [ring] [rad/s]
+
+
+class DragParams(NamedTuple):
+    """Medium around the rollers."""
+
+    orbit: float  # force at 1 m/s [N]
+    cylinder: float  # couple at 1 rad/s [N m]
+    cylinder_exponent: float  # of the speed in couple over speed
+    disc: float  # couple at 1 rad/s, both ends [N m]
+
+
+class SealParams(NamedTuple):
+    """Both seals on the shaft."""
+
+    torque: float  # [N m]
+    speed_coefficient: float  # [N m s/rad]
+    regularisation: float  # [rad/s]
+
+
 class RibParams(NamedTuple):
     """Large roller end on the cone rib."""
 
@@ -146,8 +201,11 @@ class EffectParams(NamedTuple):
     film: FilmParams | None
     coulomb: CoulombParams | None
     mixed: MixedParams | None
+    rolling: RollingParams | None
+    drag: DragParams | None
     rib: RibParams | None
     cage: CageParams | None
+    seal: SealParams | None
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None

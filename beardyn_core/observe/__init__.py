@@ -3,6 +3,7 @@
 | module | responsibility |
 |---|---|
 | `block` | the block of about 20 ms that crosses every border |
+| `torque_budget` | mean power and torque of every loss |
 | `decimate` | streaming anti-alias decimation |
 | `accelerometer` | specific force at the sensor, noise, clipping |
 | `features` | envelope, order tracking, spectrum, line search |

@@ -26,17 +26,20 @@ class EnergyAudit:
     external : float
         Work of the load, the shaft drive, gravity and the bogie motion.
     dissipated : float
-        Work lost in traction, contact damping, rib, pockets and suspension.
+        Work lost in all sources of `losses`.
     numerical : float
         Dissipation of the time step itself, listed apart.
     stored : float
         Change of kinetic and elastic energy.
+    losses : tuple of floats
+        The dissipated energy by source, in the order of ``model.layout.LOSS_NAMES``; empty when not told.
     """
 
     external: float
     dissipated: float
     numerical: float
     stored: float
+    losses: tuple[float, ...] = ()
 
     @property
     def residual(self) -> float:

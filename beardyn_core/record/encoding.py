@@ -8,12 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.observe.block import CONTACT_FIELDS, Block
+from beardyn_core.model.layout import LOSS_NAMES
+from beardyn_core.observe.block import CONTACT_FIELDS, Block, EnergyAudit
+from beardyn_core.observe.torque_budget import NUMERICAL
 from beardyn_core.record.clouds import CloudTemplate, column_dtype, points_of
 from beardyn_core.record.messages import Diagnostic, Template, header, make
 from beardyn_core.record.topics import FRAME, IMU, JOINTS, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
 
+LOST = "lost_"
 POSE_AXES = ("x", "y", "z", "qx", "qy", "qz", "qw")
 TWIST_AXES = ("vx", "vy", "vz", "wx", "wy", "wz")
 WAVEFORM = column_dtype(tuple((axis, "f4") for axis in WRENCH_AXES))
@@ -191,7 +194,7 @@ class BlockEncoder:
 
 
 def block_diagnostic(block: Block) -> Diagnostic:
-    """How a block was computed: real-time factor, status bits, energy residual."""
+    """How a block was computed: real-time factor, status bits, energy residual, energy lost by source."""
     span = (block.end_ns - block.start_ns) * 1e-9
     values = [
         ("block", str(block.index)),
@@ -200,5 +203,19 @@ def block_diagnostic(block: Block) -> Diagnostic:
     ]
     if block.audit is not None:
         values.append(("energy_residual", f"{block.audit.residual:.3e}"))
+        values += _losses(block.audit)
     sentence = "running" if block.status == 0 else f"the model left its validity, status {block.status}"
     return Diagnostic("beardyn twin", 0 if block.status == 0 else 2, sentence, tuple(values))
+
+
+def loss_key(source: str) -> str:
+    """Diagnostic key of the energy lost in a source since the start of the run."""
+    return f"{LOST}{source}_J"
+
+
+def _losses(audit: EnergyAudit) -> list[tuple[str, str]]:
+    """Energy lost by source up to the start of the block, [J]; nothing of sources without loss."""
+    if not audit.losses:
+        return []
+    lost = (*zip(LOSS_NAMES, audit.losses, strict=True), (NUMERICAL, audit.numerical))
+    return [(loss_key(source), f"{energy:.9g}") for source, energy in lost if energy != 0.0]

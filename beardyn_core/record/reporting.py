@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.model.layout import LOSS_NAMES
+from beardyn_core.observe.torque_budget import NUMERICAL, TorqueBudget, torque_budget
+from beardyn_core.record.encoding import LOST, loss_key
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.reading import Run, read_run
 
 SAMPLE_RANGE = 1 << 32
+SETTLING_S = 0.25
 # What others say to the twin or about it, and what is said once: their times are not those of its signals.
 NOT_OF_THE_TWIN = (
     *("/load/blocks", "/load/consumed", "/load/wrench", "/load/shaft"),
@@ -84,6 +88,8 @@ class Report:
         [rad/s].
     real_time_factor, energy_residual : float or None
         Mean, and last value.
+    budget : TorqueBudget or None
+        Losses by source after the start has settled; ``None`` when the recording does not say.
     monitor : str or None
         Last verdict of the monitor.
     """
@@ -106,11 +112,15 @@ class Report:
     mean_shaft_speed: float | None
     real_time_factor: float | None
     energy_residual: float | None
+    budget: TorqueBudget | None
     monitor: str | None
 
     def to_json(self) -> dict[str, Any]:
         """JSON-able content."""
-        return asdict(self)
+        content = asdict(replace(self, budget=None))
+        del content["budget"]
+        content["torque_budget"] = None if self.budget is None else self.budget.to_json()
+        return content
 
     def to_text(self) -> str:
         """Content for a terminal."""
@@ -159,6 +169,7 @@ def report(path: Path | str) -> Report:
         mean_shaft_speed=float(speed.mean()) if len(speed) else None,
         real_time_factor=_mean(_diagnosed(run, "real_time_factor")),
         energy_residual=_last(_diagnosed(run, "energy_residual")),
+        budget=_budget(run),
         monitor=run.results[-1][1][0].message if run.results and run.results[-1][1] else None,
     )
 
@@ -212,6 +223,25 @@ def _diagnosed(run: Run, key: str) -> list[float]:
     return [float(value) for value in values if value is not None]
 
 
+def _budget(run: Run) -> TorqueBudget | None:
+    """Torque budget from the energies that the diagnostics carry, without the first part of the run."""
+    sources = (*LOSS_NAMES, NUMERICAL)
+    rows = [
+        (stamp * 1e-9, *(float(status.value(loss_key(source)) or 0.0) for source in sources))
+        for stamp, statuses in run.diagnostics
+        for status in statuses
+        if any(key.startswith(LOST) for key, _ in status.values)
+    ]
+    if len(rows) < 2:
+        return None
+    lost = np.array(rows)
+    lost = lost[lost[:, 0] >= lost[0, 0] + min(SETTLING_S, 0.5 * (lost[-1, 0] - lost[0, 0]))]
+    times = run.shaft.time_ns * 1e-9
+    within = (times >= lost[0, 0]) & (times <= lost[-1, 0])
+    speed = float(np.abs(run.shaft.velocity[within, 0]).mean()) if within.any() else float("nan")
+    return torque_budget(lost[:, 0].tolist(), lost[:, 1:], speed)
+
+
 def _mean(values: list[float]) -> float | None:
     return float(np.mean(values)) if values else None
 
@@ -248,6 +278,8 @@ def _lines(r: Report) -> list[str]:
         lines.append(f"computed at {r.real_time_factor:.2f} x real time on average")
     if r.energy_residual is not None:
         lines.append(f"energy residual {r.energy_residual:.2e}")
+    if r.budget is not None:
+        lines += ["", *r.budget.lines(), ""]
     if r.monitor is not None:
         lines.append(f"monitor  {r.monitor}")
     lines += ["", f"{'topic':32}{'messages':>10}{'per s':>9}  type"]

@@ -17,6 +17,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.observe.block import Block
+from beardyn_core.observe.torque_budget import TorqueBudget, torque_budget
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.sinks import Sink
@@ -53,6 +54,8 @@ class RunSummary:
         Cage speed over FTF and shaft speed, nominal 1; NaN with the shaft at rest.
     energy_residual : float or None
         Of the audit at the end; ``None`` without audit.
+    budget : TorqueBudget or None
+        Losses by source over the whole blocks of the means; ``None`` without audit.
     averaged : tuple of 2 floats
         First and last time of the means, [s].
     cage_revolutions : int
@@ -69,6 +72,7 @@ class RunSummary:
     shaft_torque: float
     cage_speed_ratio: tuple[float, ...]
     energy_residual: float | None
+    budget: TorqueBudget | None
     averaged: tuple[float, float]
     cage_revolutions: int
 
@@ -189,6 +193,7 @@ class _Trend:
         self._end_ns = 0
         self._start_ns: int | None = None
         self._residual: float | None = None
+        self._lost: list[tuple[float, ...]] = []  # block start [s], energy lost by source [J]
         self.warnings = 0
 
     def add(self, block: Block) -> None:
@@ -198,6 +203,8 @@ class _Trend:
         self._end_ns = block.end_ns
         self.warnings |= block.status
         self._residual = None if block.audit is None else block.audit.residual
+        if block.audit is not None and block.audit.losses:
+            self._lost.append((block.start_ns * 1e-9, *block.audit.losses, block.audit.numerical))
         self._blocks.append(
             (
                 block.trend_time_ns.astype(np.float64) * 1e-9,
@@ -214,6 +221,7 @@ class _Trend:
         force, torque, shaft = (math.nan, math.nan, math.nan), math.nan, math.nan
         cage: tuple[float, ...] = (math.nan, math.nan)
         averaged, revolutions = (0.0, 0.0), 0
+        budget = None
         # The filters' delay is compensated, so the first block may hold no trend yet.
         if any(len(times) for times, *_ in self._blocks):
             parts = zip(*self._blocks, strict=True)
@@ -227,6 +235,7 @@ class _Trend:
                 time_mean(times, shafts, first),
             )
             cage = tuple(time_mean(times, row, first) for row in cages.T)
+            budget = self._budget(times, shafts, first)
         epicyclic = fault_frequencies(scene.bearing).ftf * shaft
         return RunSummary(
             scene=scene.name,
@@ -239,9 +248,22 @@ class _Trend:
             shaft_torque=torque,
             cage_speed_ratio=tuple(speed / epicyclic if epicyclic else math.nan for speed in cage),
             energy_residual=self._residual,
+            budget=budget,
             averaged=averaged,
             cage_revolutions=revolutions,
         )
+
+    def _budget(self, times: Float, shaft_speed: Float, first: float) -> TorqueBudget | None:
+        """Losses from the first block that begins in the averaged time to the begin of the last block."""
+        lost = [row for row in self._lost if row[0] >= first]
+        if len(lost) < 2:
+            lost = self._lost
+        if len(lost) < 2:
+            return None
+        energies = np.array(lost)
+        within = (times >= energies[0, 0]) & (times <= energies[-1, 0])
+        speed = float(np.abs(shaft_speed[within]).mean()) if within.any() else math.nan
+        return torque_budget(energies[:, 0].tolist(), energies[:, 1:], speed)
 
 
 def averaging_start(times: Float, cage_speed: Float) -> tuple[float, int]:

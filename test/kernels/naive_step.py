@@ -63,12 +63,18 @@ def rotated(rotation: Float, vector: Float) -> Float:
 
 
 def step_roller(
-    state: RollerState, rings: tuple[Ring, Ring, Ring], pocket: float, frictions: tuple[Any, Any], p: Any
+    state: RollerState,
+    rings: tuple[Ring, Ring, Ring],
+    pocket: float,
+    frictions: tuple[Any, Any],
+    p: Any,
+    losses: tuple[tuple[int, Any], ...] = (),
 ) -> tuple[RollerState, list[Float]]:
     """One step as `kernels.roller` documents it, in Cartesian coordinates with dense 6 x 6 algebra.
 
     Returns the new state and the wrenches (about the ring's origin) on cup, cone and cage. ``frictions`` make
     the friction law of cup and cone from the entrainment speed: ``frictions[ring](speed)(k, load, slip)``.
+    ``losses`` are further contacts, ring and ``law(motion, orbit_rate)`` that gives a wrench.
     """
     h, roller, effects = p.step, p.roller, p.effects
     cup, cone, cage = rings
@@ -105,6 +111,9 @@ def step_roller(
     advance = azimuth - (cage.turn + pocket)
     contacts.append(pocket_wrench(pocket_motion, cage.axis, advance, azimuth, roller, effects.cage))
 
+    owners = [0, 1, 1, 2, *(ring for ring, _ in losses)]
+    contacts += [law(motion_against(rings[ring], rings[ring].axis), turn / h) for ring, law in losses]
+
     weight = np.array([-roller.mass * effects.gravity.acceleration, 0.0, 0.0])
     matrix = np.zeros((6, 6))
     matrix[:3, :3] = roller.mass * np.eye(3)
@@ -119,7 +128,7 @@ def step_roller(
     change = np.linalg.solve(matrix, h * right)
     reactions = [np.zeros(6), np.zeros(6), np.zeros(6)]
     total = np.concatenate([weight, np.zeros(3)])
-    for contact, index in zip(contacts, (0, 1, 1, 2), strict=True):
+    for contact, index in zip(contacts, owners, strict=True):
         settled = np.concatenate([contact.force, contact.moment]) - contact.resistance @ change
         total = total + settled
         at = centre - rings[index].origin

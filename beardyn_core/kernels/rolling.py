@@ -1,0 +1,149 @@
+"""Rolling resistance of a raceway contact: a couple on roller and ring against their relative rotation."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.exchange import account, account_loss, accumulate_vector
+from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, sqrt
+from beardyn_core.kernels.orbit import entrainment_speed
+from beardyn_core.kernels.solve import add_couple
+from beardyn_core.kernels.vectors import add, dot, scale, subtract, turn_out
+from beardyn_core.model.layout import LOSS_ROLLING, REACTION
+
+_THERMAL_FACTOR, _THERMAL_EXPONENT = 0.29, 0.78
+_SMALLEST_SPEED = 1e-3
+_LIGHT_LOAD = 1.0
+
+
+@inline
+def rolling_couple(load: Any, speed: Any, ring: Any, rolling: Any) -> Any:
+    """Couple of one raceway contact against rolling, [N m].
+
+    Hydrodynamic couple of the inlet, reduced by its heating and by its supply, plus elastic hysteresis. The
+    load is spread evenly along the roller. Speeds below 1 mm/s are treated as 1 mm/s; below 1 N the
+    hydrodynamic couple falls linearly to zero.
+
+    Parameters
+    ----------
+    load : lane value
+        Elastic load of the contact, [N].
+    speed : lane value
+        Entrainment speed, [m/s].
+    ring : int
+    rolling : RollingParams
+
+    References
+    ----------
+    Aihara (1987); Zhou and Hoeprich (1991); Biboulet and Houpert (2010); see `bearing.rolling_resistance`.
+    """
+    log2_speed = log2(magnitude(speed) + _SMALLEST_SPEED)
+    log2_load = log2(at_least(load, _LIGHT_LOAD))
+    film = _power_law(log2_load, log2_speed, ring, rolling.power_law) + _biboulet_houpert(
+        log2_load, log2_speed, ring, rolling.biboulet_houpert
+    )
+    carried = at_most(load * (1.0 / _LIGHT_LOAD), 1.0)
+    cooled = rolling.supply * carried * _thermal_reduction(log2_speed, rolling.thermal)
+    return film * cooled + _hysteresis(load, ring, rolling.hysteresis)
+
+
+@inline
+def _power_law(log2_load: Any, log2_speed: Any, ring: Any, law: Any) -> Any:
+    if law is None:
+        return 0.0
+    return exp2(law.log2_couple[ring] + law.speed_exponent * log2_speed + law.load_exponent * log2_load)
+
+
+@inline
+def _biboulet_houpert(log2_load: Any, log2_speed: Any, ring: Any, law: Any) -> Any:
+    if law is None:
+        return 0.0
+    rigid = law.log2_rigid[ring] + 0.5 * (log2_speed + log2_load)
+    elastic = law.log2_elastic[ring] + 0.75 * log2_speed
+    return exp2(rigid - 0.1 * log2(1.0 + exp2(10.0 * (rigid - elastic))))
+
+
+@inline
+def _thermal_reduction(log2_speed: Any, thermal: Any) -> Any:
+    if thermal is None:
+        return 1.0
+    loading = thermal.log2_loading + 2.0 * log2_speed
+    return 1.0 / (1.0 + _THERMAL_FACTOR * exp2(_THERMAL_EXPONENT * loading))
+
+
+@inline
+def _hysteresis(load: Any, ring: Any, hysteresis: Any) -> Any:
+    if hysteresis is None:
+        return 0.0
+    return hysteresis.couple[ring] * load * sqrt(load)
+
+
+@inline
+def rolling_before(contact: Any, ring: Any, view: Any, body: Any, rolling: Any) -> Any:
+    """Couple over relative speed, relative speed about the generator, generator direction.
+
+    Without the effect zeros of the same type, which nothing uses.
+    """
+    line, load, centre = contact[0], contact[2][0][0], contact[4]
+    along = line[4]
+    if rolling is None:
+        return 0.0 * load, 0.0 * load, along
+    _place, _axis, velocity, omega, orbit_rate = body
+    speed = entrainment_speed(line, centre, velocity, omega, view[2], view[3], orbit_rate)
+    relative = dot(subtract(omega, view[3]), along)
+    floor = rolling.regularisation[ring]
+    couple = rolling_couple(load, speed, ring, rolling)
+    return couple / sqrt(relative * relative + floor * floor), relative, along
+
+
+@inline
+def rolling_matrix(matrix: Any, contact: Any, step: Any, rolling: Any) -> Any:
+    """Add the implicit part of the rolling resistance."""
+    if rolling is None:
+        return matrix
+    return add_couple(matrix, contact[2], step * contact[0])
+
+
+@inline
+def add_rolling(moment: Any, contact: Any, rolling: Any) -> Any:
+    """Add the couple at the beginning of the step to a moment."""
+    if rolling is None:
+        return moment
+    rate, relative, along = contact
+    return add(moment, scale(-rate * relative, along))
+
+
+@inline
+def finish_rolling(
+    lanes: Any,
+    sums: Any,
+    ring: Any,
+    contact: Any,
+    change: Any,
+    moment: Any,
+    mask: Any,
+    cosine: Any,
+    sine: Any,
+    rolling: Any,
+    p: Any,
+) -> Any:
+    """Settle the couple after the solve: on roller and ring alike, with its loss."""
+    if rolling is None:
+        return moment
+    rate, relative, along = contact
+    gained = dot(change[1], along)
+    middle = relative + 0.5 * gained
+    couple = scale(-rate * (relative + gained), along)
+    react_couple(lanes, sums, ring, mask, couple, cosine, sine)
+    audit = p.effects.audit
+    account_loss(lanes, sums, mask, LOSS_ROLLING, p.step * rate * middle * middle, audit)
+    account(lanes, sums, mask, 0.5 * p.step * rate * gained * middle, 0.0 * rate, audit)
+    return add(moment, couple)
+
+
+@inline
+def react_couple(lanes: Any, sums: Any, ring: Any, mask: Any, couple: Any, cosine: Any, sine: Any) -> None:
+    """Add the reaction of a couple to its ring."""
+    turn = turn_out(scale(-mask, couple), cosine, sine)
+    accumulate_vector(lanes, sums, REACTION + 6 * ring + 3, turn)

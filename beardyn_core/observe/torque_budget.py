@@ -1,0 +1,118 @@
+"""What the torque of a run goes into: mean power and equivalent torque of every loss."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.model.layout import LOSS_NAMES
+
+NUMERICAL = "time_step"
+
+
+@dataclass(frozen=True)
+class LossShare:
+    """One source of loss.
+
+    Parameters
+    ----------
+    source : str
+        One of ``LOSS_NAMES``, or `NUMERICAL` for what the implicit time step itself loses.
+    power : float
+        Mean dissipated power, [W].
+    torque : float
+        The same power over the mean shaft speed, NaN with the shaft at rest, [N m].
+    """
+
+    source: str
+    power: float
+    torque: float
+
+
+@dataclass(frozen=True)
+class TorqueBudget:
+    """Losses of a run by source.
+
+    Parameters
+    ----------
+    begin, end : float
+        Time that the means cover, [s].
+    shaft_speed : float
+        Mean amount of the shaft speed in that time, [rad/s].
+    shares : tuple of LossShare
+        Every source, the time step last.
+
+    Notes
+    -----
+    In a steady run the equivalent torques add up to the mean torque of the bearing on the shaft, with the
+    other sign; else the change of the stored energy and the work of the load make the difference.
+    """
+
+    begin: float
+    end: float
+    shaft_speed: float
+    shares: tuple[LossShare, ...]
+
+    @property
+    def power(self) -> float:
+        """Of all sources, [W]."""
+        return math.fsum(share.power for share in self.shares)
+
+    @property
+    def torque(self) -> float:
+        """Of all sources, [N m]."""
+        return math.fsum(share.torque for share in self.shares)
+
+    def to_json(self) -> dict[str, Any]:
+        """JSON-able content; JSON has no NaN."""
+        return {
+            "begin_s": self.begin,
+            "end_s": self.end,
+            "shaft_speed_rad_per_s": _number(self.shaft_speed),
+            "power_W": {share.source: _number(share.power) for share in self.shares},
+            "torque_Nm": {share.source: _number(share.torque) for share in self.shares},
+            "power_sum_W": _number(self.power),
+            "torque_sum_Nm": _number(self.torque),
+        }
+
+    def lines(self) -> list[str]:
+        """Table for a terminal, the sources that lose something."""
+        rows = [share for share in self.shares if share.power != 0.0]
+        rows = [*sorted(rows, key=lambda share: -abs(share.power)), LossShare("sum", self.power, self.torque)]
+        return [
+            f"{'loss':20} {'power W':>10} {'torque N m':>11}   {self.begin:.3f} s to {self.end:.3f} s",
+            *(f"{row.source.replace('_', ' '):20} {row.power:10.2f} {row.torque:11.4f}" for row in rows),
+        ]
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def torque_budget(
+    times: Sequence[float], lost: NDArray[np.float64], shaft_speed: float
+) -> TorqueBudget | None:
+    """Budget from the energies lost up to some times; ``None`` when the times span nothing.
+
+    Parameters
+    ----------
+    times : sequence of float
+        Growing; the first and the last one bound the budget, [s].
+    lost : float64 array, shape [time, LOSSES + 1]
+        Energy lost by source since the start of the run, the time step last, [J].
+    shaft_speed : float
+        Mean amount of the shaft speed between the first and the last time, [rad/s].
+    """
+    if len(times) < 2 or not times[-1] > times[0]:
+        return None
+    power = (lost[-1] - lost[0]) / (times[-1] - times[0])
+    shares = tuple(
+        LossShare(source, float(watts), float(watts) / shaft_speed if shaft_speed else math.nan)
+        for source, watts in zip((*LOSS_NAMES, NUMERICAL), power, strict=True)
+    )
+    return TorqueBudget(float(times[0]), float(times[-1]), shaft_speed, shares)
