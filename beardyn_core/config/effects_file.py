@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import Field
 
 from beardyn_core.config.effect_keys.audit import AuditKeys
-from beardyn_core.config.effect_keys.cage import CageEffectKeys
+from beardyn_core.config.effect_keys.cage import CageSwitch
 from beardyn_core.config.effect_keys.contact_damping import ContactDampingKeys
 from beardyn_core.config.effect_keys.film import LineFilmKeys
 from beardyn_core.config.effect_keys.gravity import GravityKeys
@@ -30,7 +30,7 @@ class EffectsKeys(FileModel):
     traction: Traction | None = None
     film: Switch[LineFilmKeys] = False
     rib: Switch[RibKeys] = False
-    cage: Switch[CageEffectKeys] = False
+    cage: CageSwitch = False
     gravity: Switch[GravityKeys] = False
     audit: Switch[AuditKeys] = False
 

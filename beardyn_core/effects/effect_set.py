@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from beardyn_core.effects.audit import Audit
-from beardyn_core.effects.cage import Cage
+from beardyn_core.effects.cage import Cage, CageModel
 from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
@@ -24,7 +24,7 @@ class EffectSet:
     traction: Traction | None = MixedTraction()
     film: LineFilm | None = LineFilm()
     rib: Rib | None = Rib()
-    cage: Cage | None = Cage()
+    cage: CageModel | None = Cage()
     gravity: Gravity | None = Gravity()
     audit: Audit | None = Audit()
 

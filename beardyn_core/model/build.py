@@ -102,7 +102,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             coulomb=coulomb,
             mixed=mixed,
             rib=rib_params(bearing, effects),
-            cage=cage_params(bearing, effects),
+            cage=cage_params(scene, 1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample)),
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=FaultParams(*(spall_params(scene, on, arrangement) for on in ("cup", "cone", "roller"))),
             audit=AuditParams(1.0) if effects.audit else None,
