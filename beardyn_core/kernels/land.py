@@ -22,7 +22,7 @@ def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, l
 
     Half-Sommerfeld film: seen from a frame that turns at half the sum of the two speeds it is a pure damper,
     so it never makes energy but lets a cage whirl. The thickness in the formulas is bounded
-    (`most_eccentric`); neglects tilt and starvation.
+    (`most_eccentric`); neglects tilt, starvation, and that an opening film would cavitate.
 
     Parameters
     ----------
@@ -43,8 +43,9 @@ def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, l
 
     References
     ----------
-    Dubois, G. B. and Ocvirk, F. W. (1953), NACA Report 1157; with whirl and squeeze as in Vance, J. M. (1988),
-    Rotordynamics of Turbomachinery, ch. 6: with K = eta R L^3 / (2 C^2), e the ratio, w' = e (phi' - speed_sum/2),
+    Dubois, G. B. and Ocvirk, F. W. (1953), NACA Report 1157; whirl and squeeze as in Vance, J. M. (1988),
+    Rotordynamics of Turbomachinery, ch. 6: with K = eta R L^3 / (2 C^2), e the ratio and
+    w' = e (phi' - speed_sum / 2),
     F_r = -K [4 e |w'| / (1 - e^2)^2 + pi e' (1 + 2 e^2) / (1 - e^2)^2.5],
     F_t = -K [pi w' / (1 - e^2)^1.5 + 4 e e' s / (1 - e^2)^2]; the sign s of w' is smoothed here.
     """
@@ -206,7 +207,8 @@ def _settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any, l
     if land is None:
         return 0.0
     energy[ENERGY_LOST + LOSS_LAND] -= step * (
-        _power(bodies, pushed[0], CAGE_BODY, cage, land) + _power(bodies, pushed[1], CAGE_BODY + 1, cage, land)
+        _power(bodies, pushed[0], CAGE_BODY, cage, land)
+        + _power(bodies, pushed[1], CAGE_BODY + 1, cage, land)
     )
     return pushed[0][3] + pushed[1][3]
 

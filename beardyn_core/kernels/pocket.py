@@ -26,9 +26,9 @@ def pocket_contact(
     """Force of the cage on the roller, and what it loses.
 
     Disc against plane at two abscissae of both bars, and end against plane at both pocket ends: linear
-    springs with damping that never pull, and regularised Coulomb friction; at the bars a lubricant film if the
-    cage has one. The bar faces lean, so that the rollers guide the cage radially. Neglects the bending of the
-    bars, and the turn of the touching points under skew (1 um per mrad).
+    springs with damping that never pull, and regularised Coulomb friction; at the bars a lubricant film if
+    the cage has one. The bar faces lean, so that the rollers guide the cage radially. Neglects the bending of
+    the bars, and the turn of the touching points under skew (1 um per mrad).
 
     Parameters
     ----------

@@ -36,7 +36,9 @@ def rotating_pocket(
         centre, add_scaled(scale(large_place, axis), large_radius, large_normal), large_normal,
         magnitude(large_offset) - cage.half_clearance, motion, cage, (axis, large_radius), None,
     )  # fmt: skip
-    bar = scale(where_greater(offset, 0.0, roller.radius + 0.0 * offset, -roller.radius + 0.0 * offset), ahead)
+    bar = scale(
+        where_greater(offset, 0.0, roller.radius + 0.0 * offset, -roller.radius + 0.0 * offset), ahead
+    )
     return _as_five(small, large), bar
 
 
@@ -49,8 +51,12 @@ def kinematic_pocket(
     They hold the skew too; arguments and results as `pocket_contact`.
     """
     ahead, offset, skew = _along_pitch_circle(centre, axis, advance, tilt)
-    small = _hold(centre, scale(-cage.bar_place, axis), ahead, offset - cage.bar_place * skew, motion, kinematic)
-    large = _hold(centre, scale(cage.bar_place, axis), ahead, offset + cage.bar_place * skew, motion, kinematic)
+    small = _hold(
+        centre, scale(-cage.bar_place, axis), ahead, offset - cage.bar_place * skew, motion, kinematic
+    )
+    large = _hold(
+        centre, scale(cage.bar_place, axis), ahead, offset + cage.bar_place * skew, motion, kinematic
+    )
     return _as_five(small, large), scale(0.0, ahead)
 
 

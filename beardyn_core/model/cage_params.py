@@ -73,7 +73,7 @@ def _least_inertia(bearing: Bearing) -> float:
 
 
 def _film(scene: Scene, step: float) -> PocketFilmParams | None:
-    """Film of half a bar; all walls of all pockets together may resist the cage by its inertia over the step."""
+    """Film of half a bar; all pockets together resist by no more than the cage's inertia over the step."""
     if not isinstance(scene.effects.cage, Cage) or scene.effects.cage.lubrication is None:
         return None
     options, bearing = scene.effects.cage.lubrication, scene.bearing

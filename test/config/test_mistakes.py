@@ -10,6 +10,7 @@ import pytest
 from beardyn_core.config import load_bearing, load_effects, load_scene
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
+from beardyn_core.effects import Cage
 from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import read_measurement
 
@@ -206,8 +207,8 @@ def test_effects_of_a_preset_can_be_changed_one_by_one(write: Write) -> None:
     text = GOOD + "effects: {preset: standard, film: null, cage: {initial_speed_ratio: 0.9}, rib: true}\n"
     standard, changed = load_effects("standard"), load_scene(write(text)).effects
     assert changed.film is None
-    assert changed.cage is not None
-    assert standard.cage is not None
+    assert isinstance(changed.cage, Cage)
+    assert isinstance(standard.cage, Cage)
     assert changed.cage.initial_speed_ratio == 0.9
     assert changed.cage.friction == standard.cage.friction
     assert changed.rib == standard.rib

@@ -192,4 +192,6 @@ def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(
         described: Any = keys.model_validate(kind)
         for name, value in vars(noun()).items():
             found = getattr(described.noun(), name)
-            assert found == (value if value is None or isinstance(value, str) else pytest.approx(value, rel=1e-12))
+            assert found == (
+                value if value is None or isinstance(value, str) else pytest.approx(value, rel=1e-12)
+            )

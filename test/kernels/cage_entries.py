@@ -57,7 +57,7 @@ def lands(bodies: Any, out: Any, body: Any, lift: Any, land: Any) -> None:
 
 @entry
 def journals(cases: Any, out: Any, land: Any) -> None:
-    """Film of eccentricity x, z, velocity x, z and speed sum [case, 5] about +y: force x, z, ratio [case, 3]."""
+    """Land film about +y: eccentricity x, z, velocity x, z, speed sum into force x, z, ratio."""
     for case in range(cases.shape[0]):
         force, ratio = short_bearing(
             (cases[case, 0], 0.0, cases[case, 1]), (cases[case, 2], 0.0, cases[case, 3]), (0.0, 1.0, 0.0),

@@ -1,4 +1,4 @@
-"""Slow, obvious reference of lubricated pockets, of the cheaper cages and of a land: plain formulas, integrals."""
+"""Slow, obvious reference of lubricated pockets, cheaper cages and lands: plain formulas and integrals."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def _trapezoid(values: Float, places: Float) -> float:
 
 
 def wedge_load(viscosity: float, mean_speed: float, radius: float, gap: float) -> float:
-    """Load per length of a cylinder rolling on a plane: Reynolds' equation, rupture where p = p' = 0, [N/m]."""
+    """Load per length of a cylinder rolling on a plane, film ruptured where p = p' = 0, [N/m]."""
     x = math.sqrt(2.0 * radius * gap) * np.tan(np.linspace(-1.57, 1.2, 400_001))
     h = gap + x**2 / (2.0 * radius)
     steps = np.diff(x)
@@ -116,19 +116,27 @@ def pocket_wrench(
 
 
 def short_bearing_force(
-    viscosity: float, radius: float, width: float, clearance: float, ratio: float, opening: float, whirl: float
+    viscosity: float,
+    radius: float,
+    width: float,
+    clearance: float,
+    ratio: float,
+    opening: float,
+    whirl: float,
 ) -> tuple[float, float]:
     """Radial (outward) and forward force on the inner body, by integrating the short bearing's pressure, [N].
 
-    ``opening`` is d(ratio)/dt, ``whirl`` the ratio times the whirl speed less half the sum of the spins, [1/s].
-    The film fills the half of the clearance that the wedge closes (all of it squeezing alone: the closing half).
+    ``opening`` is d(ratio)/dt, ``whirl`` the ratio times the whirl speed less half the sum of the spins,
+    [1/s]. The film fills the half of the clearance that the wedge closes.
     """
-    theta = np.linspace(0.0, 2.0 * math.pi, 200_001)  # from the direction of the eccentricity, the thinnest place
+    theta = np.linspace(
+        0.0, 2.0 * math.pi, 200_001
+    )  # from the direction of the eccentricity, the thinnest place
     h = clearance * (1.0 - ratio * np.cos(theta))
     # closing speed of the wall where it stands, in the frame that turns at half the sum of the spins
     rate = -clearance * (opening * np.cos(theta) + whirl * np.sin(theta))
     # h^3 p'' / 12 eta = rate along the axis, zero at both ends: mean over the width
     mean = -viscosity * rate * width**2 / h**3
-    filled = np.sin(theta) * whirl > 0.0 if whirl != 0.0 else np.cos(theta) * opening > 0.0
+    filled = np.sin(theta) * whirl > 0.0
     push = -np.where(filled, mean, 0.0) * radius * width
     return _trapezoid(push * np.cos(theta), theta), _trapezoid(push * np.sin(theta), theta)

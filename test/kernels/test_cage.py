@@ -39,7 +39,7 @@ from test.kernels.test_rib_and_pocket import in_orbit_frame, pocket_cases
 
 Float = NDArray[np.float64]
 LANES8 = Lanes(8)
-CAGES = {
+CAGES: dict[str, CageModel] = {
     "dry": Cage(),
     "lubricated": Cage(lubrication=PocketFilm(layer=4e-4)),
     "rotating": RotatingCage(),
@@ -65,7 +65,7 @@ def results(kind: str, cases: list[Motion], advances: Float, lanes: Any = LANES8
 @pytest.mark.parametrize("half_clearance", [None, 0.0, -2e-6], ids=["play", "no play", "interference"])
 @pytest.mark.parametrize("kind", CAGES)
 def test_pocket_wrench_is_the_plain_formula(kind: str, half_clearance: float | None, lanes: Any) -> None:
-    """Rotating cages know no interference, no clearance can be negative in a file: both bars of a free one."""
+    """No file can say a negative clearance; a free cage presses both bars, a rotating one knows none."""
     if kind == "rotating" and half_clearance == -2e-6:
         half_clearance = 0.0
     p = parameters(CAGES[kind])
@@ -135,9 +135,9 @@ def test_film_load_is_continuous_from_the_open_gap_to_the_pressed_wall() -> None
 def test_opening_film_pulls_no_harder_than_to_nothing() -> None:
     cage = parameters(Cage(lubrication=PocketFilm())).effects.cage
     assert cage is not None
-    speeds = (-0.1, 0.0, 0.1, 10.0)
+    speeds = (-0.1, 0.0, 0.02, 10.0)
     loads = [front_load(5e-6, -speed, spin=500.0, cage=cage) for speed in speeds]
-    assert loads[0] > loads[1] > loads[2] > loads[3]
+    assert loads[0] > loads[1] > loads[2] > 1.0
     assert abs(loads[3]) < 0.5  # shear of the leaning faces
 
 
@@ -168,7 +168,7 @@ def test_wear_opens_every_pocket_by_half_on_each_side() -> None:
     st.floats(0.005, 5.0),
 )
 def test_no_pocket_makes_energy(seed: int, kind: str, viscosity: float) -> None:
-    """Power lost: of the whole force less what the springs give back, at viscosities from warm oil to pitch."""
+    """Power of the whole force less what the springs store, at viscosities from warm oil to pitch."""
     scene = standard_scene()
     thick = replace(scene.lubricant, density=scene.lubricant.density * viscosity / 0.05)
     scene = replace(scene, lubricant=thick, effects=replace(scene.effects, cage=CAGES[kind]))
@@ -176,7 +176,9 @@ def test_no_pocket_makes_energy(seed: int, kind: str, viscosity: float) -> None:
     cases, advances = pocket_cases(8, seed)
     states = np.array([packed(in_orbit_frame(m)[0], a) for m, a in zip(cases, advances, strict=True)])
     found = through(LANES8, pockets, states, 7, p.roller, p.effects.cage)
-    for state, (force, moment), energy in zip(states, found[:, :6].reshape(-1, 2, 3), found[:, 6], strict=True):
+    for state, (force, moment), energy in zip(
+        states, found[:, :6].reshape(-1, 2, 3), found[:, 6], strict=True
+    ):
         centre, velocity, omega = state[0:3], state[9:12], state[12:15]
         ring_velocity, ring_omega = state[15:18], state[18:21]
         relative = velocity - ring_velocity - np.cross(ring_omega, centre)
@@ -241,7 +243,9 @@ def land_state(seed: int, spread: float) -> Float:
 
 
 @settings(max_examples=100, deadline=None)
-@given(st.integers(0, 10_000), st.sampled_from(["cup", "cone"]), st.floats(1e-6, 6e-4), st.sampled_from([2, 3]))
+@given(
+    st.integers(0, 10_000), st.sampled_from(["cup", "cone"]), st.floats(1e-6, 6e-4), st.sampled_from([2, 3])
+)
 def test_no_land_makes_energy(seed: int, on: str, spread: float, body: int) -> None:
     """Lost part of the wrench against the motion of the cage in its ring: never a gain."""
     land, bodies, out = land_params(on=on), land_state(seed, spread), np.zeros(13)
@@ -253,7 +257,9 @@ def test_no_land_makes_energy(seed: int, on: str, spread: float, body: int) -> N
     axis = {b: naive_step.rotated(bodies[b, TILT : TILT + 3], third) for b in (body, ring)}
     omega = {b: bodies[b, ANGULAR : ANGULAR + 3] + bodies[b, RATE] * axis[b] for b in (body, ring)}
     arm = bodies[body, POSITION : POSITION + 3] - bodies[ring, POSITION : POSITION + 3] + lift * third
-    moving = bodies[body, LINEAR : LINEAR + 3] - bodies[ring, LINEAR : LINEAR + 3] - np.cross(omega[ring], arm)
+    moving = (
+        bodies[body, LINEAR : LINEAR + 3] - bodies[ring, LINEAR : LINEAR + 3] - np.cross(omega[ring], arm)
+    )
     turning = omega[body] - omega[ring]
     power = float(out[6:9] @ moving + out[9:12] @ turning)
     # the axes lean 1 mrad against each other, which the half-speed frame of the film neglects

@@ -16,7 +16,7 @@ from test.kernels.test_cage import land_params, parameters
 
 @pytest.mark.parametrize("gap", [2e-6, 2e-5, 1e-4])
 def test_constants_of_the_pocket_film_are_those_of_reynolds_equation(gap: float) -> None:
-    """Martin (1916) gives 4.9 rounded, so 1 %; squeeze 3 sqrt(2) pi and shear sqrt(2) pi are exact integrals."""
+    """Martin (1916) gives 4.9 rounded, so 1 %; squeeze 3 sqrt(2) pi, shear sqrt(2) pi are exact integrals."""
     cage = parameters(Cage(lubrication=PocketFilm())).effects.cage
     assert cage is not None
     assert cage.film is not None

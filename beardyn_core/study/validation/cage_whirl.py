@@ -85,7 +85,9 @@ def cage_whirl(
     cage = cage_params(scene, 1e-5)
     if cage is None:
         raise ValueError("a scene without a cage has no whirl; give it one under effects")
-    return Whirl(tuple(cases), *found.T, play=cage.bar_cosine * cage.half_clearance)
+    amplitude, reach, frequency, slip, spacing = found.T
+    play = cage.bar_cosine * cage.half_clearance
+    return Whirl(tuple(cases), amplitude, reach, frequency, slip, spacing, play)
 
 
 def _measures(scene: Scene, case: WhirlCase, duration: float, settled: float) -> tuple[float, ...]:
@@ -93,7 +95,9 @@ def _measures(scene: Scene, case: WhirlCase, duration: float, settled: float) ->
     twin = Twin(replace(scene, sensors=()))
     wrench = np.array([0.0, case.axial_load, case.radial_load, 0.0, 0.0, 0.0])
     times = np.array([0, round((duration + 1.0) * 1e9)], dtype=np.int64)
-    twin.start(LoadHistory(times, np.repeat(wrench[None], 2, 0), np.full(2, case.shaft_speed), np.zeros((2, 3))))
+    twin.start(
+        LoadHistory(times, np.repeat(wrench[None], 2, 0), np.full(2, case.shaft_speed), np.zeros((2, 3)))
+    )
     blocks = [twin.advance() for _ in range(round(duration * 1e9 / twin.block_ns))]
     load = np.concatenate([block.contacts[..., 0, 3:6] for block in blocks])
     row = int(np.argmax(np.linalg.norm(load, axis=-1).sum(axis=(0, 2))))
