@@ -6,11 +6,14 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
+import numba
 import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
+from beardyn_core.integrate.imex import advance
+from beardyn_core.jit import OPTIONS
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.layout import (
     CAGE_BODY,
@@ -24,6 +27,7 @@ from beardyn_core.model.layout import (
 from beardyn_core.observe.block import Block
 from beardyn_core.scene.scene import Scene
 from test.analytic.test_momentum_pairs import momenta
+from test.effects.test_absent_effects import instruction_count
 from test.kernels.rig import LOAD_80_KN, SPEED, Rig, constant_load, scene_with, started
 from test.kernels.test_step import shaken
 
@@ -148,6 +152,18 @@ def rig_of(cage: CageModel, **members: Any) -> Rig:
     assert effects.cage is not None
     rig.parameters = rig.parameters._replace(effects=effects._replace(cage=effects.cage._replace(**members)))
     return rig
+
+
+def test_options_and_kinds_that_are_absent_leave_no_code() -> None:
+    """Compiled afresh: what a cage does without, its step does not contain."""
+    sizes = {}
+    for kind in ("dry", "lubricated", "on the cup", "rotating", "kinematic"):
+        kernel = numba.njit(**OPTIONS)(advance.py_func)
+        Rig.at_equilibrium(scene_of(CAGES[kind])).run(2, kernel=kernel)
+        sizes[kind] = instruction_count(kernel)
+    assert sizes["kinematic"] < sizes["rotating"] < sizes["dry"]
+    assert sizes["dry"] < sizes["lubricated"]
+    assert sizes["dry"] < sizes["on the cup"]
 
 
 def test_film_without_viscosity_is_no_film() -> None:
