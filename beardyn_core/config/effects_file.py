@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import Field
 
 from beardyn_core.config.effect_keys.audit import AuditKeys
-from beardyn_core.config.effect_keys.cage import CageEffectKeys
+from beardyn_core.config.effect_keys.cage import CageSwitch
 from beardyn_core.config.effect_keys.contact_damping import ContactDampingKeys
 from beardyn_core.config.effect_keys.drag import DragKeys
 from beardyn_core.config.effect_keys.film import LineFilmKeys
@@ -35,7 +35,7 @@ class EffectsKeys(FileModel):
     rolling_resistance: Switch[RollingResistanceKeys] = None
     drag: Switch[DragKeys] = None
     rib: Switch[RibKeys] = False
-    cage: Switch[CageEffectKeys] = False
+    cage: CageSwitch = False
     seal: Switch[SealKeys] = None
     gravity: Switch[GravityKeys] = False
     audit: Switch[AuditKeys] = False

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from beardyn_core.effects.about import About
 from beardyn_core.effects.audit import Audit
-from beardyn_core.effects.cage import Cage
+from beardyn_core.effects.cage import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.drag import Drag
 from beardyn_core.effects.effect_set import EffectSet
@@ -23,15 +23,20 @@ __all__ = [
     "About",
     "Audit",
     "Cage",
+    "CageModel",
     "ContactDamping",
     "CoulombTraction",
     "Drag",
     "EffectSet",
     "Gravity",
+    "KinematicCage",
+    "LandGuidance",
     "LineFilm",
     "MixedTraction",
+    "PocketFilm",
     "Rib",
     "RollingResistance",
+    "RotatingCage",
     "Seal",
     "ShearedFilmTraction",
     "Traction",

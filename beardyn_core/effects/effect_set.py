@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 from beardyn_core.effects.audit import Audit
-from beardyn_core.effects.cage import Cage
+from beardyn_core.effects.cage import Cage, CageModel
 from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.drag import Drag
 from beardyn_core.effects.film import LineFilm
@@ -29,7 +29,7 @@ class EffectSet:
     rolling_resistance: RollingResistance | None = None
     drag: Drag | None = None
     rib: Rib | None = Rib()
-    cage: Cage | None = Cage()
+    cage: CageModel | None = Cage()
     seal: Seal | None = None
     gravity: Gravity | None = Gravity()
     audit: Audit | None = Audit()

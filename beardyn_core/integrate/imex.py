@@ -8,18 +8,18 @@ from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.bodies import (
     collect_reactions,
     drift_bodies,
-    kick_cages,
     kick_cone,
     kick_cup,
     show_rings,
     sum_lanes,
 )
+from beardyn_core.kernels.cage_bodies import cage_energy, move_cages, pass_on, place_cages
+from beardyn_core.kernels.land import push_lands, settle_lands
 from beardyn_core.kernels.roller import step_rollers
 from beardyn_core.kernels.seal import add_seals
 from beardyn_core.model.layout import (
     ANGULAR,
     AXIS,
-    CAGE_BODY,
     CHATTER,
     CHATTER_FIELDS,
     CHATTER_LOAD,
@@ -37,7 +37,6 @@ from beardyn_core.model.layout import (
     MASK,
     MOMENTUM,
     PENETRATION,
-    RATE,
     SIGNAL_ACCELERATION,
     SIGNAL_FORCE,
     SIGNAL_TORQUE,
@@ -72,20 +71,7 @@ def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
         total += 0.5 * mounting.box_inertia[i] * bodies[CUP_BODY, ANGULAR + i] ** 2
         total += 0.5 * mounting.journal_mass * bodies[CONE_BODY, LINEAR + i] ** 2
         total += 0.5 * mounting.journal_inertia * bodies[CONE_BODY, ANGULAR + i] ** 2
-    return total + _cage_energy(bodies, p.effects.cage)
-
-
-@inline
-def _cage_energy(bodies: Any, cage: Any) -> Any:
-    if cage is None:
-        return 0.0
-    total = 0.0
-    for body in range(CAGE_BODY, CAGE_BODY + 2):
-        for i in range(3):
-            total += 0.5 * cage.mass * bodies[body, LINEAR + i] ** 2
-            total += 0.5 * cage.transverse_inertia * bodies[body, ANGULAR + i] ** 2
-        total += 0.5 * cage.polar_inertia * bodies[body, RATE] ** 2
-    return total
+    return total + cage_energy(bodies, p.effects.cage)
 
 
 @inline
@@ -164,6 +150,7 @@ def advance(
     place = cage_place(p)
     for step in range(steps):
         drift_bodies(bodies, p.step)
+        place_cages(bodies, p.effects.cage)
         show_rings(bodies, rings, place)
         sums[:] = 0.0
         if step == 0:
@@ -173,6 +160,8 @@ def advance(
             for index in range(blocks_per_group):
                 step_rollers(lanes, group * blocks_per_group + index, rollers, rings[group], sums[group], p)
         collect_reactions(sums, wrenches)
+        lands = push_lands(bodies, wrenches, p.effects.cage)
+        pass_on(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
         add_seals(bodies, wrenches, energy, p.step, p.effects.seal)
@@ -185,7 +174,8 @@ def advance(
         signals[step, SIGNAL_TORQUE] = kick_cone(
             bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, p.mounting
         )
-        kick_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
+        move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
+        stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage)
         energy[ENERGY_EXTERNAL] += sum_lanes(sums, WORK_GRAVITY)
         for source in range(LOSSES):
             energy[ENERGY_LOST + source] += sum_lanes(sums, WORK_LOST + source)

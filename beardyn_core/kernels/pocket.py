@@ -6,6 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, cos_sin, magnitude, sqrt, where_greater
+from beardyn_core.kernels.pocket_film import pocket_loads
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 
 
@@ -25,9 +26,9 @@ def pocket_contact(
     """Force of the cage on the roller, and what it loses.
 
     Disc against plane at two abscissae of both bars, and end against plane at both pocket ends: linear
-    springs with damping that never pull, and regularised Coulomb friction. The bar faces lean, so that the
-    rollers guide the cage radially. Neglects the lubricant in the pocket, the bending of the bars, and the
-    turn of the touching points under skew (1 um per mrad).
+    springs with damping that never pull, and regularised Coulomb friction; at the bars a lubricant film if
+    the cage has one. The bar faces lean, so that the rollers guide the cage radially. Neglects the bending of
+    the bars, and the turn of the touching points under skew (1 um per mrad).
 
     Parameters
     ----------
@@ -71,27 +72,31 @@ def pocket_contact(
     small, large = -cage.bar_place, cage.bar_place
     small_radius = roller.radius - cage.bar_place * roller.taper
     large_radius = roller.radius + cage.bar_place * roller.taper
-    small_front = _touch(
+    small_front = touch_wall(
         centre, add_scaled(scale(small, axis), small_radius, front), front,
         height + offset + small * skew - clearance, motion, cage,
+        (axis, small_radius), cage.film,
     )  # fmt: skip
-    large_front = _touch(
+    large_front = touch_wall(
         centre, add_scaled(scale(large, axis), large_radius, front), front,
         height + offset + large * skew - clearance, motion, cage,
+        (axis, large_radius), cage.film,
     )  # fmt: skip
-    small_behind = _touch(
+    small_behind = touch_wall(
         centre, add_scaled(scale(small, axis), small_radius, behind), behind,
         height - offset - small * skew - clearance, motion, cage,
+        (axis, small_radius), cage.film,
     )  # fmt: skip
-    large_behind = _touch(
+    large_behind = touch_wall(
         centre, add_scaled(scale(large, axis), large_radius, behind), behind,
         height - offset - large * skew - clearance, motion, cage,
+        (axis, large_radius), cage.film,
     )  # fmt: skip
     slide = dot(pocket_axis, centre) - cage.roller_place
     side = where_greater(slide, 0.0, 1.0 + still, -1.0 + still)
-    end = _touch(
+    end = touch_wall(
         centre, scale(side * roller.half_length, axis), scale(side, pocket_axis),
-        magnitude(slide) - cage.half_end_clearance, motion, cage,
+        magnitude(slide) - cage.half_end_clearance, motion, cage, (axis, roller.radius), None,
     )  # fmt: skip
     touches = (small_front, large_front, small_behind, large_behind, end)
     bar = scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)
@@ -114,30 +119,48 @@ def pocket_sum(touches: Any) -> Any:
 def pocket_loss(touches: Any, change: Any) -> Any:
     """Power lost in a pocket at the middle of a step that changes the roller's velocities, [W]."""
     a, b, c, d, e = touches
-    return _loss(a, change) + _loss(b, change) + _loss(c, change) + _loss(d, change) + _loss(e, change)
+    return (
+        touch_loss(a, change)
+        + touch_loss(b, change)
+        + touch_loss(c, change)
+        + touch_loss(d, change)
+        + touch_loss(e, change)
+    )
 
 
 @inline
-def _loss(touch: Any, change: Any) -> Any:
+def touch_loss(touch: Any, change: Any) -> Any:
+    """Power lost at one wall at the middle of a step that changes the roller's velocities, [W]."""
     middle = add_scaled(touch[3], 0.5, add(change[0], cross(change[1], touch[1])))
     return dot(touch[2], middle)
 
 
 @inline
-def _touch(centre: Any, arm: Any, direction: Any, depth: Any, motion: Any, cage: Any) -> Any:
-    """One spring-damper with friction; force, arm, lost part of the force, slip, elastic energy."""
+def wall_slip(centre: Any, arm: Any, motion: Any) -> Any:
+    """Velocity of the roller against the cage at a point, [m/s]."""
     velocity, omega, ring_velocity, ring_omega = motion
-    inside = at_least(depth, 0.0)
-    slip = subtract(
+    return subtract(
         subtract(add(velocity, cross(omega, arm)), ring_velocity), cross(ring_omega, add(centre, arm))
     )
+
+
+@inline
+def touch_wall(
+    centre: Any, arm: Any, direction: Any, depth: Any, motion: Any, cage: Any, shape: Any, film: Any
+) -> Any:
+    """One spring-damper with friction; force, arm, lost part of the force, slip, elastic energy.
+
+    ``shape`` is the roller's axis and its radius at the wall, for the film if there is one.
+    """
+    inside = at_least(depth, 0.0)
+    slip = wall_slip(centre, arm, motion)
     rate = dot(slip, direction)
     spring = cage.stiffness * inside
     damping = where_greater(depth, 0.0, cage.damping + 0.0 * depth, 0.0 * depth)
-    load = at_least(spring + damping * rate, 0.0)
+    load, solid, shear = pocket_loads(depth, spring + damping * rate, rate, slip, direction, shape, film)
     tangential = add_scaled(slip, -rate, direction)
     speed = sqrt(dot(tangential, tangential) + cage.regularisation * cage.regularisation)
-    friction = cage.friction * load / speed
+    friction = cage.friction * solid / speed + shear
     force = add_scaled(scale(-load, direction), -friction, tangential)
     lost = add_scaled(scale(load - spring, direction), friction, tangential)
     return force, arm, lost, slip, 0.5 * spring * inside

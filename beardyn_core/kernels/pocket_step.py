@@ -9,6 +9,7 @@ from beardyn_core.kernels.exchange import account, account_loss, output_contact,
 from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.orbit import ring_view
 from beardyn_core.kernels.pocket import pocket_contact, pocket_loss, pocket_sum
+from beardyn_core.kernels.pocket_simple import kinematic_pocket, pair_loss, pair_sum, rotating_pocket
 from beardyn_core.kernels.vectors import add, dot, subtract
 from beardyn_core.model.layout import CAGE_BODY, LOSS_POCKET, POCKET, POCKET_ANGLE, RING_TURN
 
@@ -26,19 +27,61 @@ def cage_before(
     roller: Any,
     cage: Any,
 ) -> Any:
-    """Pocket contact of one block; without a cage zeros of the same type, which nothing uses."""
+    """Pocket contact of one block: centre, wrench with energy, touches with bar; zeros without a cage."""
     if cage is None:
         zero = lanes.constant(0.0)
         nothing = (zero, zero, zero)
         touch = (nothing, nothing, nothing, nothing, zero)
-        return nothing, ((touch, touch, touch, touch, touch), nothing)
+        return nothing, (nothing, nothing, zero), ((touch, touch, touch, touch, touch), nothing)
     place, axis, velocity, omega, _rate = body
     origin, tilt, ring_velocity, ring_omega = ring_view(lanes, rings, CAGE_BODY, cosine, sine)
     pocket = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(constants, block, POCKET_ANGLE)
     centre = subtract(place, origin)
-    return centre, pocket_contact(
-        centre, axis, velocity, omega, azimuth - pocket, tilt, ring_velocity, ring_omega, roller, cage
+    motion = (velocity, omega, ring_velocity, ring_omega)
+    touches, bar = _touches(
+        centre, axis, motion, azimuth - pocket, tilt, roller, cage, cage.rotating, cage.kinematic
     )
+    return centre, _sum(touches, cage.rotating, cage.kinematic), (touches, bar)
+
+
+@inline
+def _touches(
+    centre: Any,
+    axis: Any,
+    motion: Any,
+    advance: Any,
+    tilt: Any,
+    roller: Any,
+    cage: Any,
+    rotating: Any,
+    kinematic: Any,
+) -> Any:
+    if kinematic is not None:
+        return kinematic_pocket(centre, axis, motion, advance, tilt, cage, kinematic)
+    if rotating is not None:
+        return rotating_pocket(centre, axis, motion, advance, tilt, roller, cage)
+    velocity, omega, ring_velocity, ring_omega = motion
+    return pocket_contact(
+        centre, axis, velocity, omega, advance, tilt, ring_velocity, ring_omega, roller, cage
+    )
+
+
+@inline
+def _sum(touches: Any, rotating: Any, kinematic: Any) -> Any:
+    if kinematic is not None:
+        return pair_sum(touches)
+    if rotating is not None:
+        return pair_sum(touches)
+    return pocket_sum(touches)
+
+
+@inline
+def _loss(touches: Any, change: Any, rotating: Any, kinematic: Any) -> Any:
+    if kinematic is not None:
+        return pair_loss(touches, change)
+    if rotating is not None:
+        return pair_loss(touches, change)
+    return pocket_loss(touches, change)
 
 
 @inline
@@ -46,7 +89,7 @@ def add_cage(force: Any, moment: Any, contact: Any, cage: Any) -> Any:
     """Add the pocket's wrench to a sum."""
     if cage is None:
         return force, moment
-    pocket_force, pocket_moment, _energy = pocket_sum(contact[1][0])
+    pocket_force, pocket_moment, _energy = contact[1]
     return add(force, pocket_force), add(moment, pocket_moment)
 
 
@@ -68,11 +111,11 @@ def finish_cage(
     if cage is None:
         return
     centre = contact[0]
-    touches, bar = contact[1]
-    force, moment, energy = pocket_sum(touches)
+    force, moment, energy = contact[1]
+    touches, bar = contact[2]
     react(lanes, sums, CAGE_BODY, mask, centre, force, moment, cosine, sine)
     slip = touches[0][3]
     output_contact(lanes, rollers, block, POCKET, force, bar, sqrt(dot(slip, slip)), lanes.constant(0.0))
-    lost = p.step * pocket_loss(touches, change)
+    lost = p.step * _loss(touches, change, cage.rotating, cage.kinematic)
     account_loss(lanes, sums, mask, LOSS_POCKET, lost, p.effects.audit)
     account(lanes, sums, mask, lanes.constant(0.0), energy, p.effects.audit)

@@ -5,35 +5,130 @@ from __future__ import annotations
 import math
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.effects import EffectSet
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.effects import Cage, KinematicCage, RotatingCage
+from beardyn_core.model.layout import CONE_BODY, CUP_BODY
 from beardyn_core.model.parameters import (
     CageParams,
+    KinematicCageParams,
+    LandParams,
+    PocketFilmParams,
+    RotatingCageParams,
 )
+from beardyn_core.scene.scene import Scene
+
+# Walls of a pocket that can resist at a time, two bars at two abscissae each.
+_WALLS = 4
+# A film may push back by W^2 / 4c when it opens; its friction pays for that while the bounded resistance c is
+# no less than 1/39 of the physical one: 2.45^2 / (4 * 3 sqrt(2) pi * sqrt(2) pi) = 1/39.5.
+_PAID = 39.0
 
 
-def cage_params(bearing: Bearing, effects: EffectSet) -> CageParams | None:
-    """Cage pockets around the nominal rollers."""
-    if effects.cage is None:
+def cage_params(scene: Scene, step: float) -> CageParams | None:
+    """Cage pockets around the nominal rollers, for steps of `step` [s]."""
+    bearing, cage = scene.bearing, scene.effects.cage
+    if cage is None:
         return None
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     radial = 0.5 * bearing.pitch_diameter + bearing.roller_mass_offset * sine
     axial = bearing.roller_mass_offset * cosine
+    lean = cage.bar_inclination if isinstance(cage, Cage) else 0.0
+    wear = 0.0 if isinstance(cage, KinematicCage) else cage.pocket_wear
     return CageParams(
         stiffness=bearing.cage.stiffness,
         damping=bearing.cage.damping,
-        half_clearance=0.5 * bearing.cage.circumferential_clearance,
+        half_clearance=0.5 * (bearing.cage.circumferential_clearance + wear),
         half_end_clearance=0.5 * bearing.cage.axial_clearance,
-        bar_sine=math.sin(effects.cage.bar_inclination),
-        bar_cosine=math.cos(effects.cage.bar_inclination),
+        bar_sine=math.sin(lean),
+        bar_cosine=math.cos(lean),
         bar_place=0.35 * bearing.effective_length,
         roller_height=radial,
         roller_place=radial * sine + axial * cosine,
         axis_radial=sine,
         axis_axial=cosine,
-        friction=effects.cage.friction,
-        regularisation=effects.cage.regularisation_speed,
+        friction=0.0 if isinstance(cage, KinematicCage) else cage.friction,
+        regularisation=1.0 if isinstance(cage, KinematicCage) else cage.regularisation_speed,
         place=0.5 * bearing.row_spacing,
         mass=bearing.cage.mass,
         polar_inertia=bearing.cage.polar_inertia,
         transverse_inertia=bearing.cage.transverse_inertia,
+        film=_film(scene, step) if isinstance(cage, Cage) else None,
+        land=_land(scene, step) if isinstance(cage, Cage) else None,
+        rotating=RotatingCageParams(1.0) if isinstance(cage, RotatingCage) else None,
+        kinematic=_kinematic(bearing, cage) if isinstance(cage, KinematicCage) else None,
     )
+
+
+def _kinematic(bearing: Bearing, cage: KinematicCage) -> KinematicCageParams:
+    return KinematicCageParams(
+        speed_ratio=cage.speed_ratio * cage_speed(bearing, 1.0),
+        stiffness=0.5 * cage.stiffness,
+        damping=0.5 * cage.damping,
+    )
+
+
+def _least_inertia(bearing: Bearing) -> float:
+    """Mass of a cage as its pockets feel it along the pitch circle, [kg]."""
+    return min(bearing.cage.mass, bearing.cage.polar_inertia / (0.5 * bearing.pitch_diameter) ** 2)
+
+
+def _film(scene: Scene, step: float) -> PocketFilmParams | None:
+    """Film of half a bar; all pockets together resist by no more than the cage's inertia over the step."""
+    if not isinstance(scene.effects.cage, Cage) or scene.effects.cage.lubrication is None:
+        return None
+    options, bearing = scene.effects.cage.lubrication, scene.bearing
+    per_length = scene.lubricant.dynamic_viscosity(scene.temperature) * 0.5 * bearing.effective_length
+    share = _WALLS * bearing.roller_count * step / _least_inertia(bearing)
+    squeeze = 3.0 * math.sqrt(2.0) * math.pi * per_length
+    radius = 0.5 * bearing.roller_diameter
+    bounded = radius * (squeeze * share / (_PAID - 1.0)) ** (2.0 / 3.0)
+    return PocketFilmParams(
+        wedge=0.5 * 4.9 * per_length,
+        squeeze=squeeze,
+        shear=math.sqrt(2.0) * math.pi * per_length,
+        thinnest=max(options.switch_thickness, bounded),
+        inverse_layer=1.0 / options.layer,
+        share=share,
+    )
+
+
+def _land(scene: Scene, step: float) -> LandParams | None:
+    if not isinstance(scene.effects.cage, Cage) or scene.effects.cage.guidance is None:
+        return None
+    options, bearing = scene.effects.cage.guidance, scene.bearing
+    outside = 1.0 if options.on == "cup" else -1.0
+    diameter = options.land_diameter
+    if diameter is None:
+        diameter = bearing.pitch_diameter + 0.5 * outside * bearing.roller_diameter
+    offset = options.land_offset
+    if offset is None:
+        offset = 0.5 * bearing.roller_length * math.cos(bearing.contact_angle)
+    radius, width, clearance = 0.5 * diameter, options.land_width, options.clearance
+    viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
+    film = viscosity * radius * width**3 / (2.0 * clearance**2)
+    return LandParams(
+        body=float(CUP_BODY if options.on == "cup" else CONE_BODY),
+        outside=outside,
+        radius=radius,
+        clearance=clearance,
+        half_width=0.5 * width,
+        place=offset,
+        film=film,
+        drag=2.0 * math.pi * viscosity * radius**3 * width / clearance,
+        most_eccentric=most_eccentric(film / clearance, 0.25 * _least_inertia(bearing) / step),
+        stiffness=bearing.cage.stiffness,
+        damping=bearing.cage.damping,
+        friction=options.friction,
+        regularisation=options.regularisation_speed,
+    )
+
+
+def most_eccentric(film: float, largest: float) -> float:
+    """Eccentricity ratio up to which a land film resists less than `largest` [N s/m], at most 0.99."""
+    low, high = 0.0, 0.99
+    for _ in range(60):
+        ratio = 0.5 * (low + high)
+        flat = 1.0 - ratio**2
+        resistance = film * (math.pi * (1.0 + 2.0 * ratio**2) / flat**2.5 + 8.0 * ratio / flat**2)
+        low, high = (ratio, high) if resistance < largest else (low, ratio)
+    return low

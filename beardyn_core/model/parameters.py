@@ -142,6 +142,49 @@ class RibParams(NamedTuple):
     regularisation: float  # [m/s]
 
 
+class PocketFilmParams(NamedTuple):
+    """Lubricant between roller and bar at one of the two abscissae; see `kernels.pocket_film`."""
+
+    wedge: float  # load over rolling speed and radius over gap [N s/m]
+    squeeze: float  # load over speed of approach and (radius over gap)^1.5 [N s/m]
+    shear: float  # friction over slip and (radius over gap)^0.5 [N s/m]
+    thinnest: float  # [m]
+    inverse_layer: float  # of the thickness of the lubricant's layer [1/m]
+    share: float  # over the squeeze resistance that the explicit cage can follow [m/(N s)]
+
+
+class LandParams(NamedTuple):
+    """Land of a cage in a cylinder of cup or cone; see `kernels.land`."""
+
+    body: float  # row of the ring in the array of bodies
+    outside: float  # +1 when the cage runs inside the ring, -1 around it
+    radius: float  # [m]
+    clearance: float  # radial [m]
+    half_width: float  # [m]
+    place: float  # outward from the cage's centre of mass [m]
+    film: float  # eta R L^3 / (2 C^2) [N s]
+    drag: float  # Petroff's torque over speed [N m s]
+    most_eccentric: float  # bound of the eccentricity ratio in the film's formulas
+    stiffness: float  # of an edge [N/m]
+    damping: float  # [N s/m]
+    friction: float
+    regularisation: float  # [m/s]
+
+
+class RotatingCageParams(NamedTuple):
+    """The cage follows the rings but for its spin."""
+
+    follows: float
+
+
+class KinematicCageParams(NamedTuple):
+    """The cage follows the rings, its spin is prescribed."""
+
+    speed_ratio: float  # over the shaft
+    stiffness: float  # of each of two springs [N/m]
+    damping: float  # [N s/m]
+
+
 class CageParams(NamedTuple):
     """Pockets of a cage."""
 
@@ -162,6 +205,10 @@ class CageParams(NamedTuple):
     mass: float  # [kg]
     polar_inertia: float  # [kg m^2]
     transverse_inertia: float
+    film: PocketFilmParams | None = None
+    land: LandParams | None = None
+    rotating: RotatingCageParams | None = None  # six degrees of freedom without this and the next
+    kinematic: KinematicCageParams | None = None
 
 
 class SpallParams(NamedTuple):

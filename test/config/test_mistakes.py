@@ -10,6 +10,7 @@ import pytest
 from beardyn_core.config import load_bearing, load_effects, load_scene
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
+from beardyn_core.effects import Cage, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import read_measurement
 
@@ -206,11 +207,44 @@ def test_effects_of_a_preset_can_be_changed_one_by_one(write: Write) -> None:
     text = GOOD + "effects: {preset: standard, film: null, cage: {initial_speed_ratio: 0.9}, rib: true}\n"
     standard, changed = load_effects("standard"), load_scene(write(text)).effects
     assert changed.film is None
-    assert changed.cage is not None
-    assert standard.cage is not None
+    assert isinstance(changed.cage, Cage)
+    assert isinstance(standard.cage, Cage)
     assert changed.cage.initial_speed_ratio == 0.9
     assert changed.cage.friction == standard.cage.friction
     assert changed.rib == standard.rib
+
+
+def test_a_cage_is_the_free_one_unless_it_says_otherwise(write: Write) -> None:
+    def cage(text: str) -> object:
+        return load_scene(write(GOOD + f"effects: {{cage: {text}}}\n")).effects.cage
+
+    assert cage("true") == cage("{}") == cage("{kind: six_dof}") == Cage()
+    assert cage("false") is None
+    assert cage("{kind: rotating, pocket_wear_mm: 0.5}") == RotatingCage(pocket_wear=5e-4)
+    assert cage("{kind: kinematic}") == KinematicCage()
+    assert cage("{lubrication: true, guidance: {on: cone}}") == Cage(
+        lubrication=PocketFilm(), guidance=LandGuidance(on="cone")
+    )
+    preset = load_scene(write(GOOD + "effects: {preset: dry, cage: {lubrication: true}}\n")).effects.cage
+    assert preset == Cage(friction=0.15, lubrication=PocketFilm())
+
+
+@pytest.mark.parametrize(
+    ("cage", "words"),
+    [
+        ("{kind: loose}", ["effects.cage.kind is 'loose'", "'six_dof', 'rotating', 'kinematic'"]),
+        ("{kind: rotating, lubrication: true}", ["effects.cage.lubrication", "unknown key"]),
+        ("{pocket_wear_mm: -1}", ["effects.cage.pocket_wear_mm is -1", "at least 0"]),
+        ("{guidance: {on: rib}}", ["effects.cage.guidance.on is 'rib'", "allowed are 'cup', 'cone'"]),
+        ("{guidance: {clearance_um: 3}}", ["effects.cage.guidance.clearance_um", "`clearance_mm`"]),
+        ("{lubrication: {layer_um: 0}}", ["effects.cage.lubrication.layer_um is 0", "greater than 0"]),
+        ("7", ["effects.cage is 7"]),
+    ],
+)
+def test_a_mistake_in_a_cage_is_one_sentence(write: Write, cage: str, words: list[str]) -> None:
+    (sentence,) = problems_of(write(GOOD + f"effects: {{cage: {cage}}}\n"))
+    for word in words:
+        assert word in sentence
 
 
 def test_effects_without_a_preset_are_those_named(write: Write) -> None:

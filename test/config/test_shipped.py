@@ -181,6 +181,10 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
         (rib.RibKeys, effects.Rib),
         (cage.CageEffectKeys, effects.Cage),
         (seal.SealKeys, effects.Seal),
+        (cage.RotatingCageKeys, effects.RotatingCage),
+        (cage.KinematicCageKeys, effects.KinematicCage),
+        (cage.PocketFilmKeys, effects.PocketFilm),
+        (cage.LandGuidanceKeys, effects.LandGuidance),
         (gravity.GravityKeys, effects.Gravity),
         (audit.AuditKeys, effects.Audit),
         (effects_file.EffectsKeys, effects.EffectSet),
@@ -198,7 +202,11 @@ def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(
         kind = {"kind": "coulomb"} if noun is effects.CoulombTraction else {}
         kind = {"kind": "mixed"} if noun is effects.MixedTraction else kind
         kind = {"kind": "sheared_film"} if noun is effects.ShearedFilmTraction else kind
+        kind = {"kind": "rotating"} if noun is effects.RotatingCage else kind
+        kind = {"kind": "kinematic"} if noun is effects.KinematicCage else kind
         described: Any = keys.model_validate(kind)
         for name, value in vars(noun()).items():
             found = getattr(described.noun(), name)
-            assert found == (value if isinstance(value, str) else pytest.approx(value, rel=1e-12))
+            assert found == (
+                value if value is None or isinstance(value, str) else pytest.approx(value, rel=1e-12)
+            )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_scene
+from beardyn_core.effects import Cage
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
@@ -84,7 +85,7 @@ def record(scene: Scene, duration: float) -> Record:
 def shipped(name: str, duration: float = 0.6, cage_ratio: float = 1.0, steps_per_sample: int = 4) -> Record:
     """A shipped scene, from another cage speed or with another step."""
     scene = load_scene(name)
-    assert scene.effects.cage is not None
+    assert isinstance(scene.effects.cage, Cage)
     effects = replace(scene.effects, cage=replace(scene.effects.cage, initial_speed_ratio=cage_ratio))
     numerics = replace(scene.numerics, steps_per_sample=steps_per_sample)
     return record(replace(scene, effects=effects, numerics=numerics), duration)

@@ -1,0 +1,159 @@
+"""Motion of the cages as bodies: free, turning with the rings' mean place, or prescribed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.bodies import fall, kick_cages, ring_direction
+from beardyn_core.model.layout import (
+    ANGULAR,
+    CAGE_BODY,
+    CONE_BODY,
+    CUP_BODY,
+    ENERGY_EXTERNAL,
+    LINEAR,
+    POSITION,
+    RATE,
+    TILT,
+)
+
+X, Y, Z = 0, 1, 2
+
+
+@inline
+def cage_energy(bodies: Any, cage: Any) -> Any:
+    """Kinetic energy of both cages, without a prescribed spin, [J]."""
+    if cage is None:
+        return 0.0
+    return _energy(bodies, cage, cage.rotating, cage.kinematic)
+
+
+@inline
+def _energy(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> Any:
+    if kinematic is not None:
+        return 0.0
+    total = 0.0
+    for body in range(CAGE_BODY, CAGE_BODY + 2):
+        total += 0.5 * cage.polar_inertia * bodies[body, RATE] ** 2
+        total += _tumbling_energy(bodies, body, cage, rotating)
+    return total
+
+
+@inline
+def _tumbling_energy(bodies: Any, body: Any, cage: Any, rotating: Any) -> Any:
+    if rotating is not None:
+        return 0.0
+    total = 0.0
+    for i in range(3):
+        total += 0.5 * cage.mass * bodies[body, LINEAR + i] ** 2
+        total += 0.5 * cage.transverse_inertia * bodies[body, ANGULAR + i] ** 2
+    return total
+
+
+@inline
+def place_cages(bodies: Any, cage: Any) -> None:
+    """Put cages that follow the rings at the mean of cup and cone; a free cage stays where it is."""
+    if cage is None:
+        return
+    _place(bodies, cage, cage.rotating, cage.kinematic)
+
+
+@inline
+def _place(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> None:
+    if rotating is None and kinematic is None:
+        return
+    for body in range(CAGE_BODY, CAGE_BODY + 2):
+        lift = cage.place if body > CAGE_BODY else -cage.place
+        for place, turn in ((POSITION, TILT), (LINEAR, ANGULAR)):
+            for i in range(3):
+                bodies[body, place + i] = 0.5 * (bodies[CUP_BODY, place + i] + bodies[CONE_BODY, place + i])
+                bodies[body, turn + i] = 0.5 * (bodies[CUP_BODY, turn + i] + bodies[CONE_BODY, turn + i])
+            # tilted rings carry the cages, which stand beside their centre
+            bodies[body, place + X] -= lift * bodies[body, turn + Z]
+            bodies[body, place + Z] += lift * bodies[body, turn + X]
+
+
+@inline
+def pass_on(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+    """Give what pushes cages that follow the rings, weight included, to cup and cone, half each.
+
+    Only the moment about the cage's axis is left to the cage. That is exact: the cage moves with the mean of
+    both, so the halves do the work of the whole.
+    """
+    if cage is None:
+        return
+    _pass_on(bodies, wrenches, energy, step, cage, gravity, cage.rotating, cage.kinematic)
+
+
+@inline
+def _pass_on(
+    bodies: Any,
+    wrenches: Any,
+    energy: Any,
+    step: Any,
+    cage: Any,
+    gravity: Any,
+    rotating: Any,
+    kinematic: Any,
+) -> None:
+    if rotating is None and kinematic is None:
+        return
+    for body in range(CAGE_BODY, CAGE_BODY + 2):
+        lift = cage.place if body > CAGE_BODY else -cage.place
+        pull = -cage.mass * fall(gravity)
+        energy[ENERGY_EXTERNAL] += step * pull * bodies[body, LINEAR + Z]
+        axis = ring_direction(bodies, body)
+        fx, fy, fz = wrenches[body, X], wrenches[body, Y], wrenches[body, Z] + pull
+        about = wrenches[body, 3] * axis[0] + wrenches[body, 4] * axis[1] + wrenches[body, 5] * axis[2]
+        for ring in range(CUP_BODY, CONE_BODY + 1):
+            x = bodies[body, POSITION + X] - bodies[ring, POSITION + X]
+            y = bodies[body, POSITION + Y] - bodies[ring, POSITION + Y] + lift
+            z = bodies[body, POSITION + Z] - bodies[ring, POSITION + Z]
+            wrenches[ring, X] += 0.5 * fx
+            wrenches[ring, Y] += 0.5 * fy
+            wrenches[ring, Z] += 0.5 * fz
+            wrenches[ring, 3] += 0.5 * (wrenches[body, 3] - about * axis[0] + y * fz - z * fy)
+            wrenches[ring, 4] += 0.5 * (wrenches[body, 4] - about * axis[1] + z * fx - x * fz)
+            wrenches[ring, 5] += 0.5 * (wrenches[body, 5] - about * axis[2] + x * fy - y * fx)
+        for i in range(3):
+            wrenches[body, i] = 0.0
+            wrenches[body, 3 + i] = about * axis[i]
+
+
+@inline
+def move_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+    """Accelerate both cages, or set their prescribed speed and book the work that takes."""
+    if cage is None:
+        return
+    _move(bodies, wrenches, energy, step, cage, gravity, cage.rotating, cage.kinematic)
+
+
+@inline
+def _move(
+    bodies: Any,
+    wrenches: Any,
+    energy: Any,
+    step: Any,
+    cage: Any,
+    gravity: Any,
+    rotating: Any,
+    kinematic: Any,
+) -> None:
+    if rotating is None and kinematic is None:
+        kick_cages(bodies, wrenches, energy, step, cage, gravity)
+        return
+    for body in range(CAGE_BODY, CAGE_BODY + 2):
+        axis = ring_direction(bodies, body)
+        about = wrenches[body, 3] * axis[0] + wrenches[body, 4] * axis[1] + wrenches[body, 5] * axis[2]
+        _turn(bodies, body, about, energy, step, cage, kinematic)
+
+
+@inline
+def _turn(bodies: Any, body: Any, about: Any, energy: Any, step: Any, cage: Any, kinematic: Any) -> None:
+    if kinematic is None:
+        bodies[body, RATE] += step * about / cage.polar_inertia
+        return
+    before = bodies[body, RATE]
+    bodies[body, RATE] = kinematic.speed_ratio * bodies[CONE_BODY, RATE]
+    energy[ENERGY_EXTERNAL] -= step * about * 0.5 * (before + bodies[body, RATE])

@@ -1,0 +1,1 @@
+"""Studies whose data the validation page shows; each returns plain arrays."""
