@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
+from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
-from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.state import State, initial_state, work_space
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
+from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
@@ -37,6 +37,7 @@ from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 
 Float = NDArray[np.float64]
 LANE_WIDTH = 8
@@ -80,7 +81,9 @@ class Twin:
         self._arrangement = Arrangement(scene.bearing.roller_count, LANE_WIDTH)
         self._lanes = Lanes(LANE_WIDTH)
         self._work = work_space(self._arrangement)
+        self._tier = TIERS[scene.tier]
         self._parameters = build_parameters(scene, self._arrangement, np.zeros(6))
+        self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
         self._signals = np.zeros((steps, SIGNAL_CHANNELS))
         self._audit = np.zeros(ENERGY_TERMS)
@@ -154,9 +157,8 @@ class Twin:
         preload = np.concatenate([-first[:3], -moment])
         preload[2] += carried + self._free_fall * self._parameters.mounting.box_mass
         self._parameters = build_parameters(scene, self._arrangement, preload)
-        ratio = scene.effects.cage.initial_speed_ratio if scene.effects.cage else 1.0
-        orbit = ratio * cage_speed(bearing, first[6])
-        self._state = initial_state(bearing, self._arrangement, static, first[6], orbit)
+        self._kernel_parameters = self._tier.parameters(scene, self._parameters)
+        self._state = self._tier.start(scene, self._arrangement, self._kernel_parameters, static, first)
         rest = np.zeros(SIGNAL_CHANNELS)
         rest[SIGNAL_FORCE : SIGNAL_FORCE + 3] = first[:3]
         rest[SIGNAL_FORCE + 2] -= carried
@@ -214,15 +216,15 @@ class Twin:
         rollers = np.empty((TRENDS_PER_BLOCK, *state.rollers.shape))
         bodies = np.empty((TRENDS_PER_BLOCK, *state.bodies.shape))
         work = self._work
-        advance(
+        self._tier.advance(
             self._lanes, state.rollers, state.bodies, work.rings, work.sums, work.wrenches, work.box,
-            loads, signals, rollers, bodies, state.energy, self._audit, self._parameters,
+            loads, signals, rollers, bodies, state.energy, self._audit, self._kernel_parameters,
         )  # fmt: skip
         return rollers, bodies
 
     def _energy_audit(self) -> EnergyAudit | None:
         """Balance from the start of the run to the start of the block just computed."""
-        if self.scene.effects.audit is None:
+        if self.scene.effects.audit is None or "audit" in self.scene.missing_effects:
             return None
         if self._first_audit is None:
             self._first_audit = self._audit.copy()
@@ -243,7 +245,11 @@ class Twin:
             "purpose": scene.purpose,
             "bearing": scene.bearing.name,
             "tier": scene.tier,
-            "effects": list(scene.effect_names),
+            "effects": [name for name in scene.effect_names if name not in scene.missing_effects],
+            "not_in_this_tier": {
+                "effects": list(scene.missing_effects),
+                "channels": list(TIER_NOUNS[scene.tier].absent),
+            },
             "faults": [vars(defect) for defect in scene.defects],
             "fault_frequencies_per_rev": {
                 "FTF": frequencies.ftf,
@@ -275,6 +281,7 @@ class Twin:
         self._index = snapshot.index
         self._state = snapshot.state.copy()
         self._parameters = snapshot.parameters
+        self._kernel_parameters = self._tier.parameters(self.scene, self._parameters)
         self.load = snapshot.load.copy()
         self._first_audit = None if snapshot.first_audit is None else snapshot.first_audit.copy()
         if self._observer is None:

@@ -32,7 +32,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("-o", "--output", metavar="run.mcap", type=Path, help="record the run to this file")
     parser.add_argument("--duration", metavar="S", type=float, help="simulated time, s (the scene's own)")
     parser.add_argument("--effects", metavar="NAME", help="preset or file of effects (the scene's own)")
-    parser.add_argument("--tier", metavar="T", help="full (the only one so far)")
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full")
     parser.add_argument("--laminae", metavar="N", type=int, help="laminae of each roller (the scene's own)")
     parser.add_argument("--seed", metavar="N", type=int, help="of irregularity and noise (the scene's own)")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
@@ -119,6 +119,7 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "scene": summary.scene,
         "tier": summary.tier,
         "effects": list(summary.effects),
+        "not_in_tier": list(summary.not_in_tier),
         "duration_s": summary.duration,
         "wall_s": summary.wall_time,
         "rtf": _number(summary.real_time_factor),
@@ -147,6 +148,7 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         ("scene", summary.scene),
         ("tier", summary.tier),
         ("effects", ", ".join(summary.effects) or "none"),
+        *([("not in this tier", ", ".join(summary.not_in_tier))] if summary.not_in_tier else []),
         (
             "simulated",
             f"{summary.duration:.2f} s in {summary.wall_time:.2f} s, "

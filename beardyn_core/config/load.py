@@ -16,7 +16,7 @@ from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.lubricant_file import LubricantKeys
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
-from beardyn_core.config.scene_file import DefectKeys, SceneKeys
+from beardyn_core.config.scene_file import DefectKeys, NumericsKeys, SceneKeys
 from beardyn_core.config.units import stem_of
 from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
@@ -25,6 +25,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import TIER_NAMES, contradictions
 
 Noun = TypeVar("Noun", covariant=True)
 Keys = TypeVar("Keys", bound=FileModel)
@@ -208,6 +209,7 @@ class _Reading:
 
     def _check_contradictions(self) -> None:
         """What is well written and cannot be; parts with other mistakes are left out."""
+        self._check_tier()
         bearing_keys = _valid(BearingKeys, self.data.get("bearing"))
         if bearing_keys is None:
             return
@@ -223,6 +225,14 @@ class _Reading:
             defect = _valid(DefectKeys, given)
             for problem in defect.contradictions(bearing) if defect else []:
                 self.problems.append(f"{self.origins[0].label}: {key_path(('defects', index))}.{problem}")
+
+    def _check_tier(self) -> None:
+        tier = self.data.get("tier", "full")
+        effects = _valid(EffectsKeys, self.data.get("effects"))
+        numerics = _valid(NumericsKeys, self.data.get("numerics", {}))
+        if tier in TIER_NAMES and effects is not None and numerics is not None:
+            has_rib = effects.noun().rib is not None
+            self._complain(("tier",), contradictions(tier, has_rib, numerics.laminae))
 
 
 def _valid(keys: type[Keys], data: Any) -> Keys | None:

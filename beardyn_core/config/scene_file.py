@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
@@ -31,6 +31,7 @@ from beardyn_core.scene.defect import Spall
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.scene.tier import TIERS
 
 
 class MountingKeys(FileModel):
@@ -148,7 +149,7 @@ class NumericsKeys(FileModel):
 
     laminae: Annotated[Count, Field(ge=1, le=100)] = 6
     steps_per_sample: Annotated[Count, Field(ge=1, le=64)] = Field(
-        4, description="time steps per waveform sample of 1/25600 s"
+        4, description="time steps per waveform sample of 1/25600 s; 1 in the tiers lumped and quasistatic"
     )
 
     def noun(self) -> Numerics:
@@ -169,7 +170,9 @@ class SceneKeys(FileModel):
     end_play_mm: Annotated[Number, Field(ge=-0.5, le=2.0)] | None = Field(
         None, description="total axial travel, negative for preload; the bearing's own when not given"
     )
-    tier: Literal["full"] = "full"
+    tier: Literal["lumped", "quasistatic", "full"] = Field(
+        "full", description="which bodies move by their own equations of motion"
+    )
     effects: Reference[EffectsKeys] = Field(
         "standard", description="a preset, a path, or which effects are on"
     )
@@ -182,6 +185,16 @@ class SceneKeys(FileModel):
     seed: Annotated[Count, Field(ge=0, le=2**32 - 1)] = Field(
         1, description="of irregularity and sensor noise"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _steps_of_the_tier(cls, data: Any) -> Any:
+        """Write down the time step of the tier where the scene does not."""
+        tier = TIERS.get(str(data.get("tier", "full"))) if isinstance(data, dict) else None
+        numerics = data.get("numerics", {}) if isinstance(data, dict) else None
+        if tier is None or not isinstance(numerics, dict) or "steps_per_sample" in numerics:
+            return data
+        return {**data, "numerics": {**numerics, "steps_per_sample": tier.steps_per_sample}}
 
     @model_validator(mode="after")
     def _names_of_sensors(self) -> Self:

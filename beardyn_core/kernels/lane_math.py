@@ -81,6 +81,19 @@ def ninth_root(a: Value) -> Value:
     return a * (z4 * z4)
 
 
+@inline
+def quick_ninth_root(a: Value) -> Value:
+    """``a ** (1/9)`` for ``a > 0``; relative error below 2e-6 (three Newton steps)."""
+    z = _seed_minus_ninth(a)
+    for _ in range(3):
+        z2 = z * z
+        z4 = z2 * z2
+        z = z * (10.0 / 9.0 - (1.0 / 9.0) * a * (z4 * z4 * z))
+    z2 = z * z
+    z4 = z2 * z2
+    return a * (z4 * z4)
+
+
 def _emit_exponent(builder: Any, a: Any) -> Any:
     integers = integer_type(a.type)
     shifted = builder.lshr(builder.bitcast(a, integers), splat(integers, 52))

@@ -11,6 +11,7 @@ from beardyn_core.scene.defect import Spall
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Operation
 from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.scene.tier import missing_effects
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class Scene:
     end_play : float
         Total axial travel of the mounted bearing, negative for preload, [m].
     tier : str
-        ``full`` (the only tier so far).
+        Name of a tier, see `scene.tier`.
     effects : EffectSet
     operation : Operation
         Where load and speed come from.
@@ -80,3 +81,8 @@ class Scene:
     def effect_names(self) -> tuple[str, ...]:
         """Names of the effects that are present, faults included."""
         return (*self.effects.names(), *(("faults",) if self.defects else ()))
+
+    @property
+    def missing_effects(self) -> tuple[str, ...]:
+        """Names of the effects that are asked for and that the tier does not represent."""
+        return missing_effects(self.tier, self.effect_names)

@@ -40,6 +40,8 @@ class RunSummary:
     scene, tier : str
     effects : tuple of str
         Names of the effects that were present.
+    not_in_tier : tuple of str
+        Names of the effects that the scene asks for and the tier does not represent.
     duration : float
         Simulated, [s].
     wall_time : float
@@ -65,6 +67,7 @@ class RunSummary:
     scene: str
     tier: str
     effects: tuple[str, ...]
+    not_in_tier: tuple[str, ...]
     duration: float
     wall_time: float
     status: str
@@ -240,7 +243,8 @@ class _Trend:
         return RunSummary(
             scene=scene.name,
             tier=scene.tier,
-            effects=scene.effect_names,
+            effects=tuple(name for name in scene.effect_names if name not in scene.missing_effects),
+            not_in_tier=scene.missing_effects,
             duration=duration,
             wall_time=wall_time,
             status=status,

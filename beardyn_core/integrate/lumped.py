@@ -1,0 +1,167 @@
+"""Explicit steps of the lumped tier: rings on suspension and journal, rollers as springs that orbit."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.roller_contacts import Float
+from beardyn_core.integrate.roller_spring import spring_params
+from beardyn_core.jit import entry
+from beardyn_core.kernels.bodies import drift_bodies, kick_cone, kick_cup
+from beardyn_core.kernels.kinematic_rollers import (
+    collect_rows,
+    relative_cone,
+    rib_torque,
+    turn_cages,
+    turned,
+)
+from beardyn_core.kernels.spring_roller import load_rollers
+from beardyn_core.model.layout import (
+    CAGE_BODY,
+    CONE_BODY,
+    CUP_BODY,
+    PENETRATION,
+    POCKET_ANGLE,
+    RATE,
+    SIGNAL_ACCELERATION,
+    SIGNAL_FORCE,
+    SIGNAL_TORQUE,
+    TURN,
+)
+from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.tier_parameters import (
+    LumpedParameters,
+    faults_or_none,
+    kinematic_params,
+    pocket_directions,
+    row_sides,
+)
+from beardyn_core.scene.scene import Scene
+
+_ITERATIONS = 60
+_TOLERANCE = 1e-9
+
+
+def lumped_parameters(scene: Scene, base: Parameters) -> LumpedParameters:
+    """Kernel parameters of the lumped tier."""
+    return LumpedParameters(
+        step=base.step,
+        base=base,
+        kinematic=kinematic_params(scene),
+        spring=spring_params(scene.bearing, scene.numerics.laminae),
+        pockets=pocket_directions(base, POCKET_ANGLE),
+        sides=row_sides(base),
+        faults=faults_or_none(base),
+    )
+
+
+@entry
+def advance_lumped(
+    lanes: Any,
+    rollers: Any,
+    bodies: Any,
+    rings: Any,
+    sums: Any,
+    wrenches: Any,
+    box: Any,
+    loads: Any,
+    signals: Any,
+    roller_trend: Any,
+    body_trend: Any,
+    energy: Any,
+    audit: Any,
+    p: Any,
+) -> None:
+    """Advance the lumped tier over one block of steps; arguments as of the full tier's `advance`.
+
+    Parameters
+    ----------
+    rings, audit : float64 arrays
+        Not used: the cone is seen as a whole, and no energy balance is kept.
+    p : LumpedParameters
+    """
+    steps = signals.shape[0]
+    stride = steps // roller_trend.shape[0]
+    base, k = p.base, p.kinematic
+    rollers[:, PENETRATION] = 0.0
+    direction = (math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN]))
+    for step in range(steps):
+        direction = turned(direction, p.step * bodies[CAGE_BODY, RATE])
+        drift_bodies(bodies, p.step)
+        turn, rate = bodies[CAGE_BODY, TURN], bodies[CAGE_BODY, RATE]
+        turns = (turn, bodies[CONE_BODY, TURN], k.spin_ratio * turn)
+        speeds = (bodies[CONE_BODY, RATE], rate)
+        shown = (step + 1) % stride == 0
+        load_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, shown, p)
+        rib = collect_rows(sums, wrenches, direction, base.cup.cosine, base.cup.sine, k.rolling_weight)
+        for i in range(6):
+            signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
+        kick_cup(
+            bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, base.mounting,
+            base.effects.gravity,
+        )  # fmt: skip
+        for i in range(6):
+            signals[step, SIGNAL_ACCELERATION + i] = box[i]
+        signals[step, SIGNAL_TORQUE] = rib_torque(rib, speeds[0], k, base.effects.rib)
+        kick_cone(bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, base.mounting)
+        turn_cages(bodies, k)
+        if shown:
+            roller_trend[(step + 1) // stride - 1] = rollers
+            body_trend[(step + 1) // stride - 1] = bodies
+
+
+def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: float) -> Float:
+    """Pose of the cone in the static equilibrium of the lumped tier.
+
+    Parameters
+    ----------
+    p : LumpedParameters
+    pose : float64 array, shape [5]
+        Displacement and tilt about x and z to start from, [m], [rad].
+    load : float64 array, shape [5] or [3]
+        Force on the cup and, with a free tilt, moment about x and z, [N], [N m].
+    cage_rate : float
+        [rad/s].
+
+    Raises
+    ------
+    ValidityError
+        When no equilibrium is found.
+    """
+    spring, cup = p.spring, p.base.cup
+    count = round(float(p.base.rollers[:, 0].sum()) / 2)
+    azimuth = 2.0 * np.pi * np.arange(count) / count
+    idle = spring.idle * p.kinematic.centrifugal * cage_rate**2
+    rows = []
+    for side in (-1.0, 1.0):
+        outward = np.stack([np.sin(azimuth), np.cos(azimuth)])
+        lean = np.full(count, -side * cup.sine)
+        tilt_x, tilt_z = spring.lever * side * outward[1], -spring.lever * side * outward[0]
+        rows.append(
+            np.stack([cup.cosine * outward[0], lean, cup.cosine * outward[1], tilt_x, tilt_z], axis=1)
+        )
+    normal = np.concatenate(rows)[:, : len(load)]
+    found = np.array(pose[: len(load)], dtype=float)
+    scale = np.array([1.0, 1.0, 1.0, spring.lever, spring.lever])[: len(load)]
+    terms = np.arange(len(spring.series))
+    for _ in range(_ITERATIONS):
+        approach = normal @ found - cup.gap
+        root = np.maximum(approach, 1e-12) ** (1.0 / 9.0)
+        pressing = approach > 0.0
+        pressed = pressing * approach * root * (root[:, None] ** terms @ spring.series)
+        tangent = 10.0 / 9.0 * pressed / np.maximum(approach, 1e-12)
+        force = np.maximum(pressed + 0.5 * idle, idle)
+        missing = load - force @ normal
+        if np.abs(missing / scale).max() <= _TOLERANCE * max(np.abs(load / scale).max(), 1.0):
+            break
+        tangent = tangent * (pressed > 0.5 * idle)
+        stiffness = (normal * tangent[:, None]).T @ normal + 1e3 * np.diag(scale**2)
+        change = np.linalg.solve(stiffness, missing)
+        found = found + change * min(1.0, 2e-5 / float(np.abs(change * scale).max()))
+    else:
+        raise ValidityError("the lumped tier found no static equilibrium under the first load")
+    return np.concatenate([found, pose[len(load) :]])

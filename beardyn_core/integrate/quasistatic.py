@@ -1,0 +1,200 @@
+"""Explicit steps of the quasistatic tier: rings on suspension and journal, every roller in balance."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from beardyn_core.jit import entry, inline
+from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
+from beardyn_core.kernels.bodies import drift_bodies, kick_cone, kick_cup
+from beardyn_core.kernels.kinematic_rollers import (
+    LOAD_COSINE,
+    LOAD_SINE,
+    LOAD_SUM,
+    MOMENT_COSINE,
+    MOMENT_SINE,
+    RIB_SUM,
+    collect_rows,
+    relative_cone,
+    rib_torque,
+    show_contacts,
+    show_roller,
+    turn_cages,
+    turned,
+)
+from beardyn_core.kernels.lane_math import at_least
+from beardyn_core.model.layout import (
+    AXIAL,
+    AXIS,
+    CAGE_BODY,
+    CONE_BODY,
+    CUP_BODY,
+    MASK,
+    OVERSIZE,
+    PENETRATION,
+    POCKET_ANGLE,
+    RADIUS,
+    RATE,
+    SIGNAL_ACCELERATION,
+    SIGNAL_FORCE,
+    SIGNAL_TORQUE,
+    TURN,
+)
+from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.tier_parameters import (
+    QuasistaticParameters,
+    kinematic_params,
+    pocket_directions,
+    row_sides,
+)
+from beardyn_core.scene.scene import Scene
+
+_SMALLEST_LOAD = 1e-3
+
+
+def quasistatic_parameters(scene: Scene, base: Parameters) -> QuasistaticParameters:
+    """Kernel parameters of the quasistatic tier."""
+    return QuasistaticParameters(
+        step=base.step,
+        base=base,
+        kinematic=kinematic_params(scene),
+        pockets=pocket_directions(base, POCKET_ANGLE),
+        sides=row_sides(base),
+    )
+
+
+@inline
+def balance_rollers(
+    lanes: Any, rollers: Any, sums: Any, motion: Any, direction: Any, turns: Any, speeds: Any, shown: Any, p: Any
+) -> None:
+    """Move all rollers one Newton step towards balance and sum their loads by row.
+
+    Parameters
+    ----------
+    lanes : Lanes
+    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
+        Places and axes changed in place; everything else written when `shown`.
+    sums : float64 array, shape [1, SUM_FIELDS, lane]
+        Written: ``LOAD_COSINE`` and following.
+    motion : tuple
+        From `relative_cone`.
+    direction : tuple of 2 floats
+        Cosine and sine of the cage angle.
+    turns : tuple of 3 floats
+        Angle of cages, cone, and rollers in their pockets, [rad].
+    speeds : tuple of 2 floats
+        Of shaft and cages, [rad/s].
+    shown : bool
+        Whether to write what a block of channels shows.
+    p : QuasistaticParameters
+    """
+    k = p.kinematic
+    orbit_squared = speeds[1] * speeds[1]
+    inertia = (k.centrifugal * orbit_squared, k.gyroscopic * orbit_squared)
+    side = lanes.load(p.sides, 0, 0)
+    zero = lanes.constant(0.0)
+    load_cosine, load_sine, load_sum = zero, zero, zero
+    moment_cosine, moment_sine, rib_sum = zero, zero, zero
+    for block in range(rollers.shape[0]):
+        pocket_cosine, pocket_sine = lanes.load(p.pockets, block, 0), lanes.load(p.pockets, block, 1)
+        cosine = pocket_cosine * direction[0] - pocket_sine * direction[1]
+        sine = pocket_sine * direction[0] + pocket_cosine * direction[1]
+        angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
+        place = (lanes.load(rollers, block, RADIUS), lanes.load(rollers, block, AXIAL))
+        axis = (lanes.load(rollers, block, AXIS), lanes.load(rollers, block, AXIS + 2))
+        azimuth = angle + turns[0]
+        azimuths = (
+            azimuth,
+            azimuth - turns[1],
+            lanes.constant(turns[2]),
+            lanes.load(p.base.rollers, block, OVERSIZE),
+        )
+        view = cone_view(lanes, motion, cosine, sine, speeds[1], side)
+        move, cup, cone, rib, lever, deepest = balance(
+            lanes, block, place, axis, view, azimuths, inertia, p
+        )
+        place = (place[0] + move[0], place[1] + move[1])
+        axis = turned_axis(axis, move[2])
+        lanes.store(rollers, block, RADIUS, place[0])
+        lanes.store(rollers, block, AXIAL, place[1])
+        lanes.store(rollers, block, AXIS, axis[0])
+        lanes.store(rollers, block, AXIS + 2, axis[1])
+        deepest = at_least(lanes.load(rollers, block, PENETRATION), deepest)
+        lanes.store(rollers, block, PENETRATION, deepest)
+        mask = lanes.load(p.base.rollers, block, MASK)
+        load, moment = mask * cup[0], mask * (lever[0] * cup[0] + lever[1] * cup[1])
+        load_cosine = load_cosine + load * pocket_cosine
+        load_sine = load_sine + load * pocket_sine
+        load_sum = load_sum + load
+        moment_cosine = moment_cosine + moment * pocket_cosine
+        moment_sine = moment_sine + moment * pocket_sine
+        rib_sum = rib_sum + mask * rib
+        if shown:
+            centres = (
+                cup[1] / at_least(cup[0], _SMALLEST_LOAD),
+                cone[1] / at_least(cone[0], _SMALLEST_LOAD),
+            )
+            show_roller(lanes, rollers, block, place, axis, (turns[0], speeds[1]), angle, p)
+            show_contacts(lanes, rollers, block, axis, (cup[0], cone[0], rib), centres, speeds, p)
+    lanes.store(sums, 0, LOAD_COSINE, load_cosine)
+    lanes.store(sums, 0, LOAD_SINE, load_sine)
+    lanes.store(sums, 0, LOAD_SUM, load_sum)
+    lanes.store(sums, 0, MOMENT_COSINE, moment_cosine)
+    lanes.store(sums, 0, MOMENT_SINE, moment_sine)
+    lanes.store(sums, 0, RIB_SUM, rib_sum)
+
+
+@entry
+def advance_quasistatic(
+    lanes: Any,
+    rollers: Any,
+    bodies: Any,
+    rings: Any,
+    sums: Any,
+    wrenches: Any,
+    box: Any,
+    loads: Any,
+    signals: Any,
+    roller_trend: Any,
+    body_trend: Any,
+    energy: Any,
+    audit: Any,
+    p: Any,
+) -> None:
+    """Advance the quasistatic tier over one block of steps; arguments as of the full tier's `advance`.
+
+    Parameters
+    ----------
+    rings, audit : float64 arrays
+        Not used: the cone is seen directly, and no energy balance is kept.
+    p : QuasistaticParameters
+    """
+    steps = signals.shape[0]
+    stride = steps // roller_trend.shape[0]
+    base, k = p.base, p.kinematic
+    rollers[:, PENETRATION] = 0.0
+    direction = (math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN]))
+    for step in range(steps):
+        direction = turned(direction, p.step * bodies[CAGE_BODY, RATE])
+        drift_bodies(bodies, p.step)
+        turn, rate = bodies[CAGE_BODY, TURN], bodies[CAGE_BODY, RATE]
+        turns = (turn, bodies[CONE_BODY, TURN], k.spin_ratio * turn)
+        speeds = (bodies[CONE_BODY, RATE], rate)
+        shown = (step + 1) % stride == 0
+        balance_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, shown, p)
+        rib = collect_rows(sums, wrenches, direction, base.cup.cosine, base.cup.sine, k.rolling_weight)
+        for i in range(6):
+            signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
+        kick_cup(
+            bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, base.mounting,
+            base.effects.gravity,
+        )  # fmt: skip
+        for i in range(6):
+            signals[step, SIGNAL_ACCELERATION + i] = box[i]
+        signals[step, SIGNAL_TORQUE] = rib_torque(rib, speeds[0], k, base.effects.rib)
+        kick_cone(bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, base.mounting)
+        turn_cages(bodies, k)
+        if shown:
+            roller_trend[(step + 1) // stride - 1] = rollers
+            body_trend[(step + 1) // stride - 1] = bodies

@@ -1,0 +1,84 @@
+"""What each tier computes with: its kernel, its parameters and its start."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.integrate.imex import advance
+from beardyn_core.integrate.lumped import advance_lumped, lumped_parameters, settle_lumped
+from beardyn_core.integrate.quasistatic import advance_quasistatic, quasistatic_parameters
+from beardyn_core.integrate.roller_contacts import Float
+from beardyn_core.integrate.state import State, initial_state
+from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.model.arrangement import Arrangement
+from beardyn_core.model.layout import CONE_BODY, POSITION, TILT
+from beardyn_core.model.parameters import Parameters
+from beardyn_core.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Tier:
+    """How a tier turns loads into states.
+
+    All tiers share the arrays of the full one (`model.layout`), so that whatever reads a state or a block
+    works with any of them; what a tier does not compute stays zero.
+
+    Parameters
+    ----------
+    advance : callable
+        Compiled; advances all states over a block of steps. Arguments as of `imex.advance`.
+    parameters : callable
+        Kernel parameters from the scene and the parameters of the full tier.
+    start : callable
+        State at t = 0 from the scene, the arrangement, the kernel parameters, the static equilibrium and
+        the first load (wrench and shaft speed).
+    """
+
+    advance: Callable[..., None]
+    parameters: Callable[[Scene, Parameters], Any]
+    start: Callable[[Scene, Arrangement, Any, StaticSolution, Float], State]
+
+
+def _start_full(
+    scene: Scene, arrangement: Arrangement, _parameters: Any, static: StaticSolution, load: Float
+) -> State:
+    ratio = scene.effects.cage.initial_speed_ratio if scene.effects.cage else 1.0
+    orbit = ratio * cage_speed(scene.bearing, load[6])
+    return initial_state(scene.bearing, arrangement, static, load[6], orbit)
+
+
+def _start_rolling(
+    scene: Scene, arrangement: Arrangement, _parameters: Any, static: StaticSolution, load: Float
+) -> State:
+    return initial_state(
+        scene.bearing, arrangement, static, load[6], cage_speed(scene.bearing, load[6])
+    )
+
+
+def _start_lumped(
+    scene: Scene, arrangement: Arrangement, parameters: Any, static: StaticSolution, load: Float
+) -> State:
+    state = _start_rolling(scene, arrangement, parameters, static, load)
+    free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
+    carried = np.array([load[0], load[1], load[2] - parameters.kinematic.rolling_weight, load[3], load[5]])
+    pose = settle_lumped(
+        parameters,
+        np.array([*static.displacement, *static.tilt]),
+        carried if free else carried[:3],
+        cage_speed(scene.bearing, load[6]),
+    )
+    state.bodies[CONE_BODY, POSITION : POSITION + 3] = pose[:3]
+    state.bodies[CONE_BODY, [TILT, TILT + 2]] = pose[3:]
+    return state
+
+
+TIERS = {
+    "full": Tier(advance, lambda _scene, base: base, _start_full),
+    "lumped": Tier(advance_lumped, lumped_parameters, _start_lumped),
+    "quasistatic": Tier(advance_quasistatic, quasistatic_parameters, _start_rolling),
+}

@@ -1,0 +1,329 @@
+"""Rollers of the quasistatic tier: massless between cup, cone and rib, one Newton step per time step.
+
+A roller moves in its own meridian plane: radially, axially and in tilt, which is positive when the large
+end moves outwards. Where it stands is state and starts the next step, so one Newton step follows the
+slow change of the load. Forces are those of the balanced, linearised contacts.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.defect import spall_gap
+from beardyn_core.kernels.exchange import implicit_time
+from beardyn_core.kernels.lane_math import at_least, at_most, ninth_root, sqrt, where_greater
+from beardyn_core.kernels.raceway import generator_line
+from beardyn_core.kernels.vectors import add, cross, dot, scale, subtract, turn_in
+from beardyn_core.model.parameters import (
+    LAMINA_DROP,
+    LAMINA_PLACE,
+    LAMINA_RADIUS,
+    LAMINA_STIFFNESS,
+)
+
+_SMALLEST_APPROACH = 1e-15
+# A roller that touches nothing is held by this little [N/m], and moves at most this far in a step [m].
+_HOLD = 1.0e5
+_LONGEST_MOVE = 2.0e-5
+
+
+@inline
+def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
+    """Contact line on the cup of a roller without skew: exact and affine in the abscissa.
+
+    Parameters
+    ----------
+    place : tuple of 2 lane values
+        Radius and axial place of the centre of mass, [m].
+    axis : tuple of 2 lane values
+        Radial and axial part of the roller axis.
+    radius : lane value
+        Of the roller at its centre of mass, [m].
+
+    Returns
+    -------
+    approach : tuple of 4 lane values
+        Factors of the powers of the abscissa, as from `generator_line`, [m].
+    by_tilt : tuple of 2 lane values
+        Change of the approach with tilt, affine in the abscissa, [m/rad].
+    lever : tuple of 2 lane values
+        Arm of the contact normal about the bearing centre, affine in the abscissa, [m].
+    """
+    sine, cosine = axis[0], axis[1]
+    radial, axial = place[0] + radius * cosine, place[1] - radius * sine
+    along_r, along_a = sine + roller.taper * cosine, cosine - roller.taper * sine
+    zero = 0.0 * radial
+    approach = (
+        cup.cosine * radial - cup.sine * (axial - roller.apex) - cup.gap,
+        cup.cosine * along_r - cup.sine * along_a,
+        zero,
+        zero,
+    )
+    across = cup.cosine * cosine + cup.sine * sine
+    along = cup.cosine * sine - cup.sine * cosine
+    by_tilt = (-radius * along, across - roller.taper * along)
+    lever = (axial * cup.cosine + radial * cup.sine, along_a * cup.cosine + along_r * cup.sine)
+    return approach, by_tilt, lever
+
+
+@inline
+def lamina_springs(
+    lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, spalls: Any
+) -> Any:
+    """Elastic force with x^0 and x^1, and tangent stiffness with x^0, x^1 and x^2, over the laminae.
+
+    References
+    ----------
+    Palmgren's line contact; see `kernels.raceway.lamina_sums`.
+    """
+    zero = lanes.constant(0.0)
+    force_0, force_1 = zero, zero
+    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    for k in range(laminae.shape[1]):
+        x = laminae[LAMINA_PLACE, k]
+        radius = laminae[LAMINA_RADIUS, k]
+        gap = spall_gap(lanes, block, azimuths[0], k, radius, spalls[0]) + spall_gap(
+            lanes, block, azimuths[1], k, radius, spalls[1]
+        )
+        depth = (
+            approach[0]
+            + x * (approach[1] + x * (approach[2] + x * approach[3]))
+            - laminae[LAMINA_DROP, k]
+            - gap
+        )
+        touching = at_least(depth, _SMALLEST_APPROACH)
+        tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
+        tangent = where_greater(depth, 0.0, tangent, zero)
+        force = 0.9 * tangent * touching
+        force_0 = force_0 + force
+        force_1 = force_1 + force * x
+        stiffness_0 = stiffness_0 + tangent
+        stiffness_1 = stiffness_1 + tangent * x
+        stiffness_2 = stiffness_2 + tangent * (x * x)
+    return (force_0, force_1), (stiffness_0, stiffness_1, stiffness_2)
+
+
+@inline
+def damped(springs: Any, rate: Any, damping: Any) -> Any:
+    """Force sums with what the damper adds at an affine approach rate."""
+    if damping is None:
+        return springs[0]
+    force, stiffness = springs
+    return (
+        force[0] + damping.time_constant * (stiffness[0] * rate[0] + stiffness[1] * rate[1]),
+        force[1] + damping.time_constant * (stiffness[1] * rate[0] + stiffness[2] * rate[1]),
+    )
+
+
+@inline
+def cone_rate(line: Any, centre: Any, motion: Any) -> Any:
+    """Approach rate of a raceway or rib that moves, the roller at rest in its orbit frame; affine."""
+    arm, slope, normal = line[0], line[1], line[2]
+    velocity, omega = motion
+    at_middle = add(velocity, cross(omega, add(centre, arm)))
+    return -dot(at_middle, normal), -dot(cross(omega, slope), normal)
+
+
+@inline
+def tilt_arm(arm: Any, normal: Any) -> Any:
+    """Change of approach with tilt of a contact at `arm` from the centre of mass, [m/rad]."""
+    return normal[0] * arm[2] - normal[2] * arm[0]
+
+
+@inline
+def rib_spring(centre: Any, axis: Any, ring_axis: Any, motion: Any, rib: Any) -> Any:
+    """Rib contact of a roller: force, tangent stiffness, change with place and tilt, approach rate.
+
+    References
+    ----------
+    Sphere on cone; see `kernels.rib.rib_contact`.
+    """
+    sphere = scale(rib.sphere_place, axis)
+    place = add(centre, sphere)
+    along = dot(place, ring_axis)
+    across = subtract(place, scale(along, ring_axis))
+    distance = sqrt(dot(across, across))
+    normal = add(scale(rib.normal_axial, ring_axis), scale(rib.normal_radial / distance, across))
+    depth = along * rib.normal_axial + distance * rib.normal_radial + rib.sphere_radius - rib.distance
+    touching = at_least(depth, 0.0)
+    tangent = 1.5 * rib.stiffness * sqrt(touching)
+    rate = -dot(add(motion[0], cross(motion[1], place)), normal)
+    return tangent * touching * (1.0 / 1.5), tangent, (normal[0], normal[2], tilt_arm(sphere, normal)), rate
+
+
+@inline
+def add_raceway(system: Any, force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any) -> Any:
+    """Add a raceway's contact to matrix (upper triangle by rows) and right side."""
+    m, r = system
+    tilt_0 = by_tilt[0] * stiffness[0] + by_tilt[1] * stiffness[1]
+    tilt_1 = by_tilt[0] * stiffness[1] + by_tilt[1] * stiffness[2]
+    s, t = factor * stiffness[0], factor * tilt_0
+    turning = factor * (by_tilt[0] * tilt_0 + by_tilt[1] * tilt_1)
+    matrix = (
+        m[0] + s * normal[0] * normal[0],
+        m[1] + s * normal[0] * normal[1],
+        m[2] + t * normal[0],
+        m[3] + s * normal[1] * normal[1],
+        m[4] + t * normal[1],
+        m[5] + turning,
+    )
+    right = (
+        r[0] - force[0] * normal[0],
+        r[1] - force[0] * normal[1],
+        r[2] - force[0] * by_tilt[0] - force[1] * by_tilt[1],
+    )
+    return matrix, right
+
+
+@inline
+def solve_three(system: Any) -> Any:
+    """Solution of a symmetric positive definite system of three."""
+    m, r = system
+    d0 = 1.0 / m[0]
+    l1, l2 = m[1] * d0, m[2] * d0
+    d1 = 1.0 / (m[3] - l1 * m[1])
+    e = m[4] - l1 * m[2]
+    l3 = e * d1
+    d2 = 1.0 / (m[5] - l2 * m[2] - l3 * e)
+    y1 = r[1] - l1 * r[0]
+    y2 = r[2] - l2 * r[0] - l3 * y1
+    x2 = y2 * d2
+    x1 = y1 * d1 - l3 * x2
+    return r[0] * d0 - l1 * x1 - l2 * x2, x1, x2
+
+
+@inline
+def settled(force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any, move: Any, reach: Any) -> Any:
+    """Force sums with x^0 and x^1 of a raceway after a move, pressing and within the roller."""
+    deeper = normal[0] * move[0] + normal[1] * move[1] + by_tilt[0] * move[2]
+    steeper = by_tilt[1] * move[2]
+    load = at_least(force[0] + factor * (stiffness[0] * deeper + stiffness[1] * steeper), 0.0)
+    moment = force[1] + factor * (stiffness[1] * deeper + stiffness[2] * steeper)
+    return load, at_most(at_least(moment, -reach * load), reach * load)
+
+
+@inline
+def balance(lanes: Any, block: Any, place: Any, axis: Any, views: Any, azimuths: Any, loads: Any, p: Any) -> Any:
+    """One Newton step of a block of rollers towards balance.
+
+    Parameters
+    ----------
+    place : tuple of 2 lane values
+        Radius and axial place of the centre of mass, [m].
+    axis : tuple of 2 lane values
+        Radial and axial part of the roller axis.
+    views : tuple of 4 vectors
+        Origin and axis of the cone, velocity of its origin and angular velocity, in the orbit frame and
+        against it.
+    azimuths : tuple of 3 lane values
+        On cup and cone, and of the roller in its pocket, [rad].
+    loads : tuple of 2 floats
+        Centrifugal force and gyroscopic moment, [N], [N m].
+
+    Returns
+    -------
+    move : tuple of 3 lane values
+        Radially, axially, in tilt, [m], [m], [rad].
+    cup, cone : tuples of 2 lane values
+        Load and its first moment along the roller, [N], [N m].
+    rib : lane value
+        [N].
+    lever : tuple of 2 lane values
+        Arm of the cup's load about the bearing centre, affine in the abscissa, [m].
+    deepest : lane value
+        Approach on the cup at the centre of mass, [m].
+    """
+    base, effects = p.base, p.base.effects
+    roller, faults, zero = base.roller, effects.faults, lanes.constant(0.0)
+    factor = implicit_time(4.0 * p.step, effects.damping) / p.step
+    radius = roller.radius + azimuths[3]
+    cup_approach, cup_tilt, lever = cup_line(place, axis, radius, base.cup, roller)
+    cup = lamina_springs(
+        lanes, block, cup_approach, (azimuths[0], -azimuths[2]), base.laminae, (faults.cup, faults.roller)
+    )
+    motion = (views[2], views[3])
+    centre = subtract((place[0], zero, place[1]), views[0])
+    full_axis = (axis[0], zero, axis[1])
+    line = generator_line(centre, full_axis, views[1], azimuths[3], base.cone, roller)
+    cone = lamina_springs(
+        lanes, block, line[5], (azimuths[1], _PI - azimuths[2]), base.laminae, (faults.cone, faults.roller)
+    )
+    cone_force = damped(cone, cone_rate(line, centre, motion), effects.damping)
+    cone_normal = (line[2][0], line[2][2])
+    cone_tilt = (tilt_arm(line[0], line[2]), tilt_arm(line[1], line[2]))
+    cup_normal = (base.cup.cosine, -base.cup.sine)
+    rib_force, rib_stiffness, rib_way, rib_rate = rib_spring(
+        centre, full_axis, views[1], motion, effects.rib
+    )
+    rib_force = rib_force + damper_force(rib_stiffness, rib_rate, effects.damping)
+
+    hold = _HOLD + zero
+    system = (
+        (hold, zero, zero, hold, zero, hold * (roller.half_length * roller.half_length)),
+        (loads[0] + zero, zero, loads[1] + zero),
+    )
+    system = add_raceway(system, cup[0], cup[1], cup_normal, cup_tilt, factor)
+    system = add_raceway(system, cone_force, cone[1], cone_normal, cone_tilt, factor)
+    rib_only = (rib_stiffness, zero, zero)
+    system = add_raceway(system, (rib_force, zero), rib_only, rib_way, (rib_way[2], zero), factor)
+    step = solve_three(system)
+    furthest = _LONGEST_MOVE / roller.half_length
+    move = (
+        at_most(at_least(step[0], -_LONGEST_MOVE), _LONGEST_MOVE),
+        at_most(at_least(step[1], -_LONGEST_MOVE), _LONGEST_MOVE),
+        at_most(at_least(step[2], -furthest), furthest),
+    )
+    reach = roller.half_length
+    cup_load = settled(cup[0], cup[1], cup_normal, cup_tilt, factor, move, reach)
+    cone_load = settled(cone_force, cone[1], cone_normal, cone_tilt, factor, move, reach)
+    rib_deeper = rib_way[0] * move[0] + rib_way[1] * move[1] + rib_way[2] * move[2]
+    rib_load = at_least(rib_force + factor * rib_stiffness * rib_deeper, 0.0)
+    return move, cup_load, cone_load, rib_load, lever, cup_approach[0]
+
+
+@inline
+def damper_force(stiffness: Any, rate: Any, damping: Any) -> Any:
+    """Force of a point contact's damper, [N]."""
+    if damping is None:
+        return 0.0
+    return damping.time_constant * stiffness * rate
+
+
+@inline
+def turned_axis(axis: Any, tilt: Any) -> Any:
+    """Roller axis (radial, axial) after a small tilt."""
+    square = tilt * tilt
+    cosine, sine = 1.0 - 0.5 * square, tilt * (1.0 - square * (1.0 / 6.0))
+    radial = axis[0] * cosine + axis[1] * sine
+    axial = axis[1] * cosine - axis[0] * sine
+    shrink = 1.5 - 0.5 * (radial * radial + axial * axial)
+    return radial * shrink, axial * shrink
+
+
+@inline
+def cone_view(lanes: Any, motion: Any, cosine: Any, sine: Any, orbit_rate: Any, side: Any) -> Any:
+    """Cone in the orbit frames: origin, axis, and how both move against these turning frames.
+
+    Parameters
+    ----------
+    motion : tuple
+        From `relative_cone`.
+    """
+    zero = lanes.constant(0.0)
+    about_x, about_z = motion[3][0], motion[4][0]
+    length = 1.0 / sqrt(
+        about_x * about_x + about_z * about_z + (1.0 - 0.5 * (about_x * about_x + about_z * about_z)) ** 2
+    )
+    upright = (1.0 - 0.5 * (about_x * about_x + about_z * about_z)) * length
+    origin = turn_in((motion[2][0] + zero, motion[0][0] + zero, side * motion[1][0]), cosine, sine)
+    axis = turn_in((side * (about_x * length), side * (-about_z * length), upright + zero), cosine, sine)
+    velocity = turn_in((motion[2][1] + zero, motion[0][1] + zero, side * motion[1][1]), cosine, sine)
+    omega = turn_in((side * motion[4][1], side * motion[3][1], zero), cosine, sine)
+    tilt = turn_in((side * about_z, side * about_x, zero), cosine, sine)
+    velocity = (velocity[0] + orbit_rate * origin[1], velocity[1] - orbit_rate * origin[0], velocity[2])
+    omega = (omega[0] + orbit_rate * tilt[1], omega[1] - orbit_rate * tilt[0], omega[2])
+    return origin, axis, velocity, omega
+
+
+_PI = 3.141592653589793

@@ -1,0 +1,227 @@
+"""Rollers that orbit kinematically: what the tiers without roller dynamics share.
+
+Each row is written in its own ring frame, as in the full tier: radial at azimuth 0, tangential, outward.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.bodies import X, Y, Z
+from beardyn_core.kernels.exchange import output_contact, store_vector
+from beardyn_core.kernels.film import film_output, log2_entrainment
+from beardyn_core.model.layout import (
+    ANGLE,
+    ANGULAR,
+    AXIAL,
+    AXIS,
+    CAGE_BODY,
+    CONE,
+    CONE_BODY,
+    CUP,
+    CUP_BODY,
+    LINEAR,
+    MOMENTUM,
+    POSITION,
+    RADIUS,
+    RATE,
+    REACTION,
+    RIB,
+    SPIN,
+    TILT,
+    TURN,
+    VELOCITY,
+)
+
+# Sums of a row's cup forces along the cup's normal, in its ring frame at cage angle 0.
+LOAD_COSINE, LOAD_SINE, LOAD_SUM, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(REACTION, REACTION + 6)
+
+
+@inline
+def turn_cages(bodies: Any, kinematic: Any) -> None:
+    """Give both cages the speed of pure rolling."""
+    for body in range(CAGE_BODY, CAGE_BODY + 2):
+        bodies[body, RATE] = kinematic.cage_ratio * bodies[CONE_BODY, RATE]
+
+
+@inline
+def relative_motion(bodies: Any, i: Any, place: Any, speed: Any) -> Any:
+    """Cone against cup along or about one world axis: displacement and velocity."""
+    return (
+        bodies[CONE_BODY, place + i] - bodies[CUP_BODY, place + i],
+        bodies[CONE_BODY, speed + i] - bodies[CUP_BODY, speed + i],
+    )
+
+
+@inline
+def relative_cone(bodies: Any) -> Any:
+    """Displacement, velocity, tilt and tilt rate of the cone against the cup; tilts to first order."""
+    return (
+        relative_motion(bodies, X, POSITION, LINEAR),
+        relative_motion(bodies, Y, POSITION, LINEAR),
+        relative_motion(bodies, Z, POSITION, LINEAR),
+        relative_motion(bodies, X, TILT, ANGULAR),
+        relative_motion(bodies, Z, TILT, ANGULAR),
+    )
+
+
+@inline
+def turned(direction: Any, angle: Any) -> Any:
+    """Direction (cosine, sine) turned by an angle of a few hundredths; the error is below 1e-15 there."""
+    square = angle * angle
+    cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
+    sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)))
+    return direction[0] * cosine - direction[1] * sine, direction[1] * cosine + direction[0] * sine
+
+
+@inline
+def collect_rows(sums: Any, wrenches: Any, direction: Any, cosine: Any, sine: Any, weight: Any) -> Any:
+    """World wrenches of the rollers on cup and cone from the row sums; returns the sum of the rib loads.
+
+    Massless rollers pass on what they get: the cone feels the opposite of the cup, and the weight.
+
+    Parameters
+    ----------
+    sums : float64 array, shape [1, 1, SUM_FIELDS, lane]
+    wrenches : float64 array, shape [4, 6]
+        Written: cup and cone.
+    direction : tuple of 2 floats
+        Cosine and sine of the cage angle.
+    cosine, sine : float
+        Of the cup angle.
+    weight : float
+        Of rollers and cages, [N].
+    """
+    inner, outer = row_sums(sums, 0), row_sums(sums, 1)
+    load_c, load_s = inner[0] + outer[0], inner[1] + outer[1]
+    moment_c, moment_s = outer[3] - inner[3], outer[4] - inner[4]
+    wrenches[CUP_BODY, X] = cosine * (load_s * direction[0] + load_c * direction[1])
+    wrenches[CUP_BODY, Y] = -sine * (outer[2] - inner[2])
+    wrenches[CUP_BODY, Z] = cosine * (load_c * direction[0] - load_s * direction[1])
+    wrenches[CUP_BODY, 3 + X] = moment_c * direction[0] - moment_s * direction[1]
+    wrenches[CUP_BODY, 3 + Y] = 0.0
+    wrenches[CUP_BODY, 3 + Z] = -(moment_s * direction[0] + moment_c * direction[1])
+    for i in range(6):
+        wrenches[CONE_BODY, i] = -wrenches[CUP_BODY, i]
+    wrenches[CONE_BODY, Z] -= weight
+    return inner[5] + outer[5]
+
+
+@inline
+def row_sums(sums: Any, row: Any) -> Any:
+    """Sums over the lanes of one row."""
+    width = sums.shape[3]
+    half = width // 2
+    a, b, c, d, e, f = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for lane in range(row * half, (row + 1) * half):
+        a += sums[0, 0, LOAD_COSINE, lane]
+        b += sums[0, 0, LOAD_SINE, lane]
+        c += sums[0, 0, LOAD_SUM, lane]
+        d += sums[0, 0, MOMENT_COSINE, lane]
+        e += sums[0, 0, MOMENT_SINE, lane]
+        f += sums[0, 0, RIB_SUM, lane]
+    return a, b, c, d, e, f
+
+
+@inline
+def rib_torque(rib_load: Any, speed: Any, kinematic: Any, rib: Any) -> Any:
+    """Torque on the shaft of ribs that slide at kinematic speed: lost power over shaft speed, [N m].
+
+    Coulomb friction of the rib effect; the tiers without roller dynamics know no other loss.
+    """
+    if rib is None:
+        return 0.0
+    slip = kinematic.rib_slip * speed
+    sliding = math.sqrt(slip * slip + rib.regularisation * rib.regularisation)
+    return -rib.friction * rib_load * kinematic.rib_slip * slip / sliding
+
+
+@inline
+def show_roller(lanes: Any, rollers: Any, block: Any, place: Any, axis: Any, turn: Any, angle: Any, p: Any) -> Any:
+    """Write a block of rollers as the full tier keeps them.
+
+    Parameters
+    ----------
+    place : tuple of 2 lane values
+        Radius and axial place of the centre of mass, [m].
+    axis : tuple of 2 lane values
+        Radial and axial part of the roller axis.
+    turn : tuple of 2 floats
+        Angle and speed of the cages, [rad], [rad/s].
+    angle : lane value
+        Pocket angle, [rad].
+    """
+    zero = lanes.constant(0.0)
+    k, roller = p.kinematic, p.base.roller
+    rate = turn[1]
+    spin = k.spin_ratio * rate
+    about = roller.axial_inertia * (spin + rate * axis[1])
+    across = roller.transverse_inertia * rate
+    lanes.store(rollers, block, RADIUS, place[0] + zero)
+    lanes.store(rollers, block, ANGLE, angle + turn[0])
+    lanes.store(rollers, block, AXIAL, place[1] + zero)
+    store_vector(lanes, rollers, block, VELOCITY, (zero, rate * place[0] + zero, zero))
+    store_vector(lanes, rollers, block, AXIS, (axis[0] + zero, zero, axis[1] + zero))
+    momentum = (
+        about * axis[0] - across * axis[1] * axis[0] + zero,
+        zero,
+        about * axis[1] + across * axis[0] * axis[0] + zero,
+    )
+    store_vector(lanes, rollers, block, MOMENTUM, momentum)
+    lanes.store(rollers, block, SPIN, k.spin_ratio * turn[0] + zero)
+
+
+@inline
+def show_contacts(
+    lanes: Any, rollers: Any, block: Any, axis: Any, loads: Any, centres: Any, speeds: Any, p: Any
+) -> None:
+    """Write force, place, slip and film of the contacts of a block of rollers.
+
+    Parameters
+    ----------
+    axis : tuple of 2 lane values
+        Radial and axial part of the roller axis.
+    loads : tuple of 3 lane values
+        Cup, cone and rib load, [N].
+    centres : tuple of 2 lane values
+        Pressure centres on cup and cone, from the centre of mass along the axis, [m].
+    speeds : tuple of 2 floats
+        Speed of shaft and cages, [rad/s].
+    """
+    zero = lanes.constant(0.0)
+    k, roller, film, laminae = p.kinematic, p.base.roller, p.base.effects.film, p.base.laminae
+    cup, cone = p.base.cup, p.base.cone
+    cup_speed = log2_entrainment(speeds[1] * k.cup_radius, film)
+    cone_speed = log2_entrainment((speeds[0] - speeds[1]) * k.cone_radius, film)
+    for_cup = roller.radius + roller.taper * centres[0]
+    for_cone = -(roller.radius + roller.taper * centres[1])
+    output_contact(
+        lanes, rollers, block, CUP,
+        (-cup.cosine * loads[0], zero, cup.sine * loads[0]),
+        (centres[0] * axis[0] + for_cup * axis[1], zero, centres[0] * axis[1] - for_cup * axis[0]),
+        zero, film_output(loads[0], cup_speed, CUP, laminae, film) + zero,
+    )  # fmt: skip
+    output_contact(
+        lanes, rollers, block, CONE,
+        (cone.cosine * loads[1], zero, -cone.sine * loads[1]),
+        (centres[1] * axis[0] + for_cone * axis[1], zero, centres[1] * axis[1] - for_cone * axis[0]),
+        zero, film_output(loads[1], cone_speed, CONE, laminae, film) + zero,
+    )  # fmt: skip
+    show_rib(lanes, rollers, block, axis, loads[2], k.rib_slip * speeds[0], p.base.effects.rib)
+
+
+@inline
+def show_rib(lanes: Any, rollers: Any, block: Any, axis: Any, load: Any, slip: Any, rib: Any) -> None:
+    """Write force, place and slip of the rib contacts."""
+    if rib is None:
+        return
+    zero = lanes.constant(0.0)
+    arm = (
+        rib.sphere_place * axis[0] + rib.sphere_radius * rib.normal_radial + zero,
+        zero,
+        rib.sphere_place * axis[1] + rib.sphere_radius * rib.normal_axial + zero,
+    )
+    force = (-rib.normal_radial * load, zero, -rib.normal_axial * load)
+    output_contact(lanes, rollers, block, RIB, force, arm, math.fabs(slip) + zero, zero)

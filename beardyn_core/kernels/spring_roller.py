@@ -1,0 +1,210 @@
+"""Rollers of the lumped tier: one massless spring each, along the cup's contact normal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.defect import spall_gap
+from beardyn_core.kernels.kinematic_rollers import (
+    LOAD_COSINE,
+    LOAD_SINE,
+    LOAD_SUM,
+    MOMENT_COSINE,
+    MOMENT_SINE,
+    RIB_SUM,
+    show_contacts,
+    show_roller,
+)
+from beardyn_core.kernels.lane_math import at_least, quick_ninth_root, where_greater
+from beardyn_core.model.layout import MASK, PENETRATION, POCKET_ANGLE
+from beardyn_core.model.parameters import LAMINA_RADIUS
+
+_SMALLEST_APPROACH = 1e-12
+_TINY_GAP_SQUARED = 1e-24
+_PI = 3.141592653589793
+
+
+@inline
+def spring_load(approach: Any, rate: Any, spring: Any, damping: Any) -> Any:
+    """Cup load of a roller that is pressed by cup and cone, never pulling, [N].
+
+    Parameters
+    ----------
+    approach, rate : lane value
+        Of cone and cup along the cup's normal, [m], [m/s].
+    spring : SpringParams
+    damping : DampingParams or None
+
+    Notes
+    -----
+    Both contacts and the rib have the same time constant, so the spring of all three has it too; its
+    tangent stiffness is taken as 10/9 of load over approach.
+
+    References
+    ----------
+    Palmgren's line contact in the frictionless force triangle of cup, cone and rib; see
+    `integrate.roller_spring`.
+    """
+    pressed = at_least(approach, _SMALLEST_APPROACH)
+    root = quick_ninth_root(pressed)
+    load = root * _series(root, spring.series) * _push(pressed, rate, damping)
+    return at_least(where_greater(approach, 0.0, load, 0.0 * approach), 0.0)
+
+
+@inline
+def _series(root: Any, series: Any) -> Any:
+    square = root * root
+    low = series[0] + root * series[1]
+    middle = series[2] + root * series[3]
+    high = series[4] + root * series[5]
+    return low + square * (middle + square * high)
+
+
+@inline
+def _push(pressed: Any, rate: Any, damping: Any) -> Any:
+    """Approach that stands for spring and damper of a 10/9 law, [m]."""
+    if damping is None:
+        return pressed
+    return pressed + (10.0 / 9.0 * damping.time_constant) * rate
+
+
+@inline
+def faulted_load(
+    lanes: Any, block: Any, approach: Any, rate: Any, angle: Any, turns: Any, faults: Any, p: Any
+) -> Any:
+    """Cup load with the gaps of faults; without faults `spring_load`.
+
+    The laminae of a roller see different gaps. They are taken as two parts of it, one with the gap g and
+    the share f, one without: f g and f g^2 are the means of gap and squared gap over the laminae. Exact
+    for a patch of one depth over part of the length. Neglects the tilt of the roller that follows.
+
+    Parameters
+    ----------
+    angle : lane value
+        Pocket angle, [rad].
+    turns : tuple of 3 floats
+        Angle of cages and cone and of the rollers in their pockets, [rad].
+    faults : FaultParams or None
+    """
+    if faults is None:
+        return spring_load(approach, rate, p.spring, p.base.effects.damping)
+    laminae, damping = p.base.laminae, p.base.effects.damping
+    azimuth, spin = angle + turns[0], turns[2]
+    mean, square = lanes.constant(0.0), lanes.constant(0.0)
+    for k in range(laminae.shape[1]):
+        radius = laminae[LAMINA_RADIUS, k]
+        on_cup = spall_gap(lanes, block, azimuth, k, radius, faults.cup) + spall_gap(
+            lanes, block, lanes.constant(-spin), k, radius, faults.roller
+        )
+        on_cone = spall_gap(lanes, block, azimuth - turns[1], k, radius, faults.cone) + spall_gap(
+            lanes, block, lanes.constant(_PI - spin), k, radius, faults.roller
+        )
+        gap = on_cup + p.spring.cone_share * on_cone
+        mean = mean + gap
+        square = square + gap * gap
+    count = laminae.shape[1]
+    mean, square = mean / count, square / count
+    share = mean * mean / (square + _TINY_GAP_SQUARED)
+    gap = square * mean / (mean * mean + _TINY_GAP_SQUARED)
+    sound = spring_load(approach, rate, p.spring, damping)
+    return sound + share * (spring_load(approach - gap, rate, p.spring, damping) - sound)
+
+
+@inline
+def approach_waves(lanes: Any, motion: Any, direction: Any, p: Any) -> Any:
+    """Approach and approach rate as affine functions of cosine and sine of the pocket angle, each row its own.
+
+    Parameters
+    ----------
+    motion : tuple
+        From `relative_cone`.
+    direction : tuple of 2 floats
+        Cosine and sine of the cage angle.
+
+    Returns
+    -------
+    approach, rate : tuples of 3 lane values
+        Factors of cosine, sine and one, [m], [m/s].
+    """
+    side = lanes.load(p.sides, 0, 0)
+    approach = _wave(side, motion[0][0], motion[1][0], motion[2][0], motion[3][0], motion[4][0], direction, p)
+    rate = _wave(side, motion[0][1], motion[1][1], motion[2][1], motion[3][1], motion[4][1], direction, p)
+    return (approach[0], approach[1], approach[2] - p.base.cup.gap), rate
+
+
+@inline
+def _wave(side: Any, x: Any, y: Any, z: Any, about_x: Any, about_z: Any, direction: Any, p: Any) -> Any:
+    cosine, lever = p.base.cup.cosine, p.spring.lever
+    along_z = side * (lever * about_x) + cosine * z
+    along_x = side * (-lever * about_z) + cosine * x
+    return (
+        along_z * direction[0] + along_x * direction[1],
+        along_x * direction[0] - along_z * direction[1],
+        side * (-p.base.cup.sine * y),
+    )
+
+
+@inline
+def load_rollers(
+    lanes: Any, rollers: Any, sums: Any, motion: Any, direction: Any, turns: Any, speeds: Any, shown: Any, p: Any
+) -> None:
+    """Loads of all rollers and their sums by row.
+
+    Parameters
+    ----------
+    lanes : Lanes
+    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
+        Written when `shown`, the largest approach always.
+    sums : float64 array, shape [1, SUM_FIELDS, lane]
+        Written: ``LOAD_COSINE`` and following.
+    motion : tuple
+        From `relative_cone`.
+    direction : tuple of 2 floats
+        Cosine and sine of the cage angle.
+    turns : tuple of 3 floats
+        Angle of cages, cone, and rollers in their pockets, [rad].
+    speeds : tuple of 2 floats
+        Of shaft and cages, [rad/s].
+    shown : bool
+        Whether to write what a block of channels shows.
+    p : LumpedParameters
+
+    Notes
+    -----
+    Half of the centrifugal load of the cup comes off the cone: the two contacts are as stiff as each other.
+    """
+    k, spring = p.kinematic, p.spring
+    approach_wave, rate_wave = approach_waves(lanes, motion, direction, p)
+    centrifugal = k.centrifugal * speeds[1] * speeds[1]
+    idle = spring.idle * centrifugal
+    zero = lanes.constant(0.0)
+    load_cosine, load_sine, load_sum, rib_sum = zero, zero, zero, zero
+    for block in range(rollers.shape[0]):
+        cosine, sine = lanes.load(p.pockets, block, 0), lanes.load(p.pockets, block, 1)
+        approach = approach_wave[0] * cosine + approach_wave[1] * sine + approach_wave[2]
+        rate = rate_wave[0] * cosine + rate_wave[1] * sine + rate_wave[2]
+        angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
+        pressed = faulted_load(lanes, block, approach, rate, angle, turns, p.faults, p)
+        load = at_least(pressed + 0.5 * idle, idle)
+        rib = spring.rib_share * load + spring.rib_centrifugal * centrifugal
+        mask = lanes.load(p.base.rollers, block, MASK)
+        counted = mask * load
+        load_cosine = load_cosine + counted * cosine
+        load_sine = load_sine + counted * sine
+        load_sum = load_sum + counted
+        rib_sum = rib_sum + mask * rib
+        deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
+        lanes.store(rollers, block, PENETRATION, deepest)
+        if shown:
+            cone = spring.cone_share * (load - idle)
+            axis = (k.axis_radial + zero, k.axis_axial + zero)
+            place = (k.radius + zero, k.axial + zero)
+            show_roller(lanes, rollers, block, place, axis, (turns[0], speeds[1]), angle, p)
+            show_contacts(lanes, rollers, block, axis, (load, cone, rib), (zero, zero), speeds, p)
+    lanes.store(sums, 0, LOAD_COSINE, load_cosine)
+    lanes.store(sums, 0, LOAD_SINE, load_sine)
+    lanes.store(sums, 0, LOAD_SUM, load_sum)
+    lanes.store(sums, 0, MOMENT_COSINE, spring.lever * load_cosine)
+    lanes.store(sums, 0, MOMENT_SINE, spring.lever * load_sine)
+    lanes.store(sums, 0, RIB_SUM, rib_sum)

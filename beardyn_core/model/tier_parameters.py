@@ -1,0 +1,118 @@
+"""Kernel parameters of the tiers without roller dynamics; see `parameters` for the rules."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
+from beardyn_core.model.parameters import FaultParams, Parameters
+from beardyn_core.scene.scene import Scene
+
+
+class KinematicParams(NamedTuple):
+    """Motion of the rollers in pure rolling, and what follows from it, per shaft speed w."""
+
+    cage_ratio: float  # cage speed over w
+    spin_ratio: float  # spin of a roller against its orbit frame over cage speed
+    centrifugal: float  # force over squared cage speed [kg m]
+    gyroscopic: float  # moment about the centre of mass, large end outwards, over squared cage speed [kg m^2]
+    radius: float  # nominal centre of mass [m]
+    axial: float
+    axis_radial: float  # roller axis
+    axis_axial: float
+    cup_radius: float  # contacts from the bearing axis [m]
+    cone_radius: float
+    rib_slip: float  # sliding speed of the rib over w [m]
+    rolling_weight: float  # of all rollers and cages [N]
+
+
+class SpringParams(NamedTuple):
+    """A roller between its raceways as one spring along the cup's normal.
+
+    With the ninth root s of the approach D the cup load is ``D s (c0 + c1 s + ...)``.
+    """
+
+    series: Any  # [6]
+    lever: float  # arm of the cup's normal about the bearing centre [m]
+    cone_share: float  # cone load over cup load
+    rib_share: float  # rib load over cup load
+    rib_centrifugal: float  # rib load over centrifugal force, at a given cup load
+    idle: float  # cup load of a roller that the cone does not press, over centrifugal force
+
+
+class LumpedParameters(NamedTuple):
+    """Everything constant during a lumped run; `faults` is ``None`` in a healthy bearing."""
+
+    step: float  # [s]
+    base: Parameters
+    kinematic: KinematicParams
+    spring: SpringParams
+    pockets: Any  # [block, 2, lane]: cosine and sine of the pocket angle
+    sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
+    faults: FaultParams | None
+
+
+class QuasistaticParameters(NamedTuple):
+    """Everything constant during a quasistatic run."""
+
+    step: float  # [s]
+    base: Parameters
+    kinematic: KinematicParams
+    pockets: Any  # [block, 2, lane]: cosine and sine of the pocket angle
+    sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
+
+
+def kinematic_params(scene: Scene) -> KinematicParams:
+    """Pure rolling of a scene's bearing."""
+    bearing, effects = scene.bearing, scene.effects
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    offset = bearing.roller_mass_offset
+    radius = 0.5 * bearing.pitch_diameter + offset * sine
+    axial_inertia, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia
+    spin_ratio = math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
+    distance = bearing.apex_distance / math.cos(bearing.half_angle)
+    fall = effects.gravity.acceleration if effects.gravity else 0.0
+    cages = 2 * bearing.cage.mass if effects.cage else 0.0
+    return KinematicParams(
+        cage_ratio=cage_speed_ratio(bearing),
+        spin_ratio=-spin_ratio,
+        centrifugal=bearing.roller_mass * radius,
+        gyroscopic=sine * (axial_inertia * spin_ratio - (axial_inertia - transverse) * cosine),
+        radius=radius,
+        axial=0.5 * bearing.row_spacing + offset * cosine,
+        axis_radial=sine,
+        axis_axial=cosine,
+        cup_radius=distance * math.sin(bearing.cup_angle),
+        cone_radius=distance * math.sin(bearing.cone_angle),
+        rib_slip=roller_cone_spin(bearing, 1.0) * bearing.rib_contact_height,
+        rolling_weight=fall * (2 * bearing.roller_count * bearing.roller_mass + cages),
+    )
+
+
+def pocket_directions(base: Parameters, pocket_angle: int) -> Any:
+    """Cosine and sine of the pocket angles, shape [block, 2, lane]."""
+    angle = base.rollers[:, pocket_angle]
+    return np.ascontiguousarray(np.stack([np.cos(angle), np.sin(angle)], axis=1))
+
+
+def row_sides(base: Parameters) -> Any:
+    """Side of the row of each lane, shape [1, 1, lane]."""
+    width = base.rollers.shape[2]
+    return np.repeat([-1.0, 1.0], width // 2)[None, None]
+
+
+def faults_or_none(base: Parameters) -> FaultParams | None:
+    """The faults of a bearing, ``None`` when it has none."""
+    return base.effects.faults if any(each is not None for each in base.effects.faults) else None
+
+
+def lever_of_cup(bearing: Bearing) -> float:
+    """Arm of the cup's contact normal about the bearing centre, in a meridian plane, [m]."""
+    angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
+    apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
+    axial, radial = apex + distance * math.cos(angle), distance * math.sin(angle)
+    return axial * math.cos(angle) + radial * math.sin(angle)

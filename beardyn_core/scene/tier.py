@@ -1,0 +1,87 @@
+"""Tiers: how many states a run has; what each can represent of a scene's effects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class TierNoun:
+    """What a tier can and cannot show.
+
+    Parameters
+    ----------
+    name : str
+    states : str
+        What moves by its own equations of motion.
+    represented : frozenset of str or None
+        Effects it computes or reports; ``None``: all of them.
+    steps_per_sample : int
+        Time steps per waveform sample when the scene does not say.
+    needs_rib : bool
+        Whether nothing but the rib holds the rollers axially.
+    smallest_laminae : int
+        Fewest laminae it can work with.
+    absent : tuple of str
+        Channels of a block that it leaves at zero or without content.
+    """
+
+    name: str
+    states: str
+    represented: frozenset[str] | None
+    steps_per_sample: int
+    needs_rib: bool
+    smallest_laminae: int
+    absent: tuple[str, ...]
+
+
+_FAST = frozenset({"contact_damping", "film", "rib", "gravity", "faults"})
+_FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
+
+TIERS = {
+    tier.name: tier
+    for tier in (
+        TierNoun(
+            "lumped",
+            "axlebox with cup, journal with cones; each roller a massless spring",
+            _FAST,
+            1,
+            needs_rib=True,
+            smallest_laminae=1,
+            absent=(*_FAST_ABSENT, "roller displacement and tilt"),
+        ),
+        TierNoun(
+            "quasistatic",
+            "axlebox with cup, journal with cones; every roller in balance with its laminae",
+            _FAST,
+            1,
+            needs_rib=True,
+            smallest_laminae=2,
+            absent=_FAST_ABSENT,
+        ),
+        TierNoun("full", "every body with 6 degrees of freedom", None, 4, False, 1, ()),
+    )
+}
+TIER_NAMES = tuple(TIERS)
+
+
+def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
+    """Effects among `effects` that a tier does not represent, in the same order."""
+    represented = TIERS[tier].represented
+    return () if represented is None else tuple(name for name in effects if name not in represented)
+
+
+def contradictions(tier: str, has_rib: bool, laminae: int) -> list[str]:
+    """Why a tier cannot run a scene: values and what is allowed."""
+    noun, found = TIERS[tier], []
+    if noun.needs_rib and not has_rib:
+        found.append(
+            f"{tier!r} needs effects.rib, which is absent: nothing else holds its rollers axially; switch "
+            "effects.rib on (friction 0 leaves a frictionless rib) or take the tier 'full'"
+        )
+    if laminae < noun.smallest_laminae:
+        found.append(
+            f"{tier!r} needs numerics.laminae of at least {noun.smallest_laminae}, not {laminae}: a single "
+            "lamina holds no tilt"
+        )
+    return found

@@ -1,0 +1,112 @@
+"""Rollers of the fast tiers against the slow exact equilibrium of `integrate.roller_equilibrium`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.integrate.roller_contacts import ConePose, contact_model
+from beardyn_core.integrate.roller_equilibrium import RollerState, solve_rollers
+from beardyn_core.integrate.roller_spring import load_of_approach, spring_params
+from beardyn_core.integrate.static import _rotation
+from beardyn_core.model.layout import CONE_BODY, CUP_BODY, POSITION, TILT
+from beardyn_core.observe.block import Block
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+from test.kernels.rig import constant_load
+from test.tiers.runs import Float, heavy, scene_of
+
+POSES = [
+    ((0.0, 0.0, 2e-5), (0.0, 0.0)),
+    ((8e-6, 3e-5, 1.5e-5), (0.0, 0.0)),
+    ((-1e-5, -6e-5, 2.5e-5), (1e-4, -2e-4)),
+]
+
+
+def held(scene: Scene, pose: tuple[float, ...], tilt: tuple[float, ...], speed: float, blocks: int) -> Block:
+    """Last block of a run with the cone held at a pose."""
+    twin = Twin(heavy(scene))
+    twin.start(constant_load((0.0, 0.0, 1e4), speed))
+    assert twin._state is not None
+    bodies = twin._state.bodies
+    bodies[CONE_BODY, POSITION : POSITION + 3] = pose
+    bodies[CONE_BODY, [TILT, TILT + 2]] = tilt
+    bodies[CUP_BODY, POSITION : POSITION + 3] = 0.0
+    return [twin.advance() for _ in range(blocks)][-1]
+
+
+def exact(
+    scene: Scene, pose: tuple[float, ...], tilt: tuple[float, ...], speed: float, phase: float
+) -> RollerState:
+    """Rollers in balance at a pose, as the static solution sees them."""
+    model = contact_model(scene.bearing, scene.end_play, scene.numerics.laminae, speed, phase)
+    return solve_rollers(model, ConePose(np.array(pose), _rotation(*tilt)), None)
+
+
+def loads(block: Block, kind: int) -> Float:
+    """Loads of one kind of contact at the end of a block, shape [row, roller]."""
+    return np.asarray(np.linalg.norm(block.contacts[-1, :, :, kind, 3:6], axis=-1))
+
+
+@pytest.mark.parametrize(("pose", "tilt"), POSES)
+def test_newton_steps_of_the_kernel_reach_the_exact_equilibrium(
+    pose: tuple[float, ...], tilt: tuple[float, ...]
+) -> None:
+    scene = scene_of("static_80kN", "quasistatic")
+    block = held(scene, pose, tilt, 0.0, 2)
+    reference = exact(scene, pose, tilt, 0.0, 0.0)
+    for kind, contact in enumerate((reference.cup, reference.cone, reference.rib)):
+        expected = contact.force.sum(axis=-1)
+        np.testing.assert_allclose(loads(block, kind), expected, rtol=1e-6, atol=1e-6 * expected.max())
+
+
+def test_rollers_follow_the_turning_cage_in_balance() -> None:
+    """One Newton step a time step: the load of a roller lags its exact balance by less than 1e-4."""
+    scene, (pose, tilt), speed = scene_of("static_80kN", "quasistatic"), POSES[2], 122.0
+    block = held(scene, pose, tilt, speed, 3)
+    reference = exact(scene, pose, tilt, speed, float(block.cage_angle[-1, 0]))
+    for kind, contact in enumerate((reference.cup, reference.cone, reference.rib)):
+        expected = contact.force.sum(axis=-1)
+        np.testing.assert_allclose(loads(block, kind), expected, atol=1e-3 * expected.max())
+
+
+def test_a_tilt_of_the_kernel_is_the_tilt_of_the_exact_equilibrium() -> None:
+    scene, (pose, tilt) = scene_of("static_80kN", "quasistatic"), POSES[2]
+    twin = Twin(heavy(scene))
+    twin.start(constant_load((0.0, 0.0, 1e4), 0.0))
+    assert twin._state is not None
+    twin._state.bodies[CONE_BODY, POSITION : POSITION + 3] = pose
+    twin._state.bodies[CONE_BODY, [TILT, TILT + 2]] = tilt
+    for _ in range(2):
+        twin.advance()
+    fields = twin._arrangement.to_rollers(np.moveaxis(twin._state.rollers, 1, 0))
+    found = np.arctan2(fields[6], fields[8]) - scene.bearing.contact_angle
+    reference = exact(scene, pose, tilt, 0.0, 0.0)
+    pressed = reference.cone.force.sum(axis=-1) > 100.0
+    assert pressed.sum() > 10
+    np.testing.assert_allclose(found[pressed], reference.position[..., 2][pressed], atol=1e-9)
+
+
+PROFILES = ("straight", "crowned", "logarithmic")
+
+
+def shaped(bearing: Bearing, kind: str) -> Bearing:
+    profile = replace(bearing.profile, kind=kind, drop=5e-6, design_pressure=3e9)
+    return replace(bearing, profile=profile)
+
+
+@pytest.mark.parametrize("kind", PROFILES)
+def test_spring_of_a_roller_is_its_equilibrium_between_the_rings(kind: str) -> None:
+    """From 100 N upwards; what the fit leaves below is of no weight in any load distribution."""
+    bearing = shaped(scene_of("static_80kN", "lumped").bearing, kind)
+    approach, load = load_of_approach(bearing, 20)
+    root = approach ** (1.0 / 9.0)
+    fitted = approach * root * np.polyval(spring_params(bearing, 20).series[::-1], root)
+    judged = load > 100.0
+    assert judged.sum() >= 12
+    np.testing.assert_allclose(fitted[judged], load[judged], rtol=0.02)
+    heavy_load = load > 5e3
+    np.testing.assert_allclose(fitted[heavy_load], load[heavy_load], rtol=2e-3)
