@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.effects import Cage
 from beardyn_core.model.cage_params import cage_params
+from beardyn_core.model.layout import CAGE_BODY, POSITION
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
@@ -52,7 +54,10 @@ class Whirl:
     spacing : float64 array, shape [case]
         Root mean square deviation of the roller spacing along the pitch circle from an even one, [m].
     play : float
-        Half the clearance of a roller in its pocket across the leaning bar, [m].
+        How far a cage may go before it meets evenly spaced rollers: half the pocket's clearance across the
+        leaning bar, [m].
+    radial_play : float
+        How far it may go when the rollers make way: until the bars lie on a roller from outside, [m].
     """
 
     cases: tuple[WhirlCase, ...]
@@ -62,10 +67,16 @@ class Whirl:
     slip: Float
     spacing: Float
     play: float
+    radial_play: float
 
 
 def cage_whirl(
-    scene: Scene, cases: Sequence[WhirlCase], *, duration: float = 0.6, settled: float = 0.3
+    scene: Scene,
+    cases: Sequence[WhirlCase],
+    *,
+    duration: float = 1.5,
+    settled: float = 0.75,
+    start_offset: float = 0.5,
 ) -> Whirl:
     """Run each case and look at the cage of the row that carries the axial load.
 
@@ -76,21 +87,27 @@ def cage_whirl(
     cases : sequence of WhirlCase
     duration, settled : float
         Simulated time, and the part of it at the beginning that is not looked at, [s].
+    start_offset : float
+        Place of the cages' centres at the start, towards +x, over the play: from an even start under axial
+        load alone nothing but rounding sets a cage in motion, which takes seconds.
 
     Returns
     -------
     Whirl
     """
-    found = np.array([_measures(scene, case, duration, settled) for case in cases])
     cage = cage_params(scene, 1e-5)
-    if cage is None:
-        raise ValueError("a scene without a cage has no whirl; give it one under effects")
-    amplitude, reach, frequency, slip, spacing = found.T
+    if cage is None or not isinstance(scene.effects.cage, Cage):
+        raise ValueError("only a free cage whirls; give the scene one under effects")
     play = cage.bar_cosine * cage.half_clearance
-    return Whirl(tuple(cases), amplitude, reach, frequency, slip, spacing, play)
+    found = np.array([_measures(scene, case, duration, settled, start_offset * play) for case in cases])
+    amplitude, reach, frequency, slip, spacing = found.T
+    radial_play = play / cage.bar_sine if cage.bar_sine > 0.0 else float("inf")
+    return Whirl(tuple(cases), amplitude, reach, frequency, slip, spacing, play, radial_play)
 
 
-def _measures(scene: Scene, case: WhirlCase, duration: float, settled: float) -> tuple[float, ...]:
+def _measures(
+    scene: Scene, case: WhirlCase, duration: float, settled: float, offset_at_start: float
+) -> tuple[float, ...]:
     bearing = scene.bearing
     twin = Twin(replace(scene, sensors=()))
     wrench = np.array([0.0, case.axial_load, case.radial_load, 0.0, 0.0, 0.0])
@@ -98,6 +115,9 @@ def _measures(scene: Scene, case: WhirlCase, duration: float, settled: float) ->
     twin.start(
         LoadHistory(times, np.repeat(wrench[None], 2, 0), np.full(2, case.shaft_speed), np.zeros((2, 3)))
     )
+    start = twin.snapshot()
+    start.state.bodies[CAGE_BODY:, POSITION] = offset_at_start
+    twin.restore(start)
     blocks = [twin.advance() for _ in range(round(duration * 1e9 / twin.block_ns))]
     load = np.concatenate([block.contacts[..., 0, 3:6] for block in blocks])
     row = int(np.argmax(np.linalg.norm(load, axis=-1).sum(axis=(0, 2))))
