@@ -13,6 +13,7 @@ from beardyn_core.config.effect_keys.contact_damping import ContactDampingKeys
 from beardyn_core.config.effect_keys.film import LineFilmKeys
 from beardyn_core.config.effect_keys.gravity import GravityKeys
 from beardyn_core.config.effect_keys.rib import RibKeys
+from beardyn_core.config.effect_keys.small_rib import SmallRibKeys
 from beardyn_core.config.effect_keys.traction import Traction
 from beardyn_core.config.file_model import FileModel, Name, Switch, Text
 from beardyn_core.effects import EffectSet
@@ -30,6 +31,7 @@ class EffectsKeys(FileModel):
     traction: Traction | None = None
     film: Switch[LineFilmKeys] = False
     rib: Switch[RibKeys] = False
+    small_rib: Switch[SmallRibKeys] = None
     cage: Switch[CageEffectKeys] = False
     gravity: Switch[GravityKeys] = False
     audit: Switch[AuditKeys] = False

@@ -13,7 +13,8 @@ from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.effect_set import EffectSet
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
-from beardyn_core.effects.rib import Rib
+from beardyn_core.effects.rib import Rib, RibMixedFilm, RibShearedFilm
+from beardyn_core.effects.small_rib import SmallRib
 from beardyn_core.effects.traction import CoulombTraction, MixedTraction, ShearedFilmTraction, Traction
 
 __all__ = [
@@ -27,6 +28,9 @@ __all__ = [
     "LineFilm",
     "MixedTraction",
     "Rib",
+    "RibMixedFilm",
+    "RibShearedFilm",
     "ShearedFilmTraction",
+    "SmallRib",
     "Traction",
 ]

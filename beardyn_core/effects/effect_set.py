@@ -10,6 +10,7 @@ from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
+from beardyn_core.effects.small_rib import SmallRib
 from beardyn_core.effects.traction import MixedTraction, Traction
 
 
@@ -24,6 +25,7 @@ class EffectSet:
     traction: Traction | None = MixedTraction()
     film: LineFilm | None = LineFilm()
     rib: Rib | None = Rib()
+    small_rib: SmallRib | None = None
     cage: Cage | None = Cage()
     gravity: Gravity | None = Gravity()
     audit: Audit | None = Audit()

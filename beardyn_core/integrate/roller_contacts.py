@@ -222,20 +222,39 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> Contact
 
 
 def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactSet:
-    """Contacts of the spherical large ends with the conical rib; one "lamina" per roller."""
+    """Contacts of the spherical large ends with the conical rib; one "lamina" per roller.
+
+    The nearest point of the rib lies on its face between undercut and corner; the edges are sharp.
+    """
     bearing = model.bearing
     angle = bearing.contact_angle - bearing.rib_polar_angle
     sine, cosine = math.sin(angle), math.cos(angle)
     outwards = model.axial[:, :, 1]
     centre, axis = _roller_line(model, roller, pose)
     sphere = centre + bearing.sphere_centre * axis
-    distance = np.hypot(sphere[..., 0], sphere[..., 2])
+    # a sphere that a forced bearing makes too large is centred beyond the bearing axis
+    beyond_axis = np.sum(sphere * model.radial, axis=-1) < 0.0
+    distance = np.where(beyond_axis, -1.0, 1.0) * np.hypot(sphere[..., 0], sphere[..., 2])
     nominal_distance = 0.5 * bearing.pitch_diameter + bearing.sphere_centre * math.sin(bearing.contact_angle)
     nominal_axial = 0.5 * bearing.row_spacing + bearing.sphere_centre * math.cos(bearing.contact_angle)
-    approach = cosine * (outwards * sphere[..., 1] - nominal_axial) + sine * (distance - nominal_distance)
+    outward = outwards * sphere[..., 1] - nominal_axial
+    approach = cosine * outward + sine * (distance - nominal_distance)
+    height = cosine * (distance - nominal_distance) - sine * outward
+    along = 1.0 / math.cos(bearing.rib_polar_angle)
+    low = (bearing.rib_undercut - bearing.rib_contact_height) * along
+    high = (bearing.rib_height - bearing.rib_contact_height) * along
+    beyond = height - np.clip(height, low, high)
+    ahead = bearing.sphere_radius - approach
+    reach = np.hypot(ahead, beyond)
+    approach = approach - beyond**2 / (reach + ahead)
+    normal_axial = (ahead * cosine + beyond * sine) / reach
+    normal_radial = (ahead * sine - beyond * cosine) / reach
     normal = np.empty_like(sphere)
-    normal[..., 0], normal[..., 2] = sine * sphere[..., 0] / distance, sine * sphere[..., 2] / distance
-    normal[..., 1] = cosine * outwards
+    normal[..., 0], normal[..., 2] = (
+        normal_radial * sphere[..., 0] / distance,
+        normal_radial * sphere[..., 2] / distance,
+    )
+    normal[..., 1] = normal_axial * outwards
     point = sphere + bearing.sphere_radius * normal
     force, stiffness, energy = power_law(approach, model.rib_factor, POINT_EXPONENT)
     return _assembled(

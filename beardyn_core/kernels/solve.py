@@ -72,6 +72,21 @@ def add_point(matrix: Any, direction: Any, arm: Any, weight: Any) -> Any:
 
 
 @inline
+def add_spin(matrix: Any, direction: Any, weight: Any) -> Any:
+    """Add a resistance to the angular velocity about one unit direction."""
+    m, d = matrix, direction
+    w = (weight * d[0], weight * d[1], weight * d[2])
+    return (
+        m[0],
+        m[1], m[2],
+        m[3], m[4], m[5],
+        m[6], m[7], m[8], m[9] + w[0] * d[0],
+        m[10], m[11], m[12], m[13] + w[1] * d[0], m[14] + w[1] * d[1],
+        m[15], m[16], m[17], m[18] + w[2] * d[0], m[19] + w[2] * d[1], m[20] + w[2] * d[2],
+    )  # fmt: skip
+
+
+@inline
 def _add_blocks(m: Any, d: Any, force: Any, b: Any, p: Any, c: Any, r: Any) -> Any:
     return (
         m[0] + force[0] * d[0],

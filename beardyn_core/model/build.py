@@ -25,6 +25,7 @@ from beardyn_core.model.parameters import (
     RollerParams,
 )
 from beardyn_core.model.rib_params import rib_params
+from beardyn_core.model.small_rib_params import small_rib_params
 from beardyn_core.model.traction_params import traction_params
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
@@ -101,7 +102,8 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             film=film,
             coulomb=coulomb,
             mixed=mixed,
-            rib=rib_params(bearing, effects),
+            rib=rib_params(scene),
+            small_rib=small_rib_params(bearing, effects),
             cage=cage_params(bearing, effects),
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=FaultParams(*(spall_params(scene, on, arrangement) for on in ("cup", "cone", "roller"))),

@@ -23,7 +23,16 @@ from beardyn_core.config import (
     scene_from_text,
     shipped_names,
 )
-from beardyn_core.config.effect_keys import audit, cage, contact_damping, film, gravity, rib, traction
+from beardyn_core.config.effect_keys import (
+    audit,
+    cage,
+    contact_damping,
+    film,
+    gravity,
+    rib,
+    small_rib,
+    traction,
+)
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.units import stem_of
@@ -46,7 +55,9 @@ LOADERS: dict[str, Callable[[str], Any]] = {
 def approximately(given: EffectSet) -> dict[str, object]:
     """Options of the effects; degrees cost the last digit of an angle."""
     return {
-        name: pytest.approx(options) for name, options in asdict(given).items() if isinstance(options, dict)
+        name: options
+        and {key: None if value is None else pytest.approx(value) for key, value in options.items()}
+        for name, options in asdict(given).items()
     }
 
 
@@ -165,6 +176,9 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
         (traction.ShearedFilmTractionKeys, effects.ShearedFilmTraction),
         (film.LineFilmKeys, effects.LineFilm),
         (rib.RibKeys, effects.Rib),
+        (rib.RibMixedFilmKeys, effects.RibMixedFilm),
+        (rib.RibShearedFilmKeys, effects.RibShearedFilm),
+        (small_rib.SmallRibKeys, effects.SmallRib),
         (cage.CageEffectKeys, effects.Cage),
         (gravity.GravityKeys, effects.Gravity),
         (audit.AuditKeys, effects.Audit),
@@ -183,7 +197,10 @@ def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(
         kind = {"kind": "coulomb"} if noun is effects.CoulombTraction else {}
         kind = {"kind": "mixed"} if noun is effects.MixedTraction else kind
         kind = {"kind": "sheared_film"} if noun is effects.ShearedFilmTraction else kind
+        kind = {"kind": "mixed"} if noun is effects.RibMixedFilm else kind
+        kind = {"kind": "sheared_film"} if noun is effects.RibShearedFilm else kind
         described: Any = keys.model_validate(kind)
         for name, value in vars(noun()).items():
             found = getattr(described.noun(), name)
-            assert found == (value if isinstance(value, str) else pytest.approx(value, rel=1e-12))
+            plain = value is None or isinstance(value, str)
+            assert found == (value if plain else pytest.approx(value, rel=1e-12))
