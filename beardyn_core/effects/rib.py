@@ -27,7 +27,7 @@ class RibMixedFilm:
         states="none",
         cost="medium",
         validity="Elastohydrodynamic film, isothermal; entrainment along the ellipse is an extrapolation.",
-        source="Hamrock and Dowson (1977); load sharing after Aihara (1987), as Zhao et al. (2026)",
+        source="Hamrock and Dowson (1977); load sharing of Zhao et al. (2026)",
     )
 
     starvation: float = 0.7

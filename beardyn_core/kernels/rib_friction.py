@@ -45,7 +45,7 @@ def rib_log2_film(load: Any, speed: Any, film: Any) -> Any:
 
     References
     ----------
-    Chittenden et al. (1985), see `bearing.rib_film`.
+    Hamrock and Dowson (1977), see `bearing.rib_film`.
     """
     if film is None:
         return 0.0
@@ -73,7 +73,7 @@ def rib_friction(load: Any, root_depth: Any, speed_squared: Any, log2_film: Any,
 
     References
     ----------
-    Aihara (1987) for the load sharing, as Zhao et al. (2026) use it at the rib.
+    Zhao et al. (2026) for the load sharing at the rib.
     """
     dry = load / sqrt(speed_squared + rib.regularisation * rib.regularisation)
     if film is None:

@@ -31,7 +31,7 @@ def blocks_of(scene: Scene, force: tuple[float, float, float], count: int) -> tu
     blocks: list[Block] = []
     try:
         for _ in range(count):
-            blocks.append(twin.advance())
+            blocks += [twin.advance()]
     except ValidityError as error:
         return [*blocks, cast(Block, error.block)], str(error)
     return blocks, ""
