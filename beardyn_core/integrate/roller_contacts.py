@@ -25,6 +25,8 @@ from beardyn_core.bearing.kinematics import cage_speed, roller_spin
 Float = NDArray[np.float64]
 
 ROW_COUNT = 2
+# A sphere centred this close to the bearing axis is pushed along its roller's meridian [m].
+_ON_AXIS = 1.0e-9
 
 
 @dataclass(frozen=True)
@@ -232,9 +234,11 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactS
     outwards = model.axial[:, :, 1]
     centre, axis = _roller_line(model, roller, pose)
     sphere = centre + bearing.sphere_centre * axis
-    # a sphere that a forced bearing makes too large is centred beyond the bearing axis
-    beyond_axis = np.sum(sphere * model.radial, axis=-1) < 0.0
-    distance = np.where(beyond_axis, -1.0, 1.0) * np.hypot(sphere[..., 0], sphere[..., 2])
+    # a sphere that a forced bearing makes too large is centred on the bearing axis or beyond it
+    size = np.hypot(sphere[..., 0], sphere[..., 2])
+    distance = np.where(np.sum(sphere * model.radial, axis=-1) < 0.0, -size, size)
+    centred = size < _ON_AXIS
+    inverse = 1.0 / np.where(centred, 1.0, distance)
     nominal_distance = 0.5 * bearing.pitch_diameter + bearing.sphere_centre * math.sin(bearing.contact_angle)
     nominal_axial = 0.5 * bearing.row_spacing + bearing.sphere_centre * math.cos(bearing.contact_angle)
     outward = outwards * sphere[..., 1] - nominal_axial
@@ -250,10 +254,9 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactS
     normal_axial = (ahead * cosine + beyond * sine) / reach
     normal_radial = (ahead * sine - beyond * cosine) / reach
     normal = np.empty_like(sphere)
-    normal[..., 0], normal[..., 2] = (
-        normal_radial * sphere[..., 0] / distance,
-        normal_radial * sphere[..., 2] / distance,
-    )
+    for k in (0, 2):
+        direction = np.where(centred, model.radial[..., k], sphere[..., k] * inverse)
+        normal[..., k] = normal_radial * direction
     normal[..., 1] = normal_axial * outwards
     point = sphere + bearing.sphere_radius * normal
     force, stiffness, energy = power_law(approach, model.rib_factor, POINT_EXPONENT)
