@@ -25,8 +25,9 @@ from beardyn_core.bearing.kinematics import cage_speed, roller_spin
 Float = NDArray[np.float64]
 
 ROW_COUNT = 2
-# A sphere centred this close to the bearing axis is pushed along its roller's meridian [m].
-_ON_AXIS = 1.0e-9
+# The end sphere of a forced bearing that is centred this close to the bearing axis, where its direction from
+# there says nothing, is pushed along its roller's meridian [m].
+_ON_AXIS = 1.0e-3
 
 
 @dataclass(frozen=True)
@@ -236,8 +237,9 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactS
     sphere = centre + bearing.sphere_centre * axis
     # a sphere that a forced bearing makes too large is centred on the bearing axis or beyond it
     size = np.hypot(sphere[..., 0], sphere[..., 2])
-    distance = np.where(np.sum(sphere * model.radial, axis=-1) < 0.0, -size, size)
+    outside = np.sum(sphere * model.radial, axis=-1)
     centred = size < _ON_AXIS
+    distance = np.where(centred, outside, np.where(outside < 0.0, -size, size))
     inverse = 1.0 / np.where(centred, 1.0, distance)
     nominal_distance = 0.5 * bearing.pitch_diameter + bearing.sphere_centre * math.sin(bearing.contact_angle)
     nominal_axial = 0.5 * bearing.row_spacing + bearing.sphere_centre * math.cos(bearing.contact_angle)
