@@ -202,7 +202,12 @@ class Twin:
         began = time.perf_counter()
         rollers, bodies = self._run(self._state, loads, self._signals)
         wall = time.perf_counter() - began
-        status = assess(self._state, len(self._signals), self.scene.bearing.large_end_radius)
+        status = assess(
+            self._state,
+            len(self._signals),
+            self.scene.bearing.large_end_radius,
+            self._parameters.effects.rib,
+        )
         block = self._observer.observe(
             self._index, self._signals, loads, rollers, bodies, int(status), self._energy_audit(), wall
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from beardyn_core.bearing.contact_law import rib_curvature_radius
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.profile import PROFILE_KINDS
 from beardyn_core.errors import InputError
@@ -15,6 +16,10 @@ _LENGTHS = (
     "roller_length",
     "row_spacing",
     "rib_contact_height",
+    "rib_height",
+    "rib_undercut",
+    "roller_chamfer",
+    "small_rib_height",
     "bore",
     "outer_diameter",
     "width",
@@ -43,13 +48,13 @@ def check(bearing: Bearing) -> list[str]:
         # The closure cannot be computed from numbers that are not numbers or have the wrong sign.
         return problems
     return _check_closure(bearing) or (
-        _check_roller(bearing) + _check_envelope(bearing) + _check_angles(bearing)
+        _check_roller(bearing) + _check_ribs(bearing) + _check_envelope(bearing) + _check_angles(bearing)
     )
 
 
 def require_sound(bearing: Bearing) -> None:
-    """Raise `InputError` with every contradiction of `bearing`."""
-    problems = check(bearing)
+    """Raise `InputError` with every contradiction of `bearing`, unless the bearing is forced."""
+    problems = [] if bearing.forced else check(bearing)
     if problems:
         raise InputError([f"bearing {bearing.name}: {problem}" for problem in problems])
 
@@ -82,6 +87,8 @@ def _check_numbers(bearing: Bearing) -> list[str]:
             f"sphere_ratio is {bearing.sphere_ratio:g}; it must lie between 0 and 1, for at 1 the sphere is "
             "centred on the apex and its contact runs off a conical rib."
         )
+    if not (math.isfinite(bearing.small_rib_clearance) and bearing.small_rib_clearance >= 0.0):
+        problems.append(f"small_rib_clearance is {_mm(bearing.small_rib_clearance)}; it must be at least 0.")
     if not abs(bearing.end_play) <= _LARGEST_END_PLAY:
         problems.append(
             f"end_play is {_mm(bearing.end_play)}; it must lie within +-{_mm(_LARGEST_END_PLAY)} "
@@ -170,6 +177,45 @@ def _check_roller(bearing: Bearing) -> list[str]:
         problems.append(
             f"cage circumferential_clearance {_mm(bearing.cage.circumferential_clearance)} is not below the "
             f"free distance {_mm(bearing.roller_web)} between rollers; no bar would be left."
+        )
+    return problems
+
+
+def _check_ribs(bearing: Bearing) -> list[str]:
+    """Contact of the roller end between undercut and corner of the rib, and inside the roller's rim."""
+    problems = []
+    height, undercut = bearing.rib_contact_height, bearing.rib_undercut
+    if not height < bearing.rib_height:
+        problems.append(
+            f"rib_contact_height {_mm(height)} is not below rib_height {_mm(bearing.rib_height)}; the sphere "
+            "would bear on the outer corner of the rib."
+        )
+    if not height > undercut:
+        problems.append(
+            f"rib_contact_height {_mm(height)} is not above rib_undercut {_mm(undercut)}; the sphere would "
+            "bear on the edge of the undercut."
+        )
+    if not height > bearing.roller_chamfer:
+        problems.append(
+            f"rib_contact_height {_mm(height)} is not above roller_chamfer {_mm(bearing.roller_chamfer)}; "
+            "the rib would meet the corner of the roller."
+        )
+    if bearing.rib_height >= 2.0 * bearing.large_end_radius:
+        problems.append(
+            f"rib_height {_mm(bearing.rib_height)} is not below the diameter of the large end, "
+            f"{_mm(2.0 * bearing.large_end_radius)}."
+        )
+    if bearing.small_rib_height >= bearing.small_end_radius:
+        problems.append(
+            f"small_rib_height {_mm(bearing.small_rib_height)} is not below the small-end radius "
+            f"{_mm(bearing.small_end_radius)}."
+        )
+    radius = rib_curvature_radius(bearing)
+    if bearing.sphere_radius >= radius:
+        problems.append(
+            f"sphere_ratio {bearing.sphere_ratio:g} gives a sphere radius of {_mm(bearing.sphere_radius)}, "
+            f"not below the rib's radius of curvature {_mm(radius)} at the contact; the roller end would "
+            "bear on its rim."
         )
     return problems
 

@@ -48,8 +48,8 @@ def line_contact_factor(material: Material, length: float) -> float:
 class PointContact:
     """Elliptical point contact of two bodies, simplified elliptic integrals.
 
-    The stiffness factor is 2 % too large for the elongated ellipses of ribs (Ry/Rx from 3 to 10) and up to
-    9 % for a circular contact.
+    The stiffness factor is within 1 % for the elongated ellipses of ribs (Ry/Rx from 3 to 10) and 9 % too
+    large for a circular contact; `hertz.ExactPointContact` has complete elliptic integrals.
 
     Parameters
     ----------
@@ -129,20 +129,32 @@ def point_contact_factor(radius_x: float, radius_y: float, contact_modulus: floa
     return PointContact(radius_x, radius_y, contact_modulus).factor
 
 
+def rib_curvature_radius(bearing: Bearing) -> float:
+    """R_rib: radius of curvature of the rib cone around the ring at the nominal contact, concave, [m]."""
+    distance = bearing.apex_distance + bearing.sphere_centre
+    normal_angle = bearing.contact_angle - bearing.rib_polar_angle
+    contact_radius = distance * math.sin(bearing.contact_angle) + bearing.sphere_radius * math.sin(
+        normal_angle
+    )
+    return contact_radius / math.cos(bearing.rib_angle)
+
+
+# Least curvature of the rib contact around the ring, as part of the sphere's: closer surfaces touch all over.
+_LEAST_CURVATURE = 1.0e-3
+
+
 def rib_contact(bearing: Bearing) -> PointContact:
     """Contact of the spherical roller end with the conical rib of the cone.
 
     Notes
     -----
     In the meridian plane the rib is straight, so Rx = R_s. Around the ring it is concave with the radius
-    R_rib = rho_c / cos(alpha_f), so 1/Ry = 1/R_s - 1/R_rib.
+    R_rib = rho_c / cos(alpha_f), so 1/Ry = 1/R_s - 1/R_rib. A sphere that a forced bearing makes as large as
+    the rib is taken with 1/Ry = 0.001/R_s.
     """
-    distance = bearing.apex_distance + bearing.sphere_centre
-    normal_angle = bearing.contact_angle - bearing.rib_polar_angle
     sphere_radius = bearing.sphere_radius
-    contact_radius = distance * math.sin(bearing.contact_angle) + sphere_radius * math.sin(normal_angle)
-    rib_radius = contact_radius / math.cos(bearing.rib_angle)
-    radius_y = 1.0 / (1.0 / sphere_radius - 1.0 / rib_radius)
+    curvature = 1.0 / sphere_radius - 1.0 / rib_curvature_radius(bearing)
+    radius_y = 1.0 / max(curvature, _LEAST_CURVATURE / sphere_radius)
     return PointContact(sphere_radius, radius_y, bearing.material.contact_modulus)
 
 

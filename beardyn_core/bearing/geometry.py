@@ -92,6 +92,16 @@ class Bearing:
         Angles a catalogue states; only compared with the closed ones, [rad].
     angle_tolerance : float
         Allowed difference between stated and closed angles, [rad].
+    rib_height, rib_undercut : float
+        Upper and lower end of the rib face above the cone raceway, measured like `rib_contact_height`, [m].
+    roller_chamfer : float
+        Radius of the large end less that of its spherical face, [m].
+    small_rib_height : float
+        Height of the small rib above the cone raceway, [m].
+    small_rib_clearance : float
+        Free travel of a roller along its axis between the ribs, [m].
+    forced : bool
+        Run it although `consistency.check` refuses it: for experiments with impossible bearings.
     """
 
     name: str
@@ -121,6 +131,12 @@ class Bearing:
     nominal_cup_angle: float | None = None
     nominal_cone_angle: float | None = None
     angle_tolerance: float = math.radians(0.25)
+    rib_height: float = 5.0e-3
+    rib_undercut: float = 1.0e-3
+    roller_chamfer: float = 0.5e-3
+    small_rib_height: float = 2.0e-3
+    small_rib_clearance: float = 0.4e-3
+    forced: bool = False
 
     @property
     def apex_distance(self) -> float:

@@ -236,6 +236,7 @@ def _table(
         f"  end play {end_play * 1e3:g} mm, tilt {args.tilt}, {args.speed:g} rpm, laminae {args.laminae}",
     ]
     lines += _static_lines(solution)
+    lines += _rib_lines(bearing, float(solution.rib_load.max()), args.speed)
     return "\n".join(lines)
 
 
@@ -273,6 +274,25 @@ def _geometry_lines(bearing: Bearing) -> list[str]:
         ("rating", f"C_r {rating.radial / 1e3:.0f} kN, e {rating.thrust_limit:.3f} (ISO 281)"),
     ]
     return [f"  {name:<10} {text}" for name, text in entries]
+
+
+def _rib_lines(bearing: Bearing, load: float, speed: float) -> list[str]:
+    """Contact of the heaviest rib: ellipse, pressure, pressure times sliding speed, and what it passes."""
+    from beardyn_core.bearing.hertz import rib_ellipse, rib_truncation
+    from beardyn_core.bearing.kinematics import roller_cone_spin
+
+    if load <= 0.0:
+        return []
+    ellipse = rib_ellipse(bearing, load)
+    sliding = abs(roller_cone_spin(bearing, speed * math.pi / 30.0)) * bearing.rib_contact_height
+    product = 2.0 / 3.0 * ellipse.largest_pressure * sliding
+    lines = [
+        "",
+        f"  heaviest rib {load:,.1f} N on an ellipse of {2e3 * ellipse.around:.2f} x "
+        f"{2e3 * ellipse.along:.2f} mm, {ellipse.largest_pressure * 1e-6:.1f} MPa; slides with "
+        f"{sliding:.3f} m/s, p v {product * 1e-6:.1f} MPa m/s",
+    ]
+    return lines + [f"  warning: {sentence}" for sentence in rib_truncation(bearing, load)]
 
 
 def _frequency_lines(frequencies: FaultFrequencies, speed: float) -> list[str]:

@@ -107,6 +107,15 @@ class BearingKeys(SourcedModel):
     row_spacing_mm: Positive = Field(description="between the roller mid-lengths of both rows")
     sphere_ratio: Positive = Field(description="radius of the roller's large end over the apex distance")
     rib_contact_height_mm: Positive = Field(description="above the cone raceway")
+    rib_height_mm: Positive = Field(5.0, description="upper end of the rib face above the cone raceway")
+    rib_undercut_mm: Positive = Field(1.0, description="lower end of the rib face above the cone raceway")
+    roller_chamfer_mm: Positive = Field(
+        0.5, description="radius of the large end less that of its spherical face"
+    )
+    small_rib_height_mm: Positive = Field(2.0, description="above the cone raceway")
+    small_rib_clearance_mm: NonNegative = Field(
+        0.4, description="free travel of a roller along its axis between the ribs"
+    )
     bore_mm: Positive
     outer_diameter_mm: Positive
     width_mm: Positive
@@ -152,4 +161,9 @@ class BearingKeys(SourcedModel):
             nominal_cup_angle=None if self.cup_angle_deg is None else self.cup_angle_deg * DEG,
             nominal_cone_angle=None if self.cone_angle_deg is None else self.cone_angle_deg * DEG,
             angle_tolerance=self.angle_tolerance_deg * DEG,
+            rib_height=self.rib_height_mm / MM,
+            rib_undercut=self.rib_undercut_mm / MM,
+            roller_chamfer=self.roller_chamfer_mm / MM,
+            small_rib_height=self.small_rib_height_mm / MM,
+            small_rib_clearance=self.small_rib_clearance_mm / MM,
         )

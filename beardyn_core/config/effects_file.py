@@ -16,6 +16,7 @@ from beardyn_core.config.effect_keys.gravity import GravityKeys
 from beardyn_core.config.effect_keys.rib import RibKeys
 from beardyn_core.config.effect_keys.rolling_resistance import RollingResistanceKeys
 from beardyn_core.config.effect_keys.seal import SealKeys
+from beardyn_core.config.effect_keys.small_rib import SmallRibKeys
 from beardyn_core.config.effect_keys.traction import Traction
 from beardyn_core.config.file_model import FileModel, Name, Switch, Text
 from beardyn_core.effects import EffectSet
@@ -35,6 +36,7 @@ class EffectsKeys(FileModel):
     rolling_resistance: Switch[RollingResistanceKeys] = None
     drag: Switch[DragKeys] = None
     rib: Switch[RibKeys] = False
+    small_rib: Switch[SmallRibKeys] = None
     cage: CageSwitch = False
     seal: Switch[SealKeys] = None
     gravity: Switch[GravityKeys] = False

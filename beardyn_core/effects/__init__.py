@@ -14,9 +14,10 @@ from beardyn_core.effects.drag import Drag
 from beardyn_core.effects.effect_set import EffectSet
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
-from beardyn_core.effects.rib import Rib
+from beardyn_core.effects.rib import Rib, RibMixedFilm, RibShearedFilm
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
+from beardyn_core.effects.small_rib import SmallRib
 from beardyn_core.effects.traction import CoulombTraction, MixedTraction, ShearedFilmTraction, Traction
 
 __all__ = [
@@ -35,9 +36,12 @@ __all__ = [
     "MixedTraction",
     "PocketFilm",
     "Rib",
+    "RibMixedFilm",
+    "RibShearedFilm",
     "RollingResistance",
     "RotatingCage",
     "Seal",
     "ShearedFilmTraction",
+    "SmallRib",
     "Traction",
 ]

@@ -13,6 +13,7 @@ from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
+from beardyn_core.effects.small_rib import SmallRib
 from beardyn_core.effects.traction import MixedTraction, Traction
 
 
@@ -29,6 +30,7 @@ class EffectSet:
     rolling_resistance: RollingResistance | None = None
     drag: Drag | None = None
     rib: Rib | None = Rib()
+    small_rib: SmallRib | None = None
     cage: CageModel | None = Cage()
     seal: Seal | None = None
     gravity: Gravity | None = Gravity()

@@ -25,6 +25,9 @@ from beardyn_core.bearing.kinematics import cage_speed, roller_spin
 Float = NDArray[np.float64]
 
 ROW_COUNT = 2
+# The end sphere of a forced bearing that is centred this close to the bearing axis, where its direction from
+# there says nothing, is pushed along its roller's meridian [m].
+_ON_AXIS = 1.0e-3
 
 
 @dataclass(frozen=True)
@@ -222,20 +225,41 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> Contact
 
 
 def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactSet:
-    """Contacts of the spherical large ends with the conical rib; one "lamina" per roller."""
+    """Contacts of the spherical large ends with the conical rib; one "lamina" per roller.
+
+    The nearest point of the rib lies on its face between undercut and corner; the edges are sharp.
+    """
     bearing = model.bearing
     angle = bearing.contact_angle - bearing.rib_polar_angle
     sine, cosine = math.sin(angle), math.cos(angle)
     outwards = model.axial[:, :, 1]
     centre, axis = _roller_line(model, roller, pose)
     sphere = centre + bearing.sphere_centre * axis
-    distance = np.hypot(sphere[..., 0], sphere[..., 2])
+    # a sphere that a forced bearing makes too large is centred on the bearing axis or beyond it
+    size = np.hypot(sphere[..., 0], sphere[..., 2])
+    outside = np.sum(sphere * model.radial, axis=-1)
+    centred = size < _ON_AXIS
+    distance = np.where(centred, outside, np.where(outside < 0.0, -size, size))
+    inverse = 1.0 / np.where(centred, 1.0, distance)
     nominal_distance = 0.5 * bearing.pitch_diameter + bearing.sphere_centre * math.sin(bearing.contact_angle)
     nominal_axial = 0.5 * bearing.row_spacing + bearing.sphere_centre * math.cos(bearing.contact_angle)
-    approach = cosine * (outwards * sphere[..., 1] - nominal_axial) + sine * (distance - nominal_distance)
+    outward = outwards * sphere[..., 1] - nominal_axial
+    approach = cosine * outward + sine * (distance - nominal_distance)
+    height = cosine * (distance - nominal_distance) - sine * outward
+    along = 1.0 / math.cos(bearing.rib_polar_angle)
+    low = (bearing.rib_undercut - bearing.rib_contact_height) * along
+    high = (bearing.rib_height - bearing.rib_contact_height) * along
+    beyond = height - np.clip(height, low, high)
+    ahead = bearing.sphere_radius - approach
+    reach = np.hypot(ahead, beyond)
+    approach = approach - beyond**2 / (reach + ahead)
+    normal_axial = (ahead * cosine + beyond * sine) / reach
+    normal_radial = (ahead * sine - beyond * cosine) / reach
     normal = np.empty_like(sphere)
-    normal[..., 0], normal[..., 2] = sine * sphere[..., 0] / distance, sine * sphere[..., 2] / distance
-    normal[..., 1] = cosine * outwards
+    for k in (0, 2):
+        direction = np.where(centred, model.radial[..., k], sphere[..., k] * inverse)
+        normal[..., k] = normal_radial * direction
+    normal[..., 1] = normal_axial * outwards
     point = sphere + bearing.sphere_radius * normal
     force, stiffness, energy = power_law(approach, model.rib_factor, POINT_EXPONENT)
     return _assembled(

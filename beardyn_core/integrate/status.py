@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.integrate.state import State
 from beardyn_core.model.layout import (
+    AXIAL,
     AXIS,
     CHATTER,
     CHATTER_FIELDS,
@@ -22,9 +23,11 @@ from beardyn_core.model.layout import (
     OUTPUT_FILM,
     OUTPUT_FORCE,
     PENETRATION,
+    RADIUS,
     RIB,
     ROLLER_STATES,
 )
+from beardyn_core.model.parameters import RibParams
 
 LARGEST_PENETRATION = 2.0e-4
 LARGEST_CHATTER_INDEX = 0.2
@@ -32,6 +35,8 @@ CHATTER_LOAD_FLOOR = 5.0
 # Rib contacts and films are judged only where they carry this much [N].
 SMALLEST_JUDGED_LOAD = 100.0
 LARGEST_FILM = 1.0e-5
+# A rib contact this far beyond the face bears on its edge [m]; the cone's own place is not looked at.
+EDGE_MARGIN = 2.0e-4
 
 
 class Status(IntFlag):
@@ -43,6 +48,7 @@ class Status(IntFlag):
     CHATTER = 4
     OFF_RIB = 8
     FILM_RANGE = 16
+    RIB_EDGE = 32
 
 
 SENTENCES = {
@@ -53,9 +59,11 @@ SENTENCES = {
     Status.CHATTER: "a friction force flips from step to step, so torque and slip are not converged: raise "
     "numerics.steps_per_sample",
     Status.OFF_RIB: "a roller presses on its rib beyond the edge of its large end: lower the axial load "
-    "or the sphere ratio",
+    "or the sphere ratio, or let the rim of the roller carry (effects: rib: roller_end)",
     Status.FILM_RANGE: f"a loaded film is thicker than {LARGEST_FILM * 1e6:.0f} um, where the "
     "elastohydrodynamic formula does not hold: raise the temperature or take a thinner lubricant",
+    Status.RIB_EDGE: "a roller bears on an edge of its rib and not on the face: pressure there is far above "
+    "the rib's Hertz pressure; lower the axial load or the tilt, or change rib_contact_height",
 }
 
 
@@ -107,6 +115,26 @@ def is_off_rib(state: State, large_end_radius: float) -> bool:
     return bool(np.any((load > SMALLEST_JUDGED_LOAD) & (from_axis > large_end_radius)))
 
 
+def is_on_rib_edge(state: State, rib: RibParams | None) -> bool:
+    """Whether a loaded rib contact lies on an edge of the rib face.
+
+    Parameters
+    ----------
+    state : State
+    rib : RibParams or None
+    """
+    if rib is None or rib.window is None:
+        return False
+    load = np.linalg.norm(_output(state, RIB, OUTPUT_FORCE, 3), axis=1)
+    axis = state.rollers[:, AXIS : AXIS + 3]
+    radial = np.hypot(state.rollers[:, RADIUS] + rib.sphere_place * axis[:, 0], rib.sphere_place * axis[:, 1])
+    axial = state.rollers[:, AXIAL] + rib.sphere_place * axis[:, 2]
+    height = radial * rib.normal_axial - axial * rib.normal_radial
+    edge = rib.window.rounding
+    beyond = np.maximum(rib.window.low - edge - height, height - rib.window.high - edge)
+    return bool(np.any((load > SMALLEST_JUDGED_LOAD) & (beyond > EDGE_MARGIN)))
+
+
 def is_film_out_of_range(state: State) -> bool:
     """Whether a loaded raceway film is too thick for the elastohydrodynamic formula."""
     for kind in (CUP, CONE):
@@ -117,7 +145,7 @@ def is_film_out_of_range(state: State) -> bool:
     return False
 
 
-def assess(state: State, step_count: int, large_end_radius: float) -> Status:
+def assess(state: State, step_count: int, large_end_radius: float, rib: RibParams | None = None) -> Status:
     """Status after a block.
 
     Parameters
@@ -127,6 +155,8 @@ def assess(state: State, step_count: int, large_end_radius: float) -> Status:
         Steps of the block.
     large_end_radius : float
         Of a roller, [m].
+    rib : RibParams or None
+        Rib contact of the run.
 
     Returns
     -------
@@ -142,6 +172,8 @@ def assess(state: State, step_count: int, large_end_radius: float) -> Status:
         status |= Status.CHATTER
     if is_off_rib(state, large_end_radius):
         status |= Status.OFF_RIB
+    if is_on_rib_edge(state, rib):
+        status |= Status.RIB_EDGE
     if is_film_out_of_range(state):
         status |= Status.FILM_RANGE
     return status

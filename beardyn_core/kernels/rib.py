@@ -6,7 +6,15 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, sqrt, where_greater
-from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
+from beardyn_core.kernels.rib_friction import (
+    rib_entrainment,
+    rib_film_output,
+    rib_friction,
+    rib_log2_film,
+    spin_reach,
+)
+from beardyn_core.kernels.rib_gap import rib_gap
+from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, subtract
 
 
 @inline
@@ -18,13 +26,14 @@ def rib_contact(
     ring_axis: Any,
     ring_velocity: Any,
     ring_omega: Any,
+    orbit_rate: Any,
     rib: Any,
     damping: Any,
 ) -> Any:
     """Force of the rib on the roller: sphere on cone, closed form.
 
-    Adds the axial guidance of the rollers. Neglects the rib's edges (no window), lubrication, and the
-    drilling friction inside the contact ellipse; valid while the contact lies on the rib.
+    Adds the axial guidance of the rollers. The stiffness is that of the face, also on an edge of the rib or
+    on the rim of the roller end, where a Hertz contact is up to a third softer.
 
     Parameters
     ----------
@@ -34,6 +43,8 @@ def rib_contact(
         Of the roller.
     ring_axis, ring_velocity, ring_omega : vector
         Of the cone at its origin.
+    orbit_rate : lane value
+        Of the roller about the bearing axis, [rad/s].
     rib : RibParams
     damping : DampingParams or None
 
@@ -47,34 +58,39 @@ def rib_contact(
         Elastic part of the force [N] and elastic energy [J].
     slip : vector
         Velocity of the roller against the rib, [m/s].
+    drilling, spin : lane value
+        Friction moment over spin about the normal [N m s], and that spin [rad/s].
+    film : lane value
+        Film thickness, [m].
 
     References
     ----------
     Hertz (1881) with the stiffness of Hamrock and Brewe (1983); the gap is exact (a sphere's distance
     to a cone is its centre's).
     """
-    sphere = scale(rib.sphere_place, axis)
-    place = add(centre, sphere)
-    along = dot(place, ring_axis)
-    across = add_scaled(place, -along, ring_axis)
-    distance = sqrt(dot(across, across))
-    outward = scale(1.0 / distance, across)
-    normal = add_scaled(scale(rib.normal_axial, ring_axis), rib.normal_radial, outward)
-    depth = along * rib.normal_axial + distance * rib.normal_radial + rib.sphere_radius - rib.distance
-    arm = add_scaled(sphere, rib.sphere_radius, normal)
+    depth, normal, arm = rib_gap(centre, axis, ring_axis, rib, rib.window, rib.end)
     slip = subtract(
         subtract(add(velocity, cross(omega, arm)), ring_velocity), cross(ring_omega, add(centre, arm))
     )
     touching = at_least(depth, 0.0)
-    tangent = 1.5 * rib.stiffness * sqrt(touching)
+    root = sqrt(touching)
+    tangent = 1.5 * rib.stiffness * root
     push = _push(touching, dot(slip, normal), damping)
     energy = 0.4 / 1.5 * tangent * touching * touching
     tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
     load = tangent * push
     elastic = tangent * touching * (1.0 / 1.5)
     tangential = add_scaled(slip, -dot(slip, normal), normal)
-    speed = sqrt(dot(tangential, tangential) + rib.regularisation * rib.regularisation)
-    return normal, arm, load, tangent, rib.friction * load / speed, elastic, energy, slip
+    spin = dot(subtract(omega, ring_omega), normal)
+    reach = spin_reach(touching, rib.drilling)
+    entrainment = rib_entrainment(
+        centre, arm, normal, velocity, omega, ring_axis, ring_velocity, ring_omega, orbit_rate, rib.film
+    )
+    log2_film = rib_log2_film(load, entrainment, rib.film)
+    sliding = dot(tangential, tangential) + reach * spin * spin
+    friction = rib_friction(load, root, sliding, log2_film, rib, rib.film)
+    film = rib_film_output(load, log2_film, rib.film)
+    return normal, arm, load, tangent, friction, elastic, energy, slip, reach * friction, spin, film
 
 
 @inline

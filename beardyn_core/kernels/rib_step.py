@@ -8,7 +8,7 @@ from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account, account_loss, implicit_time, output_contact, react
 from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.rib import rib_contact
-from beardyn_core.kernels.solve import add_point
+from beardyn_core.kernels.solve import add_couple, add_point
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.layout import CONE, LOSS_DAMPING, LOSS_RIB, RIB
 
@@ -18,10 +18,10 @@ def rib_before(body: Any, view: Any, zero: Any, rib: Any, damping: Any) -> Any:
     """Rib contact before the solve; without a rib zeros of the same type, which nothing uses."""
     if rib is None:
         nothing = (zero, zero, zero)
-        return nothing, (nothing, nothing, zero, zero, zero, zero, zero, nothing)
-    place, axis, velocity, omega, _rate = body
+        return nothing, (nothing, nothing, zero, zero, zero, zero, zero, nothing, zero, zero, zero)
+    place, axis, velocity, omega, rate = body
     centre = subtract(place, view[0])
-    return centre, rib_contact(centre, axis, velocity, omega, view[1], view[2], view[3], rib, damping)
+    return centre, rib_contact(centre, axis, velocity, omega, view[1], view[2], view[3], rate, rib, damping)
 
 
 @inline
@@ -29,21 +29,29 @@ def rib_matrix(matrix: Any, contact: Any, ring_axis: Any, step: Any, rib: Any, d
     """Add the implicit part of the rib contact."""
     if rib is None:
         return matrix
-    normal, arm, _load, tangent, friction, _elastic, _energy, _slip = contact[1]
+    normal, arm, _load, tangent, friction, _elastic, _energy, _slip, drilling, _spin, _film = contact[1]
     across = cross(ring_axis, normal)
     across = scale(1.0 / sqrt(dot(across, across)), across)
     matrix = add_point(matrix, normal, arm, step * implicit_time(step, damping) * tangent)
     matrix = add_point(matrix, across, arm, step * friction)
-    return add_point(matrix, cross(normal, across), arm, step * friction)
+    matrix = add_point(matrix, cross(normal, across), arm, step * friction)
+    return _resist_spin(matrix, normal, step * drilling, rib.drilling)
+
+
+@inline
+def _resist_spin(matrix: Any, normal: Any, weight: Any, drilling: Any) -> Any:
+    if drilling is None:
+        return matrix
+    return add_couple(matrix, normal, weight)
 
 
 @inline
 def rib_wrench(contact: Any) -> Any:
     """Force and moment of the rib from the velocities at the beginning of the step."""
-    normal, arm, load, _tangent, friction, _elastic, _energy, slip = contact[1]
+    normal, arm, load, _tangent, friction, _elastic, _energy, slip, drilling, spin, _film = contact[1]
     tangential = add_scaled(slip, -dot(slip, normal), normal)
     force = add_scaled(scale(-load, normal), -friction, tangential)
-    return force, cross(arm, force)
+    return force, add_scaled(cross(arm, force), -drilling * spin, normal)
 
 
 @inline
@@ -53,6 +61,63 @@ def add_rib(force: Any, moment: Any, contact: Any, rib: Any) -> Any:
         return force, moment
     rib_force, rib_moment = rib_wrench(contact)
     return add(force, rib_force), add(moment, rib_moment)
+
+
+@inline
+def settle_point(
+    lanes: Any,
+    sums: Any,
+    contact: Any,
+    change: Any,
+    mask: Any,
+    cosine: Any,
+    sine: Any,
+    source: Any,
+    time_constant: Any,
+    p: Any,
+) -> Any:
+    """Settle a point contact with the cone after the solve: reaction and audit.
+
+    Parameters
+    ----------
+    contact : tuple
+        Centre of mass from the cone's origin, and the contact as `kernels.rib.rib_contact` returns it.
+    change : tuple of 2 vectors
+    source : int
+        Which loss the friction counts as.
+    time_constant : float
+        Damping over stiffness, [s].
+
+    Returns
+    -------
+    force, moment : vector
+        On the roller at the end of the step.
+    """
+    centre = contact[0]
+    normal, arm, _load, tangent, friction, elastic, energy, slip, drilling, spin, _film = contact[1]
+    d_spin = dot(change[1], normal)
+    d_slip = add(change[0], cross(change[1], arm))
+    d_rate = dot(d_slip, normal)
+    rate = dot(slip, normal)
+    load = elastic + 0.25 * p.step * tangent * d_rate + time_constant * tangent * (rate + d_rate)
+    before = add_scaled(slip, -rate, normal)
+    d_sliding = add_scaled(d_slip, -d_rate, normal)
+    sliding_after = add(before, d_sliding)
+    middle = add_scaled(before, 0.5, d_sliding)
+    middle_rate = rate + 0.5 * d_rate
+    force = add_scaled(scale(-load, normal), -friction, sliding_after)
+    moment = add_scaled(cross(arm, force), -drilling * (spin + d_spin), normal)
+    react(lanes, sums, CONE, mask, centre, force, moment, cosine, sine)
+    damping = time_constant * tangent
+    middle_spin = spin + 0.5 * d_spin
+    numerical = 0.5 * (friction * dot(d_sliding, middle) + damping * d_rate * middle_rate)
+    numerical = numerical + 0.5 * drilling * d_spin * middle_spin
+    lost = friction * dot(middle, middle) + drilling * middle_spin * middle_spin
+    audit = p.effects.audit
+    account_loss(lanes, sums, mask, source, p.step * lost, audit)
+    account_loss(lanes, sums, mask, LOSS_DAMPING, p.step * damping * middle_rate * middle_rate, audit)
+    account(lanes, sums, mask, p.step * numerical, energy, audit)
+    return force, moment
 
 
 @inline
@@ -74,26 +139,11 @@ def finish_rib(
     """Settle the rib contact after the solve and add its wrench to the roller's."""
     if rib is None:
         return force, moment
-    centre = contact[0]
-    normal, arm, _load, tangent, friction, elastic, energy, slip = contact[1]
-    d_slip = add(change[0], cross(change[1], arm))
-    d_rate = dot(d_slip, normal)
-    rate = dot(slip, normal)
     time_constant = implicit_time(p.step, p.effects.damping) - 0.25 * p.step
-    load = elastic + 0.25 * p.step * tangent * d_rate + time_constant * tangent * (rate + d_rate)
-    before = add_scaled(slip, -rate, normal)
-    d_sliding = add_scaled(d_slip, -d_rate, normal)
-    sliding_after = add(before, d_sliding)
-    middle = add_scaled(before, 0.5, d_sliding)
-    middle_rate = rate + 0.5 * d_rate
-    rib_force = add_scaled(scale(-load, normal), -friction, sliding_after)
-    rib_moment = cross(arm, rib_force)
-    react(lanes, sums, CONE, mask, centre, rib_force, rib_moment, cosine, sine)
-    output_contact(lanes, rollers, block, RIB, rib_force, arm, sqrt(dot(before, before)), lanes.constant(0.0))
-    damping = time_constant * tangent
-    numerical = 0.5 * (friction * dot(d_sliding, middle) + damping * d_rate * middle_rate)
-    audit = p.effects.audit
-    account_loss(lanes, sums, mask, LOSS_RIB, p.step * friction * dot(middle, middle), audit)
-    account_loss(lanes, sums, mask, LOSS_DAMPING, p.step * damping * middle_rate * middle_rate, audit)
-    account(lanes, sums, mask, p.step * numerical, energy, audit)
+    rib_force, rib_moment = settle_point(
+        lanes, sums, contact, change, mask, cosine, sine, LOSS_RIB, time_constant, p
+    )
+    normal, arm, slip, film = contact[1][0], contact[1][1], contact[1][7], contact[1][10]
+    sliding = add_scaled(slip, -dot(slip, normal), normal)
+    output_contact(lanes, rollers, block, RIB, rib_force, arm, sqrt(dot(sliding, sliding)), film)
     return add(force, rib_force), add(moment, rib_moment)

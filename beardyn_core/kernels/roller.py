@@ -19,6 +19,7 @@ from beardyn_core.kernels.pocket_step import add_cage, cage_before, finish_cage
 from beardyn_core.kernels.raceway_step import finish_raceway, raceway_contact, raceway_matrix, raceway_wrench
 from beardyn_core.kernels.rib_step import add_rib, finish_rib, rib_before, rib_matrix
 from beardyn_core.kernels.rolling import add_rolling, finish_rolling, rolling_before, rolling_matrix
+from beardyn_core.kernels.small_rib import add_small_rib, finish_small_rib, small_rib_before, small_rib_matrix
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.vectors import add, add_scaled, dot, turn_in
 from beardyn_core.model.layout import (
@@ -85,6 +86,7 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     cone_rolling = rolling_before(cone, CONE, cone_view, body, effects.rolling)
     drag = drag_before(body, cup_view, effects.drag)
     rib = rib_before(body, cone_view, zero, effects.rib, effects.damping)
+    small_rib = small_rib_before(body, cone_view, zero, effects.small_rib)
     cage = cage_before(lanes, rings, p.rollers, block, body, azimuth, cosine, sine, roller, effects.cage)
 
     matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, axis, zero)
@@ -94,6 +96,7 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     matrix = rolling_matrix(matrix, cone_rolling, step, effects.rolling)
     matrix = drag_matrix(matrix, drag, step, effects.drag)
     matrix = rib_matrix(matrix, rib, cone_view[1], step, effects.rib, effects.damping)
+    matrix = small_rib_matrix(matrix, small_rib, cone_view[1], step, effects.small_rib)
 
     cup_force, cup_moment = raceway_wrench(cup, effects.damping)
     cone_force, cone_moment = raceway_wrench(cone, effects.damping)
@@ -103,6 +106,7 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     moment = add_rolling(add_rolling(moment, cup_rolling, effects.rolling), cone_rolling, effects.rolling)
     force, moment = add_drag(force, moment, drag, effects.drag)
     force, moment = add_rib(force, moment, rib, effects.rib)
+    force, moment = add_small_rib(force, moment, small_rib, effects.small_rib)
     force, moment = add_cage(force, moment, cage, effects.cage)
     turning_force = (
         force[0] + roller.mass * orbit_rate * velocity[1],
@@ -135,6 +139,9 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     force, moment = finish_drag(lanes, sums, drag, change, force, moment, mask, cosine, sine, effects.drag, p)
     force, moment = finish_rib(
         lanes, rollers, sums, block, rib, change, force, moment, mask, cosine, sine, effects.rib, p
+    )
+    force, moment = finish_small_rib(
+        lanes, sums, small_rib, change, force, moment, mask, cosine, sine, effects.small_rib, p
     )
     finish_cage(lanes, rollers, sums, block, cage, change, mask, cosine, sine, effects.cage, p)
     force, moment = add_cage(force, moment, cage, effects.cage)

@@ -147,7 +147,15 @@ def _wave(side: Any, x: Any, y: Any, z: Any, about_x: Any, about_z: Any, directi
 
 @inline
 def load_rollers(
-    lanes: Any, rollers: Any, sums: Any, motion: Any, direction: Any, turns: Any, speeds: Any, shown: Any, p: Any
+    lanes: Any,
+    rollers: Any,
+    sums: Any,
+    motion: Any,
+    direction: Any,
+    turns: Any,
+    speeds: Any,
+    shown: Any,
+    p: Any,
 ) -> None:
     """Loads of all rollers and their sums by row.
 

@@ -26,6 +26,7 @@ from beardyn_core.model.parameters import (
     RollerParams,
 )
 from beardyn_core.model.rib_params import rib_params
+from beardyn_core.model.small_rib_params import small_rib_params
 from beardyn_core.model.traction_params import traction_params
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
@@ -104,9 +105,10 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             mixed=mixed,
             rolling=rolling_params(scene),
             drag=drag_params(scene),
-            rib=rib_params(bearing, effects),
             seal=seal_params(effects),
             cage=cage_params(scene, 1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample)),
+            rib=rib_params(scene),
+            small_rib=small_rib_params(bearing, effects),
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=FaultParams(*(spall_params(scene, on, arrangement) for on in ("cup", "cone", "roller"))),
             audit=AuditParams(1.0) if effects.audit else None,

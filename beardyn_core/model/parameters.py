@@ -129,6 +129,50 @@ class SealParams(NamedTuple):
     regularisation: float  # [rad/s]
 
 
+class RibWindowParams(NamedTuple):
+    """Edges of the rib face."""
+
+    low: float  # coordinate along the generator of the face [m]
+    high: float
+    rounding: float  # radius of the edges [m]
+
+
+class RibEndParams(NamedTuple):
+    """Rim of the spherical roller end."""
+
+    radius: float  # [m]
+    place: float  # on the axis from the centre of mass [m]
+    cosine: float  # of the angle under which the sphere's centre sees it
+    smallest_bend: float  # floor of the second derivative in the search along the rim
+
+
+class RibShearParams(NamedTuple):
+    """Film that shears up to a limit."""
+
+    viscosity: float  # [Pa s]
+    pressure_viscosity: float  # [1/Pa]
+    limiting_shear: float
+    pressure: float  # mean pressure over the root of the approach [Pa/m^0.5]
+
+
+class RibFilmParams(NamedTuple):
+    """Point-contact film of the rib and the friction that goes with it."""
+
+    log2_factor: float  # film thickness at 1 N and 1 m/s [log2 m]
+    speed_exponent: float
+    load_exponent: float
+    log2_roughness: float  # composite rms [log2 m]
+    boundary_friction: float
+    film_friction: float
+    sheared: RibShearParams | None
+
+
+class RibDrillingParams(NamedTuple):
+    """Friction of the spin inside the contact ellipse."""
+
+    reach: float  # 0.18 a^2 over the approach [m]
+
+
 class RibParams(NamedTuple):
     """Large roller end on the cone rib."""
 
@@ -138,6 +182,22 @@ class RibParams(NamedTuple):
     normal_axial: float
     normal_radial: float
     distance: float  # of the nominal contact along the normal [m]
+    friction: float
+    regularisation: float  # [m/s]
+    window: RibWindowParams | None
+    end: RibEndParams | None
+    film: RibFilmParams | None
+    drilling: RibDrillingParams | None
+
+
+class SmallRibParams(NamedTuple):
+    """Small roller end at the cone's small rib."""
+
+    radius: float  # of the rib's contact circle [m]
+    place: float  # of that circle, axial from the cone's origin [m]
+    end_place: float  # of the flat end on the axis from the centre of mass [m]
+    stiffness: float  # [N/m]
+    damping: DampingParams
     friction: float
     regularisation: float  # [m/s]
 
@@ -251,6 +311,7 @@ class EffectParams(NamedTuple):
     rolling: RollingParams | None
     drag: DragParams | None
     rib: RibParams | None
+    small_rib: SmallRibParams | None
     cage: CageParams | None
     seal: SealParams | None
     gravity: GravityParams | None

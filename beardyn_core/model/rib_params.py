@@ -4,29 +4,104 @@ from __future__ import annotations
 
 import math
 
-from beardyn_core.bearing.contact_law import rib_contact_factor
+from beardyn_core.bearing.contact_law import PointContact, rib_contact
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.effects import EffectSet
+from beardyn_core.bearing.hertz import exact_rib_contact
+from beardyn_core.bearing.rib_film import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
+from beardyn_core.effects import Rib, RibShearedFilm
 from beardyn_core.model.parameters import (
+    RibDrillingParams,
+    RibEndParams,
+    RibFilmParams,
     RibParams,
+    RibShearParams,
+    RibWindowParams,
 )
+from beardyn_core.scene.scene import Scene
+
+# Sliding and spin dissipate mu Q sqrt(u^2 + 0.18 a^2 w^2), Zhao et al. (2026).
+_SPIN_SHARE = 0.18
+# Floor of the second derivative in the search along the rim, as part of the sine of the rib's polar angle.
+_SMALLEST_BEND = 0.01
 
 
-def rib_params(bearing: Bearing, effects: EffectSet) -> RibParams | None:
+def rib_params(scene: Scene) -> RibParams | None:
     """Rib contact in the cone's coordinates; the nominal roller just touches it."""
-    if effects.rib is None:
+    bearing, rib = scene.bearing, scene.effects.rib
+    if rib is None:
         return None
     lean = bearing.contact_angle - bearing.rib_polar_angle
     normal_axial, normal_radial = math.cos(lean), math.sin(lean)
     centre_axial = 0.5 * bearing.row_spacing + bearing.sphere_centre * math.cos(bearing.contact_angle)
     centre_radial = 0.5 * bearing.pitch_diameter + bearing.sphere_centre * math.sin(bearing.contact_angle)
+    contact = exact_rib_contact(bearing) if rib.stiffness == "exact" else rib_contact(bearing)
+    nominal = centre_radial * normal_axial - centre_axial * normal_radial
     return RibParams(
-        stiffness=rib_contact_factor(bearing),
+        stiffness=contact.factor,
         sphere_radius=bearing.sphere_radius,
         sphere_place=bearing.sphere_centre - bearing.roller_mass_offset,
         normal_axial=normal_axial,
         normal_radial=normal_radial,
         distance=centre_axial * normal_axial + centre_radial * normal_radial + bearing.sphere_radius,
-        friction=effects.rib.friction,
-        regularisation=effects.rib.regularisation_speed,
+        friction=rib.friction,
+        regularisation=rib.regularisation_speed,
+        window=_window(bearing, nominal, rib),
+        end=_roller_end(bearing) if rib.roller_end else None,
+        film=_film(scene, rib, contact),
+        drilling=RibDrillingParams(_SPIN_SHARE * _around_squared(contact)) if rib.drilling else None,
     )
+
+
+def _window(bearing: Bearing, nominal: float, rib: Rib) -> RibWindowParams | None:
+    """Edges of the face as coordinates along its generator; rounding takes at most the whole face."""
+    if not rib.window:
+        return None
+    along = 1.0 / math.cos(bearing.rib_polar_angle)
+    low = nominal + (bearing.rib_undercut - bearing.rib_contact_height) * along
+    high = nominal + (bearing.rib_height - bearing.rib_contact_height) * along
+    rounding = min(rib.edge_radius, 0.5 * (high - low))
+    return RibWindowParams(low + rounding, high - rounding, rounding)
+
+
+def _roller_end(bearing: Bearing) -> RibEndParams:
+    """Rim where the spherical face of the roller end meets the chamfer."""
+    radius = bearing.large_end_radius - bearing.roller_chamfer
+    ahead = math.sqrt(bearing.sphere_radius**2 - radius**2)
+    return RibEndParams(
+        radius=radius,
+        place=bearing.sphere_centre - bearing.roller_mass_offset + ahead,
+        cosine=ahead / bearing.sphere_radius,
+        smallest_bend=_SMALLEST_BEND * math.sin(bearing.rib_polar_angle),
+    )
+
+
+def _film(scene: Scene, rib: Rib, contact: PointContact) -> RibFilmParams | None:
+    """Film thickness at the inlet temperature of the scene, and its friction."""
+    lubrication = rib.lubrication
+    if lubrication is None:
+        return None
+    viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
+    pressure_viscosity = scene.lubricant.pressure_viscosity_at(scene.temperature)
+    sheared = None
+    if isinstance(lubrication, RibShearedFilm):
+        larger, smaller = contact.semi_axes(1.0)
+        approach = contact.factor ** (-2.0 / 3.0)
+        pressure = 1.0 / (math.pi * larger * smaller) / math.sqrt(approach)
+        sheared = RibShearParams(viscosity, pressure_viscosity, lubrication.limiting_shear, pressure)
+    return RibFilmParams(
+        log2_factor=log2_rib_film_factor(
+            scene.bearing, viscosity, pressure_viscosity, lubrication.starvation
+        ),
+        speed_exponent=SPEED_EXPONENT,
+        load_exponent=LOAD_EXPONENT,
+        log2_roughness=math.log2(scene.bearing.rib_roughness),
+        boundary_friction=lubrication.boundary_friction,
+        film_friction=0.0 if isinstance(lubrication, RibShearedFilm) else lubrication.film_friction,
+        sheared=sheared,
+    )
+
+
+def _around_squared(contact: PointContact) -> float:
+    """Square of the ellipse's semi-axis around the ring over the approach, [m]."""
+    larger, _ = contact.semi_axes(1.0)
+    return float(larger**2 * contact.factor ** (2.0 / 3.0))

@@ -33,6 +33,7 @@ from beardyn_core.config.effect_keys import (
     rib,
     rolling_resistance,
     seal,
+    small_rib,
     traction,
 )
 from beardyn_core.config.file_model import FileModel
@@ -57,8 +58,9 @@ LOADERS: dict[str, Callable[[str], Any]] = {
 def approximately(given: EffectSet) -> dict[str, object]:
     """Options of the effects; degrees cost the last digit of an angle."""
     return {
-        name: pytest.approx(options) if isinstance(options, dict) else options
+        name: {key: value if value is None else pytest.approx(value) for key, value in options.items()}
         for name, options in asdict(given).items()
+        if isinstance(options, dict)
     }
 
 
@@ -179,6 +181,9 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
         (rolling_resistance.RollingResistanceKeys, effects.RollingResistance),
         (drag.DragKeys, effects.Drag),
         (rib.RibKeys, effects.Rib),
+        (rib.RibMixedFilmKeys, effects.RibMixedFilm),
+        (rib.RibShearedFilmKeys, effects.RibShearedFilm),
+        (small_rib.SmallRibKeys, effects.SmallRib),
         (cage.CageEffectKeys, effects.Cage),
         (seal.SealKeys, effects.Seal),
         (cage.RotatingCageKeys, effects.RotatingCage),
@@ -210,3 +215,10 @@ def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(
             assert found == (
                 value if value is None or isinstance(value, str) else pytest.approx(value, rel=1e-12)
             )
+        kind = {"kind": "mixed"} if noun is effects.RibMixedFilm else kind
+        kind = {"kind": "sheared_film"} if noun is effects.RibShearedFilm else kind
+        described: Any = keys.model_validate(kind)
+        for name, value in vars(noun()).items():
+            found = getattr(described.noun(), name)
+            plain = value is None or isinstance(value, str)
+            assert found == (value if plain else pytest.approx(value, rel=1e-12))

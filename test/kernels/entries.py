@@ -28,9 +28,12 @@ from beardyn_core.kernels.pocket import pocket_contact, pocket_sum
 from beardyn_core.kernels.raceway import generator_line, lamina_sums, sliding
 from beardyn_core.kernels.raceway_step import raceway_wrench
 from beardyn_core.kernels.rib import rib_contact
+from beardyn_core.kernels.rib_gap import rib_gap
 from beardyn_core.kernels.rib_step import rib_wrench
+from beardyn_core.kernels.small_rib import add_small_rib, small_rib_contact
 from beardyn_core.kernels.solve import add_line, add_point, solve
 from beardyn_core.kernels.traction import friction_rate
+from beardyn_core.kernels.vectors import subtract
 
 MATH_NAMES = (
     "ninth_root", "log2", "exp2", "wrap", "cos", "sin", "sqrt", "magnitude", "floor", "at_least", "at_most",
@@ -95,7 +98,7 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
 
 @entry
 def ribs(lanes: Any, states: Any, out: Any, rib: Any, damping: Any) -> None:
-    """Rib contact of each case (inputs as `raceways`): force, moment, energy."""
+    """Rib contact of each case (inputs as `raceways`, last the orbit rate): force, moment, energy, film."""
     for case in range(states.shape[0]):
         contact = rib_contact(
             load_vector(lanes, states, case, 0),
@@ -105,10 +108,51 @@ def ribs(lanes: Any, states: Any, out: Any, rib: Any, damping: Any) -> None:
             load_vector(lanes, states, case, 6),
             load_vector(lanes, states, case, 15),
             load_vector(lanes, states, case, 18),
+            lanes.load(states, case, 21),
             rib,
             damping,
         )
         force, moment = rib_wrench((contact[0], contact))
+        store_vector(lanes, out, case, 0, force)
+        store_vector(lanes, out, case, 3, moment)
+        lanes.store(out, case, 6, contact[6])
+        lanes.store(out, case, 7, contact[10])
+
+
+@entry
+def rib_gaps(lanes: Any, states: Any, out: Any, rib: Any) -> None:
+    """Rib gap of each case (inputs as `raceways`): depth, normal, arm."""
+    for case in range(states.shape[0]):
+        depth, normal, arm = rib_gap(
+            load_vector(lanes, states, case, 0),
+            load_vector(lanes, states, case, 3),
+            load_vector(lanes, states, case, 6),
+            rib,
+            rib.window,
+            rib.end,
+        )
+        lanes.store(out, case, 0, depth)
+        store_vector(lanes, out, case, 1, normal)
+        store_vector(lanes, out, case, 4, arm)
+
+
+@entry
+def small_ribs(lanes: Any, states: Any, out: Any, rib: Any) -> None:
+    """Small-rib contact of each case (inputs as `raceways`): force, moment, energy."""
+    for case in range(states.shape[0]):
+        contact = small_rib_contact(
+            load_vector(lanes, states, case, 0),
+            load_vector(lanes, states, case, 3),
+            load_vector(lanes, states, case, 9),
+            load_vector(lanes, states, case, 12),
+            load_vector(lanes, states, case, 6),
+            load_vector(lanes, states, case, 15),
+            load_vector(lanes, states, case, 18),
+            rib,
+        )
+        nothing = load_vector(lanes, states, case, 0)
+        nothing = subtract(nothing, nothing)
+        force, moment = add_small_rib(nothing, nothing, (nothing, contact), rib)
         store_vector(lanes, out, case, 0, force)
         store_vector(lanes, out, case, 3, moment)
         lanes.store(out, case, 6, contact[6])

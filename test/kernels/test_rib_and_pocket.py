@@ -41,7 +41,7 @@ def rib_cases(count: int, seed: int, **options: Any) -> list[naive.Motion]:
 
 
 def rib_results(cases: list[naive.Motion], lanes: Any = LANES8, damping: Any = None) -> Float:
-    return through(lanes, ribs, np.array([packed(m) for m in cases]), 7, parameters().effects.rib, damping)
+    return through(lanes, ribs, np.array([packed(m) for m in cases]), 8, parameters().effects.rib, damping)
 
 
 def test_rib_depth_is_that_of_the_deepest_point_of_the_sphere() -> None:
@@ -215,7 +215,7 @@ def test_a_nan_is_seen_in_rib_and_pocket(lanes: Any, field: int) -> None:
     cases = rib_cases(8, 7)
     states = np.array([packed(m) for m in cases])
     states[5, field] = np.nan
-    found = through(lanes, ribs, states, 7, p.effects.rib, p.effects.damping)
+    found = through(lanes, ribs, states, 8, p.effects.rib, p.effects.damping)
     assert np.isnan(found[5, :6]).any()
     assert np.isfinite(np.delete(found, 5, axis=0)).all()
     places, advances = pocket_cases(8, 8)
