@@ -13,5 +13,6 @@ module                  responsibility
 ``load_zone``           load-zone integrals of one row
 ``life``                basic load rating (ISO 281)
 ``lubricant``           viscosity and pressure-viscosity with temperature
+``film_thickness``      films of line and point contacts, starvation, inlet heating
 ======================  ==================================================================
 """

@@ -76,7 +76,8 @@ def line_film(
 
     References
     ----------
-    Dowson, D. and Higginson, G. R. (1966), Elasto-hydrodynamic Lubrication, H_min = 2.65 U^0.7 G^0.54 W^-0.13.
+    Dowson, D. and Higginson, G. R. (1966), Elasto-hydrodynamic Lubrication: H_min = 2.65 U^0.7 G^0.54
+    W^-0.13.
     Pan, P. and Hamrock, B. J. (1989), ASME J. Tribol. 111, 246: H_min = 1.714 U^0.694 G^0.568 W^-0.128 and
     H_c = 2.922 U^0.692 G^0.470 W^-0.166.
     Dowson, D. and Toyoda, S. (1978), 5th Leeds-Lyon Symposium: H_c = 3.06 U^0.69 G^0.56 W^-0.10.

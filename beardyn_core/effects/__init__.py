@@ -14,7 +14,13 @@ from beardyn_core.effects.effect_set import EffectSet
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
-from beardyn_core.effects.traction import CoulombTraction, MixedTraction, ShearedFilmTraction, Traction
+from beardyn_core.effects.traction import (
+    CoulombTraction,
+    LoadSharingTraction,
+    MixedTraction,
+    ShearedFilmTraction,
+    Traction,
+)
 
 __all__ = [
     "About",
@@ -25,6 +31,7 @@ __all__ = [
     "EffectSet",
     "Gravity",
     "LineFilm",
+    "LoadSharingTraction",
     "MixedTraction",
     "Rib",
     "ShearedFilmTraction",

@@ -25,7 +25,7 @@ from beardyn_core.model.parameters import (
     RollerParams,
 )
 from beardyn_core.model.rib_params import rib_params
-from beardyn_core.model.traction_params import traction_params
+from beardyn_core.model.traction_params import raceway_film_params, traction_params
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 
@@ -75,7 +75,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
     bearing, effects = scene.bearing, scene.effects
     offset = bearing.roller_mass_offset
     taper = math.tan(bearing.half_angle)
-    coulomb, mixed, film = traction_params(scene)
+    coulomb, mixed, load_sharing = traction_params(scene)
     cup_angle, cone_angle = bearing.cup_angle, bearing.cone_angle
     return Parameters(
         step=1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample),
@@ -98,9 +98,10 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         mounting=mounting_params(bearing, scene.mounting, preload),
         effects=EffectParams(
             damping=DampingParams(effects.contact_damping.time_constant) if effects.contact_damping else None,
-            film=film,
+            film=raceway_film_params(scene),
             coulomb=coulomb,
             mixed=mixed,
+            load_sharing=load_sharing,
             rib=rib_params(bearing, effects),
             cage=cage_params(bearing, effects),
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,

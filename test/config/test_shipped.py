@@ -163,6 +163,7 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
         (traction.CoulombTractionKeys, effects.CoulombTraction),
         (traction.MixedTractionKeys, effects.MixedTraction),
         (traction.ShearedFilmTractionKeys, effects.ShearedFilmTraction),
+        (traction.LoadSharingTractionKeys, effects.LoadSharingTraction),
         (film.LineFilmKeys, effects.LineFilm),
         (rib.RibKeys, effects.Rib),
         (cage.CageEffectKeys, effects.Cage),
@@ -183,6 +184,7 @@ def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(
         kind = {"kind": "coulomb"} if noun is effects.CoulombTraction else {}
         kind = {"kind": "mixed"} if noun is effects.MixedTraction else kind
         kind = {"kind": "sheared_film"} if noun is effects.ShearedFilmTraction else kind
+        kind = {"kind": "load_sharing"} if noun is effects.LoadSharingTraction else kind
         described: Any = keys.model_validate(kind)
         for name, value in vars(noun()).items():
             found = getattr(described.noun(), name)

@@ -188,7 +188,9 @@ def frictions(lanes: Any, cases: Any, out: Any, lamina: Any, ring: Any, p: Any) 
         load = lanes.load(cases, case, 0)
         log2_speed = log2_entrainment(lanes.load(cases, case, 2), p.effects.film)
         thickness = log2_film_thickness(load, log2_speed, lamina, ring, p.laminae, p.effects.film)
-        rate = friction_rate(load, lanes.load(cases, case, 1), thickness, lamina, ring, p.laminae, p.effects)
+        rate = friction_rate(
+            load, lanes.load(cases, case, 1), thickness, log2_speed, lamina, ring, p.laminae, p.effects
+        )
         lanes.store(out, case, 0, thickness + lanes.constant(0.0))
         lanes.store(out, case, 1, rate + lanes.constant(0.0))
 
