@@ -1,7 +1,8 @@
 """Traction of a full elastohydrodynamic film: friction force of a lamina over its slip speed.
 
 Isothermal: shear heating of the film between the flats is neglected, so traction at large slip is an upper
-estimate. Pressure is that of Hertz, of one lamina; the area is load over mean pressure.
+estimate. Pressure is that of Hertz, of one lamina; the area is load over mean pressure. A law that is not
+chosen is ``None`` and adds nothing.
 """
 
 from __future__ import annotations
@@ -67,6 +68,8 @@ def aihara_rate(
     Aihara, S. (1987), A new running torque formula for tapered roller bearings under axial load, ASME J.
     Tribol. 109, 471; coefficients as in the published source of D-BRAIN (NSK).
     """
+    if aihara is None:
+        return 0.0
     squared = at_least(load, 1e-12) * laminae[LAMINA_PRESSURE + ring, lamina]
     log2_pressure = 0.5 * log2(squared) + _LOG2_PRESSURE_UNIT
     log2_speed = log2_rolling + _LOG2_SPEED_UNIT
@@ -93,6 +96,8 @@ def eyring_rate(
     ----------
     Eyring (1936), after Johnson, K. L. and Tevaarwerk, J. L. (1977), Proc. R. Soc. A 356, 215.
     """
+    if eyring is None:
+        return 0.0
     pressure = mean_pressure(load, lamina, ring, laminae)
     area = load / at_least(pressure, _SMALLEST_PRESSURE)
     shear = film.viscosity * exp2(log2_thickening(pressure, film) - log2_film)
@@ -110,6 +115,8 @@ def bair_winer_rate(
     Bair, S. and Winer, W. O. (1979), A rheological model for elastohydrodynamic contacts based on primary
     laboratory data, ASME J. Lubr. Technol. 101, 258.
     """
+    if limit is None:
+        return 0.0
     pressure = mean_pressure(load, lamina, ring, laminae)
     bounded = at_least(pressure, _SMALLEST_PRESSURE)
     shear = film.viscosity * exp2(log2_thickening(pressure, film) - log2_film)

@@ -1,6 +1,7 @@
 """Dry friction near zero slip: the laws by which its sharp corner is rounded, as force over slip speed.
 
-Every law acts against the slip, so it dissipates; none sticks: below its slip speed a contact creeps.
+Every law acts against the slip, so it dissipates; none sticks: below its slip speed a contact creeps. A law
+that is not chosen is ``None`` and adds nothing.
 """
 
 from __future__ import annotations
@@ -24,35 +25,31 @@ def slip_rate(force: Any, slip_squared: Any, speed: Any, law: Any) -> Any:
     if law is None:
         return force / sqrt(slip_squared + speed * speed)
     slip = sqrt(slip_squared)
-    return _named_rate(force, slip, speed, law.threlfall, law.ambrosio_start, law.arctangent)
+    return (
+        threlfall_rate(force, slip, speed, law.threlfall)
+        + ambrosio_rate(force, slip, speed, law.ambrosio_start)
+        + arctangent_rate(force, slip, speed, law.arctangent)
+    )
 
 
 @inline
-def _named_rate(
-    force: Any, slip: Any, speed: Any, threlfall: Any, ambrosio_start: Any, arctangent: Any
-) -> Any:
-    if threlfall is not None:
-        return threlfall_rate(force, slip, speed)
-    if ambrosio_start is not None:
-        return ambrosio_rate(force, slip, ambrosio_start, speed)
-    return arctangent_rate(force, slip, speed)
-
-
-@inline
-def threlfall_rate(force: Any, slip: Any, speed: Any) -> Any:
-    """1 - exp(-3 u / speed) of the force below the speed, 0.95 of it beyond.
+def threlfall_rate(force: Any, slip: Any, speed: Any, steepness: Any) -> Any:
+    """1 - exp(-3 u / speed) of the force below the speed, 0.95 of it beyond, for a steepness of 3.
 
     References
     ----------
     Threlfall, D. C. (1978), The inclusion of Coulomb friction in mechanisms programs with particular
     reference to DRAM, Mech. Mach. Theory 13, 475.
     """
-    below = force * decay_over(slip * (3.0 / speed)) * (3.0 / speed)
+    if steepness is None:
+        return 0.0
+    per_slip = steepness / speed
+    below = force * per_slip * decay_over(slip * per_slip)
     return where_greater(slip, speed, 0.95 * force / at_least(slip, _SLOWEST), below)
 
 
 @inline
-def ambrosio_rate(force: Any, slip: Any, start: Any, full: Any) -> Any:
+def ambrosio_rate(force: Any, slip: Any, full: Any, start: Any) -> Any:
     """No friction up to the slip speed ``start``, the whole force from ``full`` on, linear in between.
 
     References
@@ -60,12 +57,17 @@ def ambrosio_rate(force: Any, slip: Any, start: Any, full: Any) -> Any:
     Ambrosio, J. (2003), Impact of rigid and flexible multibody systems: deformation description and contact
     models, Virtual Nonlinear Multibody Systems, 57.
     """
+    if start is None:
+        return 0.0
     moving = at_least(slip, _SLOWEST)
     ramp = at_most(at_least((moving - start) / (full - start), 0.0), 1.0)
     return force * ramp / moving
 
 
 @inline
-def arctangent_rate(force: Any, slip: Any, speed: Any) -> Any:
-    """2/pi atan(u / speed) of the force: half of it at that slip speed."""
-    return _TWO_OVER_PI * force * arctangent_over(slip / speed) / speed
+def arctangent_rate(force: Any, slip: Any, speed: Any, steepness: Any) -> Any:
+    """2/pi atan(u / speed) of the force: half of it at that slip speed for a steepness of 1."""
+    if steepness is None:
+        return 0.0
+    per_slip = steepness / speed
+    return _TWO_OVER_PI * force * per_slip * arctangent_over(slip * per_slip)

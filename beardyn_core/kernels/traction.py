@@ -122,34 +122,14 @@ def _shared_rate(
 ) -> Any:
     if film is None:
         return asperities
-    wet = _full_film_rate(
-        load, slip, log2_film, log2_rolling, lamina, ring, laminae, film,
-        sharing.aihara, sharing.eyring, sharing.bair_winer,
-    )  # fmt: skip
+    wet = (
+        aihara_rate(load, slip, log2_rolling, lamina, ring, laminae, sharing.aihara)
+        + eyring_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.eyring)
+        + bair_winer_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.bair_winer)
+    )
     wet = at_most(wet, sharing.friction * load / at_least(slip, 1e-12))
     share = exp2(-1.8 * _LOG2_E * exp2(1.2 * (log2_film - sharing.log2_roughness)))
     return wet + (asperities - wet) * share
-
-
-@inline
-def _full_film_rate(
-    load: Any,
-    slip: Any,
-    log2_film: Any,
-    log2_rolling: Any,
-    lamina: Any,
-    ring: Any,
-    laminae: Any,
-    film: Any,
-    aihara: Any,
-    eyring: Any,
-    bair_winer: Any,
-) -> Any:
-    if aihara is not None:
-        return aihara_rate(load, slip, log2_rolling, lamina, ring, laminae, aihara)
-    if eyring is not None:
-        return eyring_rate(load, slip, log2_film, lamina, ring, laminae, film, eyring)
-    return bair_winer_rate(load, slip, log2_film, lamina, ring, laminae, film, bair_winer)
 
 
 @inline
@@ -184,23 +164,43 @@ def _rate(
     mixed: Any,
     load_sharing: Any,
 ) -> Any:
-    if load_sharing is not None:
-        return load_sharing_rate(
-            load, slip_squared, log2_film, log2_speed[1], lamina, ring, laminae, film, load_sharing
-        )
-    if mixed is not None:
-        return mixed_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, mixed)
-    return coulomb_rate(load, slip_squared, coulomb)
+    if load_sharing is None:
+        return _blended_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, coulomb, mixed)
+    return load_sharing_rate(
+        load, slip_squared, log2_film, log2_speed[1], lamina, ring, laminae, film, load_sharing
+    )
+
+
+@inline
+def _blended_rate(
+    load: Any,
+    slip_squared: Any,
+    log2_film: Any,
+    lamina: Any,
+    ring: Any,
+    laminae: Any,
+    film: Any,
+    coulomb: Any,
+    mixed: Any,
+) -> Any:
+    if mixed is None:
+        return coulomb_rate(load, slip_squared, coulomb)
+    return mixed_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, mixed)
 
 
 @inline
 def traction_capacity(load: Any, coulomb: Any, mixed: Any, load_sharing: Any) -> Any:
     """Friction at full slip in the dry limit, scale of the chatter index, [N]."""
-    if load_sharing is not None:
-        return load_sharing.friction * load
-    if mixed is not None:
-        return mixed.friction * load
-    return _dry_capacity(load, coulomb)
+    if load_sharing is None:
+        return _blended_capacity(load, coulomb, mixed)
+    return load_sharing.friction * load
+
+
+@inline
+def _blended_capacity(load: Any, coulomb: Any, mixed: Any) -> Any:
+    if mixed is None:
+        return _dry_capacity(load, coulomb)
+    return mixed.friction * load
 
 
 @inline

@@ -73,9 +73,9 @@ class FilmParams(NamedTuple):
 class SlipLawParams(NamedTuple):
     """Which law rounds the corner of dry friction: the member that is not ``None``."""
 
-    threlfall: float | None  # 1
+    threlfall: float | None  # steepness, 3
     ambrosio_start: float | None  # [m/s]
-    arctangent: float | None  # 1
+    arctangent: float | None  # steepness, 1
 
 
 class CoulombParams(NamedTuple):

@@ -62,7 +62,7 @@ def slip_law_params(traction: Traction) -> SlipLawParams | None:
     if isinstance(traction, LoadSharingTraction) or traction.regularisation == "smooth":
         return None
     return SlipLawParams(
-        threlfall=1.0 if traction.regularisation == "threlfall" else None,
+        threlfall=3.0 if traction.regularisation == "threlfall" else None,
         ambrosio_start=traction.regularisation_start if traction.regularisation == "ambrosio" else None,
         arctangent=1.0 if traction.regularisation == "arctangent" else None,
     )

@@ -29,6 +29,7 @@ from beardyn_core.kernels.raceway import generator_line, lamina_sums, sliding
 from beardyn_core.kernels.raceway_step import raceway_wrench
 from beardyn_core.kernels.rib import rib_contact
 from beardyn_core.kernels.rib_step import rib_wrench
+from beardyn_core.kernels.saturation import arctangent_over, asinh_over, decay_over
 from beardyn_core.kernels.solve import add_line, add_point, solve
 from beardyn_core.kernels.traction import friction_rate
 
@@ -201,3 +202,13 @@ def spalls(lanes: Any, azimuths: Any, out: Any, lamina: Any, roller_radius: Any,
     for case in range(azimuths.shape[0]):
         gap = spall_gap(lanes, 0, lanes.load(azimuths, case, 0), lamina, roller_radius, spall)
         lanes.store(out, case, 0, gap + lanes.constant(0.0))
+
+
+@entry
+def saturations(lanes: Any, values: Any, out: Any) -> None:
+    """(1 - exp(-x)) / x, asinh(x) / x and atan(x) / x of values [case, 1, lane]."""
+    for case in range(values.shape[0]):
+        x = lanes.load(values, case, 0)
+        lanes.store(out, case, 0, decay_over(x))
+        lanes.store(out, case, 1, asinh_over(x))
+        lanes.store(out, case, 2, arctangent_over(x))
