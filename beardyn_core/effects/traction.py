@@ -139,7 +139,7 @@ class LoadSharingTraction:
     boundary_friction: float = 0.1
     boundary_slope: float = 1000.0
     film_traction: str = "aihara"
-    largest_slide: float = 0.1
+    largest_slide: float = 0.25
     eyring_stress: float = 5.0e6
     limiting_shear: float = 0.045
 

@@ -19,7 +19,7 @@ HS = load_bearing("HS130x230")
 L055 = load_lubricant("L055")
 
 
-def example_film(side: str) -> float:
+def example_film(side: str, formula: str = "dowson_higginson") -> float:
     """P1 at 2000 rpm, 10 kN on a roller, L055 at 100 degrees C (physics dossier B.6)."""
     shaft = 2000.0 * math.pi / 30.0
     radius = {"cup": HS.cup_angle, "cone": HS.cone_angle}[side]
@@ -31,7 +31,7 @@ def example_film(side: str) -> float:
     curvature += (-1.0 if side == "cup" else 1.0) / (distance * math.tan(radius))
     return line_film(
         1e4 / HS.effective_length, speed, 1.0 / curvature, HS.material.contact_modulus,
-        L055.dynamic_viscosity(373.15), L055.pressure_viscosity_at(373.15),
+        L055.dynamic_viscosity(373.15), L055.pressure_viscosity_at(373.15), formula,
     )  # fmt: skip
 
 
