@@ -34,7 +34,8 @@ def log2_thermal_factor(log2_rolling: Any, thermal: Any) -> Any:
     if thermal is None:
         return 0.0
     log2_loading = thermal.log2_loading + 2.0 * log2_rolling
-    return -log2(1.0 + thermal.coefficient * exp2(thermal.exponent * log2_loading))
+    # log2(1) takes off the error that the logarithm has there, so that no heating is exactly none
+    return log2(1.0) - log2(1.0 + thermal.coefficient * exp2(thermal.exponent * log2_loading))
 
 
 @inline

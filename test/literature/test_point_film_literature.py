@@ -100,9 +100,12 @@ def test_exponents_are_those_of_the_formulas() -> None:
     for formula, exponents in printed.items():
         base = line_film(*arguments, formula)
         for place, exponent in ((1, exponents[0]), (5, exponents[1]), (0, exponents[2])):
-            doubled = list(arguments)
-            doubled[place] *= 2.0
-            assert math.log2(line_film(*doubled, formula) / base) == pytest.approx(exponent, abs=1e-12)
+            factors = [2.0 if at == place else 1.0 for at in range(6)]
+            load, speed, radius, modulus, oil, alpha = (
+                each * factor for each, factor in zip(arguments, factors, strict=True)
+            )
+            doubled = line_film(load, speed, radius, modulus, oil, alpha, formula)
+            assert math.log2(doubled / base) == pytest.approx(exponent, abs=1e-12)
 
 
 def test_rigid_film_of_martin() -> None:
