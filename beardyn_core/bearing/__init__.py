@@ -14,5 +14,6 @@ module                  responsibility
 ``life``                basic load rating (ISO 281)
 ``lubricant``           viscosity and pressure-viscosity with temperature
 ``rolling_resistance``  rolling couple of one lubricated contact
+``film_thickness``      films of line and point contacts, starvation, inlet heating
 ======================  ==================================================================
 """

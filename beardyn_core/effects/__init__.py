@@ -18,7 +18,13 @@ from beardyn_core.effects.rib import Rib, RibMixedFilm, RibShearedFilm
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
 from beardyn_core.effects.small_rib import SmallRib
-from beardyn_core.effects.traction import CoulombTraction, MixedTraction, ShearedFilmTraction, Traction
+from beardyn_core.effects.traction import (
+    CoulombTraction,
+    LoadSharingTraction,
+    MixedTraction,
+    ShearedFilmTraction,
+    Traction,
+)
 
 __all__ = [
     "About",
@@ -33,6 +39,7 @@ __all__ = [
     "KinematicCage",
     "LandGuidance",
     "LineFilm",
+    "LoadSharingTraction",
     "MixedTraction",
     "PocketFilm",
     "Rib",

@@ -17,7 +17,12 @@ class CoulombTraction:
     friction : float
         Coefficient of friction at full slip.
     regularisation_speed : float
-        Slip speed at which 71 % of the friction is reached, [m/s].
+        Slip speed of the regularisation, [m/s]: 71 % of the friction is reached there by ``smooth``, 95 % by
+        ``threlfall``, all by ``ambrosio``, half by ``arctangent``.
+    regularisation : str
+        ``smooth``, ``threlfall``, ``ambrosio`` or ``arctangent``.
+    regularisation_start : float
+        Slip speed below which ``ambrosio`` has no friction, [m/s].
     """
 
     about: ClassVar[About] = About(
@@ -25,11 +30,13 @@ class CoulombTraction:
         states="none",
         cost="low",
         validity="Contacts without lubricant; creeps at the regularisation speed instead of sticking.",
-        source="Coulomb's law with the regularisation u / sqrt(u^2 + u_r^2)",
+        source="Coulomb's law; u / sqrt(u^2 + u_r^2), Threlfall (1978) or Ambrosio (2003) near zero slip",
     )
 
     friction: float = 0.1
     regularisation_speed: float = 0.01
+    regularisation: str = "smooth"
+    regularisation_start: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -42,8 +49,8 @@ class MixedTraction:
         Coefficient of friction of the dry asperities.
     full_film_friction : float
         Coefficient of friction of the lubricant film at full slip.
-    regularisation_speed : float
-        Slip speed at which 71 % of the friction is reached, [m/s].
+    regularisation_speed, regularisation, regularisation_start : float, str, float
+        As in `CoulombTraction`.
     boundary_film_parameter : float
         Film parameter below which all load is carried by asperities.
     full_film_parameter : float
@@ -63,6 +70,8 @@ class MixedTraction:
     regularisation_speed: float = 0.02
     boundary_film_parameter: float = 0.01
     full_film_parameter: float = 1.5
+    regularisation: str = "smooth"
+    regularisation_start: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -73,8 +82,10 @@ class ShearedFilmTraction:
 
     Parameters
     ----------
-    boundary_friction, regularisation_speed, boundary_film_parameter, full_film_parameter : float
+    boundary_friction, boundary_film_parameter, full_film_parameter : float
         As in `MixedTraction`.
+    regularisation_speed, regularisation, regularisation_start : float, str, float
+        As in `CoulombTraction`, of the boundary friction.
     limiting_shear : float
         Limiting shear stress of the lubricant over the mean contact pressure.
     """
@@ -92,6 +103,45 @@ class ShearedFilmTraction:
     boundary_film_parameter: float = 0.01
     full_film_parameter: float = 1.5
     limiting_shear: float = 0.045
+    regularisation: str = "smooth"
+    regularisation_start: float = 0.0
 
 
-Traction = CoulombTraction | MixedTraction | ShearedFilmTraction
+@dataclass(frozen=True)
+class LoadSharingTraction:
+    """Asperities and film share the load, each with its own friction.
+
+    Parameters
+    ----------
+    boundary_friction : float
+        Coefficient of friction of the asperities at full slip; also the most the film may have.
+    boundary_slope : float
+        How steeply the asperities' friction rises: argument of the arctangent over the slide-to-roll ratio.
+    film_traction : str
+        ``aihara`` (a fit to tests), ``eyring`` (sinh law) or ``bair_winer`` (limiting shear stress).
+    largest_slide : float
+        Upper limit of the slide-to-roll ratio s_max of ``aihara``, whose fit extrapolates to any size for
+        thin oils and light loads.
+    eyring_stress : float
+        tau_0 of ``eyring``, [Pa].
+    limiting_shear : float
+        Limiting shear stress of ``bair_winer`` over the mean contact pressure.
+    """
+
+    about: ClassVar[About] = About(
+        adds="Raceway friction as a load-weighted sum of asperity friction and traction of a sheared film.",
+        states="none",
+        cost="high",
+        validity="Isothermal film; aihara: extrapolated below 0.5 and above 2 GPa.",
+        source="D-BRAIN (NSK); Aihara (1987); Johnson and Tevaarwerk (1977); Bair and Winer (1979)",
+    )
+
+    boundary_friction: float = 0.1
+    boundary_slope: float = 1000.0
+    film_traction: str = "aihara"
+    largest_slide: float = 0.25
+    eyring_stress: float = 5.0e6
+    limiting_shear: float = 0.045
+
+
+Traction = CoulombTraction | MixedTraction | ShearedFilmTraction | LoadSharingTraction

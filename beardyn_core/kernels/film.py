@@ -5,33 +5,70 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.lane_math import at_least, exp2, log2, magnitude
-from beardyn_core.model.film_factor import LOAD_EXPONENT, SPEED_EXPONENT
+from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude
 from beardyn_core.model.parameters import LAMINA_FILM
+
+_LOG2_THICKEST_RIGID_FILM = -13.287712379549449  # 0.1 mm, where an unloaded roller has no contact any more
 
 
 @inline
 def log2_entrainment(speed: Any, film: Any) -> Any:
-    """Speed part of the film thickness, once per contact, [log2 (m/s)^0.7]."""
+    """What the film has of the entrainment speed, once per contact.
+
+    Returns
+    -------
+    speed_part : lane value
+        Speed part of the film thickness with the heating of the inlet, [log2 (m/s)^exponent].
+    log2_rolling : lane value
+        The speed itself, not below 1 mm/s, [log2 m/s].
+    """
+    log2_rolling = log2(magnitude(speed) + 1e-3)
     if film is None:
+        return 0.0, log2_rolling
+    return film.speed_exponent * log2_rolling + log2_thermal_factor(log2_rolling, film.thermal), log2_rolling
+
+
+@inline
+def log2_thermal_factor(log2_rolling: Any, thermal: Any) -> Any:
+    """Binary logarithm of the film reduction by inlet heating, 1 / (1 + c L^n), L = eta beta u^2 / k."""
+    if thermal is None:
         return 0.0
-    return SPEED_EXPONENT * log2(magnitude(speed) + 1e-3)
+    log2_loading = thermal.log2_loading + 2.0 * log2_rolling
+    # log2(1) takes off the error that the logarithm has there, so that no heating is exactly none
+    return log2(1.0) - log2(1.0 + thermal.coefficient * exp2(thermal.exponent * log2_loading))
 
 
 @inline
 def log2_film_thickness(load: Any, log2_speed: Any, lamina: Any, ring: Any, laminae: Any, film: Any) -> Any:
-    """Binary logarithm of the minimum film thickness of one lamina, [log2 m].
+    """Binary logarithm of the film thickness of one lamina, [log2 m].
 
-    Neglects thermal inlet shear and the drag of starving oil beyond the starvation factor; valid in
-    the elastohydrodynamic regime, loads below 1 mN are treated as 1 mN.
+    Power law in speed and load, the rest of the formula is in the lamina table; with the guard of rigid
+    surfaces the thicker of both films. Neglects the drag of starving oil beyond the starvation factor;
+    loads below 1 mN are treated as 1 mN.
 
     References
     ----------
-    Dowson and Higginson (1966).
+    `beardyn_core.bearing.film_thickness` for the formulas.
     """
     if film is None:
         return 0.0
-    return log2_speed + LOAD_EXPONENT * log2(at_least(load, 1e-3)) + laminae[LAMINA_FILM + ring, lamina]
+    bounded = at_least(load, 1e-3)
+    elastic = log2_speed[0] + film.load_exponent * log2(bounded) + laminae[LAMINA_FILM + ring, lamina]
+    return thicker_film(elastic, bounded, log2_speed[1], lamina, ring, film.rigid)
+
+
+@inline
+def thicker_film(elastic: Any, load: Any, log2_rolling: Any, lamina: Any, ring: Any, rigid: Any) -> Any:
+    """The elastohydrodynamic film, or that of rigid surfaces where it is thicker, [log2 m].
+
+    References
+    ----------
+    Martin (1916): H = 4.9 U / W.
+    """
+    if rigid is None:
+        return elastic
+    film = log2_rolling - log2(load) + rigid.log2_factor[ring, lamina]
+    return at_least(elastic, at_most(film, _LOG2_THICKEST_RIGID_FILM))
 
 
 @inline

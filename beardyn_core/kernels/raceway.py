@@ -187,7 +187,9 @@ def lamina_sums(
         around = slip_around[0] + x * slip_around[1]
         along = slip_along[0] + x * slip_along[1]
         log2_film = log2_film_thickness(load, log2_speed, k, ring, laminae, effects.film)
-        friction = friction_rate(load, around * around + along * along, log2_film, k, ring, laminae, effects)
+        friction = friction_rate(
+            load, around * around + along * along, log2_film, log2_speed, k, ring, laminae, effects
+        )
         force_0 = force_0 + elastic
         force_1 = force_1 + elastic * x
         force_2 = force_2 + elastic * (x * x)

@@ -168,7 +168,7 @@ def finish_raceway(
     sliding_speed = sqrt(slip[1][0] * slip[1][0] + slip[2][0] * slip[2][0])
     film = film_output(normal[0], log2_speed, ring, p.laminae, p.effects.film) + lanes.constant(0.0)
     output_contact(lanes, rollers, block, ring, force, arm, sliding_speed, film)
-    capacity = traction_capacity(normal[0], p.effects.coulomb, p.effects.mixed)
+    capacity = traction_capacity(normal[0], p.effects.coulomb, p.effects.mixed, p.effects.load_sharing)
     watch_chatter(lanes, rollers, block, ring, friction, capacity)
     deepest = at_least(lanes.load(rollers, block, PENETRATION), line[5][0])
     lanes.store(rollers, block, PENETRATION, deepest)

@@ -5,23 +5,29 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.film_traction import (
+    aihara_rate,
+    bair_winer_rate,
+    eyring_rate,
+    limited_newton_rate,
+)
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, sqrt
-from beardyn_core.model.parameters import LAMINA_PRESSURE
+from beardyn_core.kernels.saturation import arctangent_over
+from beardyn_core.kernels.slip_laws import slip_rate
 
 _LOG2_E = 1.4426950408889634
-_LARGEST_LOG2_THICKENING = 30.0
+_TWO_OVER_PI = 0.6366197723675814
 
 
 @inline
 def coulomb_rate(load: Any, slip_squared: Any, coulomb: Any) -> Any:
-    """Dry friction over slip speed, mu N / sqrt(u^2 + u_r^2), [N s/m].
+    """Dry friction over slip speed, mu N / u with its corner at zero slip rounded, [N s/m].
 
-    Adds friction of constant coefficient, smooth through zero slip; neglects stiction and any lubricant.
+    Adds friction of constant coefficient; neglects stiction and any lubricant.
     """
     if coulomb is None:
         return 0.0
-    floor = coulomb.regularisation * coulomb.regularisation
-    return coulomb.friction * load / sqrt(slip_squared + floor)
+    return slip_rate(coulomb.friction * load, slip_squared, coulomb.regularisation, coulomb.law)
 
 
 @inline
@@ -37,7 +43,7 @@ def mixed_rate(
     ----------
     Santos (2017), Eq. 8, after Harada and Sakaguchi (2005).
     """
-    dry = load / sqrt(slip_squared + mixed.regularisation * mixed.regularisation)
+    dry = slip_rate(load, slip_squared, mixed.regularisation, mixed.law)
     wet = film_rate(
         load, slip_squared, dry, log2_film, lamina, ring, laminae, film, mixed, mixed.sheared_film
     )
@@ -67,42 +73,106 @@ def film_rate(
     mixed: Any,
     sheared_film: Any,
 ) -> Any:
-    """Friction of the full film over slip speed, [N s/m].
+    """Friction of the full film over slip speed, [N s/m]: a constant coefficient, or a film that shears."""
+    if sheared_film is None:
+        return mixed.film_friction * dry
+    return limited_newton_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, sheared_film)
 
-    A constant coefficient, or a film that is Newtonian at the mean Hertz pressure up to a limiting shear
-    stress.
+
+@inline
+def load_sharing_rate(
+    load: Any,
+    slip_squared: Any,
+    log2_film: Any,
+    log2_rolling: Any,
+    lamina: Any,
+    ring: Any,
+    laminae: Any,
+    film: Any,
+    sharing: Any,
+) -> Any:
+    """Asperities and film share the load, each with its own friction, over slip speed, [N s/m].
+
+    The film carries 1 - exp(-1.8 Lambda^1.2); asperities have mu_0 2/pi atan(slope s), s slip over
+    entrainment speed. The film never has more friction than dry asperities: the fits extrapolate to that
+    for cold oil. Without a film all load is on asperities.
 
     References
     ----------
-    Bair and Winer (1979) for the limiting shear stress; Barus for the viscosity, capped at 2^30.
+    Load share and asperity law as in the published source of D-BRAIN (NSK).
     """
-    if sheared_film is None:
-        return mixed.film_friction * dry
-    pressure = sqrt(load * laminae[LAMINA_PRESSURE + ring, lamina])
-    thickening = at_most(pressure * (film.pressure_viscosity * _LOG2_E), _LARGEST_LOG2_THICKENING)
-    shear = film.viscosity * exp2(thickening - log2_film)
-    limit = sheared_film.limiting_shear * pressure
-    # load / pressure is the area; 1e-30 keeps an unloaded lamina at zero friction, not 0/0
-    return (
-        load
-        * sheared_film.limiting_shear
-        * shear
-        / sqrt(limit * limit + shear * shear * slip_squared + 1e-30)
+    slip = sqrt(slip_squared)
+    per_slip = sharing.slope * exp2(-log2_rolling)
+    asperities = sharing.friction * _TWO_OVER_PI * load * per_slip * arctangent_over(per_slip * slip)
+    return _shared_rate(load, slip, asperities, log2_film, log2_rolling, lamina, ring, laminae, film, sharing)
+
+
+@inline
+def _shared_rate(
+    load: Any,
+    slip: Any,
+    asperities: Any,
+    log2_film: Any,
+    log2_rolling: Any,
+    lamina: Any,
+    ring: Any,
+    laminae: Any,
+    film: Any,
+    sharing: Any,
+) -> Any:
+    if film is None:
+        return asperities
+    wet = (
+        aihara_rate(load, slip, log2_rolling, lamina, ring, laminae, sharing.aihara)
+        + eyring_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.eyring)
+        + bair_winer_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.bair_winer)
     )
+    wet = at_most(wet, sharing.friction * load / at_least(slip, 1e-12))
+    share = exp2(-1.8 * _LOG2_E * exp2(1.2 * (log2_film - sharing.log2_roughness)))
+    return wet + (asperities - wet) * share
 
 
 @inline
 def friction_rate(
-    load: Any, slip_squared: Any, log2_film: Any, lamina: Any, ring: Any, laminae: Any, effects: Any
+    load: Any,
+    slip_squared: Any,
+    log2_film: Any,
+    log2_speed: Any,
+    lamina: Any,
+    ring: Any,
+    laminae: Any,
+    effects: Any,
 ) -> Any:
     """Friction of one lamina over its slip speed, [N s/m]; 0 without traction."""
     return _rate(
-        load, slip_squared, log2_film, lamina, ring, laminae, effects.film, effects.coulomb, effects.mixed
-    )
+        load, slip_squared, log2_film, log2_speed, lamina, ring, laminae,
+        effects.film, effects.coulomb, effects.mixed, effects.load_sharing,
+    )  # fmt: skip
 
 
 @inline
 def _rate(
+    load: Any,
+    slip_squared: Any,
+    log2_film: Any,
+    log2_speed: Any,
+    lamina: Any,
+    ring: Any,
+    laminae: Any,
+    film: Any,
+    coulomb: Any,
+    mixed: Any,
+    load_sharing: Any,
+) -> Any:
+    if load_sharing is None:
+        return _blended_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, coulomb, mixed)
+    return load_sharing_rate(
+        load, slip_squared, log2_film, log2_speed[1], lamina, ring, laminae, film, load_sharing
+    )
+
+
+@inline
+def _blended_rate(
     load: Any,
     slip_squared: Any,
     log2_film: Any,
@@ -119,8 +189,15 @@ def _rate(
 
 
 @inline
-def traction_capacity(load: Any, coulomb: Any, mixed: Any) -> Any:
+def traction_capacity(load: Any, coulomb: Any, mixed: Any, load_sharing: Any) -> Any:
     """Friction at full slip in the dry limit, scale of the chatter index, [N]."""
+    if load_sharing is None:
+        return _blended_capacity(load, coulomb, mixed)
+    return load_sharing.friction * load
+
+
+@inline
+def _blended_capacity(load: Any, coulomb: Any, mixed: Any) -> Any:
     if mixed is None:
         return _dry_capacity(load, coulomb)
     return mixed.friction * load

@@ -6,7 +6,7 @@ module      responsibility, in the order of the data
 parameters  named tuples of kernel parameters; an absent effect is None
 layout      where each number of the state stands
 arrangement which roller sits in which lane
-film_factor film thickness as a plain formula and as a table entry
+film_factor film thickness as factors for the kernel
 build       a scene to parameters
 =========== ===========================================================
 """

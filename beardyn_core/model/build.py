@@ -27,7 +27,7 @@ from beardyn_core.model.parameters import (
 )
 from beardyn_core.model.rib_params import rib_params
 from beardyn_core.model.small_rib_params import small_rib_params
-from beardyn_core.model.traction_params import traction_params
+from beardyn_core.model.traction_params import raceway_film_params, traction_params
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 
@@ -77,7 +77,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
     bearing, effects = scene.bearing, scene.effects
     offset = bearing.roller_mass_offset
     taper = math.tan(bearing.half_angle)
-    coulomb, mixed, film = traction_params(scene)
+    coulomb, mixed, load_sharing = traction_params(scene)
     cup_angle, cone_angle = bearing.cup_angle, bearing.cone_angle
     return Parameters(
         step=1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample),
@@ -100,7 +100,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         mounting=mounting_params(bearing, scene.mounting, preload),
         effects=EffectParams(
             damping=DampingParams(effects.contact_damping.time_constant) if effects.contact_damping else None,
-            film=film,
+            film=raceway_film_params(scene),
             coulomb=coulomb,
             mixed=mixed,
             rolling=rolling_params(scene),
@@ -109,6 +109,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             cage=cage_params(scene, 1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample)),
             rib=rib_params(scene),
             small_rib=small_rib_params(bearing, effects),
+            load_sharing=load_sharing,
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=FaultParams(*(spall_params(scene, on, arrangement) for on in ("cup", "cone", "roller"))),
             audit=AuditParams(1.0) if effects.audit else None,

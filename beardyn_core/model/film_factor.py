@@ -1,52 +1,21 @@
-"""Film thickness of a line contact: the plain formula, and its factor for the kernel's table."""
+"""Film thickness of a lamina as factors for the kernel: its table entry and the optional parts."""
 
 from __future__ import annotations
 
 import math
 
-SPEED_EXPONENT = 0.7
-MATERIAL_EXPONENT = 0.54
-LOAD_EXPONENT = -0.13
+import numpy as np
 
-
-def minimum_film_thickness(
-    load_per_length: float,
-    entrainment_speed: float,
-    radius: float,
-    contact_modulus: float,
-    viscosity: float,
-    pressure_viscosity: float,
-) -> float:
-    """Minimum film thickness of a line contact: the plain formula, reference of the kernel.
-
-    Parameters
-    ----------
-    load_per_length : float
-        [N/m].
-    entrainment_speed : float
-        Mean surface speed in the contact-fixed frame, [m/s].
-    radius : float
-        Equivalent radius in rolling direction, [m].
-    contact_modulus : float
-        E' = 2 / sum((1 - nu^2) / E), [Pa].
-    viscosity : float
-        Dynamic viscosity at inlet temperature, [Pa s].
-    pressure_viscosity : float
-        Pressure-viscosity coefficient, [1/Pa].
-
-    Returns
-    -------
-    float
-        Film thickness, [m].
-
-    References
-    ----------
-    Dowson and Higginson (1966), H_min = 2.65 U^0.7 G^0.54 W^-0.13.
-    """
-    speed = viscosity * entrainment_speed / (contact_modulus * radius)
-    material = pressure_viscosity * contact_modulus
-    load = load_per_length / (contact_modulus * radius)
-    return 2.65 * radius * speed**SPEED_EXPONENT * material**MATERIAL_EXPONENT * load**LOAD_EXPONENT
+from beardyn_core.bearing.film_thickness import (
+    LINE_FORMULAS,
+    THERMAL_FORMULAS,
+    line_film,
+    rigid_line_film,
+    thermal_loading,
+)
+from beardyn_core.effects import LineFilm
+from beardyn_core.model.parameters import FilmParams, RigidFilmParams, RoelandsParams, ThermalFilmParams
+from beardyn_core.scene.scene import Scene
 
 
 def log2_film_factor(
@@ -55,10 +24,50 @@ def log2_film_factor(
     contact_modulus: float,
     viscosity: float,
     pressure_viscosity: float,
-    starvation: float,
+    options: LineFilm | None,
 ) -> float:
     """Binary logarithm of the film thickness at 1 N on the lamina and 1 m/s, [log2 m]."""
-    thickness = minimum_film_thickness(
-        1.0 / lamina_length, 1.0, radius, contact_modulus, viscosity, pressure_viscosity
+    film = LineFilm(starvation=1.0) if options is None else options
+    thickness = line_film(
+        1.0 / lamina_length, 1.0, radius, contact_modulus, viscosity, pressure_viscosity, film.formula
     )
-    return math.log2(starvation * thickness)
+    return math.log2(film.starvation * thickness)
+
+
+def film_params(
+    scene: Scene, options: LineFilm, radii: tuple[list[float], list[float]], lamina_length: float
+) -> FilmParams:
+    """Film of the raceway contacts.
+
+    Parameters
+    ----------
+    scene : Scene
+    options : LineFilm
+    radii : tuple of 2 lists of float
+        Equivalent radii of the laminae against cup and cone, [m].
+    lamina_length : float
+        [m].
+    """
+    oil, temperature = scene.lubricant, scene.temperature
+    viscosity, formula = oil.dynamic_viscosity(temperature), LINE_FORMULAS[options.formula]
+    thermal, rigid, roelands = None, None, None
+    if options.thermal != "none":
+        law = THERMAL_FORMULAS[options.thermal]
+        loading = thermal_loading(viscosity, oil.temperature_coefficient, 1.0, oil.thermal_conductivity)
+        thermal = ThermalFilmParams(math.log2(loading), law.coefficient, law.exponent)
+    if options.isoviscous:
+        films = [[rigid_line_film(1.0 / lamina_length, 1.0, r, viscosity) for r in ring] for ring in radii]
+        rigid = RigidFilmParams(np.log2(options.starvation * np.array(films)))
+    if options.thickening == "roelands":
+        level, exponent = oil.roelands_constants(temperature)
+        roelands = RoelandsParams(level / math.log(2.0), exponent)
+    return FilmParams(
+        viscosity=viscosity,
+        pressure_viscosity=oil.pressure_viscosity_at(temperature),
+        roughness=scene.bearing.raceway_roughness,
+        speed_exponent=formula.speed_exponent,
+        load_exponent=formula.load_exponent,
+        thermal=thermal,
+        rigid=rigid,
+        roelands=roelands,
+    )

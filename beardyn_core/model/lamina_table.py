@@ -52,11 +52,11 @@ def lamina_table(scene: Scene) -> NDArray[np.float64]:
     table[LAMINA_RADIUS] = (bearing.apex_distance + place) * math.tan(bearing.half_angle)
     viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
     pressure_viscosity = scene.lubricant.pressure_viscosity_at(scene.temperature)
-    starvation = scene.effects.film.starvation if scene.effects.film else 1.0
     for ring, name in enumerate(("cup", "cone")):
         radius = equivalent_radius(bearing, place, name)
         table[LAMINA_FILM + ring] = [
-            log2_film_factor(r, length, modulus, viscosity, pressure_viscosity, starvation) for r in radius
+            log2_film_factor(r, length, modulus, viscosity, pressure_viscosity, scene.effects.film)
+            for r in radius
         ]
         # square of the mean Hertz pressure at 1 N: p_mean = pi/4 sqrt(q E* / (pi R)), E* = E'/2
         table[LAMINA_PRESSURE + ring] = (math.pi / 4) ** 2 * 0.5 * modulus / (math.pi * radius * length)

@@ -36,12 +36,46 @@ class RollerParams(NamedTuple):
     mass_offset: float
 
 
+class ThermalFilmParams(NamedTuple):
+    """Film reduction by inlet shear heating, 1 / (1 + coefficient L^exponent)."""
+
+    log2_loading: float  # of L at 1 m/s
+    coefficient: float
+    exponent: float
+
+
+class RigidFilmParams(NamedTuple):
+    """Film of rigid surfaces, H = 4.9 U / W."""
+
+    log2_factor: Any  # of the film at 1 N on the lamina and 1 m/s, [ring, lamina], [log2 m]
+
+
+class RoelandsParams(NamedTuple):
+    """Viscosity at pressure: log2(eta / eta_0) = log2_level ((1 + 5.1e-9 p)^exponent - 1)."""
+
+    log2_level: float
+    exponent: float
+
+
 class FilmParams(NamedTuple):
-    """Line-contact film; the load and speed exponents of Dowson and Higginson are in the kernel."""
+    """Line-contact film; the rest of its formula is in the lamina table."""
 
     viscosity: float  # [Pa s]
     pressure_viscosity: float  # [1/Pa]
     roughness: float  # composite rms [m]
+    speed_exponent: float
+    load_exponent: float
+    thermal: ThermalFilmParams | None
+    rigid: RigidFilmParams | None
+    roelands: RoelandsParams | None
+
+
+class SlipLawParams(NamedTuple):
+    """Which law rounds the corner of dry friction: the member that is not ``None``."""
+
+    threlfall: float | None  # steepness, 3
+    ambrosio_start: float | None  # [m/s]
+    arctangent: float | None  # steepness, 1
 
 
 class CoulombParams(NamedTuple):
@@ -49,6 +83,7 @@ class CoulombParams(NamedTuple):
 
     friction: float
     regularisation: float  # [m/s]
+    law: SlipLawParams | None = None
 
 
 class ShearedFilmParams(NamedTuple):
@@ -66,6 +101,32 @@ class MixedParams(NamedTuple):
     boundary_film: float
     full_film: float
     sheared_film: ShearedFilmParams | None
+    law: SlipLawParams | None = None
+
+
+class AiharaParams(NamedTuple):
+    """Aihara's traction: parts of its logarithms that only the oil decides."""
+
+    log2_slide: float
+    log2_friction: float
+    largest_slide: float
+
+
+class EyringParams(NamedTuple):
+    """Film with Eyring's sinh law."""
+
+    stress: float  # [Pa]
+
+
+class LoadSharingParams(NamedTuple):
+    """Asperities and film share the load; the film has the law of the member that is not ``None``."""
+
+    friction: float
+    slope: float
+    log2_roughness: float  # [log2 m]
+    aihara: AiharaParams | None
+    eyring: EyringParams | None
+    bair_winer: ShearedFilmParams | None
 
 
 class DampingParams(NamedTuple):
@@ -308,6 +369,7 @@ class EffectParams(NamedTuple):
     film: FilmParams | None
     coulomb: CoulombParams | None
     mixed: MixedParams | None
+    load_sharing: LoadSharingParams | None
     rolling: RollingParams | None
     drag: DragParams | None
     rib: RibParams | None

@@ -1,40 +1,106 @@
-"""Film and traction as kernel parameters."""
+"""Traction as kernel parameters."""
 
 from __future__ import annotations
 
-from beardyn_core.effects import CoulombTraction, ShearedFilmTraction
+import math
+
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.effects import (
+    CoulombTraction,
+    LoadSharingTraction,
+    MixedTraction,
+    ShearedFilmTraction,
+    Traction,
+)
+from beardyn_core.model.film_factor import film_params
+from beardyn_core.model.lamina_table import equivalent_radius, lamina_places
 from beardyn_core.model.parameters import (
+    AiharaParams,
     CoulombParams,
+    EyringParams,
     FilmParams,
+    LoadSharingParams,
     MixedParams,
     ShearedFilmParams,
+    SlipLawParams,
 )
 from beardyn_core.scene.scene import Scene
 
 
-def traction_params(scene: Scene) -> tuple[CoulombParams | None, MixedParams | None, FilmParams | None]:
-    """Traction and film; mixed traction without a film is dry friction of the asperities."""
-    traction, effects = scene.effects.traction, scene.effects
-    film = None
-    if effects.film is not None:
-        film = FilmParams(
-            viscosity=scene.lubricant.dynamic_viscosity(scene.temperature),
-            pressure_viscosity=scene.lubricant.pressure_viscosity_at(scene.temperature),
-            roughness=scene.bearing.raceway_roughness,
-        )
+def raceway_film_params(scene: Scene) -> FilmParams | None:
+    """Film of the raceway contacts, ``None`` when absent."""
+    if scene.effects.film is None:
+        return None
+    bearing, count = scene.bearing, scene.numerics.laminae
+    place = lamina_places(bearing, count)
+    radii = (
+        list(equivalent_radius(bearing, place, "cup")),
+        list(equivalent_radius(bearing, place, "cone")),
+    )
+    return film_params(scene, scene.effects.film, radii, bearing.effective_length / count)
+
+
+def traction_params(
+    scene: Scene,
+) -> tuple[CoulombParams | None, MixedParams | None, LoadSharingParams | None]:
+    """Traction; the blends without a film are dry friction of the asperities."""
+    traction = scene.effects.traction
     if traction is None:
-        return None, None, film
-    if not isinstance(traction, CoulombTraction) and film is not None:
-        mixed = MixedParams(
-            friction=traction.boundary_friction,
-            regularisation=traction.regularisation_speed,
-            film_friction=0.0 if isinstance(traction, ShearedFilmTraction) else traction.full_film_friction,
-            boundary_film=traction.boundary_film_parameter,
-            full_film=traction.full_film_parameter,
-            sheared_film=ShearedFilmParams(traction.limiting_shear)
-            if isinstance(traction, ShearedFilmTraction)
-            else None,
-        )
-        return None, mixed, film
-    friction = traction.friction if isinstance(traction, CoulombTraction) else traction.boundary_friction
-    return CoulombParams(friction, traction.regularisation_speed), None, film
+        return None, None, None
+    if isinstance(traction, LoadSharingTraction):
+        return None, None, _load_sharing_params(scene, traction)
+    law = slip_law_params(traction)
+    if isinstance(traction, CoulombTraction):
+        return CoulombParams(traction.friction, traction.regularisation_speed, law), None, None
+    if scene.effects.film is None:
+        return CoulombParams(traction.boundary_friction, traction.regularisation_speed, law), None, None
+    return None, _mixed_params(traction, law), None
+
+
+def slip_law_params(traction: Traction) -> SlipLawParams | None:
+    """Regularisation of dry friction; ``None`` is the smooth one."""
+    if isinstance(traction, LoadSharingTraction) or traction.regularisation == "smooth":
+        return None
+    return SlipLawParams(
+        threlfall=3.0 if traction.regularisation == "threlfall" else None,
+        ambrosio_start=traction.regularisation_start if traction.regularisation == "ambrosio" else None,
+        arctangent=1.0 if traction.regularisation == "arctangent" else None,
+    )
+
+
+def _mixed_params(traction: MixedTraction | ShearedFilmTraction, law: SlipLawParams | None) -> MixedParams:
+    return MixedParams(
+        friction=traction.boundary_friction,
+        regularisation=traction.regularisation_speed,
+        film_friction=0.0 if isinstance(traction, ShearedFilmTraction) else traction.full_film_friction,
+        boundary_film=traction.boundary_film_parameter,
+        full_film=traction.full_film_parameter,
+        sheared_film=ShearedFilmParams(traction.limiting_shear)
+        if isinstance(traction, ShearedFilmTraction)
+        else None,
+        law=law,
+    )
+
+
+def aihara_params(lubricant: Lubricant, temperature: float, largest_slide: float) -> AiharaParams:
+    """Aihara's traction of an oil at a temperature [K]; the fit wants the viscosity in cP."""
+    log2_viscosity = math.log2(1e3 * lubricant.dynamic_viscosity(temperature))
+    return AiharaParams(
+        log2_slide=math.log2(1.2448e7) - 1.5 * log2_viscosity,
+        log2_friction=0.1 * log2_viscosity,
+        largest_slide=largest_slide,
+    )
+
+
+def _load_sharing_params(scene: Scene, traction: LoadSharingTraction) -> LoadSharingParams:
+    kind = traction.film_traction
+    return LoadSharingParams(
+        friction=traction.boundary_friction,
+        slope=traction.boundary_slope,
+        log2_roughness=math.log2(scene.bearing.raceway_roughness),
+        aihara=aihara_params(scene.lubricant, scene.temperature, traction.largest_slide)
+        if kind == "aihara"
+        else None,
+        eyring=EyringParams(traction.eyring_stress) if kind == "eyring" else None,
+        bair_winer=ShearedFilmParams(traction.limiting_shear) if kind == "bair_winer" else None,
+    )

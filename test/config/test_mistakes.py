@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.config import load_bearing, load_effects, load_scene
+from beardyn_core.config import load_bearing, load_effects, load_scene, scene_from_text
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
 from beardyn_core.effects import Cage, KinematicCage, LandGuidance, PocketFilm, RotatingCage
@@ -271,3 +271,45 @@ def test_measured_load_is_checked_with_the_scene(write: Write, tmp_path: Path) -
     found = problems_of(write(text.replace("width_mm: 6", "width_mm: 0")))
     assert any("load.csv" in problem and "nan" in problem for problem in found)
     assert any("width_mm" in problem for problem in found)
+
+
+@pytest.mark.parametrize(
+    ("effects", "words"),
+    [
+        ("film: {formula: reynolds}", ["effects.film", "formula is 'reynolds'", "'pan_hamrock'"]),
+        ("film: {thermal: hot}", ["thermal is 'hot'", "'murch_wilson'"]),
+        ("film: {isoviscous: 1}", ["isoviscous"]),
+        ("film: {thickening: eyring}", ["thickening is 'eyring'", "'roelands'"]),
+        ("traction: {kind: coulomb, regularisation: tanh}", ["regularisation is 'tanh'", "'threlfall'"]),
+        (
+            "traction: {kind: coulomb, regularisation: ambrosio, regularisation_start_m_per_s: 0.02}",
+            ["regularisation_start_m_per_s is 0.02", "less than", "0.01"],
+        ),
+        (
+            "traction: {kind: mixed, regularisation_start_m_per_s: 0.001}",
+            ["regularisation_start_m_per_s is 0.001", "only the regularisation ambrosio"],
+        ),
+        ("traction: {kind: load_sharing, film_traction: newton}", ["film_traction is 'newton'", "'aihara'"]),
+        (
+            "traction: {kind: load_sharing, eyring_stress_MPa: -5}",
+            ["eyring_stress_MPa is -5", "greater than 0"],
+        ),
+        (
+            "traction: {kind: load_sharing, friction: 0.1}",
+            ["effects.traction.friction: unknown key", "boundary_friction"],
+        ),
+    ],
+)
+def test_wrong_film_and_traction_options_are_explained(write: Write, effects: str, words: list[str]) -> None:
+    found = problems_of(write(f"{GOOD}effects: {{{effects}}}\n"))
+    assert len(found) == 1
+    assert all(word in found[0] for word in words), found
+
+
+def test_lubricant_without_pressure_viscosity_has_that_of_its_base_oil(write: Write) -> None:
+    oil = read_file(find("lubricants", "SHC100"))
+    del oil["pressure_viscosity_per_GPa"]
+    loaded = load_scene(write(write_mapping({**read_file(find("scenes", "static_80kN")), "lubricant": oil})))
+    assert loaded.lubricant.pressure_viscosity == pytest.approx(13.65e-9, rel=1e-3)
+    again = scene_from_text(loaded.source_text)
+    assert again.lubricant == loaded.lubricant

@@ -30,6 +30,7 @@ from beardyn_core.kernels.raceway_step import raceway_wrench
 from beardyn_core.kernels.rib import rib_contact
 from beardyn_core.kernels.rib_gap import rib_gap
 from beardyn_core.kernels.rib_step import rib_wrench
+from beardyn_core.kernels.saturation import arctangent_over, asinh_over, decay_over
 from beardyn_core.kernels.small_rib import add_small_rib, small_rib_contact
 from beardyn_core.kernels.solve import add_line, add_point, solve
 from beardyn_core.kernels.traction import friction_rate
@@ -232,7 +233,9 @@ def frictions(lanes: Any, cases: Any, out: Any, lamina: Any, ring: Any, p: Any) 
         load = lanes.load(cases, case, 0)
         log2_speed = log2_entrainment(lanes.load(cases, case, 2), p.effects.film)
         thickness = log2_film_thickness(load, log2_speed, lamina, ring, p.laminae, p.effects.film)
-        rate = friction_rate(load, lanes.load(cases, case, 1), thickness, lamina, ring, p.laminae, p.effects)
+        rate = friction_rate(
+            load, lanes.load(cases, case, 1), thickness, log2_speed, lamina, ring, p.laminae, p.effects
+        )
         lanes.store(out, case, 0, thickness + lanes.constant(0.0))
         lanes.store(out, case, 1, rate + lanes.constant(0.0))
 
@@ -243,3 +246,13 @@ def spalls(lanes: Any, azimuths: Any, out: Any, lamina: Any, roller_radius: Any,
     for case in range(azimuths.shape[0]):
         gap = spall_gap(lanes, 0, lanes.load(azimuths, case, 0), lamina, roller_radius, spall)
         lanes.store(out, case, 0, gap + lanes.constant(0.0))
+
+
+@entry
+def saturations(lanes: Any, values: Any, out: Any) -> None:
+    """(1 - exp(-x)) / x, asinh(x) / x and atan(x) / x of values [case, 1, lane]."""
+    for case in range(values.shape[0]):
+        x = lanes.load(values, case, 0)
+        lanes.store(out, case, 0, decay_over(x))
+        lanes.store(out, case, 1, asinh_over(x))
+        lanes.store(out, case, 2, arctangent_over(x))

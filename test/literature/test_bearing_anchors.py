@@ -20,8 +20,9 @@ from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_for
 from beardyn_core.bearing.kinematics import fault_frequencies, frequencies
 from beardyn_core.bearing.life import dynamic_rating, rating_factor
 from beardyn_core.bearing.load_zone import axial_integral, radial_integral
+from beardyn_core.bearing.lubricant import gold_pressure_viscosity
 from beardyn_core.bearing.profile import Profile
-from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.config import load_bearing, load_lubricant, shipped_names
 
 # Closed geometry and fault frequencies of the shipped bearings, physics dossier A.2: cone, cup and half angle
 # [deg], apex distance, large end, small end, sphere radius [mm], rib angle [deg], roller mass [kg], Jx, Jy
@@ -241,7 +242,13 @@ def test_dynamic_rating_of_the_shipped_bearings(name, rating, limit):
 
 @pytest.mark.parametrize(
     ("name", "at_60", "at_80"),
-    [("EP220", 78.8, 35.6), ("LGEP2", 68.7, 30.3), ("RAIL100", 39.5, 19.3), ("FVA3", 37.9, 18.7)],
+    [
+        ("EP220", 78.8, 35.6),
+        ("LGEP2", 68.7, 30.3),
+        ("RAIL100", 39.5, 19.3),
+        ("FVA3", 37.9, 18.7),
+        ("SHC100", 44.5, 23.5),
+    ],
 )
 def test_viscosity_follows_walther(name, at_60, at_80):
     """Physics dossier B.7, Walther interpolation in mm^2/s, printed to 0.1."""
@@ -257,6 +264,31 @@ def test_viscosity_follows_walther(name, at_60, at_80):
 def test_dynamic_viscosity_of_the_reference_oil():
     """FVA reference oil 3: 50 mPa s at 50 deg C; 5 % for the recalled data sheet."""
     assert load_lubricant("FVA3").dynamic_viscosity(323.15) == pytest.approx(50e-3, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("base_oil", "viscosity", "coefficient"),
+    [("mineral", 1e-6, 9.90), ("pao", 1e-6, 7.38), ("mineral", 1e-4, 18.78)],
+)
+def test_pressure_viscosity_after_gold(base_oil, viscosity, coefficient):
+    """Gold et al. (2001): 9.90 nu^0.139 and 7.38 nu^0.1335 1/GPa, nu in mm^2/s; 9.90 x 100^0.139 = 18.78."""
+    assert gold_pressure_viscosity(viscosity, base_oil) * 1e9 == pytest.approx(coefficient, abs=5e-3)
+
+
+@pytest.mark.parametrize("name", [name for name in shipped_names("lubricants") if name != "L055"])
+def test_catalogue_has_the_pressure_viscosity_of_gold(name):
+    """Every lubricant but L055, whose source gives its own; rounded to 0.01 1/GPa in the file."""
+    oil = load_lubricant(name)
+    viscosity = oil.kinematic_viscosity(oil.pressure_viscosity_temperature)
+    found = gold_pressure_viscosity(viscosity, oil.base_oil)
+    assert oil.pressure_viscosity * 1e9 == pytest.approx(found * 1e9, abs=5.1e-3)
+
+
+def test_catalogue_states_a_source_for_every_number():
+    for name in shipped_names("lubricants"):
+        given = dict(load_lubricant(name).sources)
+        assert len(given) == 7, name
+        assert all(given.values())
 
 
 def test_pressure_viscosity_falls_with_temperature_as_in_the_textbook():

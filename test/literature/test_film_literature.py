@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
+from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.film_factor import minimum_film_thickness
 from test.kernels.casting import through
 from test.kernels.entries import frictions
 from test.kernels.test_film_and_traction import parameters
@@ -19,7 +19,7 @@ HS = load_bearing("HS130x230")
 L055 = load_lubricant("L055")
 
 
-def example_film(side: str) -> float:
+def example_film(side: str, formula: str = "dowson_higginson") -> float:
     """P1 at 2000 rpm, 10 kN on a roller, L055 at 100 degrees C (physics dossier B.6)."""
     shaft = 2000.0 * math.pi / 30.0
     radius = {"cup": HS.cup_angle, "cone": HS.cone_angle}[side]
@@ -29,9 +29,9 @@ def example_film(side: str) -> float:
     speed = cage_speed(HS, shaft) * raceway if side == "cup" else (shaft - cage_speed(HS, shaft)) * raceway
     curvature = 1.0 / (distance * math.tan(HS.half_angle))
     curvature += (-1.0 if side == "cup" else 1.0) / (distance * math.tan(radius))
-    return minimum_film_thickness(
+    return line_film(
         1e4 / HS.effective_length, speed, 1.0 / curvature, HS.material.contact_modulus,
-        L055.dynamic_viscosity(373.15), L055.pressure_viscosity_at(373.15),
+        L055.dynamic_viscosity(373.15), L055.pressure_viscosity_at(373.15), formula,
     )  # fmt: skip
 
 
@@ -48,7 +48,7 @@ def test_film_of_a_textbook_cylinder_pair() -> None:
     ln H = ln 2.65 + 0.7 ln U + 0.54 ln G - 0.13 ln W = 0.974560 - 18.215200 + 4.545670 + 1.303545.
     """
     modulus, radius = 226.4e9, 0.01
-    film = minimum_film_thickness(1e5, 5e-12 * modulus * radius / 0.02, radius, modulus, 0.02, 2e-8)
+    film = line_film(1e5, 5e-12 * modulus * radius / 0.02, radius, modulus, 0.02, 2e-8)
     assert math.log(film / radius) == pytest.approx(0.974560 - 18.215200 + 4.545670 + 1.303545, abs=2e-4)
 
 

@@ -1,0 +1,113 @@
+"""Slow, obvious references of film and traction: scalars, SI, one formula at a time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from beardyn_core.bearing.film_thickness import line_film, rigid_line_film, thermal_factor, thermal_loading
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction
+
+
+@dataclass(frozen=True)
+class Lamina:
+    """One lamina of one raceway contact: geometry, oil and temperature."""
+
+    length: float
+    radius: float
+    contact_modulus: float
+    roughness: float
+    oil: Lubricant
+    temperature: float
+
+    def mean_pressure(self, load: float) -> float:
+        """pi/4 of p0 = sqrt(q E* / (pi R))."""
+        line_load = load / self.length
+        return math.pi / 4.0 * math.sqrt(line_load * 0.5 * self.contact_modulus / (math.pi * self.radius))
+
+
+def film(load: float, speed: float, lamina: Lamina, options: LineFilm) -> float:
+    """Film thickness with all options, [m]; speed not below 1 mm/s, load not below 1 mN."""
+    oil, q = lamina.oil, max(load, 1e-3) / lamina.length
+    viscosity = oil.dynamic_viscosity(lamina.temperature)
+    alpha = oil.pressure_viscosity_at(lamina.temperature)
+    found = line_film(q, speed, lamina.radius, lamina.contact_modulus, viscosity, alpha, options.formula)
+    if options.thermal != "none":
+        loading = thermal_loading(viscosity, oil.temperature_coefficient, speed, oil.thermal_conductivity)
+        found *= thermal_factor(loading, options.thermal)
+    if options.isoviscous:
+        found = max(
+            found, min(rigid_line_film(q, speed, lamina.radius, viscosity), 1e-4 / options.starvation)
+        )
+    return options.starvation * found
+
+
+def dry_friction(load: float, slip: float, traction: CoulombTraction) -> float:
+    """Coulomb friction by its named regularisation, [N]."""
+    full, u, speed = traction.friction * load, slip, traction.regularisation_speed
+    if traction.regularisation == "threlfall":
+        return full * -math.expm1(-3.0 * u / speed) if u <= speed else 0.95 * full
+    if traction.regularisation == "ambrosio":
+        start = traction.regularisation_start
+        return full * min(1.0, max(0.0, (u - start) / (speed - start)))
+    if traction.regularisation == "arctangent":
+        return full * 2.0 / math.pi * math.atan(u / speed)
+    return full * u / math.hypot(u, speed)
+
+
+def viscosity_at(pressure: float, lamina: Lamina, thickening: str) -> float:
+    """Viscosity in the contact, at most 2^30 times that of the inlet, [Pa s]."""
+    oil, temperature = lamina.oil, lamina.temperature
+    ambient = oil.dynamic_viscosity(temperature)
+    if thickening == "roelands":
+        return min(oil.roelands_viscosity(temperature, pressure), ambient * 2.0**30)
+    exponent = oil.pressure_viscosity_at(temperature) * pressure
+    return ambient * math.exp(min(exponent, 30.0 * math.log(2.0)))
+
+
+def aihara(
+    viscosity: float, largest_pressure: float, slip: float, speed: float, largest_slide: float
+) -> float:
+    """Aihara's coefficient in his units: cP, mm/s, kgf/mm^2."""
+    eta, u, p = viscosity * 1e3, speed * 1e3, largest_pressure / 9.80665e6
+    s_max = min(1.2448e7 * eta**-1.5 * u**-0.75 * p**-1.5, largest_slide)
+    if p > 94.404:
+        mu_max = 4.078e-2 * eta**0.1 * u**-0.12 * p**0.18
+    else:
+        mu_max = 1.008e-4 * eta**0.1 * u**-0.12 * p**1.5
+    return mu_max * -math.expm1(-2.6 * slip / speed / s_max)
+
+
+def film_friction(
+    load: float, slip: float, speed: float, thickness: float, lamina: Lamina, traction: LoadSharingTraction,
+    thickening: str,
+) -> float:  # fmt: skip
+    """Friction of the film alone, [N]."""
+    pressure = lamina.mean_pressure(load)
+    area = load / pressure
+    if traction.film_traction == "aihara":
+        ambient = lamina.oil.dynamic_viscosity(lamina.temperature)
+        return load * aihara(ambient, 4.0 / math.pi * pressure, slip, speed, traction.largest_slide)
+    newton = viscosity_at(pressure, lamina, thickening) * slip / thickness
+    if traction.film_traction == "eyring":
+        return area * traction.eyring_stress * math.asinh(newton / traction.eyring_stress)
+    limit = traction.limiting_shear * pressure
+    return area * limit * -math.expm1(-newton / limit)
+
+
+def shared_friction(
+    load: float, slip: float, speed: float, lamina: Lamina, traction: LoadSharingTraction,
+    options: LineFilm | None,
+) -> float:  # fmt: skip
+    """Friction of asperities and film that share the load, [N]."""
+    if load <= 0.0:
+        return 0.0
+    full = traction.boundary_friction * load
+    asperities = full * 2.0 / math.pi * math.atan(traction.boundary_slope * slip / speed)
+    if options is None:
+        return asperities
+    thickness = film(load, speed, lamina, options)
+    share = -math.expm1(-1.8 * (thickness / lamina.roughness) ** 1.2)
+    wet = film_friction(load, slip, speed, thickness, lamina, traction, options.thickening)
+    return share * min(wet, full) + (1.0 - share) * asperities
