@@ -149,6 +149,7 @@ class Twin:
             tilt="free" if free else "locked",
             laminae=scene.numerics.laminae,
             speed=first[6],
+            coupling=scene.effects.lamina_coupling,
         )
         carried = self._weight_of_rollers_and_cages()
         preload = np.concatenate([-first[:3], -moment])
@@ -288,6 +289,7 @@ def _at_rest(roller_count: int) -> StaticSolution:
     none = np.zeros((2, roller_count))
     return StaticSolution(
         displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,
+        cup_lamina_load=none[..., None], cone_lamina_load=none[..., None],
         roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
         stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0,
     )  # fmt: skip

@@ -12,6 +12,7 @@ from beardyn_core.config.effect_keys.cage import CageEffectKeys
 from beardyn_core.config.effect_keys.contact_damping import ContactDampingKeys
 from beardyn_core.config.effect_keys.film import LineFilmKeys
 from beardyn_core.config.effect_keys.gravity import GravityKeys
+from beardyn_core.config.effect_keys.lamina_coupling import LaminaCouplingKeys
 from beardyn_core.config.effect_keys.rib import RibKeys
 from beardyn_core.config.effect_keys.traction import Traction
 from beardyn_core.config.file_model import FileModel, Name, Switch, Text
@@ -27,6 +28,7 @@ class EffectsKeys(FileModel):
     purpose: Text = ""
     preset: Name | None = Field(None, description="set to start from; the keys given here change it")
     contact_damping: Switch[ContactDampingKeys] = False
+    lamina_coupling: Switch[LaminaCouplingKeys] = False
     traction: Traction | None = None
     film: Switch[LineFilmKeys] = False
     rib: Switch[RibKeys] = False

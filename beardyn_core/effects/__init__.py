@@ -13,6 +13,7 @@ from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.effect_set import EffectSet
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
+from beardyn_core.effects.lamina_coupling import LaminaCoupling
 from beardyn_core.effects.rib import Rib
 from beardyn_core.effects.traction import CoulombTraction, MixedTraction, ShearedFilmTraction, Traction
 
@@ -24,6 +25,7 @@ __all__ = [
     "CoulombTraction",
     "EffectSet",
     "Gravity",
+    "LaminaCoupling",
     "LineFilm",
     "MixedTraction",
     "Rib",

@@ -9,6 +9,7 @@ from beardyn_core.effects.cage import Cage
 from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
+from beardyn_core.effects.lamina_coupling import LaminaCoupling
 from beardyn_core.effects.rib import Rib
 from beardyn_core.effects.traction import MixedTraction, Traction
 
@@ -21,6 +22,7 @@ class EffectSet:
     """
 
     contact_damping: ContactDamping | None = ContactDamping()
+    lamina_coupling: LaminaCoupling | None = None
     traction: Traction | None = MixedTraction()
     film: LineFilm | None = LineFilm()
     rib: Rib | None = Rib()
