@@ -28,7 +28,7 @@ class EffectsKeys(FileModel):
     purpose: Text = ""
     preset: Name | None = Field(None, description="set to start from; the keys given here change it")
     contact_damping: Switch[ContactDampingKeys] = False
-    lamina_coupling: Switch[LaminaCouplingKeys] = False
+    lamina_coupling: Switch[LaminaCouplingKeys] = None
     traction: Traction | None = None
     film: Switch[LineFilmKeys] = False
     rib: Switch[RibKeys] = False

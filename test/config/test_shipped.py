@@ -23,7 +23,7 @@ from beardyn_core.config import (
     scene_from_text,
     shipped_names,
 )
-from beardyn_core.config.effect_keys import audit, cage, contact_damping, film, gravity, rib, traction
+from beardyn_core.config.effect_keys import audit, cage, contact_damping, film, gravity, lamina_coupling, rib, traction
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.units import stem_of
@@ -46,7 +46,8 @@ LOADERS: dict[str, Callable[[str], Any]] = {
 def approximately(given: EffectSet) -> dict[str, object]:
     """Options of the effects; degrees cost the last digit of an angle."""
     return {
-        name: pytest.approx(options) for name, options in asdict(given).items() if isinstance(options, dict)
+        name: pytest.approx(options) if isinstance(options, dict) else options
+        for name, options in asdict(given).items()
     }
 
 
@@ -160,6 +161,7 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
     ("keys", "noun"),
     [
         (contact_damping.ContactDampingKeys, effects.ContactDamping),
+        (lamina_coupling.LaminaCouplingKeys, effects.LaminaCoupling),
         (traction.CoulombTractionKeys, effects.CoulombTraction),
         (traction.MixedTractionKeys, effects.MixedTraction),
         (traction.ShearedFilmTractionKeys, effects.ShearedFilmTraction),
