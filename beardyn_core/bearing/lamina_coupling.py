@@ -6,11 +6,11 @@ at the depths e = W u::
 
     Phi(u) = sum_k 9/19 K |e_k|^(19/9),    E(d) = minimum of Phi(u) over u >= d
 
-for geometric penetrations d. Where the roller touches, the surface is at the roller, u = d; elsewhere it sinks
-with its neighbours and carries nothing. The load of lamina j is dE/dd_j = (W^T f)_j with
-f = K |e|^(1/9) e, never a pull. For uncoupled laminae, W = 1, this is Palmgren's law lamina by lamina, for a
-linear law it is the contact problem of the half-space, and a uniform approach has Palmgren's total at
-any load.
+for geometric penetrations d. Where the roller touches, the surface is at the roller, u = d; elsewhere it
+sinks with its neighbours and carries nothing. The load of lamina j is dE/dd_j = (W^T f)_j with
+f = K |e|^(1/9) e, never a pull. For uncoupled laminae, W = 1, this is Palmgren's law lamina by lamina, for
+a linear law it is the contact problem of the half-space, and a uniform approach has Palmgren's total at any
+load.
 """
 
 from __future__ import annotations
@@ -69,7 +69,6 @@ def rectangle_influence(distance: Float, length: float, half_width: float, conta
     Phil. Trans. A 228; Johnson, K. L. (1985), Contact Mechanics, Eq. 3.25, at y = 0.
     """
 
-
     def up_to(end: Float) -> Float:
         rest: Float = half_width * np.arcsinh(end / half_width)
         return end * np.arcsinh(half_width / np.abs(end)) + rest
@@ -110,7 +109,9 @@ def lamina_root(
     """
     half_width = 2.0 * radius * pressure / (0.5 * contact_modulus)
     pitch = length / count
-    influence = rectangle_influence(np.arange(count) * pitch, pitch, half_width, contact_modulus)
+    influence = rectangle_influence(
+        pitch * np.arange(count, dtype=np.float64), pitch, half_width, contact_modulus
+    )
     index = np.arange(count)
     matrix = influence[np.abs(index[:, None] - index)] / influence[0]
     matrix = np.eye(count) + strength * (matrix - np.eye(count))
@@ -156,7 +157,8 @@ def coupled_law(depth: Float, factor: float, laminae: LaminaRoot) -> tuple[Float
     Notes
     -----
     First each lamina in turn is taken to where it is in balance under a linear law, given the others, which
-    rises monotonically, because no stiffness off the diagonal is positive; then Newton's method on the free ones.
+    rises monotonically, because no stiffness off the diagonal is positive; then Newton's method on the free
+    ones.
     """
     count = depth.shape[-1]
     load, energy = np.zeros(depth.shape), np.zeros(depth.shape[:-1])

@@ -132,8 +132,8 @@ class Profile:
 
         Notes
         -----
-        A lamina's load is nearly proportional to its mean approach. The drop at its middle would leave out the
-        steep end of a logarithm: 0.31 q/(pi E*) of the last lamina, however many there are, 17 % of the
+        A lamina's load is nearly proportional to its mean approach. The drop at its middle would leave out
+        the steep end of a logarithm: 0.31 q/(pi E*) of the last lamina, however many there are, 17 % of the
         drop of the last of eight.
         """
         pitch = length / count

@@ -24,7 +24,6 @@ from beardyn_core.config.file_model import (
 )
 from beardyn_core.config.units import DEG, GIGA, KN, MEGA, MM, UM
 
-
 _DESIGN = ("design_pressure_MPa", "design_load_kN")
 # kind: keys it needs, keys of which it needs one, keys it may have
 _PROFILE_KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]] = {

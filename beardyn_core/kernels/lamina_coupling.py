@@ -26,15 +26,16 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
     lanes : Lanes
     laminae : float64 array, shape [LAMINA_ROWS, lamina]
     coupling : CouplingParams
-        Row DEPTH of its work space holds the geometric penetrations, [m]. Written: SURFACE, the tangent of each
-        lamina as ten ninths of its load over its penetration, [N/m], and FORCE, its energy, [J].
+        Row DEPTH of its work space holds the geometric penetrations, [m]. Written: SURFACE, the tangent of
+        each lamina as ten ninths of its load over its penetration, [N/m], and FORCE, its energy, [J].
 
     Notes
     -----
     Two sweeps of single laminae under a linear law, forth and back, then one step of all free laminae under
     the true law. Where every lamina is pressed the surface is the roller's and the result exact; else loads
-    are within 0.1 % of the largest for 6 laminae, 0.6 % for 20 and 1.2 % for 40, and so is the total. A free lamina that is not yet in balance keeps what it is pressed with beyond its own spring, so that
-    loads change continuously as laminae come free.
+    are within 0.1 % of the largest for 6 laminae, 0.6 % for 20 and 1.2 % for 40, and so is the total. A
+    free lamina that is not yet in balance keeps what it is pressed with beyond its own spring, so that loads
+    change continuously as laminae come free.
     """
     work, count = coupling.work, laminae.shape[1]
     for j in range(count):
@@ -68,7 +69,7 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
 
 @inline
 def _product(lanes: Any, matrix: Any, row: Any, work: Any, field: Any) -> Any:
-    """One row of a matrix times a row of the work space; four sums, so that they need not wait on each other."""
+    """One row of a matrix times a row of the work space; four sums need not wait on each other."""
     count = matrix.shape[1]
     whole = count - count % 4
     first, second = lanes.constant(0.0), lanes.constant(0.0)

@@ -144,10 +144,7 @@ def lamina_depth(
         lanes, block, azimuths[1], k, radius, spalls[1]
     )
     return (
-        approach[0]
-        + x * (approach[1] + x * (approach[2] + x * approach[3]))
-        - laminae[LAMINA_DROP, k]
-        - gap
+        approach[0] + x * (approach[1] + x * (approach[2] + x * approach[3])) - laminae[LAMINA_DROP, k] - gap
     )
 
 

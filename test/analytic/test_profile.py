@@ -152,7 +152,9 @@ def test_line_carries_its_load_and_turns_with_its_tilt(kind: str, coupling: Lami
     pitch = bearing.effective_length / 30
     for line in (up, aligned, down):
         assert line.load_per_length.sum() * pitch == pytest.approx(1.0e4, rel=1e-9)
-        assert line.moment == pytest.approx(float(line.load_per_length @ line.place) * pitch, rel=1e-9, abs=1e-9)
+        assert line.moment == pytest.approx(
+            float(line.load_per_length @ line.place) * pitch, rel=1e-9, abs=1e-9
+        )
     assert up.moment > 1.0
     assert aligned.moment == pytest.approx(0.0, abs=1e-6)
     assert up.moment == pytest.approx(-down.moment, rel=1e-6)

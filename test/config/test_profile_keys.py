@@ -62,14 +62,15 @@ def test_every_kind_can_be_written() -> None:
         ({"kind": "iso_16281", "design_load_kN": 1}, "gives design_load_kN, which a iso_16281 profile"),
         ({"kind": "fujiwara", "design_load_kN": 1}, "has no drop_um; a fujiwara profile needs it"),
         ({"kind": "fujiwara", "design_load_kN": 1, "drop_um": 0}, "needs a drop above 0"),
-        ({"kind": "fujiwara", "design_load_kN": 1, "drop_um": 9, "crowned_share": 1.2}, "crowned_share is 1.2"),
+        (
+            {"kind": "fujiwara", "design_load_kN": 1, "drop_um": 9, "crowned_share": 1.2},
+            "crowned_share is 1.2",
+        ),
         ({"kind": "lundberg", "design_pressure_MPa": 2e4}, "design_pressure_MPa is 20000"),
         ({"kind": "conical"}, "conical"),
     ],
 )  # fmt: skip
-def test_a_key_that_does_not_fit_its_kind_is_named(
-    tmp_path: Path, keys: dict[str, Any], words: str
-) -> None:
+def test_a_key_that_does_not_fit_its_kind_is_named(tmp_path: Path, keys: dict[str, Any], words: str) -> None:
     with pytest.raises(InputError) as refused:
         load_bearing(bearing_file(tmp_path, keys))
     (problem,) = refused.value.problems

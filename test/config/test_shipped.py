@@ -23,7 +23,16 @@ from beardyn_core.config import (
     scene_from_text,
     shipped_names,
 )
-from beardyn_core.config.effect_keys import audit, cage, contact_damping, film, gravity, lamina_coupling, rib, traction
+from beardyn_core.config.effect_keys import (
+    audit,
+    cage,
+    contact_damping,
+    film,
+    gravity,
+    lamina_coupling,
+    rib,
+    traction,
+)
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.units import stem_of

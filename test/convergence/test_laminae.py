@@ -112,7 +112,7 @@ def test_mean_of_the_drop_settles_sooner_than_its_middle() -> None:
     shape = PROFILES["lundberg"]
 
     class Midpoint(Profile):
-        def lamina_drop(self, count, length, roller_diameter, contact_modulus=226.4e9):  # type: ignore[no-untyped-def]
+        def lamina_drop(self, count, length, roller_diameter, contact_modulus=226.4e9):
             place = ((np.arange(count) + 0.5) / count - 0.5) * length
             return self.drop_at(place, 0.5 * length, roller_diameter, contact_modulus)
 

@@ -21,6 +21,7 @@ from test.kernels.entries import couplings
 from test.kernels.rig import scene_with, standard_scene
 
 Float = NDArray[np.float64]
+COUPLED = LaminaCoupling()
 LENGTH = standard_scene().bearing.effective_length
 # of the largest lamina load, by lamina count; see `couple_laminae`
 ACCURACY = {6: 1.0e-3, 20: 6.0e-3, 40: 1.2e-2}
@@ -29,12 +30,12 @@ GRADIENT = {6: (1.0e-3, 3.0e-3), 20: (1.0e-3, 2.0e-2)}
 
 
 @cache
-def parameters(laminae: int, width: int, coupling: LaminaCoupling = LaminaCoupling()) -> Parameters:
+def parameters(laminae: int, width: int, coupling: LaminaCoupling = COUPLED) -> Parameters:
     scene = scene_with(replace(EffectSet(), lamina_coupling=coupling), laminae=laminae)
     return build_parameters(scene, Arrangement(17, width), np.zeros(6))
 
 
-def root(laminae: int, coupling: LaminaCoupling = LaminaCoupling()) -> Float:
+def root(laminae: int, coupling: LaminaCoupling = COUPLED) -> Float:
     return bearing_lamina_root(standard_scene().bearing, coupling, laminae).root
 
 
@@ -64,7 +65,7 @@ def lines(laminae: int) -> dict[str, Float]:
     }
 
 
-def kernel(lanes: Any, depths: Float, coupling: LaminaCoupling = LaminaCoupling()) -> tuple[Float, Float]:
+def kernel(lanes: Any, depths: Float, coupling: LaminaCoupling = COUPLED) -> tuple[Float, Float]:
     """Loads [case, lamina] and energy [case]."""
     count = depths.shape[1]
     p = parameters(count, lanes.width, coupling)
@@ -75,12 +76,13 @@ def kernel(lanes: Any, depths: Float, coupling: LaminaCoupling = LaminaCoupling(
 def random_lines(laminae: int, count: int = 60) -> Float:
     rng = np.random.default_rng(3)
     x = places(laminae)
+    crown = (2 * x / LENGTH) ** 2
     return np.array(
         [
-            rng.uniform(-4e-6, 6e-6) + rng.uniform(-4e-4, 4e-4) * x - rng.uniform(0, 2e-5) * (2 * x / LENGTH) ** 2
+            rng.uniform(-4e-6, 6e-6) + rng.uniform(-4e-4, 4e-4) * x - rng.uniform(0, 2e-5) * crown
             for _ in range(count)
         ]
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize("laminae", [6, 20, 40])
@@ -167,7 +169,7 @@ def test_influence_of_a_rectangle_is_boussinesq_integrated_over_it() -> None:
 def test_loads_are_near_those_of_laminae_on_a_half_space(
     laminae: int, name: str, share: float, total: float
 ) -> None:
-    """delta_k = a F_k^0.9 + sum of C_kj F_j: its linear part holds the width at 10 kN, ours goes with the load.
+    """delta_k = a F_k^0.9 + sum of C_kj F_j: its linear part is that at 10 kN, ours goes with the load.
 
     Independent laminae are 11 to 27 % off in the total of the lines that touch over a part.
     """
@@ -175,7 +177,7 @@ def test_loads_are_near_those_of_laminae_on_a_half_space(
     pitch = LENGTH / laminae
     modulus = bearing.material.contact_modulus
     half_width = bearing.roller_diameter * 1e9 / (0.5 * modulus)
-    row = rectangle_influence(np.arange(laminae) * pitch, pitch, half_width, modulus)
+    row = rectangle_influence(pitch * np.arange(laminae, dtype=np.float64), pitch, half_width, modulus)
     index = np.arange(laminae)
     influence = row[np.abs(index[:, None] - index)]
     line = lines(laminae)[name]

@@ -29,7 +29,9 @@ def test_profile_of_iso_16281_is_that_of_lundberg_for_3_gpa() -> None:
     assert pressure == pytest.approx(3.0e9, rel=2e-3)
     x = np.linspace(-24.9e-3, 24.9e-3, 51)
     lundberg = Profile("lundberg", design_pressure=pressure).drop_at(x, 25.0e-3, 26.7e-3, modulus)
-    np.testing.assert_allclose(Profile("iso_16281").drop_at(x, 25.0e-3, 26.7e-3, modulus), lundberg, rtol=1e-12)
+    np.testing.assert_allclose(
+        Profile("iso_16281").drop_at(x, 25.0e-3, 26.7e-3, modulus), lundberg, rtol=1e-12
+    )
 
 
 @pytest.mark.parametrize("laminae", [20, 40])
