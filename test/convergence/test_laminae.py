@@ -24,7 +24,11 @@ PROFILES = {
     "iso_16281": Profile("iso_16281", design_pressure=1.0e9),
     "fujiwara": Profile("fujiwara", drop=1.2e-5, design_pressure=1.0e9, crowned_share=0.6),
 }
-COUPLINGS = pytest.mark.parametrize("coupling", [None, LaminaCoupling()], ids=["independent", "coupled"])
+COUPLINGS = pytest.mark.parametrize(
+    "coupling",
+    [None, pytest.param(LaminaCoupling(), marks=pytest.mark.slow)],
+    ids=["independent", "coupled"],
+)
 
 
 def bearing(profile: Profile) -> Bearing:
