@@ -152,6 +152,7 @@ class Twin:
             tilt="free" if free else "locked",
             laminae=scene.numerics.laminae,
             speed=first[6],
+            coupling=scene.effects.lamina_coupling,
         )
         carried = self._weight_of_rollers_and_cages()
         preload = np.concatenate([-first[:3], -moment])

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.bearing.edge_concentration import edge_concentration
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import (
     LINE_CONTACT_REDUCTION,
@@ -46,21 +47,6 @@ class ReferenceLife:
     modified: float
     equivalent_load: float
     lamina_life: Float
-
-
-def edge_concentration(lamina_count: int) -> Float:
-    """Factor of the load of each lamina for the stress at the ends of the contact, shape [lamina], [-].
-
-    References
-    ----------
-    ISO/TS 16281 (2008): 1 - 0.01 / ln(1.985 |(2 k - n - 1) / (2 n - 2)|).
-    """
-    if lamina_count < 2:
-        return np.ones(lamina_count)
-    k = np.arange(1, lamina_count + 1)
-    distance = np.abs((2.0 * k - lamina_count - 1.0) / (2.0 * lamina_count - 2.0))
-    # The middle lamina of an odd count stands at distance 0, where the factor tends to 1.
-    return np.asarray(1.0 - 0.01 / np.log(1.985 * np.maximum(distance, 1e-300)))
 
 
 def contact_ratings(bearing: Bearing) -> tuple[float, float]:

@@ -66,6 +66,9 @@ def add_parser(subparsers: Any) -> None:
         metavar="EC",
         help="e_C of ISO 281, 0 to 1: 1 extreme cleanliness; default 0.6, sealed and greased",
     )
+    parser.add_argument(
+        "--coupled-laminae", action="store_true", help="laminae sink with each other: edge load"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
     parser.set_defaults(run=run)
 
@@ -73,6 +76,7 @@ def add_parser(subparsers: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """Solve and print; 0 on success, 2 for bad input, 3 when no equilibrium is found."""
     from beardyn_core.config import load_bearing
+    from beardyn_core.effects import LaminaCoupling
     from beardyn_core.integrate.static import solve
 
     try:
@@ -87,6 +91,7 @@ def run(args: argparse.Namespace) -> int:
             tilt=args.tilt,
             laminae=args.laminae,
             speed=args.speed * _RPM,
+            coupling=LaminaCoupling() if args.coupled_laminae else None,
         )
         life = _life(bearing, load, end_play, args)
     except InputError as error:
@@ -168,16 +173,53 @@ def _report(
             "tilt": args.tilt,
             "speed_rpm": args.speed,
             "laminae": args.laminae,
+            "coupled_laminae": args.coupled_laminae,
             "displacement_m": solution.displacement.tolist(),
             "tilt_rad": solution.tilt.tolist(),
             "roller_load_N": solution.cup_load.tolist(),
             "loaded_roller_count": sum(solution.loaded_roller_count),
             "loaded_roller_count_per_row": list(solution.loaded_roller_count),
             "max_roller_load_N": solution.largest_roller_load,
+            "most_loaded_roller": _most_loaded_roller(bearing, solution),
             "stiffness_tilt_held_N_per_m": solution.stiffness_tilt_held.tolist(),
             "stiffness_tilt_free_N_per_m": solution.stiffness_tilt_free.tolist(),
         },
     }
+
+
+def _most_loaded_roller(bearing: Bearing, solution: StaticSolution) -> dict[str, Any]:
+    """Load and Hertz pressure along the most loaded roller, from its small to its large end."""
+    from beardyn_core.integrate.line_load import lamina_pressure
+    from beardyn_core.model.lamina_table import lamina_places
+
+    row, roller = divmod(int(solution.cup_load.argmax()), solution.cup_load.shape[1])
+    count = solution.cup_lamina_load.shape[-1]
+    report: dict[str, Any] = {
+        "row": row, "roller": roller, "place_m": lamina_places(bearing, count).tolist()
+    }  # fmt: skip
+    for ring, loads in (("cup", solution.cup_lamina_load), ("cone", solution.cone_lamina_load)):
+        load = loads[row, roller]
+        report[f"{ring}_load_per_length_N_per_m"] = (load * count / bearing.effective_length).tolist()
+        report[f"{ring}_pressure_Pa"] = lamina_pressure(bearing, load, ring).tolist()
+    return report
+
+
+def _line_lines(roller: dict[str, Any]) -> list[str]:
+    lines = [
+        "",
+        f"  along roller {roller['roller']} of row {roller['row']}, from its small to its large end",
+        "  place mm    cup N/mm    cup MPa   cone N/mm   cone MPa",
+    ]
+    columns = (
+        "cup_load_per_length_N_per_m",
+        "cup_pressure_Pa",
+        "cone_load_per_length_N_per_m",
+        "cone_pressure_Pa",
+    )
+    for k, place in enumerate(roller["place_m"]):
+        cells = [roller[name][k] / (1e3 if "length" in name else 1e6) for name in columns]
+        lines.append(f"  {place * 1e3:8.2f} " + " ".join(f"{value:11.1f}" for value in cells))
+    return lines
 
 
 def _geometry(bearing: Bearing) -> dict[str, float | int]:
@@ -237,6 +279,8 @@ def _table(
     ]
     lines += _static_lines(solution)
     lines += _rib_lines(bearing, float(solution.rib_load.max()), args.speed)
+    if args.laminae > 1:
+        lines += _line_lines(_most_loaded_roller(bearing, solution))
     return "\n".join(lines)
 
 

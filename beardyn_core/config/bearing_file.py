@@ -22,32 +22,72 @@ from beardyn_core.config.file_model import (
     Text,
     problem,
 )
-from beardyn_core.config.units import DEG, GIGA, MEGA, MM, UM
+from beardyn_core.config.units import DEG, GIGA, KN, MEGA, MM, UM
+
+_DESIGN = ("design_pressure_MPa", "design_load_kN")
+# kind: keys it needs, keys of which it needs one, keys it may have
+_PROFILE_KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]] = {
+    "straight": ((), (), ()),
+    "crowned": (("drop_um",), (), ()),
+    "logarithmic": (("design_pressure_MPa",), (), ()),
+    "lundberg": ((), _DESIGN, ()),
+    "johns_gohar": ((), _DESIGN, ()),
+    "iso_16281": ((), (), ("design_pressure_MPa",)),
+    "fujiwara": (("drop_um",), _DESIGN, ("load_factor", "crowned_share")),
+}
 
 
 class ProfileKeys(SourcedPart):
     """Generator profile of the rollers."""
 
-    kind: Literal["straight", "crowned", "logarithmic"] = "straight"
-    drop_um: NonNegative | None = Field(None, description="crowned: drop at the ends of the effective length")
-    design_pressure_MPa: Positive | None = Field(
-        None, description="logarithmic: contact pressure that the profile makes uniform"
+    kind: Literal[
+        "straight", "crowned", "logarithmic", "lundberg", "johns_gohar", "iso_16281", "fujiwara"
+    ] = "straight"
+    drop_um: NonNegative | None = Field(
+        None, description="crowned, fujiwara: drop at the ends of the effective length"
+    )
+    design_pressure_MPa: Annotated[Positive, Field(le=10000.0)] | None = Field(
+        None,
+        description="contact pressure that the profile makes uniform; iso_16281 without it is the standard's "
+        "own function, Lundberg's for 3000 MPa",
+    )
+    design_load_kN: Positive | None = Field(
+        None, description="lundberg, johns_gohar, fujiwara: load of one contact, instead of the pressure"
+    )
+    load_factor: Positive | None = Field(None, description="fujiwara: K1, factor of the design load; 1")
+    crowned_share: Annotated[Positive, Field(le=1.0)] | None = Field(
+        None, description="fujiwara: K2, share of the generator that is crowned; 1"
     )
 
     @model_validator(mode="after")
     def _fits_its_kind(self) -> Self:
-        wanted = {"straight": None, "crowned": "drop_um", "logarithmic": "design_pressure_MPa"}[self.kind]
-        for key in ("drop_um", "design_pressure_MPa"):
-            given = getattr(self, key) is not None
-            if given and key != wanted:
+        needed, one_of, optional = _PROFILE_KEYS[self.kind]
+        keys = ("drop_um", *_DESIGN, "load_factor", "crowned_share")
+        given = [key for key in keys if getattr(self, key) is not None]
+        for key in given:
+            if key not in (*needed, *one_of, *optional):
                 raise problem(f"gives {key}, which a {self.kind} profile does not have; remove it")
-            if not given and key == wanted:
+        for key in needed:
+            if key not in given:
                 raise problem(f"has no {key}; a {self.kind} profile needs it")
+        chosen = [key for key in one_of if key in given]
+        if one_of and len(chosen) != 1:
+            found = "both" if chosen else "neither"
+            raise problem(f"gives {found} of {' and '.join(one_of)}; a {self.kind} profile needs one")
+        if self.kind == "fujiwara" and self.drop_um == 0.0:
+            raise problem("gives drop_um 0; a fujiwara profile needs a drop above 0")
         return self
 
     def noun(self) -> Profile:
         """The profile, SI."""
-        return Profile(self.kind, (self.drop_um or 0.0) / UM, (self.design_pressure_MPa or 0.0) * MEGA)
+        return Profile(
+            kind=self.kind,
+            drop=(self.drop_um or 0.0) / UM,
+            design_pressure=(self.design_pressure_MPa or 0.0) * MEGA,
+            design_load=(self.design_load_kN or 0.0) * KN,
+            load_factor=self.load_factor or 1.0,
+            crowned_share=self.crowned_share or 1.0,
+        )
 
 
 class MaterialKeys(SourcedPart):

@@ -13,6 +13,7 @@ from beardyn_core.config.effect_keys.contact_damping import ContactDampingKeys
 from beardyn_core.config.effect_keys.drag import DragKeys
 from beardyn_core.config.effect_keys.film import LineFilmKeys
 from beardyn_core.config.effect_keys.gravity import GravityKeys
+from beardyn_core.config.effect_keys.lamina_coupling import LaminaCouplingKeys
 from beardyn_core.config.effect_keys.rib import RibKeys
 from beardyn_core.config.effect_keys.rolling_resistance import RollingResistanceKeys
 from beardyn_core.config.effect_keys.seal import SealKeys
@@ -31,6 +32,7 @@ class EffectsKeys(FileModel):
     purpose: Text = ""
     preset: Name | None = Field(None, description="set to start from; the keys given here change it")
     contact_damping: Switch[ContactDampingKeys] = False
+    lamina_coupling: Switch[LaminaCouplingKeys] = None
     traction: Traction | None = None
     film: Switch[LineFilmKeys] = False
     rolling_resistance: Switch[RollingResistanceKeys] = None

@@ -14,6 +14,7 @@ from beardyn_core.effects.drag import Drag
 from beardyn_core.effects.effect_set import EffectSet
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
+from beardyn_core.effects.lamina_coupling import LaminaCoupling
 from beardyn_core.effects.rib import Rib, RibMixedFilm, RibShearedFilm
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
@@ -37,6 +38,7 @@ __all__ = [
     "EffectSet",
     "Gravity",
     "KinematicCage",
+    "LaminaCoupling",
     "LandGuidance",
     "LineFilm",
     "LoadSharingTraction",

@@ -10,6 +10,7 @@ from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.drag import Drag
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
+from beardyn_core.effects.lamina_coupling import LaminaCoupling
 from beardyn_core.effects.rib import Rib
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
@@ -25,6 +26,7 @@ class EffectSet:
     """
 
     contact_damping: ContactDamping | None = ContactDamping()
+    lamina_coupling: LaminaCoupling | None = None
     traction: Traction | None = MixedTraction()
     film: LineFilm | None = LineFilm()
     rolling_resistance: RollingResistance | None = None

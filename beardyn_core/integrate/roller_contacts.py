@@ -21,6 +21,8 @@ from beardyn_core.bearing.contact_law import (
 )
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_spin
+from beardyn_core.bearing.lamina_coupling import LaminaRoot, bearing_lamina_root, coupled_law
+from beardyn_core.effects import LaminaCoupling
 
 Float = NDArray[np.float64]
 
@@ -50,6 +52,8 @@ class ContactModel:
         Stiffness factors of one lamina contact and of the rib, [N/m^(10/9)], [N/m^1.5].
     inertia_load : float64 array, shape [3]
         Radial force, axial force and tilt moment of the orbiting roller at its mid-length, [N, N, N m].
+    coupling : LaminaRoot or None
+        Matrices of coupled laminae.
     """
 
     bearing: Bearing
@@ -64,6 +68,7 @@ class ContactModel:
     lamina_factor: float
     rib_factor: float
     inertia_load: Float
+    coupling: LaminaRoot | None = None
 
     @property
     def apex_axial(self) -> float:
@@ -97,7 +102,8 @@ class ContactSet:
     approach : float64 array, shape [row, roller, lamina]
         Positive when in contact, [m].
     force, stiffness, energy : float64 arrays, shape [row, roller, lamina]
-        [N], [N/m], [J].
+        [N], [N/m], [J]. Of coupled laminae the stiffness is a matrix [row, roller, lamina, lamina] and the
+        energy that of the line, [row, roller, 1].
     by_roller : float64 array, shape [row, roller, lamina, 3]
         Change of approach with radial, axial and tilt motion of the roller, [-, -, m/rad].
     by_cone : float64 array, shape [row, roller, lamina, 5]
@@ -113,7 +119,12 @@ class ContactSet:
 
 
 def contact_model(
-    bearing: Bearing, end_play: float, laminae: int, speed: float, roller_phase: float
+    bearing: Bearing,
+    end_play: float,
+    laminae: int,
+    speed: float,
+    roller_phase: float,
+    coupling: LaminaCoupling | None = None,
 ) -> ContactModel:
     """Constants of the contacts.
 
@@ -128,6 +139,8 @@ def contact_model(
         Shaft speed, [rad/s].
     roller_phase : float
         Azimuth of roller 0, [rad].
+    coupling : LaminaCoupling or None
+        Coupling of the laminae.
     """
     azimuth = roller_phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
     radial = np.zeros((ROW_COUNT, bearing.roller_count, 3))
@@ -143,16 +156,14 @@ def contact_model(
         centre=0.5 * bearing.row_spacing * axial + 0.5 * bearing.pitch_diameter * radial,
         abscissa=abscissa,
         radius=(bearing.apex_distance + abscissa) * math.tan(bearing.half_angle),
-        drop=bearing.profile.drop_at(
-            abscissa,
-            0.5 * bearing.effective_length,
-            bearing.roller_diameter,
-            bearing.material.contact_modulus,
+        drop=bearing.profile.lamina_drop(
+            laminae, bearing.effective_length, bearing.roller_diameter, bearing.material.contact_modulus
         ),
         clearance=0.5 * end_play * math.sin(bearing.cup_angle),
         lamina_factor=line_contact_factor(bearing.material, bearing.effective_length) / laminae,
         rib_factor=rib_contact_factor(bearing),
         inertia_load=_inertia_load(bearing, speed),
+        coupling=None if coupling is None else bearing_lamina_root(bearing, coupling, laminae),
     )
 
 
@@ -182,6 +193,22 @@ def power_law(approach: Float, factor: float, exponent: float) -> tuple[Float, F
     return force, stiffness, force * pressed / (exponent + 1.0)
 
 
+def line_law(model: ContactModel, approach: Float) -> tuple[Float, Float, Float]:
+    """Force, tangent stiffness and energy of the laminae of raceway contacts, see `ContactSet`."""
+    if model.coupling is None:
+        return power_law(approach, model.lamina_factor, LINE_EXPONENT)
+    force, stiffness, energy = coupled_law(approach, model.lamina_factor, model.coupling)
+    return force, stiffness, energy[..., None]
+
+
+def stiffened(stiffness: Float, direction: Float) -> Float:
+    """Stiffness of a `ContactSet` times changes of the approaches, shape [row, roller, lamina, n]."""
+    if stiffness.ndim == direction.ndim:
+        product: Float = stiffness @ direction
+        return product
+    return stiffness[..., None] * direction
+
+
 def cup_contacts(model: ContactModel, roller: Float) -> ContactSet:
     """Lamina contacts with the cup; `roller` is radial, axial, tilt, shape [row, roller, 3]."""
     bearing = model.bearing
@@ -196,7 +223,7 @@ def cup_contacts(model: ContactModel, roller: Float) -> ContactSet:
     by_roller = np.empty((*approach.shape, 3))
     by_roller[..., 0], by_roller[..., 1] = cosine, -sine
     by_roller[..., 2] = model.abscissa * np.cos(phi - tilt) + model.radius * np.sin(phi - tilt)
-    force, stiffness, energy = power_law(approach, model.lamina_factor, LINE_EXPONENT)
+    force, stiffness, energy = line_law(model, approach)
     return ContactSet(approach, force, stiffness, energy, by_roller, np.zeros((*approach.shape, 5)))
 
 
@@ -220,7 +247,7 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> Contact
     distance = np.hypot(point[..., 0], point[..., 2])
     gap = cosine * distance - sine * (outwards * point[..., 1] - model.apex_axial) + model.drop
     normal = _cone_normal(point, outwards, sine, cosine)
-    force, stiffness, energy = power_law(-gap, model.lamina_factor, LINE_EXPONENT)
+    force, stiffness, energy = line_law(model, -gap)
     return _assembled(model, pose, -gap, force, stiffness, energy, centre, point, normal)
 
 

@@ -23,6 +23,7 @@ from beardyn_core.integrate.roller_contacts import (
     cone_contacts,
     cup_contacts,
     rib_contacts,
+    stiffened,
 )
 
 _ITERATIONS = 80
@@ -132,7 +133,7 @@ class _Rollers:
             energy += contact.energy.sum(axis=-1)
             load += contact.force.sum(axis=-1)
             force -= np.sum(contact.force[..., None] * direction, axis=-2)
-            stiffness += np.swapaxes(direction, -1, -2) @ (contact.stiffness[..., None] * direction)
+            stiffness += np.swapaxes(direction, -1, -2) @ stiffened(contact.stiffness, direction)
         if self.active == 2:
             force[..., 2] = 0.0
             stiffness[..., 2, :] = 0.0
@@ -150,7 +151,7 @@ class _Rollers:
         coupling = np.zeros((*position.shape, 5))
         for contact in contacts:
             cone_force -= np.einsum("ijk,ijkm->m", contact.force, contact.by_cone)
-            weighted = contact.stiffness[..., None] * contact.by_cone
+            weighted = stiffened(contact.stiffness, contact.by_cone)
             stiffness += np.einsum("ijkm,ijkn->mn", contact.by_cone, weighted)
             coupling += np.swapaxes(contact.by_roller / self.scale, -1, -2) @ weighted
         if self.active == 2:
@@ -223,7 +224,7 @@ def _without(contact: ContactSet, free: NDArray[np.bool_]) -> ContactSet:
     return ContactSet(
         approach=contact.approach,
         force=contact.force * held,
-        stiffness=contact.stiffness * held,
+        stiffness=contact.stiffness * held.reshape(held.shape + (1,) * (contact.stiffness.ndim - held.ndim)),
         energy=contact.energy * held,
         by_roller=contact.by_roller,
         by_cone=contact.by_cone,

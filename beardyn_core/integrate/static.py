@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from beardyn_core.bearing.consistency import require_sound
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.roller_contacts import ConePose, ContactModel, Float, contact_model
 from beardyn_core.integrate.roller_equilibrium import RollerState, solve_rollers
@@ -42,7 +43,7 @@ class StaticSolution:
     cup_load, cone_load, rib_load : float64 arrays, shape [row, roller]
         Contact forces of each roller, laminae summed, [N].
     cup_lamina_load, cone_lamina_load : float64 arrays, shape [row, roller, lamina]
-        The same by lamina, from the small end to the large end, [N].
+        Contact forces of the laminae, from the small to the large end, [N].
     roller_radial, roller_axial : float64 arrays, shape [row, roller]
         Displacement of the roller's mid-length from its nominal place, where it touches both raceways
         and the rib without end play: radial outwards, axial outwards along its row, [m].
@@ -98,6 +99,7 @@ def solve(
     laminae: int = 1,
     speed: float = 0.0,
     roller_phase: float = 0.0,
+    coupling: LaminaCoupling | None = None,
 ) -> StaticSolution:
     """Static equilibrium under a load on the cone.
 
@@ -118,6 +120,8 @@ def solve(
         Shaft speed for centrifugal force and gyroscopic moment of the rollers at epicyclic speed, [rad/s].
     roller_phase : float
         Azimuth of roller 0 of both rows, [rad].
+    coupling : LaminaCoupling or None
+        Coupling of the laminae along the rollers.
 
     Returns
     -------
@@ -138,7 +142,7 @@ def solve(
     """
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
-    model = contact_model(bearing, end_play, laminae, speed, roller_phase)
+    model = contact_model(bearing, end_play, laminae, speed, roller_phase, coupling)
     cone = _Cone(model, load, 5 if tilt == "free" else 3)
     state, unknowns, iterations = _equilibrium(cone)
     residual = cone.residual(state)

@@ -13,6 +13,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import spall_gap
 from beardyn_core.kernels.film import log2_film_thickness
+from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
 from beardyn_core.kernels.lane_math import at_least, ninth_root, sqrt, where_greater
 from beardyn_core.kernels.traction import friction_rate
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
@@ -133,6 +134,49 @@ def spring_push(approach: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
+def lamina_depth(
+    lanes: Any, block: Any, approach: Any, azimuths: Any, k: Any, laminae: Any, spalls: Any
+) -> Any:
+    """Geometric penetration of one lamina, negative when apart, [m]."""
+    x = laminae[LAMINA_PLACE, k]
+    radius = laminae[LAMINA_RADIUS, k]
+    gap = spall_gap(lanes, block, azimuths[0], k, radius, spalls[0]) + spall_gap(
+        lanes, block, azimuths[1], k, radius, spalls[1]
+    )
+    return (
+        approach[0] + x * (approach[1] + x * (approach[2] + x * approach[3])) - laminae[LAMINA_DROP, k] - gap
+    )
+
+
+@inline
+def prepare_coupling(
+    lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, spalls: Any, coupling: Any
+) -> None:
+    """Springs of all laminae at once, when they are coupled."""
+    if coupling is None:
+        return
+    for k in range(laminae.shape[1]):
+        depth = lamina_depth(lanes, block, approach, azimuths, k, laminae, spalls)
+        lanes.store(coupling.work, DEPTH, k, depth)
+    couple_laminae(lanes, laminae, coupling)
+
+
+@inline
+def lamina_spring(
+    lanes: Any, block: Any, approach: Any, azimuths: Any, k: Any, laminae: Any, spalls: Any, coupling: Any
+) -> Any:
+    """Penetration, tangent stiffness and energy of one lamina, [m], [N/m], [J]."""
+    if coupling is None:
+        depth = lamina_depth(lanes, block, approach, azimuths, k, laminae, spalls)
+        touching = at_least(depth, _SMALLEST_APPROACH)
+        tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
+        tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+        return depth, tangent, tangent * touching * touching * (0.9 * 9.0 / 19.0)
+    work = coupling.work
+    return lanes.load(work, DEPTH, k), lanes.load(work, SURFACE, k), lanes.load(work, FORCE, k)
+
+
+@inline
 def lamina_sums(
     lanes: Any,
     block: Any,
@@ -164,22 +208,14 @@ def lamina_sums(
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
     friction_0, friction_1, friction_2 = zero, zero, zero
     energy = zero
+    prepare_coupling(lanes, block, approach, azimuths, laminae, spalls, effects.coupling)
     for k in range(laminae.shape[1]):
         x = laminae[LAMINA_PLACE, k]
-        radius = laminae[LAMINA_RADIUS, k]
-        gap = spall_gap(lanes, block, azimuths[0], k, radius, spalls[0]) + spall_gap(
-            lanes, block, azimuths[1], k, radius, spalls[1]
-        )
-        depth = (
-            approach[0]
-            + x * (approach[1] + x * (approach[2] + x * approach[3]))
-            - laminae[LAMINA_DROP, k]
-            - gap
+        depth, tangent, stored = lamina_spring(
+            lanes, block, approach, azimuths, k, laminae, spalls, effects.coupling
         )
         touching = at_least(depth, _SMALLEST_APPROACH)
-        tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
-        tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
-        energy = energy + tangent * touching * touching * (0.9 * 9.0 / 19.0)
+        energy = energy + stored
         push = spring_push(touching, rate[0] + x * rate[1], effects.damping)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
         elastic = 0.9 * tangent * touching

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.cage_params import cage_params
+from beardyn_core.model.coupling_params import coupling_params
 from beardyn_core.model.fault_params import spall_params
 from beardyn_core.model.lamina_table import lamina_table
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
@@ -101,6 +102,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         effects=EffectParams(
             damping=DampingParams(effects.contact_damping.time_constant) if effects.contact_damping else None,
             film=raceway_film_params(scene),
+            coupling=coupling_params(bearing, effects.lamina_coupling, scene.numerics.laminae, arrangement),
             coulomb=coulomb,
             mixed=mixed,
             rolling=rolling_params(scene),

@@ -45,8 +45,8 @@ def lamina_table(scene: Scene) -> NDArray[np.float64]:
     modulus = bearing.material.contact_modulus
     table = np.zeros((LAMINA_ROWS, count))
     table[LAMINA_PLACE] = place - bearing.roller_mass_offset
-    table[LAMINA_DROP] = bearing.profile.drop_at(
-        place, 0.5 * bearing.effective_length, bearing.roller_diameter, modulus
+    table[LAMINA_DROP] = bearing.profile.lamina_drop(
+        count, bearing.effective_length, bearing.roller_diameter, modulus
     )
     table[LAMINA_STIFFNESS] = line_contact_factor(bearing.material, bearing.effective_length) / count
     table[LAMINA_RADIUS] = (bearing.apex_distance + place) * math.tan(bearing.half_angle)

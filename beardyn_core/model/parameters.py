@@ -234,6 +234,15 @@ class RibDrillingParams(NamedTuple):
     reach: float  # 0.18 a^2 over the approach [m]
 
 
+class CouplingParams(NamedTuple):
+    """Laminae coupled through the half-space; `work` holds nothing from one contact to the next."""
+
+    root: Any  # [lamina, lamina]
+    follow: Any  # [lamina, lamina], where one lamina is in balance, given the others
+    own_stiffness: Any  # [lamina]
+    work: Any  # [4, lamina, lane]
+
+
 class RibParams(NamedTuple):
     """Large roller end on the cone rib."""
 
@@ -366,6 +375,7 @@ class EffectParams(NamedTuple):
     """All switchable effects; ``None`` is absent."""
 
     damping: DampingParams | None
+    coupling: CouplingParams | None
     film: FilmParams | None
     coulomb: CoulombParams | None
     mixed: MixedParams | None

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from beardyn_core.bearing.edge_concentration import edge_concentration
 from beardyn_core.bearing.life import (
     basic_rating_life,
     dynamic_rating,
@@ -17,7 +18,7 @@ from beardyn_core.bearing.life import (
     reference_viscosity,
     static_rating,
 )
-from beardyn_core.bearing.reference_life import edge_concentration, reference_life
+from beardyn_core.bearing.reference_life import reference_life
 from beardyn_core.config import load_bearing, load_lubricant, load_scene
 from beardyn_core.integrate.static import solve
 from beardyn_core.rail.build import load_history
@@ -86,16 +87,6 @@ def test_static_rating_and_fatigue_limit_by_hand():
     by_hand = 44.0 * (1.0 - gamma) * 34 * 50.0 * 26.7 * math.cos(BEARING.cup_angle)
     assert static_rating(BEARING) == pytest.approx(by_hand)
     assert fatigue_load_limit(BEARING) == pytest.approx(by_hand / 8.2 * (100.0 / 185.0) ** 0.3)
-
-
-@pytest.mark.parametrize("count", [1, 2, 30, 31])
-def test_edge_concentration_is_symmetric_and_largest_at_the_ends(count):
-    factor = edge_concentration(count)
-    assert factor == pytest.approx(factor[::-1])
-    assert (factor >= 1.0).all()
-    if count > 1:
-        assert factor.argmax() in (0, count - 1)
-        assert factor[0] == pytest.approx(1.0 - 0.01 / math.log(1.985 * 0.5))
 
 
 def test_reference_life_falls_with_the_fourth_power_of_all_loads():

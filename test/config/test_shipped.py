@@ -30,6 +30,7 @@ from beardyn_core.config.effect_keys import (
     drag,
     film,
     gravity,
+    lamina_coupling,
     rib,
     rolling_resistance,
     seal,
@@ -174,6 +175,7 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
     ("keys", "noun"),
     [
         (contact_damping.ContactDampingKeys, effects.ContactDamping),
+        (lamina_coupling.LaminaCouplingKeys, effects.LaminaCoupling),
         (traction.CoulombTractionKeys, effects.CoulombTraction),
         (traction.MixedTractionKeys, effects.MixedTraction),
         (traction.ShearedFilmTractionKeys, effects.ShearedFilmTraction),

@@ -116,14 +116,14 @@ def test_rib_and_cone_exchange_one_force_and_one_moment(contact: str) -> None:
     assert p.effects.rib is not None
     assert p.effects.small_rib is not None
     assert p.effects.cage is not None
-    far = {"half_clearance": 1.0, "half_end_clearance": 1.0}
+    cage = p.effects.cage._replace(half_clearance=1.0, half_end_clearance=1.0)
     rib, small = p.effects.rib, p.effects.small_rib
     if contact == "rib":
         small = small._replace(place=small.place - 1.0)
     else:
         rib = rib._replace(distance=rib.distance + 1.0, end=rib.end._replace(place=-1.0))  # type: ignore[union-attr]
         small = small._replace(place=small.place + 4.3e-4)
-    effects = p.effects._replace(rib=rib, small_rib=small, cage=p.effects.cage._replace(**far), gravity=None)
+    effects = p.effects._replace(rib=rib, small_rib=small, cage=cage, gravity=None)
     rig.parameters = p._replace(effects=effects, cup=p.cup._replace(gap=1.0), cone=p.cone._replace(gap=1.0))
     linear, angular, size = momenta(rig)
     rig.run(1)

@@ -11,6 +11,7 @@ from beardyn_core.jit import entry
 from beardyn_core.kernels.defect import spall_gap
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness
+from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
 from beardyn_core.kernels.lane_math import (
     at_least,
     at_most,
@@ -95,6 +96,20 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         store_vector(lanes, out, case, 10, line[0])
         store_vector(lanes, out, case, 13, line[1])
         store_vector(lanes, out, case, 16, line[2])
+
+
+@entry
+def couplings(lanes: Any, depths: Any, out: Any, laminae: Any, coupling: Any) -> None:
+    """Coupled laminae of each case at given penetrations: loads, then energies of the laminae."""
+    count = laminae.shape[1]
+    for case in range(depths.shape[0]):
+        for k in range(count):
+            lanes.store(coupling.work, DEPTH, k, lanes.load(depths, case, k))
+        couple_laminae(lanes, laminae, coupling)
+        for k in range(count):
+            depth = at_least(lanes.load(depths, case, k), 0.0)
+            lanes.store(out, case, k, 0.9 * depth * lanes.load(coupling.work, SURFACE, k))
+            lanes.store(out, case, count + k, lanes.load(coupling.work, FORCE, k))
 
 
 @entry

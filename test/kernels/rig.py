@@ -102,6 +102,7 @@ class Rig:
             end_play=scene.end_play,
             laminae=scene.numerics.laminae,
             speed=speed,
+            coupling=scene.effects.lamina_coupling,
         )
         orbit = cage_ratio * cage_speed(bearing, speed)
         parameters = build_parameters(scene, arrangement, np.zeros(6))

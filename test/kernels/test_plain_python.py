@@ -11,6 +11,7 @@ import pytest
 
 CLAIMS = (
     "test_raceway.py",
+    "test_lamina_coupling.py",
     "test_rib_and_pocket.py",
     "test_solve.py",
     "test_film_and_traction.py",

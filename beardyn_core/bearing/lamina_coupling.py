@@ -1,0 +1,223 @@
+"""Coupling of laminae through the half-space: the influence of one on the others, and the coupled law.
+
+A lamina under load sinks the surface beside it. With the influence matrix C of the laminae, normalised, and
+its inverse root W = C^(-1/2), the surface depths u of the laminae store the energy of independent laminae
+at the depths e = W u::
+
+    Phi(u) = sum_k 9/19 K |e_k|^(19/9),    E(d) = minimum of Phi(u) over u >= d
+
+for geometric penetrations d. Where the roller touches, the surface is at the roller, u = d; elsewhere it
+sinks with its neighbours and carries nothing. The load of lamina j is dE/dd_j = (W^T f)_j with
+f = K |e|^(1/9) e, never a pull. For uncoupled laminae, W = 1, this is Palmgren's law lamina by lamina, for
+a linear law it is the contact problem of the half-space, and a uniform approach has Palmgren's total at any
+load.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.effects.lamina_coupling import LaminaCoupling
+
+Float = NDArray[np.float64]
+
+_SWEEPS = 200
+_TOLERANCE = 1.0e-14
+
+
+@dataclass(frozen=True)
+class LaminaRoot:
+    """Matrices of coupled laminae, shape [lamina, lamina], [-].
+
+    Parameters
+    ----------
+    root : float64 array
+        W, symmetric.
+    stiffness : float64 array
+        W W, the normalised inverse of the influence matrix; no element off its diagonal is positive.
+    """
+
+    root: Float
+    stiffness: Float
+
+
+def rectangle_influence(distance: Float, length: float, half_width: float, contact_modulus: float) -> Float:
+    """Approach at `distance` along the line from the middle of a uniformly pressed rectangle, per load.
+
+    Parameters
+    ----------
+    distance : float64 array
+        [m].
+    length, half_width : float
+        Of the rectangle along the line, and half of it across, [m].
+    contact_modulus : float
+        E', [Pa].
+
+    Returns
+    -------
+    float64 array, shape of `distance`
+        Approach of both bodies over load, [m/N].
+
+    References
+    ----------
+    Love, A. E. H. (1929), Stress produced in a semi-infinite solid by pressure on part of the boundary,
+    Phil. Trans. A 228; Johnson, K. L. (1985), Contact Mechanics, Eq. 3.25, at y = 0.
+    """
+
+    def up_to(end: Float) -> Float:
+        rest: Float = half_width * np.arcsinh(end / half_width)
+        return end * np.arcsinh(half_width / np.abs(end)) + rest
+
+    integral = 2.0 * (up_to(distance + 0.5 * length) - up_to(distance - 0.5 * length))
+    return integral / (math.pi * 0.5 * contact_modulus * 2.0 * half_width * length)
+
+
+def lamina_root(
+    count: int, length: float, radius: float, contact_modulus: float, pressure: float, strength: float = 1.0
+) -> LaminaRoot:
+    """Matrices of a line of equal laminae.
+
+    Parameters
+    ----------
+    count : int
+    length : float
+        Of the whole line, [m].
+    radius : float
+        Equivalent radius, [m].
+    contact_modulus : float
+        E', [Pa].
+    pressure : float
+        Hertz pressure whose contact width is taken, [Pa].
+    strength : float
+        Factor of the influence between different laminae, [-].
+
+    Notes
+    -----
+    Normalised so that a uniform approach has the total force of independent laminae:
+    sum_k (sum_j W_kj)^(19/9) = count.
+
+    References
+    ----------
+    Teutsch, R. and Sauer, B. (2004), An alternative slicing technique to consider pressure concentrations in
+    non-Hertzian line contacts, ASME J. Tribol. 126, 436-442: influence of every slice on every other from
+    the half-space, scaled to the total of the line contact. The energy form is this model's own.
+    """
+    half_width = 2.0 * radius * pressure / (0.5 * contact_modulus)
+    pitch = length / count
+    influence = rectangle_influence(
+        pitch * np.arange(count, dtype=np.float64), pitch, half_width, contact_modulus
+    )
+    index = np.arange(count)
+    matrix = influence[np.abs(index[:, None] - index)] / influence[0]
+    matrix = np.eye(count) + strength * (matrix - np.eye(count))
+    values, vectors = np.linalg.eigh(matrix)
+    root = (vectors * values**-0.5) @ vectors.T
+    root = 0.5 * (root + root.T)
+    root *= (count / np.sum(root.sum(axis=1) ** (19.0 / 9.0))) ** (9.0 / 19.0)
+    return LaminaRoot(root, root @ root)
+
+
+def bearing_lamina_root(bearing: Bearing, coupling: LaminaCoupling, count: int) -> LaminaRoot:
+    """Matrices of the raceway contacts; one width stands for both, taken with the roller's radius."""
+    return lamina_root(
+        count,
+        bearing.effective_length,
+        0.5 * bearing.roller_diameter,
+        bearing.material.contact_modulus,
+        coupling.pressure,
+        coupling.strength,
+    )
+
+
+def coupled_law(depth: Float, factor: float, laminae: LaminaRoot) -> tuple[Float, Float, Float]:
+    """Load, tangent stiffness and energy of coupled laminae, iterated to rounding.
+
+    Parameters
+    ----------
+    depth : float64 array, shape [..., lamina]
+        Geometric penetration, [m].
+    factor : float
+        K of one lamina, [N/m^(10/9)].
+    laminae : LaminaRoot
+
+    Returns
+    -------
+    load : float64 array, shape [..., lamina]
+        [N].
+    stiffness : float64 array, shape [..., lamina, lamina]
+        Change of the loads with the penetrations, the unloaded surface following, [N/m].
+    energy : float64 array, shape [...]
+        [J].
+
+    Notes
+    -----
+    First each lamina in turn is taken to where it is in balance under a linear law, given the others, which
+    rises monotonically, because no stiffness off the diagonal is positive; then Newton's method on the free
+    ones.
+    """
+    count = depth.shape[-1]
+    load, energy = np.zeros(depth.shape), np.zeros(depth.shape[:-1])
+    stiffness = np.zeros((*depth.shape, count))
+    touching = np.max(depth, axis=-1) > 0.0
+    pressed = depth[touching]
+    if pressed.size:
+        surface = _surface(pressed, factor, laminae)
+        local, force = _springs(surface, factor, laminae.root)
+        loaded = (surface <= pressed) & (pressed > 0.0)
+        load[touching] = np.where(loaded, np.maximum(force @ laminae.root, 0.0), 0.0)
+        stiffness[touching] = _stiffness(local, loaded, laminae.root)
+        energy[touching] = (9.0 / 19.0) * np.sum(force * (surface @ laminae.root), axis=-1)
+    return load, stiffness, energy
+
+
+def _surface(depth: Float, factor: float, laminae: LaminaRoot) -> Float:
+    """Depth of the surface at every lamina of touching lines, shape [line, lamina], [m]."""
+    root, own = laminae.root, np.diag(laminae.stiffness)
+    follow = (laminae.stiffness - np.diag(own)) / own[:, None]
+    surface = np.maximum(depth, 0.0)
+    for _ in range(3):
+        for j in range(len(root)):
+            surface[:, j] = np.maximum(depth[:, j], -(surface @ follow[j]))
+    scale = np.max(surface, axis=-1, keepdims=True)
+    for _ in range(_SWEEPS):
+        local, force = _springs(surface, factor, root)
+        load = force @ root
+        free = surface > depth
+        pulled = ~free & (load < 0.0)
+        if not np.any(free | pulled):
+            break
+        hessian = (10.0 / 9.0) * (root * local[:, None, :]) @ root
+        # Newton on the free laminae, each held where it would leave the roller's surface behind
+        matrix = np.where(free[:, :, None] & free[:, None, :], hessian, np.eye(len(root)) * factor)
+        step = np.linalg.solve(matrix, np.where(free, load, 0.0)[..., None])[..., 0]
+        moved = np.maximum(surface - step, depth)
+        # a lamina that would be pulled lets go
+        diagonal = np.diagonal(hessian, axis1=-2, axis2=-1)
+        moved = np.where(pulled, surface - load / diagonal, moved)
+        settled = np.abs(moved - surface) <= _TOLERANCE * scale
+        surface = moved
+        if np.all(settled):
+            break
+    return surface
+
+
+def _springs(surface: Float, factor: float, root: Float) -> tuple[Float, Float]:
+    """Secant stiffness and force of the independent laminae at W u."""
+    depth = surface @ root
+    local = factor * np.maximum(np.abs(depth), 1.0e-15) ** (1.0 / 9.0)
+    return local, local * depth
+
+
+def _stiffness(local: Float, loaded: NDArray[np.bool_], root: Float) -> Float:
+    """Tangent of the loads: inverse of the compliance among the loaded laminae."""
+    inverse = np.linalg.inv(root)
+    compliance = (inverse * (0.9 / local)[..., None, :]) @ inverse
+    both = loaded[..., :, None] & loaded[..., None, :]
+    isolated = np.where(both, compliance, np.eye(root.shape[0]) * compliance.max(initial=1.0e-12))
+    tangent: Float = np.where(both, np.linalg.inv(isolated), 0.0)
+    return tangent
