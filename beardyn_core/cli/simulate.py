@@ -119,6 +119,7 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "scene": summary.scene,
         "tier": summary.tier,
         "effects": list(summary.effects),
+        "faults": list(summary.faults),
         "duration_s": summary.duration,
         "wall_s": summary.wall_time,
         "rtf": _number(summary.real_time_factor),
@@ -146,6 +147,7 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         ("scene", summary.scene),
         ("tier", summary.tier),
         ("effects", ", ".join(summary.effects) or "none"),
+        ("faults", "; ".join(summary.faults) or "none"),
         (
             "simulated",
             f"{summary.duration:.2f} s in {summary.wall_time:.2f} s, "

@@ -94,6 +94,7 @@ def solve(
     laminae: int = 1,
     speed: float = 0.0,
     roller_phase: float = 0.0,
+    oversize: Float | None = None,
 ) -> StaticSolution:
     """Static equilibrium under a load on the cone.
 
@@ -114,6 +115,8 @@ def solve(
         Shaft speed for centrifugal force and gyroscopic moment of the rollers at epicyclic speed, [rad/s].
     roller_phase : float
         Azimuth of roller 0 of both rows, [rad].
+    oversize : float64 array, shape [row, roller], optional
+        Radius error of each roller, [m].
 
     Returns
     -------
@@ -134,7 +137,7 @@ def solve(
     """
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
-    model = contact_model(bearing, end_play, laminae, speed, roller_phase)
+    model = contact_model(bearing, end_play, laminae, speed, roller_phase, oversize)
     cone = _Cone(model, load, 5 if tilt == "free" else 3)
     state, unknowns, iterations = _equilibrium(cone)
     residual = cone.residual(state)

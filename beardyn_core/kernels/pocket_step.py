@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.defect import pocket_wear
 from beardyn_core.kernels.exchange import account, account_loss, output_contact, react
 from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.orbit import ring_view
@@ -24,6 +25,7 @@ def cage_before(
     cosine: Any,
     sine: Any,
     roller: Any,
+    worn: Any,
     cage: Any,
 ) -> Any:
     """Pocket contact of one block; without a cage zeros of the same type, which nothing uses."""
@@ -36,8 +38,9 @@ def cage_before(
     origin, tilt, ring_velocity, ring_omega = ring_view(lanes, rings, CAGE_BODY, cosine, sine)
     pocket = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(constants, block, POCKET_ANGLE)
     centre = subtract(place, origin)
+    wear = pocket_wear(lanes, block, worn)
     return centre, pocket_contact(
-        centre, axis, velocity, omega, azimuth - pocket, tilt, ring_velocity, ring_omega, roller, cage
+        centre, axis, velocity, omega, azimuth - pocket, tilt, ring_velocity, ring_omega, wear, roller, cage
     )
 
 

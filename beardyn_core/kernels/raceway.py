@@ -11,12 +11,12 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import spall_gap
+from beardyn_core.kernels.defect import find_damage, spring_count, spring_damage, spring_table
 from beardyn_core.kernels.film import log2_film_thickness
 from beardyn_core.kernels.lane_math import at_least, ninth_root, sqrt, where_greater
 from beardyn_core.kernels.traction import friction_rate
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
-from beardyn_core.model.parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_RADIUS, LAMINA_STIFFNESS
+from beardyn_core.model.parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 _SMALLEST_APPROACH = 1e-15
 
@@ -142,16 +142,16 @@ def lamina_sums(
     azimuths: Any,
     ring: Any,
     laminae: Any,
-    spalls: Any,
+    patches: Any,
     effects: Any,
 ) -> Any:
     """Sums over the laminae of one raceway contact.
 
     Returns
     -------
-    tuple of 10 lane values
+    tuple of 12 lane values
         Elastic force with x^0, x^1, x^2; tangent stiffness likewise; friction over slip likewise;
-        elastic energy.
+        elastic energy; elastic force times the slope of the gap over the azimuth in ring and roller.
 
     References
     ----------
@@ -163,13 +163,14 @@ def lamina_sums(
     force_0, force_1, force_2 = zero, zero, zero
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
     friction_0, friction_1, friction_2 = zero, zero, zero
-    energy = zero
-    for k in range(laminae.shape[1]):
+    energy, ring_lean, roller_lean = zero, zero, zero
+    surface, roller_surface, damage = patches
+    page = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
+    springs = spring_count(page, laminae, damage)
+    laminae = spring_table(laminae, damage)
+    for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        radius = laminae[LAMINA_RADIUS, k]
-        gap = spall_gap(lanes, block, azimuths[0], k, radius, spalls[0]) + spall_gap(
-            lanes, block, azimuths[1], k, radius, spalls[1]
-        )
+        share, gap, ring_slope, roller_slope = spring_damage(lanes, page, k, damage)
         depth = (
             approach[0]
             + x * (approach[1] + x * (approach[2] + x * approach[3]))
@@ -179,7 +180,10 @@ def lamina_sums(
         touching = at_least(depth, _SMALLEST_APPROACH)
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
         tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
-        energy = energy + tangent * touching * touching * (0.9 * 9.0 / 19.0)
+        energy = energy + share * (tangent * touching * touching * (0.9 * 9.0 / 19.0))
+        lean = share * (0.9 * tangent * touching)
+        ring_lean = ring_lean + lean * ring_slope
+        roller_lean = roller_lean + lean * roller_slope
         push = spring_push(touching, rate[0] + x * rate[1], effects.damping)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
         elastic = 0.9 * tangent * touching
@@ -188,6 +192,7 @@ def lamina_sums(
         along = slip_along[0] + x * slip_along[1]
         log2_film = log2_film_thickness(load, log2_speed, k, ring, laminae, effects.film)
         friction = friction_rate(load, around * around + along * along, log2_film, k, ring, laminae, effects)
+        elastic, tangent, friction = share * elastic, share * tangent, share * friction
         force_0 = force_0 + elastic
         force_1 = force_1 + elastic * x
         force_2 = force_2 + elastic * (x * x)
@@ -202,6 +207,7 @@ def lamina_sums(
         (stiffness_0, stiffness_1, stiffness_2),
         (friction_0, friction_1, friction_2),
         energy,
+        (ring_lean, roller_lean),
     )
 
 

@@ -57,6 +57,8 @@ class RunSummary:
         First and last time of the means, [s].
     cage_revolutions : int
         Whole revolutions of the cage that the means cover; 0 when the run was shorter than one.
+    faults : tuple of str
+        Defects and waviness of the scene in words.
     """
 
     scene: str
@@ -71,6 +73,7 @@ class RunSummary:
     energy_residual: float | None
     averaged: tuple[float, float]
     cage_revolutions: int
+    faults: tuple[str, ...] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -241,6 +244,7 @@ class _Trend:
             energy_residual=self._residual,
             averaged=averaged,
             cage_revolutions=revolutions,
+            faults=scene.fault_sentences,
         )
 
 
