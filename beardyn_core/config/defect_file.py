@@ -51,9 +51,7 @@ class GrowthKeys(FileModel):
 
     def noun(self) -> Growth:
         """The growth, SI."""
-        return Growth(
-            self.from_s, self.to_s, self.initial_share, self.size != "depth", self.size != "width"
-        )
+        return Growth(self.from_s, self.to_s, self.initial_share, self.size != "depth", self.size != "width")
 
 
 class PatchKeys(FileModel):
@@ -104,7 +102,9 @@ class PatchKeys(FileModel):
                 "a tenth of the roller diameter"
             )
         if self.kind == "brinelling":
-            pitch_mm = math.pi * (bearing.pitch_diameter - bearing.roller_diameter) / bearing.roller_count * MM
+            pitch_mm = (
+                math.pi * (bearing.pitch_diameter - bearing.roller_diameter) / bearing.roller_count * MM
+            )
             if self.on == "roller":
                 found.append("on is 'roller'; brinelling is one dent a roller, on the cup or the cone")
             elif self.width_mm > 0.5 * pitch_mm:

@@ -72,8 +72,9 @@ def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any
     Notes
     -----
     A patch that covers a part of a lamina leaves the rest as a spring of its own, so that forces are
-    continuous in the place and length of a patch. Where several patches meet on one lamina their gaps add,
-    weighted by what they cover; a single damaged spring then keeps the mean gap.
+    continuous in the place and length of a patch. Where several patches meet on one lamina their gaps add;
+    when they cover different shares of it, one damaged spring stands for all of them, with the mean share
+    (by gap) and the mean gap of the lamina kept.
     """
     if damage is None:
         return _FAR
@@ -91,7 +92,7 @@ def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any
         sound, damaged = SPRING_FIELDS * k, SPRING_FIELDS * (count + k)
         first = lanes.load(springs, _NEAR, damaged + SPRING_SHARE)
         second = lanes.load(springs, _NEAR, sound + SPRING_SHARE)
-        share = at_most(first * first / at_least(second, 1e-60), 1.0)
+        share = first / at_least(second, 1e-30)
         weight = 1.0 / at_least(share, 1e-12)
         lanes.store(springs, _NEAR, sound + SPRING_SHARE, 1.0 - share)
         lanes.store(springs, _NEAR, damaged + SPRING_SHARE, share)
@@ -108,7 +109,7 @@ def add_patches(
     """Add the moments of the gaps of one surface's patches to the springs of a contact.
 
     Into the fields of the damaged spring go the sums of ``c |g|`` (share), ``c g`` (gap) and ``c dg/dtheta``
-    (slope), c the cover; into the share of the sound one that of ``c g^2``.
+    (slope), c the cover; into the share of the sound one that of ``|g|``.
     """
     if surface is None:
         return
@@ -130,7 +131,7 @@ def add_patches(
                 gap = present * (low + part * (high - low))
                 cover = surface.cover[patch, k]
                 _increase(lanes, springs, damaged + SPRING_SHARE, cover * magnitude(gap))
-                _increase(lanes, springs, sound + SPRING_SHARE, cover * gap * gap)
+                _increase(lanes, springs, sound + SPRING_SHARE, magnitude(gap))
                 _increase(lanes, springs, damaged + SPRING_GAP, cover * gap)
                 _increase(lanes, springs, damaged + slope_field, cover * climb * (high - low))
 
@@ -158,15 +159,23 @@ def spring_count(page: Any, laminae: Any, damage: Any) -> Any:
 
 @inline
 def spring_damage(lanes: Any, page: Any, spring: Any, damage: Any) -> Any:
-    """Share of its lamina [-], gap [m], and slope of the gap over ring and roller azimuth [m/rad]."""
+    """Share of its lamina [-] and gap [m] of a spring."""
     if damage is None:
-        return 1.0, 0.0, 0.0, 0.0
+        return 1.0, 0.0
     field = SPRING_FIELDS * spring
     return (
         lanes.load(damage.springs, page, field + SPRING_SHARE),
         lanes.load(damage.springs, page, field + SPRING_GAP),
-        lanes.load(damage.springs, page, field + SPRING_RING_SLOPE),
-        lanes.load(damage.springs, page, field + SPRING_ROLLER_SLOPE),
+    )
+
+
+@inline
+def spring_slopes(lanes: Any, spring: Any, damage: Any) -> Any:
+    """Slope of the gap of a spring near a patch over the ring's and the roller's azimuth, [m/rad]."""
+    field = SPRING_FIELDS * spring
+    return (
+        lanes.load(damage.springs, _NEAR, field + SPRING_RING_SLOPE),
+        lanes.load(damage.springs, _NEAR, field + SPRING_ROLLER_SLOPE),
     )
 
 

@@ -11,7 +11,13 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import find_damage, spring_count, spring_damage, spring_table
+from beardyn_core.kernels.defect import (
+    find_damage,
+    spring_count,
+    spring_damage,
+    spring_slopes,
+    spring_table,
+)
 from beardyn_core.kernels.film import log2_film_thickness
 from beardyn_core.kernels.lane_math import at_least, ninth_root, sqrt, where_greater
 from beardyn_core.kernels.traction import friction_rate
@@ -163,14 +169,14 @@ def lamina_sums(
     force_0, force_1, force_2 = zero, zero, zero
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
     friction_0, friction_1, friction_2 = zero, zero, zero
-    energy, ring_lean, roller_lean = zero, zero, zero
+    energy = zero
     surface, roller_surface, damage = patches
     page = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
     springs = spring_count(page, laminae, damage)
     laminae = spring_table(laminae, damage)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        share, gap, ring_slope, roller_slope = spring_damage(lanes, page, k, damage)
+        share, gap = spring_damage(lanes, page, k, damage)
         depth = (
             approach[0]
             + x * (approach[1] + x * (approach[2] + x * approach[3]))
@@ -181,9 +187,6 @@ def lamina_sums(
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
         tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
         energy = energy + share * (tangent * touching * touching * (0.9 * 9.0 / 19.0))
-        lean = share * (0.9 * tangent * touching)
-        ring_lean = ring_lean + lean * ring_slope
-        roller_lean = roller_lean + lean * roller_slope
         push = spring_push(touching, rate[0] + x * rate[1], effects.damping)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
         elastic = 0.9 * tangent * touching
@@ -207,8 +210,29 @@ def lamina_sums(
         (stiffness_0, stiffness_1, stiffness_2),
         (friction_0, friction_1, friction_2),
         energy,
-        (ring_lean, roller_lean),
+        leaning_sums(lanes, page, approach, laminae, damage),
     )
+
+
+@inline
+def leaning_sums(lanes: Any, page: Any, approach: Any, laminae: Any, damage: Any) -> Any:
+    """Elastic force times slope of the gap over the azimuth in ring and roller, laminae summed, [N m]."""
+    ring_lean, roller_lean = lanes.constant(0.0), lanes.constant(0.0)
+    if damage is None:
+        return ring_lean, roller_lean
+    if page > 0:
+        for k in range(laminae.shape[1]):
+            x = laminae[LAMINA_PLACE, k]
+            share, gap = spring_damage(lanes, page, k, damage)
+            depth = approach[0] + x * (approach[1] + x * (approach[2] + x * approach[3]))
+            depth = depth - laminae[LAMINA_DROP, k] - gap
+            touching = at_least(depth, _SMALLEST_APPROACH)
+            elastic = share * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching) * touching
+            elastic = where_greater(depth, 0.0, elastic, 0.0 * depth)
+            ring_slope, roller_slope = spring_slopes(lanes, k, damage)
+            ring_lean = ring_lean + elastic * ring_slope
+            roller_lean = roller_lean + elastic * roller_slope
+    return ring_lean, roller_lean
 
 
 @inline

@@ -50,9 +50,8 @@ def raceway_contact(
     log2_speed = log2_entrainment(speed, p.effects.film)
     patches = (surface, roller_surface, damage)
     sums = lamina_sums(lanes, block, line, slip, log2_speed, azimuths, ring, p.laminae, patches, p.effects)
-    lean = sums[4]
     leaning = leaning_wrench(
-        place, axis, lean[0] + sums[0][0] * ring_climb, lean[1] + sums[0][0] * roller_climb
+        lanes, place, axis, sums[4], sums[0][0], (ring_climb, roller_climb), damage, waves, roller_waves
     )
     return line, slip, (sums[0], sums[1], sums[2], sums[3], leaning), log2_speed, centre
 

@@ -74,12 +74,12 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     cup = raceway_contact(
         lanes, block, CUP, cup_view, body, oversize,
         (azimuth - lanes.load(rings, CUP, RING_TURN), -spin), p.cup,
-        (faults.cup, faults.roller, faults.damage, faults.cup_waves, faults.roller_waves), p,
+        (faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves), p,
     )  # fmt: skip
     cone = raceway_contact(
         lanes, block, CONE, cone_view, body, oversize,
         (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin), p.cone,
-        (faults.cone, faults.roller, faults.damage, faults.cone_waves, faults.roller_waves), p,
+        (faults.cone, faults.roller, faults.cone_damage, faults.cone_waves, faults.roller_waves), p,
     )  # fmt: skip
     rib = rib_before(body, cone_view, zero, effects.rib, effects.damping)
     cage = cage_before(

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.lane_math import floor
+from beardyn_core.kernels.lane_math import floor, magnitude
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import add, scale
 
 _PER_TURN = 0.15915494309189535
@@ -40,7 +41,17 @@ def wavy_line(line: Any, gap: Any) -> Any:
 
 
 @inline
-def leaning_wrench(place: Any, axis: Any, ring_lean: Any, roller_lean: Any) -> Any:
+def leaning_wrench(
+    lanes: Any,
+    place: Any,
+    axis: Any,
+    lean: Any,
+    force: Any,
+    climbs: Any,
+    damage: Any,
+    waves: Any,
+    roller_waves: Any,
+) -> Any:
     """Force and moment on the roller where the normal leans with a sloping gap.
 
     The elastic energy depends on the gap and the gap on the azimuths of the roller's orbit and spin: the
@@ -51,13 +62,27 @@ def leaning_wrench(place: Any, axis: Any, ring_lean: Any, roller_lean: Any) -> A
     ----------
     place, axis : vector
         Of the roller.
-    ring_lean, roller_lean : lane value
-        Elastic force times slope of the gap over the azimuth in the ring and in the roller, [N m].
+    lean : tuple of 2 lane values
+        Elastic force times slope of the gap of patches over the azimuth in ring and roller, [N m].
+    force : lane value
+        Elastic force, [N].
+    climbs : tuple of 2 lane values
+        Slope of the waviness of ring and roller over the azimuth, [m/rad].
+    damage, waves, roller_waves : NamedTuple or None
+        Without any of them the normal cannot lean.
     """
-    zero = 0.0 * place[0]
-    moment = -roller_lean
-    force = (zero, (ring_lean - moment * axis[2]) / place[0], zero)
-    return force, scale(moment, axis)
+    zero = lanes.constant(0.0)
+    level = (zero, zero, zero)
+    if damage is None and waves is None and roller_waves is None:
+        return level, level
+    along, moment = level, level
+    ring_lean = lean[0] + force * climbs[0]
+    roller_lean = lean[1] + force * climbs[1]
+    if any_positive(magnitude(ring_lean) + magnitude(roller_lean)):
+        # the contact's azimuth in the roller falls with the spin
+        moment = scale(-roller_lean, axis)
+        along = (zero, (ring_lean + roller_lean * axis[2]) / place[0], zero)
+    return along, moment
 
 
 @inline

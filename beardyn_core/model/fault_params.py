@@ -37,11 +37,13 @@ SURFACES = ("cup", "cone", "roller")
 
 def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> FaultParams:
     """All faults at t = 0; what the scene does not have is ``None``."""
-    surfaces = [surface_params(scene, on, arrangement) for on in SURFACES]
+    cup, cone, roller = (surface_params(scene, on, arrangement) for on in SURFACES)
     waves = [wave_params(scene, on, arrangement) for on in SURFACES]
-    patched = any(surface is not None for surface in surfaces)
-    damage = damage_params(laminae, arrangement.width) if patched else None
-    return FaultParams(*surfaces, damage, *waves, pocket_wear(scene, arrangement))
+    damage = [
+        None if ring is None and roller is None else damage_params(laminae, arrangement.width)
+        for ring in (cup, cone)
+    ]
+    return FaultParams(cup, cone, roller, *damage, *waves, pocket_wear(scene, arrangement))
 
 
 def patches_of(scene: Scene, on: str) -> list[Patch]:

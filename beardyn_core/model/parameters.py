@@ -147,7 +147,8 @@ class FaultParams(NamedTuple):
     cup: SurfaceParams | None
     cone: SurfaceParams | None
     roller: SurfaceParams | None
-    damage: DamageParams | None  # present with any patch
+    cup_damage: DamageParams | None  # present with any patch of cup or rollers
+    cone_damage: DamageParams | None
     cup_waves: WaveParams | None
     cone_waves: WaveParams | None
     roller_waves: WaveParams | None

@@ -92,7 +92,9 @@ class Patch:
     def described(self) -> str:
         """What it is, in a few words."""
         what = self.kind.replace("_", "-")
-        where = f"roller {self.roller}, row {self.row}" if self.on == "roller" else f"{self.on}, row {self.row}"
+        where = (
+            f"roller {self.roller}, row {self.row}" if self.on == "roller" else f"{self.on}, row {self.row}"
+        )
         words = f"{what} on the {where}, {self.width * 1e3:.1f} mm wide, {self.depth * 1e6:.0f} µm deep"
         if self.growth is not None:
             words += f", growing from {self.growth.start:g} to {self.growth.end:g} s"

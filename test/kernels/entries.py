@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import entry
-from beardyn_core.kernels.defect import find_damage, spring_damage
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness
 from beardyn_core.kernels.lane_math import (
@@ -31,7 +30,6 @@ from beardyn_core.kernels.rib import rib_contact
 from beardyn_core.kernels.rib_step import rib_wrench
 from beardyn_core.kernels.solve import add_line, add_point, solve
 from beardyn_core.kernels.traction import friction_rate
-from beardyn_core.kernels.waviness import wave_gap
 
 MATH_NAMES = (
     "ninth_root", "log2", "exp2", "wrap", "cos", "sin", "sqrt", "magnitude", "floor", "at_least", "at_most",
@@ -195,34 +193,3 @@ def frictions(lanes: Any, cases: Any, out: Any, lamina: Any, ring: Any, p: Any) 
         rate = friction_rate(load, lanes.load(cases, case, 1), thickness, lamina, ring, p.laminae, p.effects)
         lanes.store(out, case, 0, thickness + lanes.constant(0.0))
         lanes.store(out, case, 1, rate + lanes.constant(0.0))
-
-
-@entry
-def patch_springs(lanes: Any, azimuths: Any, out: Any, block: Any, count: Any, ring: Any, faults: Any) -> None:
-    """Damaged springs of cup (ring 0) or cone at azimuths in ring and roller, all cases seen by one block.
-
-    Outputs by lamina: share, gap, slope over the ring's and over the roller's azimuth; of the far page zeros.
-    """
-    for case in range(azimuths.shape[0]):
-        both = (lanes.load(azimuths, case, 0), lanes.load(azimuths, case, 1))
-        if ring == 0:
-            page = find_damage(lanes, block, both, count, (faults.cup, faults.roller), faults.damage)
-        else:
-            page = find_damage(lanes, block, both, count, (faults.cone, faults.roller), faults.damage)
-        for k in range(count):
-            share, gap, ring_slope, roller_slope = spring_damage(
-                lanes, page, count * page + k, faults.damage
-            )
-            lanes.store(out, case, 4 * k, share * page)
-            lanes.store(out, case, 4 * k + 1, gap)
-            lanes.store(out, case, 4 * k + 2, ring_slope)
-            lanes.store(out, case, 4 * k + 3, roller_slope)
-
-
-@entry
-def wave_gaps(lanes: Any, azimuths: Any, out: Any, block: Any, waves: Any) -> None:
-    """Waviness at azimuths, all cases seen by one block: gap and slope."""
-    for case in range(azimuths.shape[0]):
-        gap, slope = wave_gap(lanes, block, lanes.load(azimuths, case, 0), waves)
-        lanes.store(out, case, 0, gap)
-        lanes.store(out, case, 1, slope)

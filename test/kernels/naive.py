@@ -177,14 +177,17 @@ def path_of_roller(
             surface = 0.0
             if abs(t) < half:
                 u = t / half
-                surface = depth * {
-                    "spall": 1.0,
-                    "rectangular": 1.0,
-                    "half_sine": math.sin(0.5 * math.pi * (u + 1.0)),
-                    "elliptic": math.sqrt(1.0 - u**2),
-                    "brinelling": math.sqrt(1.0 - u**2),
-                    "dent": 0.5 * (1.0 + math.cos(math.pi * u)),
-                }[kind]
+                surface = (
+                    depth
+                    * {
+                        "spall": 1.0,
+                        "rectangular": 1.0,
+                        "half_sine": math.sin(0.5 * math.pi * (u + 1.0)),
+                        "elliptic": math.sqrt(1.0 - u**2),
+                        "brinelling": math.sqrt(1.0 - u**2),
+                        "dent": 0.5 * (1.0 + math.cos(math.pi * u)),
+                    }[kind]
+                )
             elif abs(t) < half + rim_width:
                 surface = -0.5 * rim * (1.0 - math.cos(2.0 * math.pi * (abs(t) - half) / rim_width))
             least = min(least, surface + radius - math.sqrt(radius**2 - (t - arc) ** 2))

@@ -14,11 +14,11 @@ from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.fault_params import surface_radius
 from beardyn_core.model.parameters import FaultParams
-from beardyn_core.scene.defect import PATCH_KINDS, Patch
+from beardyn_core.scene.defect import PATCH_KINDS, Patch, WornPocket
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.kernels import naive
 from test.kernels.casting import Float, through
-from test.kernels.entries import patch_springs, wave_gaps
+from test.kernels.fault_entries import damaged_contacts, patch_springs, wave_gaps, worn_pockets
 from test.kernels.rig import scene_with
 
 CUP_RADIUS = surface_radius(scene_with().bearing, "cup")
@@ -35,7 +35,7 @@ def faults_of(width: int, *patches: Patch, waviness: tuple[Waviness, ...] = ()) 
     return build_parameters(scene, Arrangement(17, width), np.zeros(6)).effects.faults
 
 
-def springs(lanes: Any, azimuth: Any, *patches: Patch, spin: float = 0.0, ring: int = 0, block: int = 0) -> Float:
+def springs(lanes: Any, azimuth: Any, *patches: Patch, spin: float = 0.0, block: int = 0) -> Float:
     """Share, gap and slopes of the damaged springs of row 0, shape [case, lamina, 4]; row 1 must be sound.
 
     Row 0 is in the first lanes; with one lane block 0 is a roller of row 0.
@@ -43,7 +43,9 @@ def springs(lanes: Any, azimuth: Any, *patches: Patch, spin: float = 0.0, ring: 
     width = lanes.width
     azimuth = np.asarray(azimuth, dtype=float)
     rows = np.repeat(np.stack([azimuth, np.full_like(azimuth, spin)], axis=1), width, axis=0)
-    found = through(lanes, patch_springs, rows, 24, block, 6, ring, faults_of(width, *patches))
+    faults = faults_of(width, *patches)
+    surfaces, damage = (faults.cup, faults.roller), faults.cup_damage
+    found = through(lanes, patch_springs, rows, 24, block, 6, surfaces, damage)
     found = found.reshape(len(azimuth), width, 6, 4)
     if width > 1:
         np.testing.assert_array_equal(found[:, width // 2 :, :, 1], 0.0)
@@ -64,9 +66,7 @@ def test_roller_sinks_into_a_spall_as_geometry_says(lanes: Any) -> None:
     """2 nm: chords of the path's 12 um cells."""
     azimuth = 0.3 + np.linspace(-0.06, 0.06, 401)
     found = springs(lanes, azimuth, FULL)[:, 2]
-    exact = np.array(
-        [naive.spall_sink((a - 0.3) * CUP_RADIUS, 3e-3, 1e-4, LAMINA_RADII[2]) for a in azimuth]
-    )
+    exact = np.array([naive.spall_sink((a - 0.3) * CUP_RADIUS, 3e-3, 1e-4, LAMINA_RADII[2]) for a in azimuth])
     np.testing.assert_array_equal(found[:, 1] > 0.0, exact > 0.0)
     away_from_kink = np.abs(exact - 1e-4) > 1e-6
     np.testing.assert_allclose(found[away_from_kink, 1], exact[away_from_kink], atol=2e-9)
@@ -134,10 +134,18 @@ def test_patches_of_cup_and_roller_add_and_overlap_keeps_the_mean_gap(lanes: Any
     assert np.all(half[:, 0] <= 1.0)
 
 
-def test_cone_does_not_feel_a_patch_of_the_cup_nor_one_roller_that_of_another(lanes: Any) -> None:
-    np.testing.assert_array_equal(springs(lanes, [0.3], FULL, ring=1), 0.0)
+def test_a_contact_feels_the_patches_of_its_own_ring_and_roller_only(lanes: Any) -> None:
+    faults = faults_of(lanes.width, FULL)
+    assert faults.cone is None
+    assert faults.cone_damage is None
     other = Patch(on="roller", row=0, azimuth=0.0, width=6e-3, depth=3e-5, length=0.05, roller=9)
     np.testing.assert_array_equal(springs(lanes, [0.3], other), 0.0)
+    block = 9 if lanes.width == 1 else 9 // (lanes.width // 2)
+    lane = 9 % max(lanes.width // 2, 1)
+    faults = faults_of(lanes.width, other)
+    rows = np.zeros((lanes.width, 2))
+    found = through(lanes, patch_springs, rows, 24, block, 6, (faults.cup, faults.roller), faults.cup_damage)
+    np.testing.assert_array_equal(np.flatnonzero(found[:, 1]), [lane])
 
 
 def test_patch_is_found_again_after_any_number_of_turns(lanes: Any) -> None:
@@ -186,3 +194,66 @@ def test_waviness_is_the_sum_of_its_orders(lanes: Any, on: str) -> None:
         np.testing.assert_array_equal(found[:, lanes.width // 2 :], 0.0)  # the other row is round
         if on == "roller":
             np.testing.assert_allclose(found[:, 1, 0], wave.gap(azimuth, 1), atol=2e-9)
+
+
+def test_work_of_the_leaning_normal_is_what_the_elastic_energy_loses(lanes: Any) -> None:
+    """Over azimuth and spin, with patches and waves on both surfaces; central differences of the energy.
+
+    At a fixed place of the roller the energy changes by the gap alone, so energy / azimuth = - torque.
+    """
+    scene = scene_with(
+        defects=(
+            Patch("cup", 0, 0.3, 6e-3, 3e-5, 0.03, 3e-3, kind="dent"),
+            Patch("roller", 0, 0.2, 5e-3, 2e-5, 0.03, 3e-3, kind="dent"),
+        ),
+        waviness=(Waviness("cup", 0, (17,), (1e-6,)), Waviness("roller", 0, (6,), (1e-6,))),
+    )
+    p = build_parameters(scene, Arrangement(17, lanes.width), np.zeros(6))
+    bearing = scene.bearing
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    middle = np.array([0.5 * bearing.pitch_diameter, 0.0, 0.5 * bearing.row_spacing])
+    axis = np.array([sine, 0.0, cosine])
+    place = middle + bearing.roller_mass_offset * axis + 3e-5 * np.array([cosine, 0.0, -sine])
+    corners = [(a, b) for a in np.linspace(0.2731, 0.3267, 7) for b in np.linspace(0.012, 0.39, 7)]
+
+    def at(azimuths: Any) -> Float:
+        cases = np.array([[a, b, *place, *axis] for a, b in azimuths])
+        return through(lanes, damaged_contacts, np.repeat(cases, lanes.width, axis=0), 7, p)[:: lanes.width]
+
+    step = 1e-8
+    found = at(corners)
+    by_ring = (at([(a + step, b) for a, b in corners]) - at([(a - step, b) for a, b in corners]))[:, 0]
+    by_roller = (at([(a, b + step) for a, b in corners]) - at([(a, b - step) for a, b in corners]))[:, 0]
+    spin_moment = found[:, 4:7] @ axis  # the contact's azimuth in the roller falls with the spin
+    orbit_torque = place[0] * found[:, 2] + found[:, 6]
+    scale = np.abs(by_ring).max() / (2.0 * step)
+    assert scale > 10.0
+    np.testing.assert_allclose(spin_moment, by_roller / (2.0 * step), atol=1e-3 * scale)
+    np.testing.assert_allclose(orbit_torque, -by_ring / (2.0 * step), atol=1e-3 * scale)
+
+
+def test_worn_pocket_is_a_pocket_with_more_clearance_and_its_neighbours_are_not(lanes: Any) -> None:
+    wear = 4e-4
+    sound = build_parameters(scene_with(), Arrangement(17, lanes.width), np.zeros(6))
+    worn = build_parameters(
+        scene_with(defects=(WornPocket(0, 0, wear),)), Arrangement(17, lanes.width), np.zeros(6)
+    ).effects.faults.pockets
+    cage, roller = sound.effects.cage, sound.roller
+    assert cage is not None
+    bearing = scene_with().bearing
+    axis = (math.sin(bearing.contact_angle), 0.0, math.cos(bearing.contact_angle))
+    at_rest = [*axis, *(0.0,) * 15]
+    place = [0.5 * bearing.pitch_diameter, 0.0, cage.roller_place / axis[2]]
+    cases = np.array(
+        [[*place, *at_rest[:3], 0, 0, 1.0, *at_rest[6:], a] for a in np.linspace(-0.02, 0.02, 41)]
+    )
+    assert cases.shape[1] == 22
+    rows = np.repeat(cases, lanes.width, axis=0)
+    found = through(lanes, worn_pockets, rows, 6, 0, worn, roller, cage).reshape(41, lanes.width, 6)
+    wider = cage._replace(half_clearance=cage.half_clearance + 0.5 * wear)
+    expected = through(lanes, worn_pockets, rows, 6, 0, None, roller, wider).reshape(41, lanes.width, 6)
+    usual = through(lanes, worn_pockets, rows, 6, 0, None, roller, cage).reshape(41, lanes.width, 6)
+    np.testing.assert_allclose(found[:, 0], expected[:, 0], rtol=1e-12)
+    assert np.abs(found[:, 0] - usual[:, 0]).max() > 1.0
+    if lanes.width > 1:
+        np.testing.assert_array_equal(found[:, 1:], usual[:, 1:])
