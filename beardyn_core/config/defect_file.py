@@ -109,7 +109,8 @@ class PatchKeys(FileModel):
                 found.append("on is 'roller'; brinelling is one dent a roller, on the cup or the cone")
             elif self.width_mm > 0.5 * pitch_mm:
                 found.append(
-                    f"width_mm is {self.width_mm:g}; it must be at most {0.5 * pitch_mm:.4g}, half a roller pitch"
+                    f"width_mm is {self.width_mm:g}; it must be at most {0.5 * pitch_mm:.4g}, "
+                    "half a roller pitch"
                 )
         return found
 

@@ -332,7 +332,7 @@ def primitive(emit: Callable[..., Any]) -> Callable[[Callable[..., Any]], Callab
     return decorate
 
 
-@intrinsic
+@_typed_intrinsic
 def _any_positive(_typing: Any, a: Any) -> Any:
     def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
         vector = signature.args[0]

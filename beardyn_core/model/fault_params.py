@@ -38,12 +38,15 @@ SURFACES = ("cup", "cone", "roller")
 def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> FaultParams:
     """All faults at t = 0; what the scene does not have is ``None``."""
     cup, cone, roller = (surface_params(scene, on, arrangement) for on in SURFACES)
-    waves = [wave_params(scene, on, arrangement) for on in SURFACES]
-    damage = [
+    cup_waves, cone_waves, roller_waves = (wave_params(scene, on, arrangement) for on in SURFACES)
+    cup_damage, cone_damage = (
         None if ring is None and roller is None else damage_params(laminae, arrangement.width)
         for ring in (cup, cone)
-    ]
-    return FaultParams(cup, cone, roller, *damage, *waves, pocket_wear(scene, arrangement))
+    )
+    return FaultParams(
+        cup, cone, roller, cup_damage, cone_damage, cup_waves, cone_waves, roller_waves,
+        pocket_wear(scene, arrangement),
+    )  # fmt: skip
 
 
 def patches_of(scene: Scene, on: str) -> list[Patch]:
@@ -74,9 +77,9 @@ def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfacePa
 
 def grow(faults: FaultParams, scene: Scene, time: float) -> None:
     """Give growing patches their size at a time [s]; a function of the time alone."""
-    for on, surface in zip(SURFACES, faults[:3], strict=True):
+    for on, surface in zip(SURFACES, (faults.cup, faults.cone, faults.roller), strict=True):
         for index, patch in enumerate(patches_of(scene, on)):
-            if patch.growth is not None:
+            if surface is not None and patch.growth is not None:
                 _write_patch(surface, index, patch, scene, time)
 
 

@@ -19,7 +19,7 @@ def wave_params(scene: Scene, on: str, arrangement: Arrangement) -> WaveParams |
     if not waves:
         return None
     points = max(1024, POINTS_PER_WAVE * max(max(wave.orders) for wave in waves))
-    azimuth = np.arange(points + 2) * (2.0 * math.pi / points)
+    azimuth = np.arange(points + 2, dtype=np.float64) * (2.0 * math.pi / points)
     count = arrangement.roller_count if on == "roller" else 1
     tables = np.zeros((2, count, points + 2))
     for wave in waves:

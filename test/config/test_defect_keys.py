@@ -46,7 +46,10 @@ def test_each_kind_of_defect_in_si(tmp_path: Path) -> None:
         ],
         waviness=[
             {"on": "cup", "row": 0, "orders": [17, 34], "amplitude_um": 0.3},
-            {"on": "roller", "row": 1, "roller": 4, "band": {"first": 2, "last": 20, "rms_um": 0.5}, "seed": 9},
+            {
+                "on": "roller", "row": 1, "roller": 4, "seed": 9,
+                "band": {"first": 2, "last": 20, "rms_um": 0.5},
+            },
         ],
         roughness={"raceway_um": 0.4, "rib_um": 0.25},
     )  # fmt: skip
@@ -74,7 +77,10 @@ WAVE = {"on": "cup", "row": 0}
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"defects": [{**SPALL, "kind": "dentt"}]}, ["defects[0].kind is 'dentt'", "did you mean 'dent'?", "'diameter'"]),
+        (
+            {"defects": [{**SPALL, "kind": "dentt"}]},
+            ["defects[0].kind is 'dentt'", "did you mean 'dent'?", "'diameter'"],
+        ),
         ({"defects": [{**SPALL, "rim_height_mm": 1}]}, ["defects[0].rim_height_mm", "`rim_height_um`"]),
         (
             {"defects": [{**SPALL, "growth": {"from_s": 2, "to_s": 1}}]},
@@ -84,8 +90,14 @@ WAVE = {"on": "cup", "row": 0}
             {"defects": [{**SPALL, "growth": {"from_s": 0, "to_s": 1, "initial_share": 2}}]},
             ["defects[0].growth.initial_share is 2", "at most 1"],
         ),
-        ({"defects": [{**SPALL, "kind": "brinelling", "on": "roller"}]}, ["defects[0].on is 'roller'", "cone"]),
-        ({"defects": [{**SPALL, "kind": "brinelling", "width_mm": 40}]}, ["width_mm is 40", "half a roller pitch"]),
+        (
+            {"defects": [{**SPALL, "kind": "brinelling", "on": "roller"}]},
+            ["defects[0].on is 'roller'", "cone"],
+        ),
+        (
+            {"defects": [{**SPALL, "kind": "brinelling", "width_mm": 40}]},
+            ["width_mm is 40", "half a roller pitch"],
+        ),
         (
             {"defects": [{"kind": "diameter", "row": 0, "roller": 17, "diameter_um": 3}]},
             ["defects[0].roller is 17", "0 to 16"],
@@ -100,7 +112,10 @@ WAVE = {"on": "cup", "row": 0}
         ),
         ({"waviness": [WAVE]}, ["waviness[0]", "`orders` with `amplitude_um`, or `band`"]),
         ({"waviness": [{**WAVE, "orders": [2]}]}, ["waviness[0]", "`orders` with `amplitude_um`"]),
-        ({"waviness": [{**WAVE, "orders": [0], "amplitude_um": 1}]}, ["waviness[0].orders[0] is 0", "at least 1"]),
+        (
+            {"waviness": [{**WAVE, "orders": [0], "amplitude_um": 1}]},
+            ["waviness[0].orders[0] is 0", "at least 1"],
+        ),
         (
             {"waviness": [{**WAVE, "band": {"first": 9, "last": 3, "rms_um": 1}}]},
             ["waviness[0].band: last is 3", "at least first, 9"],
@@ -180,7 +195,7 @@ others = some.one_of(
 def test_any_allowed_defects_load_build_and_come_back_from_the_recording(
     tmp_path: Path, defects: list[dict[str, Any]]
 ) -> None:
-    """The scene's own text gives the same scene again, and so does the truth of a recording; paths are finite."""
+    """The scene's own text gives the same scene again, and so does a recording's truth; paths are finite."""
     scene = scene_of(tmp_path, defects=defects)
     assert scene_from_text(scene.source_text).defects == scene.defects
     twin = Twin(scene)

@@ -38,7 +38,7 @@ from test.kernels.rig import SPEED, Float, Rig, constant_load, scene_with, stand
 
 Z = 17
 STEP = 1.0 / (25_600 * 4)
-HEAVY = {"journal_mass": 1e12}
+HEAVY: dict[str, Any] = {"journal_mass": 1e12}
 SURFACES = ("cup", "cone", "roller")
 FLAT = tuple(Patch(on, 0, 0.0, 6e-3, 0.0, 0.05) for on in SURFACES)
 SPALL = Patch("cup", 0, math.pi / Z, 6e-3, 2e-6, 0.05)
@@ -47,7 +47,7 @@ SPALL = Patch("cup", 0, math.pi / Z, 6e-3, 2e-6, 0.05)
 def faulty(*defects: Defect, waviness: tuple[Waviness, ...] = (), **changes: Any) -> Scene:
     """A scene with these faults, and with every other kind of no size."""
     round_ones = tuple(Waviness(on, 0, (5,), (0.0,)) for on in SURFACES)
-    none = (*FLAT, RollerError(0, 0, 0.0), WornPocket(0, 0, 0.0))
+    none: tuple[Defect, ...] = (*FLAT, RollerError(0, 0, 0.0), WornPocket(0, 0, 0.0))
     return scene_with(defects=(*none, *defects), waviness=(*round_ones, *waviness), **changes)
 
 
