@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -20,6 +20,7 @@ from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
+from beardyn_core.model.fault_params import grow, roller_oversize
 from beardyn_core.model.layout import (
     ENERGY_ELASTIC,
     ENERGY_EXTERNAL,
@@ -34,6 +35,7 @@ from beardyn_core.model.layout import (
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
+from beardyn_core.scene.defect import truth_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.scene import Scene
@@ -153,6 +155,7 @@ class Twin:
             laminae=scene.numerics.laminae,
             speed=first[6],
             coupling=scene.effects.lamina_coupling,
+            oversize=roller_oversize(scene),
         )
         carried = self._weight_of_rollers_and_cages()
         preload = np.concatenate([-first[:3], -moment])
@@ -201,6 +204,7 @@ class Twin:
             raise ValidityError("the twin has not been started: it needs its first load")
         loads = self.load.at_steps(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
         began = time.perf_counter()
+        grow(self._parameters.effects.faults, self.scene, self._index * BLOCK_NS * 1e-9)
         rollers, bodies = self._run(self._state, loads, self._signals)
         wall = time.perf_counter() - began
         status = assess(
@@ -256,7 +260,8 @@ class Twin:
                 "effects": list(scene.missing_effects),
                 "channels": list(TIER_NOUNS[scene.tier].absent),
             },
-            "faults": [vars(defect) for defect in scene.defects],
+            "faults": [truth_of(defect, self._index * BLOCK_NS * 1e-9) for defect in scene.defects],
+            "waviness": [asdict(wave) for wave in scene.waviness],
             "fault_frequencies_per_rev": {
                 "FTF": frequencies.ftf,
                 "BPFO": frequencies.bpfo,

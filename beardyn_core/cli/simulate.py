@@ -120,6 +120,7 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "tier": summary.tier,
         "effects": list(summary.effects),
         "not_in_tier": list(summary.not_in_tier),
+        "faults": list(summary.faults),
         "duration_s": summary.duration,
         "wall_s": summary.wall_time,
         "rtf": _number(summary.real_time_factor),
@@ -149,6 +150,7 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         ("tier", summary.tier),
         ("effects", ", ".join(summary.effects) or "none"),
         *([("not in this tier", ", ".join(summary.not_in_tier))] if summary.not_in_tier else []),
+        ("faults", "; ".join(summary.faults) or "none"),
         (
             "simulated",
             f"{summary.duration:.2f} s in {summary.wall_time:.2f} s, "

@@ -11,12 +11,13 @@ from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.bearing_file import BearingKeys
+from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
 from beardyn_core.config.effects_file import EffectsKeys, overlay
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.lubricant_file import LubricantKeys
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
-from beardyn_core.config.scene_file import DefectKeys, NumericsKeys, SceneKeys
+from beardyn_core.config.scene_file import NumericsKeys, SceneKeys
 from beardyn_core.config.units import stem_of
 from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
@@ -220,11 +221,13 @@ class _Reading:
         ).label
         problems = check(bearing)
         self.problems += [f"{label}: {_plain(problem)}" for problem in problems]
-        defects = self.data.get("defects")
-        for index, given in enumerate(defects if isinstance(defects, list) and not problems else []):
-            defect = _valid(DefectKeys, given)
-            for problem in defect.contradictions(bearing) if defect else []:
-                self.problems.append(f"{self.origins[0].label}: {key_path(('defects', index))}.{problem}")
+        faults: tuple[tuple[str, Any], ...] = (("defects", DefectKeys), ("waviness", WavinessKeys))
+        for key, keys in faults:
+            entries = self.data.get(key)
+            for index, given in enumerate(entries if isinstance(entries, list) and not problems else []):
+                fault = _valid(keys, given)
+                for problem in fault.contradictions(bearing) if fault else []:
+                    self.problems.append(f"{self.origins[0].label}: {key_path((key, index))}.{problem}")
 
     def _check_tier(self) -> None:
         tier = self.data.get("tier", "full")

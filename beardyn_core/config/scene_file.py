@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
 
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.config.bearing_file import BearingKeys
+from beardyn_core.config.defect_file import DefectKeys, RoughnessKeys, WavinessKeys
 from beardyn_core.config.effects_file import EffectsKeys
 from beardyn_core.config.file_model import (
     Count,
@@ -26,8 +27,7 @@ from beardyn_core.config.file_model import (
 )
 from beardyn_core.config.lubricant_file import LubricantKeys
 from beardyn_core.config.operation_file import OperationKeys, scaled
-from beardyn_core.config.units import DEG, KN, MEGA, MM, UM, ZERO_CELSIUS
-from beardyn_core.scene.defect import Spall
+from beardyn_core.config.units import KN, MEGA, MM, UM, ZERO_CELSIUS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.sensor import Accelerometer
@@ -61,67 +61,6 @@ class MountingKeys(FileModel):
             damping=scaled(self.damping_kN_s_per_m, KN),
             rotational_stiffness=scaled(self.rotational_stiffness_kN_m_per_rad, KN),
             rotational_damping=self.rotational_damping_N_m_s_per_rad,
-        )
-
-
-class DefectKeys(FileModel):
-    """A patch of missing material on a raceway or a roller."""
-
-    kind: Literal["spall"] = "spall"
-    on: Literal["cup", "cone", "roller"]
-    row: Annotated[Count, Field(ge=0, le=1)] = Field(description="0 inboard, 1 outboard")
-    azimuth_deg: Number = Field(
-        0.0, description="from +z (the top) towards +x, in the body's own frame at the start of the run"
-    )
-    width_mm: Annotated[Positive, Field(le=200.0)] = Field(description="in rolling direction")
-    depth_um: Annotated[Positive, Field(le=5000.0)]
-    length_mm: Positive | None = Field(None, description="along the roller; the whole contact when not given")
-    offset_mm: Number = Field(0.0, description="centre from mid-length, positive towards the large end")
-    roller: Annotated[Count, Field(ge=0)] = Field(0, description="which roller, with `on: roller`")
-
-    def contradictions(self, bearing: Bearing) -> list[str]:
-        """What of this defect does not fit the bearing; key, value and what is allowed."""
-        found = []
-        effective_mm = bearing.effective_length * MM
-        length_mm = effective_mm if self.length_mm is None else self.length_mm
-        slack_mm = 1e-9 * effective_mm
-        if self.on == "roller" and self.roller >= bearing.roller_count:
-            found.append(
-                f"roller is {self.roller}; {bearing.name} has {bearing.roller_count} rollers per row, "
-                f"0 to {bearing.roller_count - 1}"
-            )
-        if length_mm > effective_mm + slack_mm:
-            found.append(
-                f"length_mm is {length_mm:g}; it must be at most {effective_mm:g}, the effective length"
-            )
-        elif abs(self.offset_mm) + 0.5 * length_mm > 0.5 * effective_mm + slack_mm:
-            found.append(
-                f"offset_mm is {self.offset_mm:g}; with length_mm {length_mm:g} the patch reaches beyond the "
-                f"effective roller length, {effective_mm:g} mm"
-            )
-        if self.on == "roller" and self.width_mm > bearing.roller_diameter * MM:
-            found.append(
-                f"width_mm is {self.width_mm:g}; it must be at most {bearing.roller_diameter * MM:g}, "
-                "the roller diameter"
-            )
-        if self.depth_um / UM > 0.1 * bearing.roller_diameter:
-            found.append(
-                f"depth_um is {self.depth_um:g}; it must be at most {0.1 * bearing.roller_diameter * UM:g}, "
-                "a tenth of the roller diameter"
-            )
-        return found
-
-    def noun(self, bearing: Bearing) -> Spall:
-        """The spall, SI."""
-        return Spall(
-            on=self.on,
-            row=self.row,
-            azimuth=self.azimuth_deg * DEG,
-            width=self.width_mm / MM,
-            depth=self.depth_um / UM,
-            length=bearing.effective_length if self.length_mm is None else self.length_mm / MM,
-            offset=self.offset_mm / MM,
-            roller=self.roller,
         )
 
 
@@ -179,6 +118,8 @@ class SceneKeys(FileModel):
     operation: OperationKeys = Field(description="where load and speed come from")
     mounting: MountingKeys = MountingKeys()
     defects: tuple[DefectKeys, ...] = ()
+    waviness: tuple[WavinessKeys, ...] = ()
+    roughness: RoughnessKeys = RoughnessKeys()
     sensors: Annotated[tuple[SensorKeys, ...], Field(min_length=1)] = (SensorKeys(),)
     numerics: NumericsKeys = NumericsKeys()
     duration_s: Annotated[Positive, Field(le=86400.0)] = 2.0
@@ -212,6 +153,11 @@ class SceneKeys(FileModel):
         assert isinstance(self.lubricant, LubricantKeys)
         assert isinstance(self.effects, EffectsKeys)
         bearing = self.bearing.noun()
+        given = self.roughness
+        if given.raceway_um is not None:
+            bearing = replace(bearing, raceway_roughness=given.raceway_um / UM)
+        if given.rib_um is not None:
+            bearing = replace(bearing, rib_roughness=given.rib_um / UM)
         return Scene(
             name=self.scene,
             purpose=self.purpose,
@@ -229,4 +175,5 @@ class SceneKeys(FileModel):
             duration=self.duration_s,
             seed=self.seed,
             source_text=source_text,
+            waviness=tuple(wave.noun() for wave in self.waviness),
         )

@@ -44,8 +44,12 @@ class ContactModel:
         about which a positive tilt turns the large end radially outwards.
     centre : float64 array, shape [row, roller, 3]
         Nominal mid-length points of the rollers, [m].
-    abscissa, radius, drop : float64 arrays, shape [lamina]
-        Lamina position from mid-length, roller radius there and profile drop, [m].
+    abscissa, drop : float64 arrays, shape [lamina]
+        Lamina position from mid-length and profile drop, [m].
+    radius : float64 array, shape [row, roller, lamina]
+        Roller radius at the laminae with the roller's error, [m].
+    oversize : float64 array, shape [row, roller, 1]
+        Radius error, [m].
     clearance : float
         Normal gap at the cup raceway with the cone centred, [m].
     lamina_factor, rib_factor : float
@@ -63,6 +67,7 @@ class ContactModel:
     centre: Float
     abscissa: Float
     radius: Float
+    oversize: Float
     drop: Float
     clearance: float
     lamina_factor: float
@@ -125,6 +130,7 @@ def contact_model(
     speed: float,
     roller_phase: float,
     coupling: LaminaCoupling | None = None,
+    oversize: Float | None = None,
 ) -> ContactModel:
     """Constants of the contacts.
 
@@ -141,7 +147,10 @@ def contact_model(
         Azimuth of roller 0, [rad].
     coupling : LaminaCoupling or None
         Coupling of the laminae.
+    oversize : float64 array, shape [row, roller], optional
+        Radius error of each roller, [m].
     """
+    error = np.zeros((ROW_COUNT, bearing.roller_count)) if oversize is None else oversize
     azimuth = roller_phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
     radial = np.zeros((ROW_COUNT, bearing.roller_count, 3))
     radial[..., 0], radial[..., 2] = np.sin(azimuth), np.cos(azimuth)
@@ -155,7 +164,8 @@ def contact_model(
         tilt_axis=np.cross(axial, radial),
         centre=0.5 * bearing.row_spacing * axial + 0.5 * bearing.pitch_diameter * radial,
         abscissa=abscissa,
-        radius=(bearing.apex_distance + abscissa) * math.tan(bearing.half_angle),
+        radius=(bearing.apex_distance + abscissa) * math.tan(bearing.half_angle) + error[:, :, None],
+        oversize=error[:, :, None],
         drop=bearing.profile.lamina_drop(
             laminae, bearing.effective_length, bearing.roller_diameter, bearing.material.contact_modulus
         ),
@@ -219,7 +229,7 @@ def cup_contacts(model: ContactModel, roller: Float) -> ContactSet:
     along = model.abscissa * np.cos(phi - 0.5 * tilt) * half_sine
     across = model.radius * np.sin(phi - 0.5 * tilt) * half_sine
     inward = cosine * roller[..., 0:1] - sine * roller[..., 1:2]
-    approach = inward + along + across - model.clearance - model.drop
+    approach = inward + along + across - model.clearance - model.drop + model.oversize * math.cos(phi)
     by_roller = np.empty((*approach.shape, 3))
     by_roller[..., 0], by_roller[..., 1] = cosine, -sine
     by_roller[..., 2] = model.abscissa * np.cos(phi - tilt) + model.radius * np.sin(phi - tilt)
@@ -243,7 +253,7 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> Contact
     normal = _cone_normal(lamina_centre, outwards, sine, cosine)
     along = np.sum(normal * axis[:, :, None, :], axis=-1, keepdims=True)
     facing = (normal - along * axis[:, :, None, :]) / np.sqrt(1.0 - along**2)
-    point = lamina_centre + model.radius[:, None] * facing
+    point = lamina_centre + model.radius[..., None] * facing
     distance = np.hypot(point[..., 0], point[..., 2])
     gap = cosine * distance - sine * (outwards * point[..., 1] - model.apex_axial) + model.drop
     normal = _cone_normal(point, outwards, sine, cosine)

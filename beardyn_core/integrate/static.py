@@ -100,6 +100,7 @@ def solve(
     speed: float = 0.0,
     roller_phase: float = 0.0,
     coupling: LaminaCoupling | None = None,
+    oversize: Float | None = None,
 ) -> StaticSolution:
     """Static equilibrium under a load on the cone.
 
@@ -122,6 +123,8 @@ def solve(
         Azimuth of roller 0 of both rows, [rad].
     coupling : LaminaCoupling or None
         Coupling of the laminae along the rollers.
+    oversize : float64 array, shape [row, roller], optional
+        Radius error of each roller, [m].
 
     Returns
     -------
@@ -142,7 +145,7 @@ def solve(
     """
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
-    model = contact_model(bearing, end_play, laminae, speed, roller_phase, coupling)
+    model = contact_model(bearing, end_play, laminae, speed, roller_phase, coupling, oversize)
     cone = _Cone(model, load, 5 if tilt == "free" else 3)
     state, unknowns, iterations = _equilibrium(cone)
     residual = cone.residual(state)

@@ -10,7 +10,8 @@ orbit        motion of rollers in frames that turn with their orbit
 raceway      laminated roller on a conical raceway
 film         film thickness of a lamina
 traction     friction of a lamina
-defect       gap over spalls
+defect       gap over patches of raceways and rollers
+waviness     gap of waviness; the force along a sloping gap
 rib          large end on the cone rib
 pocket       roller in its cage pocket
 rolling      couple against rolling, and its part of a step

@@ -1,35 +1,210 @@
-"""Spalls as a gap: how far a lamina sinks where the raceway or its own surface is missing."""
+"""Patches of raceways and rollers as gaps under the laminae.
+
+Far from every patch a contact costs one distance a patch. Near one, each lamina becomes two springs, its
+sound and its damaged part, the damaged one with the gap from the path of the roller over the patch.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, wrap
+from beardyn_core.kernels.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
+from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.model.parameters import (
+    PATCH_POINTS,
+    PLACE_ARC_RADIUS,
+    PLACE_AZIMUTH,
+    PLACE_RADIUS,
+    PLACE_REACH,
+    PLACE_REPEATS,
+    PLACE_SCALE,
+    SPRING_FIELDS,
+    SPRING_GAP,
+    SPRING_RING_SLOPE,
+    SPRING_ROLLER_SLOPE,
+    SPRING_SHARE,
+)
 
-SPALL_AZIMUTH, SPALL_HALF_WIDTH, SPALL_RADIUS, SPALL_DEPTH = 0, 1, 2, 3  # fields of a patch
+_LAST = PATCH_POINTS - 2.0
+_FAR, _NEAR = 0, 1
 
 
 @inline
-def spall_gap(lanes: Any, block: Any, azimuth: Any, lamina: Any, roller_radius: Any, spall: Any) -> Any:
-    """Gap of one lamina over the spalls of one surface, [m].
+def patch_arc(azimuth: Any, patch: Any, surface: Any) -> Any:
+    """Arc from the nearest centre of a patch, [m]."""
+    turn = surface.places[patch, PLACE_REPEATS] * (azimuth - surface.places[patch, PLACE_AZIMUTH])
+    return wrap(turn) * surface.places[patch, PLACE_ARC_RADIUS]
 
-    A rigid roller of radius r that bridges a patch rests on the nearer edge, at distance e inside of which
-    it sinks by e^2 / (2 r), and never deeper than the floor. Neglects the tilt of the edge contact's
-    normal and the elastic flattening of the edge.
 
-    References
+@inline
+def patch_nearness(lanes: Any, block: Any, azimuth: Any, patch: Any, surface: Any) -> Any:
+    """How far a roller is inside of the reach of a patch; not positive where it does not feel it, [m]."""
+    inside = surface.places[patch, PLACE_REACH] - magnitude(patch_arc(azimuth, patch, surface))
+    return lanes.load(surface.present, block, patch) * inside
+
+
+@inline
+def any_near(lanes: Any, block: Any, azimuth: Any, surface: Any) -> Any:
+    """Whether any lane is within the reach of any patch of a surface."""
+    if surface is None:
+        return False
+    nearest = lanes.constant(0.0)
+    for patch in range(surface.places.shape[0]):
+        nearest = at_least(nearest, patch_nearness(lanes, block, azimuth, patch, surface))
+    return any_positive(nearest)
+
+
+@inline
+def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any, damage: Any) -> Any:
+    """Which springs a contact has: 0 far from every patch, 1 near one, with their gaps worked out.
+
+    Parameters
     ----------
-    Geometric bridging h = r - sqrt(r^2 - x^2), to second order in x; Sawalhi and Randall (2008).
+    azimuths : tuple of 2 lane values
+        Of the roller in the ring's frame, and of the contact in the roller's, [rad].
+    count : int
+        Laminae.
+    surfaces : tuple of 2 SurfaceParams or None
+        Of ring and roller.
+    damage : DamageParams or None
+
+    Notes
+    -----
+    A patch that covers a part of a lamina leaves the rest as a spring of its own, so that forces are
+    continuous in the place and length of a patch. Where several patches meet on one lamina their gaps add;
+    when they cover different shares of it, one damaged spring stands for all of them, with the mean share
+    (by gap) and the mean gap of the lamina kept.
     """
-    if spall is None:
+    if damage is None:
+        return _FAR
+    if not (
+        any_near(lanes, block, azimuths[0], surfaces[0]) or any_near(lanes, block, azimuths[1], surfaces[1])
+    ):
+        return _FAR
+    springs = damage.springs
+    zero = lanes.constant(0.0)
+    for field in range(SPRING_FIELDS * 2 * count):
+        lanes.store(springs, _NEAR, field, zero)
+    add_patches(lanes, block, azimuths[0], count, SPRING_RING_SLOPE, surfaces[0], springs)
+    add_patches(lanes, block, azimuths[1], count, SPRING_ROLLER_SLOPE, surfaces[1], springs)
+    for k in range(count):
+        sound, damaged = SPRING_FIELDS * k, SPRING_FIELDS * (count + k)
+        first = lanes.load(springs, _NEAR, damaged + SPRING_SHARE)
+        second = lanes.load(springs, _NEAR, sound + SPRING_SHARE)
+        share = first / at_least(second, 1e-30)
+        weight = 1.0 / at_least(share, 1e-12)
+        lanes.store(springs, _NEAR, sound + SPRING_SHARE, 1.0 - share)
+        lanes.store(springs, _NEAR, damaged + SPRING_SHARE, share)
+        for field in (SPRING_GAP, SPRING_RING_SLOPE, SPRING_ROLLER_SLOPE):
+            mean = weight * lanes.load(springs, _NEAR, damaged + field)
+            lanes.store(springs, _NEAR, damaged + field, mean)
+    return _NEAR
+
+
+@inline
+def add_patches(
+    lanes: Any, block: Any, azimuth: Any, count: Any, slope_field: Any, surface: Any, springs: Any
+) -> None:
+    """Add the moments of the gaps of one surface's patches to the springs of a contact.
+
+    Into the fields of the damaged spring go the sums of ``c |g|`` (share), ``c g`` (gap) and ``c dg/dtheta``
+    (slope), c the cover; into the share of the sound one that of ``|g|``.
+    """
+    if surface is None:
+        return
+    for patch in range(surface.places.shape[0]):
+        if any_positive(patch_nearness(lanes, block, azimuth, patch, surface)):
+            arc = patch_arc(azimuth, patch, surface)
+            scale = surface.places[patch, PLACE_SCALE]
+            position = at_most(magnitude(arc) * scale, _LAST)
+            cell = floor(position)
+            part = position - cell
+            present = lanes.load(surface.present, block, patch)
+            climb = scale * surface.places[patch, PLACE_RADIUS] * present
+            climb = where_greater(arc, 0.0, climb, -climb)
+            for k in range(count):
+                sound, damaged = SPRING_FIELDS * k, SPRING_FIELDS * (count + k)
+                begin = PATCH_POINTS * (patch * count + k)
+                low = lanes.gather(surface.paths, cell + begin)
+                high = lanes.gather(surface.paths, cell + (begin + 1))
+                gap = present * (low + part * (high - low))
+                cover = surface.cover[patch, k]
+                _increase(lanes, springs, damaged + SPRING_SHARE, cover * magnitude(gap))
+                _increase(lanes, springs, sound + SPRING_SHARE, magnitude(gap))
+                _increase(lanes, springs, damaged + SPRING_GAP, cover * gap)
+                _increase(lanes, springs, damaged + slope_field, cover * climb * (high - low))
+
+
+@inline
+def _increase(lanes: Any, springs: Any, field: Any, value: Any) -> None:
+    lanes.store(springs, _NEAR, field, lanes.load(springs, _NEAR, field) + value)
+
+
+@inline
+def spring_table(laminae: Any, damage: Any) -> Any:
+    """Lamina table with a column for every spring."""
+    if damage is None:
+        return laminae
+    return damage.laminae
+
+
+@inline
+def spring_count(page: Any, laminae: Any, damage: Any, coupling: Any) -> Any:
+    """Springs of a contact; coupled laminae are not divided."""
+    if damage is None:
+        return laminae.shape[1]
+    if coupling is None:
+        return laminae.shape[1] * (1 + page)
+    return laminae.shape[1]
+
+
+@inline
+def spring_damage(lanes: Any, page: Any, spring: Any, damage: Any) -> Any:
+    """Share of its lamina [-] and gap [m] of a spring."""
+    if damage is None:
+        return 1.0, 0.0
+    field = SPRING_FIELDS * spring
+    return (
+        lanes.load(damage.springs, page, field + SPRING_SHARE),
+        lanes.load(damage.springs, page, field + SPRING_GAP),
+    )
+
+
+@inline
+def mean_gap(lanes: Any, page: Any, lamina: Any, count: Any, damage: Any) -> Any:
+    """Mean gap along one lamina, [m]."""
+    if damage is None:
         return 0.0
-    patches = spall.patches
-    gap = lanes.constant(0.0)
-    for patch in range(block, patches.shape[0], spall.block_count):
-        arc = magnitude(wrap(azimuth - lanes.load(patches, patch, SPALL_AZIMUTH)))
-        arc = arc * lanes.load(patches, patch, SPALL_RADIUS)
-        inside = at_least(lanes.load(patches, patch, SPALL_HALF_WIDTH) - arc, 0.0)
-        sink = inside * inside / (2.0 * roller_radius)
-        gap = gap + at_most(sink, lanes.load(patches, patch, SPALL_DEPTH + lamina))
-    return gap
+    field = SPRING_FIELDS * (count + lamina)
+    share = lanes.load(damage.springs, page, field + SPRING_SHARE)
+    return share * lanes.load(damage.springs, page, field + SPRING_GAP)
+
+
+@inline
+def mean_slopes(lanes: Any, lamina: Any, count: Any, damage: Any) -> Any:
+    """Mean slope of the gap along one lamina over the ring's and the roller's azimuth, [m/rad]."""
+    field = SPRING_FIELDS * (count + lamina)
+    share = lanes.load(damage.springs, _NEAR, field + SPRING_SHARE)
+    return (
+        share * lanes.load(damage.springs, _NEAR, field + SPRING_RING_SLOPE),
+        share * lanes.load(damage.springs, _NEAR, field + SPRING_ROLLER_SLOPE),
+    )
+
+
+@inline
+def spring_slopes(lanes: Any, spring: Any, damage: Any) -> Any:
+    """Slope of the gap of a spring near a patch over the ring's and the roller's azimuth, [m/rad]."""
+    field = SPRING_FIELDS * spring
+    return (
+        lanes.load(damage.springs, _NEAR, field + SPRING_RING_SLOPE),
+        lanes.load(damage.springs, _NEAR, field + SPRING_ROLLER_SLOPE),
+    )
+
+
+@inline
+def pocket_wear(lanes: Any, block: Any, pockets: Any) -> Any:
+    """Half of the added clearance of each roller's pocket, [m]."""
+    if pockets is None:
+        return 0.0
+    return lanes.load(pockets, block, 0)

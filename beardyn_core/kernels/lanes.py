@@ -105,6 +105,11 @@ class Lanes:
         """Lane value with the same number in every lane."""
         return float(number) if self.width == 1 else np.full(self.width, float(number))
 
+    def gather(self, table: Any, index: Any) -> Any:
+        """Lane value of ``table[index]``, the index of each lane kept within the table."""
+        inside = np.minimum(np.where(np.greater(index, 0.0), index, 0.0), len(table) - 1.0)
+        return table[np.asarray(inside, dtype=np.int64)]
+
 
 @typeof_impl.register(Lanes)
 def _typeof_lanes(value: Lanes, _context: Any) -> LanesType:
@@ -184,6 +189,33 @@ def _store(_typing: Any, lanes: Any, array: Any, block: Any, field: Any, value: 
 
 
 @_typed_intrinsic
+def _gather(_typing: Any, lanes: Any, table: Any, index: Any) -> Any:
+    if not isinstance(table, types.Array) or table.ndim != 1 or table.layout != "C":
+        raise TypeError(f"a table is contiguous float64 [point], not {table}")
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        view = context.make_array(signature.args[1])(context, builder, args[1])
+        last = builder.sitofp(builder.sub(view.nitems, _INT64(1)), _DOUBLE)
+        first = _DOUBLE(0.0)
+
+        def element(place: Any) -> Any:
+            place = builder.select(builder.fcmp_ordered(">", place, first), place, first)
+            place = builder.select(builder.fcmp_ordered("<", place, last), place, last)
+            pointer = builder.gep(view.data, [builder.fptosi(place, _INT64)])
+            return builder.load(pointer)
+
+        if lanes.width == 1:
+            return element(args[2])
+        found = ir.Constant(ir.VectorType(_DOUBLE, lanes.width), ir.Undefined)
+        for lane in range(lanes.width):
+            place = builder.extract_element(args[2], _INT32(lane))
+            found = builder.insert_element(found, element(place), _INT32(lane))
+        return found
+
+    return lanes.value(lanes, table, lanes.value), generate
+
+
+@_typed_intrinsic
 def _constant(_typing: Any, lanes: Any, number: Any) -> Any:
     def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return _broadcast(builder, args[1], signature.args[1], lanes.value)
@@ -199,6 +231,11 @@ def _lanes_load(lanes, array, block, field):
 @overload_method(LanesType, "store")
 def _lanes_store(lanes, array, block, field, value):
     return lambda lanes, array, block, field, value: _store(lanes, array, block, field, value)
+
+
+@overload_method(LanesType, "gather")
+def _lanes_gather(lanes, table, index):
+    return lambda lanes, table, index: _gather(lanes, table, index)
 
 
 @overload_method(LanesType, "constant")
@@ -293,6 +330,29 @@ def primitive(emit: Callable[..., Any]) -> Callable[[Callable[..., Any]], Callab
         return function
 
     return decorate
+
+
+@_typed_intrinsic
+def _any_positive(_typing: Any, a: Any) -> Any:
+    def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        vector = signature.args[0]
+        positive = builder.fcmp_ordered(">", args[0], splat(args[0].type, 0.0))
+        if not isinstance(vector, VectorType):
+            return positive
+        bits = ir.IntType(vector.width)
+        return builder.icmp_unsigned("!=", builder.bitcast(positive, bits), bits(0))
+
+    return types.boolean(a), generate
+
+
+def any_positive(a: Any) -> Any:
+    """Whether any lane is above zero: the one way to branch on lane values."""
+    return bool(np.any(np.greater(a, 0.0)))
+
+
+@overload(any_positive)
+def _overload_any_positive(a):
+    return (lambda a: _any_positive(a)) if _is_lane_value(a) else None
 
 
 def integer_type(value: ir.Type) -> ir.Type:

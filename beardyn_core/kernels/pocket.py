@@ -20,6 +20,7 @@ def pocket_contact(
     tilt: Any,
     ring_velocity: Any,
     ring_omega: Any,
+    wear: Any,
     roller: Any,
     cage: Any,
 ) -> Any:
@@ -42,6 +43,8 @@ def pocket_contact(
         Small rotation of the cage without its spin, [rad].
     ring_velocity, ring_omega : vector
         Of the cage at its origin.
+    wear : lane value
+        Half of the clearance that wear has added, [m].
     roller : RollerParams
     cage : CageParams
 
@@ -67,7 +70,7 @@ def pocket_contact(
     skew = cage.bar_cosine * dot(ahead, axis)
     front = add_scaled(scale(cage.bar_cosine, ahead), cage.bar_sine, outward)
     behind = add_scaled(scale(-cage.bar_cosine, ahead), cage.bar_sine, outward)
-    clearance = cage.bar_cosine * cage.half_clearance
+    clearance = cage.bar_cosine * (cage.half_clearance + wear)
     motion = (velocity, omega, ring_velocity, ring_omega)
     small, large = -cage.bar_place, cage.bar_place
     small_radius = roller.radius - cage.bar_place * roller.taper

@@ -12,7 +12,7 @@ from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale
 
 @inline
 def rotating_pocket(
-    centre: Any, axis: Any, motion: Any, advance: Any, tilt: Any, roller: Any, cage: Any
+    centre: Any, axis: Any, motion: Any, advance: Any, tilt: Any, wear: Any, roller: Any, cage: Any
 ) -> Any:
     """Contact with the nearer bar at both ends of the roller; arguments and results as `pocket_contact`.
 
@@ -20,6 +20,7 @@ def rotating_pocket(
     Neglects the lean of the bars, the lubricant, and the pocket ends.
     """
     ahead, offset, skew = _along_pitch_circle(centre, axis, advance, tilt)
+    clearance = cage.half_clearance + wear
     small_place, large_place = -cage.bar_place, cage.bar_place
     small_offset = offset + small_place * skew
     large_offset = offset + large_place * skew
@@ -30,11 +31,11 @@ def rotating_pocket(
     small_normal, large_normal = scale(small_side, ahead), scale(large_side, ahead)
     small = touch_wall(
         centre, add_scaled(scale(small_place, axis), small_radius, small_normal), small_normal,
-        magnitude(small_offset) - cage.half_clearance, motion, cage, (axis, small_radius), None,
+        magnitude(small_offset) - clearance, motion, cage, (axis, small_radius), None,
     )  # fmt: skip
     large = touch_wall(
         centre, add_scaled(scale(large_place, axis), large_radius, large_normal), large_normal,
-        magnitude(large_offset) - cage.half_clearance, motion, cage, (axis, large_radius), None,
+        magnitude(large_offset) - clearance, motion, cage, (axis, large_radius), None,
     )  # fmt: skip
     bar = scale(
         where_greater(offset, 0.0, roller.radius + 0.0 * offset, -roller.radius + 0.0 * offset), ahead

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.defect import pocket_wear
 from beardyn_core.kernels.exchange import account, account_loss, output_contact, react
 from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.orbit import ring_view
@@ -25,6 +26,7 @@ def cage_before(
     cosine: Any,
     sine: Any,
     roller: Any,
+    worn: Any,
     cage: Any,
 ) -> Any:
     """Pocket contact of one block: centre, wrench with energy, touches with bar; zeros without a cage."""
@@ -38,8 +40,9 @@ def cage_before(
     pocket = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(constants, block, POCKET_ANGLE)
     centre = subtract(place, origin)
     motion = (velocity, omega, ring_velocity, ring_omega)
+    wear = pocket_wear(lanes, block, worn)
     touches, bar = _touches(
-        centre, axis, motion, azimuth - pocket, tilt, roller, cage, cage.rotating, cage.kinematic
+        centre, axis, motion, azimuth - pocket, tilt, wear, roller, cage, cage.rotating, cage.kinematic
     )
     return centre, _sum(touches, cage.rotating, cage.kinematic), (touches, bar)
 
@@ -51,6 +54,7 @@ def _touches(
     motion: Any,
     advance: Any,
     tilt: Any,
+    wear: Any,
     roller: Any,
     cage: Any,
     rotating: Any,
@@ -59,10 +63,10 @@ def _touches(
     if kinematic is not None:
         return kinematic_pocket(centre, axis, motion, advance, tilt, cage, kinematic)
     if rotating is not None:
-        return rotating_pocket(centre, axis, motion, advance, tilt, roller, cage)
+        return rotating_pocket(centre, axis, motion, advance, tilt, wear, roller, cage)
     velocity, omega, ring_velocity, ring_omega = motion
     return pocket_contact(
-        centre, axis, velocity, omega, advance, tilt, ring_velocity, ring_omega, roller, cage
+        centre, axis, velocity, omega, advance, tilt, ring_velocity, ring_omega, wear, roller, cage
     )
 
 

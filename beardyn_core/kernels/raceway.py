@@ -11,13 +11,21 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import spall_gap
+from beardyn_core.kernels.defect import (
+    find_damage,
+    mean_gap,
+    mean_slopes,
+    spring_count,
+    spring_damage,
+    spring_slopes,
+    spring_table,
+)
 from beardyn_core.kernels.film import log2_film_thickness
 from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
 from beardyn_core.kernels.lane_math import at_least, ninth_root, sqrt, where_greater
 from beardyn_core.kernels.traction import friction_rate
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
-from beardyn_core.model.parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_RADIUS, LAMINA_STIFFNESS
+from beardyn_core.model.parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 _SMALLEST_APPROACH = 1e-15
 
@@ -134,46 +142,39 @@ def spring_push(approach: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def lamina_depth(
-    lanes: Any, block: Any, approach: Any, azimuths: Any, k: Any, laminae: Any, spalls: Any
-) -> Any:
-    """Geometric penetration of one lamina, negative when apart, [m]."""
+def geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
+    """Penetration of one lamina or spring, negative when apart, [m]."""
     x = laminae[LAMINA_PLACE, k]
-    radius = laminae[LAMINA_RADIUS, k]
-    gap = spall_gap(lanes, block, azimuths[0], k, radius, spalls[0]) + spall_gap(
-        lanes, block, azimuths[1], k, radius, spalls[1]
-    )
     return (
         approach[0] + x * (approach[1] + x * (approach[2] + x * approach[3])) - laminae[LAMINA_DROP, k] - gap
     )
 
 
 @inline
-def prepare_coupling(
-    lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, spalls: Any, coupling: Any
-) -> None:
-    """Springs of all laminae at once, when they are coupled."""
+def prepare_coupling(lanes: Any, page: Any, approach: Any, laminae: Any, damage: Any, coupling: Any) -> None:
+    """Springs of all laminae at once, when they are coupled; a damaged lamina takes its mean gap."""
     if coupling is None:
         return
     for k in range(laminae.shape[1]):
-        depth = lamina_depth(lanes, block, approach, azimuths, k, laminae, spalls)
-        lanes.store(coupling.work, DEPTH, k, depth)
+        gap = mean_gap(lanes, page, k, laminae.shape[1], damage)
+        lanes.store(coupling.work, DEPTH, k, geometric_depth(approach, gap, k, laminae))
     couple_laminae(lanes, laminae, coupling)
 
 
 @inline
-def lamina_spring(
-    lanes: Any, block: Any, approach: Any, azimuths: Any, k: Any, laminae: Any, spalls: Any, coupling: Any
+def contact_spring(
+    lanes: Any, page: Any, approach: Any, k: Any, laminae: Any, damage: Any, coupling: Any
 ) -> Any:
-    """Penetration, tangent stiffness and energy of one lamina, [m], [N/m], [J]."""
+    """Share of its lamina [-], penetration [m], tangent stiffness [N/m] and energy [J] of one spring."""
     if coupling is None:
-        depth = lamina_depth(lanes, block, approach, azimuths, k, laminae, spalls)
+        share, gap = spring_damage(lanes, page, k, damage)
+        depth = geometric_depth(approach, gap, k, laminae)
         touching = at_least(depth, _SMALLEST_APPROACH)
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
         tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
-        return depth, tangent, tangent * touching * touching * (0.9 * 9.0 / 19.0)
+        return share, depth, tangent, tangent * touching * touching * (0.9 * 9.0 / 19.0)
     work = coupling.work
-    return lanes.load(work, DEPTH, k), lanes.load(work, SURFACE, k), lanes.load(work, FORCE, k)
+    return 1.0, lanes.load(work, DEPTH, k), lanes.load(work, SURFACE, k), lanes.load(work, FORCE, k)
 
 
 @inline
@@ -186,16 +187,16 @@ def lamina_sums(
     azimuths: Any,
     ring: Any,
     laminae: Any,
-    spalls: Any,
+    patches: Any,
     effects: Any,
 ) -> Any:
     """Sums over the laminae of one raceway contact.
 
     Returns
     -------
-    tuple of 10 lane values
+    tuple of 12 lane values
         Elastic force with x^0, x^1, x^2; tangent stiffness likewise; friction over slip likewise;
-        elastic energy.
+        elastic energy; elastic force times the slope of the gap over the azimuth in ring and roller.
 
     References
     ----------
@@ -208,14 +209,18 @@ def lamina_sums(
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
     friction_0, friction_1, friction_2 = zero, zero, zero
     energy = zero
-    prepare_coupling(lanes, block, approach, azimuths, laminae, spalls, effects.coupling)
-    for k in range(laminae.shape[1]):
+    surface, roller_surface, damage = patches
+    page = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
+    prepare_coupling(lanes, page, approach, laminae, damage, effects.coupling)
+    springs = spring_count(page, laminae, damage, effects.coupling)
+    laminae = spring_table(laminae, damage)
+    for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        depth, tangent, stored = lamina_spring(
-            lanes, block, approach, azimuths, k, laminae, spalls, effects.coupling
+        share, depth, tangent, stored = contact_spring(
+            lanes, page, approach, k, laminae, damage, effects.coupling
         )
         touching = at_least(depth, _SMALLEST_APPROACH)
-        energy = energy + stored
+        energy = energy + share * stored
         push = spring_push(touching, rate[0] + x * rate[1], effects.damping)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
         elastic = 0.9 * tangent * touching
@@ -226,6 +231,7 @@ def lamina_sums(
         friction = friction_rate(
             load, around * around + along * along, log2_film, log2_speed, k, ring, laminae, effects
         )
+        elastic, tangent, friction = share * elastic, share * tangent, share * friction
         force_0 = force_0 + elastic
         force_1 = force_1 + elastic * x
         force_2 = force_2 + elastic * (x * x)
@@ -240,7 +246,36 @@ def lamina_sums(
         (stiffness_0, stiffness_1, stiffness_2),
         (friction_0, friction_1, friction_2),
         energy,
+        leaning_sums(lanes, page, approach, springs, laminae, damage, effects.coupling),
     )
+
+
+@inline
+def leaning_sums(
+    lanes: Any, page: Any, approach: Any, springs: Any, laminae: Any, damage: Any, coupling: Any
+) -> Any:
+    """Elastic force times slope of the gap over the azimuth in ring and roller, laminae summed, [N m]."""
+    ring_lean, roller_lean = lanes.constant(0.0), lanes.constant(0.0)
+    if damage is None:
+        return ring_lean, roller_lean
+    if page > 0:
+        for k in range(springs):
+            share, depth, tangent, _stored = contact_spring(
+                lanes, page, approach, k, laminae, damage, coupling
+            )
+            elastic = share * (0.9 * tangent * at_least(depth, _SMALLEST_APPROACH))
+            ring_slope, roller_slope = slope_of(lanes, k, laminae.shape[1] // 2, damage, coupling)
+            ring_lean = ring_lean + elastic * ring_slope
+            roller_lean = roller_lean + elastic * roller_slope
+    return ring_lean, roller_lean
+
+
+@inline
+def slope_of(lanes: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
+    """Slopes of the gap under a spring; coupled laminae take their means, [m/rad]."""
+    if coupling is None:
+        return spring_slopes(lanes, k, damage)
+    return mean_slopes(lanes, k, count, damage)
 
 
 @inline

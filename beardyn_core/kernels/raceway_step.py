@@ -20,6 +20,7 @@ from beardyn_core.kernels.raceway import generator_line, lamina_sums, line_wrenc
 from beardyn_core.kernels.solve import add_line
 from beardyn_core.kernels.traction import traction_capacity
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, subtract
+from beardyn_core.kernels.waviness import add_leaning, leaning_wrench, wave_gap, wavy_line
 from beardyn_core.model.layout import LOSS_DAMPING, LOSS_SLIDING, PENETRATION
 
 
@@ -33,18 +34,26 @@ def raceway_contact(
     oversize: Any,
     azimuths: Any,
     raceway: Any,
-    spalls: Any,
+    faults: Any,
     p: Any,
 ) -> Any:
     """Everything one raceway contact needs before the solve: line, slip, sums, speed part of the film."""
     place, axis, velocity, omega, orbit_rate = body
     centre = subtract(place, view[0])
+    surface, roller_surface, damage, waves, roller_waves = faults
+    ring_wave, ring_climb = wave_gap(lanes, block, azimuths[0], waves)
+    roller_wave, roller_climb = wave_gap(lanes, block, azimuths[1], roller_waves)
     line = generator_line(centre, axis, view[1], oversize, raceway, p.roller)
+    line = wavy_line(line, ring_wave + roller_wave)
     slip = sliding(line, centre, velocity, omega, view[2], view[3])
     speed = entrainment_speed(line, centre, velocity, omega, view[2], view[3], orbit_rate)
     log2_speed = log2_entrainment(speed, p.effects.film)
-    sums = lamina_sums(lanes, block, line, slip, log2_speed, azimuths, ring, p.laminae, spalls, p.effects)
-    return line, slip, sums, log2_speed, centre
+    patches = (surface, roller_surface, damage)
+    sums = lamina_sums(lanes, block, line, slip, log2_speed, azimuths, ring, p.laminae, patches, p.effects)
+    leaning = leaning_wrench(
+        lanes, place, axis, sums[4], sums[0][0], (ring_climb, roller_climb), damage, waves, roller_waves
+    )
+    return line, slip, (sums[0], sums[1], sums[2], sums[3], leaning), log2_speed, centre
 
 
 @inline
@@ -77,9 +86,10 @@ def raceway_matrix(matrix: Any, contact: Any, step: Any, damping: Any) -> Any:
 def raceway_wrench(contact: Any, damping: Any) -> Any:
     """Force and moment on the roller from the velocities at the beginning of the step."""
     line, slip, sums, _log2_speed, _centre = contact
-    return line_wrench(
+    force, moment = line_wrench(
         line, normal_sums(sums, slip[0], damping), weighted(sums[2], slip[1]), weighted(sums[2], slip[2])
     )
+    return add_leaning(force, moment, sums[4])
 
 
 @inline
@@ -123,6 +133,7 @@ def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
     along = shifted(slip[2], d_along, 1.0)
     friction_around = weighted(sums[2], around)
     force, moment = line_wrench(line, normal, friction_around, weighted(sums[2], along))
+    force, moment = add_leaning(force, moment, sums[4])
     middle_around = shifted(slip[1], d_around, 0.5)
     middle_along = shifted(slip[2], d_along, 0.5)
     slid = power(sums[2], middle_around, middle_around) + power(sums[2], middle_along, middle_along)

@@ -76,18 +76,22 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
 
     cup = raceway_contact(
         lanes, block, CUP, cup_view, body, oversize,
-        (azimuth - lanes.load(rings, CUP, RING_TURN), -spin), p.cup, (faults.cup, faults.roller), p,
+        (azimuth - lanes.load(rings, CUP, RING_TURN), -spin), p.cup,
+        (faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves), p,
     )  # fmt: skip
     cone = raceway_contact(
         lanes, block, CONE, cone_view, body, oversize,
-        (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin), p.cone, (faults.cone, faults.roller), p,
+        (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin), p.cone,
+        (faults.cone, faults.roller, faults.cone_damage, faults.cone_waves, faults.roller_waves), p,
     )  # fmt: skip
     cup_rolling = rolling_before(cup, CUP, cup_view, body, effects.rolling)
     cone_rolling = rolling_before(cone, CONE, cone_view, body, effects.rolling)
     drag = drag_before(body, cup_view, effects.drag)
     rib = rib_before(body, cone_view, zero, effects.rib, effects.damping)
     small_rib = small_rib_before(body, cone_view, zero, effects.small_rib)
-    cage = cage_before(lanes, rings, p.rollers, block, body, azimuth, cosine, sine, roller, effects.cage)
+    cage = cage_before(
+        lanes, rings, p.rollers, block, body, azimuth, cosine, sine, roller, faults.pockets, effects.cage
+    )
 
     matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, axis, zero)
     matrix = raceway_matrix(matrix, cup, step, effects.damping)

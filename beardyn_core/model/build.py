@@ -11,7 +11,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.cage_params import cage_params
 from beardyn_core.model.coupling_params import coupling_params
-from beardyn_core.model.fault_params import spall_params
+from beardyn_core.model.fault_params import fault_params, roller_oversize
 from beardyn_core.model.lamina_table import lamina_table
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
 from beardyn_core.model.loss_params import drag_params, rolling_params, seal_params
@@ -19,7 +19,6 @@ from beardyn_core.model.parameters import (
     AuditParams,
     DampingParams,
     EffectParams,
-    FaultParams,
     GravityParams,
     MountingParams,
     Parameters,
@@ -52,12 +51,12 @@ def mounting_params(bearing: Bearing, mounting: Mounting, preload: NDArray[np.fl
     )
 
 
-def roller_constants(arrangement: Arrangement) -> NDArray[np.float64]:
-    """Constants of each roller, shape [block, ROLLER_CONSTANTS, lane]."""
+def roller_constants(arrangement: Arrangement, oversize: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Constants of each roller, shape [block, ROLLER_CONSTANTS, lane]; `oversize` [row, roller]."""
     constants = np.zeros((arrangement.block_count, ROLLER_CONSTANTS, arrangement.width))
     constants[:, MASK] = arrangement.mask
     constants[:, POCKET_ANGLE] = 2.0 * math.pi * arrangement.roller / arrangement.roller_count
-    constants[:, OVERSIZE] = 0.0
+    constants[:, OVERSIZE] = arrangement.to_lanes(oversize)
     return constants
 
 
@@ -80,6 +79,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
     taper = math.tan(bearing.half_angle)
     coulomb, mixed, load_sharing = traction_params(scene)
     cup_angle, cone_angle = bearing.cup_angle, bearing.cone_angle
+    laminae = lamina_table(scene)
     return Parameters(
         step=1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample),
         roller=RollerParams(
@@ -96,8 +96,8 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             math.sin(cup_angle), math.cos(cup_angle), 1.0, 0.5 * scene.end_play * math.sin(cup_angle)
         ),
         cone=RacewayParams(math.sin(cone_angle), math.cos(cone_angle), -1.0, 0.0),
-        laminae=lamina_table(scene),
-        rollers=roller_constants(arrangement),
+        laminae=laminae,
+        rollers=roller_constants(arrangement, roller_oversize(scene)),
         mounting=mounting_params(bearing, scene.mounting, preload),
         effects=EffectParams(
             damping=DampingParams(effects.contact_damping.time_constant) if effects.contact_damping else None,
@@ -113,7 +113,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             small_rib=small_rib_params(bearing, effects),
             load_sharing=load_sharing,
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
-            faults=FaultParams(*(spall_params(scene, on, arrangement) for on in ("cup", "cone", "roller"))),
+            faults=fault_params(scene, arrangement, laminae),
             audit=AuditParams(1.0) if effects.audit else None,
         ),
     )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.errors import InputError
-from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.defect import Defect, defect_from
 from beardyn_core.scene.load import LoadHistory
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ class RunDescription:
         Order of the bodies in `Block.body_pose`.
     sensor_names : tuple of str
         Order of the accelerometers in `Block.acceleration`.
-    defects : tuple of Spall
+    defects : tuple of Patch, RollerError, WornPocket
     truth : mapping
         What ``Twin.truth`` returns, JSON-able: faults, fault frequencies, versions, effects, seed.
     load : LoadHistory or None
@@ -125,7 +125,7 @@ class RunDescription:
     shape: BearingShape
     body_names: tuple[str, ...]
     sensor_names: tuple[str, ...]
-    defects: tuple[Spall, ...]
+    defects: tuple[Defect, ...]
     truth: Mapping[str, Any]
     load: LoadHistory | None = None
 
@@ -184,7 +184,7 @@ class RunDescription:
                 shape=BearingShape(**stored["shape"]),
                 body_names=tuple(stored["body_names"]),
                 sensor_names=tuple(stored["sensor_names"]),
-                defects=tuple(Spall(**defect) for defect in stored["defects"]),
+                defects=tuple(defect_from(defect) for defect in stored["defects"]),
                 truth=truth,
             )
         except (ValueError, KeyError, TypeError, AttributeError) as error:

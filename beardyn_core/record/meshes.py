@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.record.description import BearingShape
-from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.defect import Patch
 
 Float = NDArray[np.float64]
 
@@ -249,8 +249,8 @@ def cage(shape: BearingShape, row: int) -> Mesh:
     return Mesh(mesh.vertices * mirror, mesh.normals * mirror, mesh.triangles, np.ones_like(mesh.vertices))
 
 
-def spall(shape: BearingShape, defect: Spall) -> Mesh:
-    """Patch of a spall on a raceway of the cup or the cone, a little proud so that it is seen."""
+def spall(shape: BearingShape, defect: Patch) -> Mesh:
+    """A patch on a raceway of the cup or the cone, a little proud so that it is seen."""
     angle = shape.cup_angle if defect.on == "cup" else shape.cone_angle
     lift = -4e-4 if defect.on == "cup" else 4e-4
     side = ROW_SIDE[defect.row]

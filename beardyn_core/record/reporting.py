@@ -16,6 +16,7 @@ from beardyn_core.record.encoding import LOST, loss_key
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.reading import Run, read_run
+from beardyn_core.scene.defect import defect_from
 
 SAMPLE_RANGE = 1 << 32
 SETTLING_S = 0.25
@@ -263,7 +264,7 @@ def _lines(r: Report) -> list[str]:
     lines.append("")
     if r.scene is not None:
         lines.append(f"scene    {r.scene}, bearing {r.bearing}")
-        faults = [f"{f['on']} row {f['row']}, {f['width'] * 1e3:.1f} mm wide" for f in r.faults]
+        faults = [defect_from(fault).described() for fault in r.faults]
         lines.append(f"faults   {'; '.join(faults) or 'none'}")
     if r.mean_shaft_speed is not None:
         hertz = r.mean_shaft_speed / (2.0 * np.pi)

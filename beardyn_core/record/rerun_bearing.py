@@ -13,7 +13,7 @@ from beardyn_core.record import meshes
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.meshes import Mesh
 from beardyn_core.record.reading import Run
-from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.defect import Patch
 
 TIMELINE = "time"
 ROOT = "bearing"
@@ -59,13 +59,13 @@ def log_parts(stream: rr.RecordingStream, run: RunDescription) -> None:
         for k in range(shape.roller_count):
             _log_mesh(stream, f"{ROOT}/rollers/roller_{row}_{k}", roller, (255, 255, 255))
     for number, defect in enumerate(run.defects):
-        if defect.on in ("cup", "cone"):
+        if isinstance(defect, Patch) and defect.on in ("cup", "cone"):
             patch = meshes.spall(shape, defect)
             _log_mesh(stream, f"{ROOT}/{defect.on}/spall_{number}", patch, SPALL_COLOUR)
             _log_pin(stream, f"{ROOT}/{defect.on}/spall_{number}/pin", run, defect)
 
 
-def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defect: Spall) -> None:
+def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defect: Patch) -> None:
     """A line from the spall to outside the bearing, with its name: raceways are hard to look at."""
     shape = run.shape
     axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + defect.offset)
@@ -83,7 +83,7 @@ def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defec
             ends[1:],
             radii=[0.0022],
             colors=[SPALL_COLOUR],
-            labels=[f"{defect.on} spall, {defect.width * 1e3:.0f} mm"],
+            labels=[f"{defect.on} {defect.kind}, {defect.width * 1e3:.0f} mm"],
             show_labels=True,
         ),
         static=True,

@@ -162,7 +162,7 @@ def about(run: Run) -> str:
         lines.append(f"**The file was cut off:** {run.problem}")
     if run.status not in (None, COMPLETE):
         lines.append(f"**The run ended:** {run.status}")
-    faults = [f"- {d.on}, row {d.row}, {d.width * 1e3:.1f} mm wide" for d in description.defects]
+    faults = [f"- {defect.described()}" for defect in description.defects]
     lines += ["## Faults", *(faults or ["none"]), "## Fault frequencies per shaft revolution"]
     lines += [f"- {name} {value:.4f}" for name, value in description.shape.fault_frequencies.items()]
     results = [s.message for _, statuses in run.results[-1:] for s in statuses]

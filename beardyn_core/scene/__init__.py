@@ -8,7 +8,8 @@ speed       speed and distance over time
 load        load on the journal as samples
 load_buffer the load as a stream: accepted, refused, interpolated
 mounting    axlebox, suspension, journal
-defect      spalls
+defect      patches, roller diameter, worn pocket
+waviness    harmonics of raceways and rollers
 sensor      accelerometers
 scene       all of it
 =========== =====================================================

@@ -1,13 +1,43 @@
-"""Defects of raceways and rollers."""
+"""Defects: patches of raceways and rollers, a roller of another diameter, a worn cage pocket."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+PATCH_KINDS = ("spall", "rectangular", "half_sine", "elliptic", "dent", "brinelling")
 
 
 @dataclass(frozen=True)
-class Spall:
-    """A patch of missing material on a raceway or a roller.
+class Growth:
+    """Linear growth of a patch from a share of its size to all of it.
+
+    Parameters
+    ----------
+    start, end : float
+        Simulated time before which the patch has its initial and after which it has its full size, [s].
+    initial : float
+        Share of the size at the start, 0 to 1, [-].
+    width, depth : bool
+        Which sizes grow; depth includes the height of the rim.
+    """
+
+    start: float
+    end: float
+    initial: float = 0.0
+    width: bool = True
+    depth: bool = True
+
+    def factor(self, time: float) -> float:
+        """Share of the size at a time [s], [-]."""
+        passed = min(max((time - self.start) / (self.end - self.start), 0.0), 1.0)
+        return self.initial + (1.0 - self.initial) * passed
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A patch of a raceway or a roller that is not where it should be.
 
     Parameters
     ----------
@@ -17,9 +47,9 @@ class Spall:
         0 inboard, 1 outboard.
     azimuth : float
         Centre, from +z towards +x, in the body's own frame (the cone's and the roller's at the start
-        of the run; a roller's 0 faces the cup), [rad].
+        of the run; a roller's 0 faces the cup), [rad]. Of brinelling the centre of its first dent.
     width : float
-        Extent in rolling direction, [m].
+        Extent in rolling direction without the rim; of brinelling that of each dent, [m].
     depth : float
         Depth, [m].
     length : float
@@ -29,6 +59,13 @@ class Spall:
         end, [m].
     roller : int
         Which roller, for ``on='roller'``.
+    kind : str
+        Floor of the patch, with u from -1 to 1 across the width and h the depth: ``spall`` and
+        ``rectangular`` h, ``half_sine`` h cos(pi u / 2), ``elliptic`` h sqrt(1 - u^2), ``dent``
+        h cos^2(pi u / 2) (a bell without edges), ``brinelling`` one elliptic groove a roller pitch.
+    rim_height, rim_width : float
+        Raised shoulder on both sides, sin^2 in rolling direction, [m].
+    growth : Growth or None
     """
 
     on: str
@@ -39,3 +76,106 @@ class Spall:
     length: float
     offset: float = 0.0
     roller: int = 0
+    kind: str = "spall"
+    rim_height: float = 0.0
+    rim_width: float = 0.0
+    growth: Growth | None = None
+
+    def size_at(self, time: float) -> tuple[float, float, float]:
+        """Width, depth and rim height at a time [s], [m]."""
+        if self.growth is None:
+            return self.width, self.depth, self.rim_height
+        factor = self.growth.factor(time)
+        deep = factor if self.growth.depth else 1.0
+        return self.width * (factor if self.growth.width else 1.0), self.depth * deep, self.rim_height * deep
+
+    def described(self) -> str:
+        """What it is, in a few words."""
+        what = self.kind.replace("_", "-")
+        where = (
+            f"roller {self.roller}, row {self.row}" if self.on == "roller" else f"{self.on}, row {self.row}"
+        )
+        words = f"{what} on the {where}, {self.width * 1e3:.1f} mm wide, {self.depth * 1e6:.0f} µm deep"
+        if self.growth is not None:
+            words += f", growing from {self.growth.start:g} to {self.growth.end:g} s"
+        return words
+
+
+Spall = Patch  # what `Patch` is without a `kind`
+
+
+@dataclass(frozen=True)
+class RollerError:
+    """A roller of another diameter than the others.
+
+    Parameters
+    ----------
+    row, roller : int
+    diameter : float
+        Difference to the nominal diameter, positive when too large, [m].
+    """
+
+    row: int
+    roller: int
+    diameter: float
+    kind: str = "diameter"
+
+    @property
+    def on(self) -> str:
+        """The body at fault."""
+        return "roller"
+
+    def described(self) -> str:
+        """What it is, in a few words."""
+        return f"roller {self.roller}, row {self.row}, {self.diameter * 1e6:+.1f} µm in diameter"
+
+
+@dataclass(frozen=True)
+class WornPocket:
+    """A cage pocket with more room than the others.
+
+    Parameters
+    ----------
+    row, pocket : int
+        The pocket of the roller of the same number.
+    clearance : float
+        Added to the clearance along the pitch circle, front and rear together, [m].
+    """
+
+    row: int
+    pocket: int
+    clearance: float
+    kind: str = "worn_pocket"
+
+    @property
+    def on(self) -> str:
+        """The body at fault."""
+        return "cage"
+
+    def described(self) -> str:
+        """What it is, in a few words."""
+        return f"pocket {self.pocket} of the cage, row {self.row}, worn by {self.clearance * 1e3:.2f} mm"
+
+
+Defect = Patch | RollerError | WornPocket
+
+
+def defect_from(stored: Mapping[str, Any]) -> Defect:
+    """A defect from the mapping that `dataclasses.asdict` makes of it."""
+    fields = dict(stored)
+    kind = fields.get("kind", "spall")
+    if kind == "diameter":
+        return RollerError(**fields)
+    if kind == "worn_pocket":
+        return WornPocket(**fields)
+    growth = fields.get("growth")
+    return Patch(**{**fields, "growth": None if growth is None else Growth(**growth)})
+
+
+def truth_of(defect: Defect, time: float) -> dict[str, Any]:
+    """A defect as JSON-able truth; a growing one with its size at a time [s]."""
+    found = asdict(defect)
+    if isinstance(defect, Patch) and defect.growth is not None:
+        width, depth, rim = defect.size_at(time)
+        found["size_now"] = {"time": time, "width": width, "depth": depth, "rim_height": rim}
+    return found

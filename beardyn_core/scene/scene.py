@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Operation
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.scene.tier import missing_effects
+from beardyn_core.scene.waviness import Waviness
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Scene:
     operation : Operation
         Where load and speed come from.
     mounting : Mounting
-    defects : tuple of Spall
+    defects : tuple of Patch, RollerError, WornPocket
     sensors : tuple of Accelerometer
     numerics : Numerics
     duration : float
@@ -58,6 +59,7 @@ class Scene:
         Seed of irregularity and sensor noise.
     source_text : str
         The YAML the scene was read from, all references resolved; recorded with the run.
+    waviness : tuple of Waviness
     """
 
     name: str
@@ -70,17 +72,27 @@ class Scene:
     effects: EffectSet
     operation: Operation
     mounting: Mounting
-    defects: tuple[Spall, ...]
+    defects: tuple[Defect, ...]
     sensors: tuple[Accelerometer, ...]
     numerics: Numerics
     duration: float
     seed: int
     source_text: str
+    waviness: tuple[Waviness, ...] = ()
 
     @property
     def effect_names(self) -> tuple[str, ...]:
         """Names of the effects that are present, faults included."""
-        return (*self.effects.names(), *(("faults",) if self.defects else ()))
+        return (
+            *self.effects.names(),
+            *(("faults",) if self.defects else ()),
+            *(("waviness",) if self.waviness else ()),
+        )
+
+    @property
+    def fault_sentences(self) -> tuple[str, ...]:
+        """Defects and waviness in words."""
+        return tuple(fault.described() for fault in (*self.defects, *self.waviness))
 
     @property
     def missing_effects(self) -> tuple[str, ...]:

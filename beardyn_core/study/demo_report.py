@@ -11,7 +11,7 @@ import numpy as np
 from beardyn_core.errors import InputError
 from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.reading import Run, read_run
-from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.defect import Defect
 from beardyn_core.study.finding import HEALTHY, Conclusion, Finding, conclude
 from beardyn_core.study.summary_picture import FaultMarker, SummaryData, summary_picture
 
@@ -160,12 +160,9 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
     return [f"  {label:{LABEL_WIDTH}}{text}" for label, text in rows]
 
 
-def truth_sentence(defects: tuple[Spall, ...], conclusion: Conclusion) -> str:
+def truth_sentence(defects: tuple[Defect, ...], conclusion: Conclusion) -> str:
     """What is really in the bearing, and whether the monitor is right."""
-    there = " and ".join(
-        f"spall on the {d.on}, row {d.row}, {d.width * 1e3:.1f} mm wide, {d.depth * 1e6:.0f} µm deep"
-        for d in defects
-    )
+    there = " and ".join(defect.described() for defect in defects)
     right = conclusion.verdict in ({d.on for d in defects} or {HEALTHY})
     return f"{there or 'no defect'}: the monitor is {'right' if right else 'wrong'}"
 

@@ -62,6 +62,8 @@ class RunSummary:
         First and last time of the means, [s].
     cage_revolutions : int
         Whole revolutions of the cage that the means cover; 0 when the run was shorter than one.
+    faults : tuple of str
+        Defects and waviness of the scene in words.
     """
 
     scene: str
@@ -78,6 +80,7 @@ class RunSummary:
     budget: TorqueBudget | None
     averaged: tuple[float, float]
     cage_revolutions: int
+    faults: tuple[str, ...] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -255,6 +258,7 @@ class _Trend:
             budget=budget,
             averaged=averaged,
             cage_revolutions=revolutions,
+            faults=scene.fault_sentences,
         )
 
     def _budget(self, times: Float, shaft_speed: Float, first: float) -> TorqueBudget | None:

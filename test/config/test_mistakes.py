@@ -13,6 +13,7 @@ from beardyn_core.config.yaml_text import read_file, write_mapping
 from beardyn_core.effects import Cage, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import read_measurement
+from beardyn_core.scene.defect import Patch
 
 GOOD = """\
 scene: mine
@@ -43,7 +44,9 @@ def problems_of(path: Path | str, **overrides: object) -> list[str]:
 
 
 def test_the_unspoilt_scene_loads(write: Write) -> None:
-    assert load_scene(write(GOOD)).defects[0].width == 6e-3
+    (defect,) = load_scene(write(GOOD)).defects
+    assert isinstance(defect, Patch)
+    assert defect.width == 6e-3
 
 
 @pytest.mark.parametrize(
@@ -258,8 +261,9 @@ def test_yaml_words_and_numbers_are_those_of_yaml_1_2(write: Write) -> None:
     text = GOOD.replace("width_mm: 6", "width_mm: 6e0").replace("scene: mine", "scene: off")
     scene = load_scene(write(text))
     assert scene.name == "off"
-    assert scene.defects[0].on == "cup"
-    assert scene.defects[0].width == 6e-3
+    defect = scene.defects[0]
+    assert isinstance(defect, Patch)
+    assert (defect.on, defect.width) == ("cup", 6e-3)
     assert write_mapping({"a": "1e3", "b": "on", "c": 1e-7}) == "{a: '1e3', b: 'on', c: 1.0e-07}\n"
 
 

@@ -42,6 +42,7 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.units import stem_of
 from beardyn_core.config.yaml_text import read_file, read_mapping
 from beardyn_core.effects import EffectSet
+from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Numerics
@@ -114,6 +115,7 @@ def test_spalled_scene_in_si() -> None:
     assert isinstance(scene.operation, QuarterVehicleOperation)
     assert scene.operation.speed_profile[0] == pytest.approx((0.0, 200 / 3.6))
     (spall,) = scene.defects
+    assert isinstance(spall, Patch)
     assert (spall.on, spall.row, spall.azimuth) == ("cup", 0, 0.0)
     assert (spall.width, spall.depth, spall.length) == pytest.approx((6e-3, 0.1e-3, 25e-3))
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import entry
-from beardyn_core.kernels.defect import spall_gap
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness
 from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
@@ -86,8 +85,10 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         slip = sliding(line, centre, velocity, omega, ring_velocity, ring_omega)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
         sums = lamina_sums(
-            lanes, 0, line, slip, log2_speed, (zero, zero), ring, p.laminae, (None, None), p.effects
+            lanes, 0, line, slip, log2_speed, (zero, zero), ring, p.laminae, (None, None, None), p.effects
         )
+        level = ((zero, zero, zero), (zero, zero, zero))
+        sums = (sums[0], sums[1], sums[2], sums[3], level)
         force, moment = raceway_wrench((line, slip, sums, log2_speed, centre), p.effects.damping)
         store_vector(lanes, out, case, 0, force)
         store_vector(lanes, out, case, 3, moment)
@@ -187,6 +188,7 @@ def pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
             load_vector(lanes, states, case, 6),
             load_vector(lanes, states, case, 15),
             load_vector(lanes, states, case, 18),
+            lanes.constant(0.0),
             roller,
             cage,
         )
@@ -253,14 +255,6 @@ def frictions(lanes: Any, cases: Any, out: Any, lamina: Any, ring: Any, p: Any) 
         )
         lanes.store(out, case, 0, thickness + lanes.constant(0.0))
         lanes.store(out, case, 1, rate + lanes.constant(0.0))
-
-
-@entry
-def spalls(lanes: Any, azimuths: Any, out: Any, lamina: Any, roller_radius: Any, spall: Any) -> None:
-    """Spall gap at azimuths [case, 1, lane], all cases seen by block 0."""
-    for case in range(azimuths.shape[0]):
-        gap = spall_gap(lanes, 0, lanes.load(azimuths, case, 0), lamina, roller_radius, spall)
-        lanes.store(out, case, 0, gap + lanes.constant(0.0))
 
 
 @entry

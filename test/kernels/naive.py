@@ -167,6 +167,33 @@ def spall_sink(arc: float, half_width: float, depth: float, roller_radius: float
     return min(roller_radius - math.sqrt(roller_radius**2 - inside**2), depth)
 
 
+def path_of_roller(
+    arc: float, half: float, depth: float, kind: str, rim: float, rim_width: float, radius: float
+) -> float:
+    """Gap of a disc rolled over a patch: no point of the surface may be inside of it."""
+    least = 0.0 if abs(arc) > half + rim_width + math.sqrt(2.0 * radius * rim) else math.inf
+    for t in np.append(np.linspace(-2.5 * half, 2.5 * half, 4001), [-half, half]):
+        if abs(t - arc) < radius:
+            surface = 0.0
+            if abs(t) < half:
+                u = t / half
+                surface = (
+                    depth
+                    * {
+                        "spall": 1.0,
+                        "rectangular": 1.0,
+                        "half_sine": math.sin(0.5 * math.pi * (u + 1.0)),
+                        "elliptic": math.sqrt(1.0 - u**2),
+                        "brinelling": math.sqrt(1.0 - u**2),
+                        "dent": 0.5 * (1.0 + math.cos(math.pi * u)),
+                    }[kind]
+                )
+            elif abs(t) < half + rim_width:
+                surface = -0.5 * rim * (1.0 - math.cos(2.0 * math.pi * (abs(t) - half) / rim_width))
+            least = min(least, surface + radius - math.sqrt(radius**2 - (t - arc) ** 2))
+    return least
+
+
 # --- whole contacts: wrench on the roller about its centre of mass
 
 

@@ -19,11 +19,13 @@ from beardyn_core.integrate.static import solve
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
+from beardyn_core.model.fault_params import roller_oversize
 from beardyn_core.model.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
 from beardyn_core.model.parameters import Parameters
-from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.waviness import Waviness
 from beardyn_core.twin import Twin
 
 Float = NDArray[np.float64]
@@ -42,7 +44,8 @@ def scene_with(
     effects: EffectSet | None = None,
     *,
     end_play: float | None = None,
-    defects: tuple[Spall, ...] = (),
+    defects: tuple[Defect, ...] = (),
+    waviness: tuple[Waviness, ...] = (),
     laminae: int = 6,
     steps_per_sample: int = 4,
     roller_count: int | None = None,
@@ -59,6 +62,7 @@ def scene_with(
         effects=scene.effects if effects is None else effects,
         end_play=scene.end_play if end_play is None else end_play,
         defects=defects,
+        waviness=waviness,
         mounting=replace(scene.mounting, **mounting),
         numerics=replace(scene.numerics, laminae=laminae, steps_per_sample=steps_per_sample),
     )
@@ -103,6 +107,7 @@ class Rig:
             laminae=scene.numerics.laminae,
             speed=speed,
             coupling=scene.effects.lamina_coupling,
+            oversize=roller_oversize(scene),
         )
         orbit = cage_ratio * cage_speed(bearing, speed)
         parameters = build_parameters(scene, arrangement, np.zeros(6))

@@ -1,0 +1,91 @@
+"""Waviness as a shift of the generator line, and the force that a sloping gap has along the surface."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.lane_math import floor, magnitude
+from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.vectors import add, scale
+
+_PER_TURN = 0.15915494309189535
+
+
+@inline
+def wave_gap(lanes: Any, block: Any, azimuth: Any, waves: Any) -> Any:
+    """Gap of one surface's waviness [m] and its slope over the azimuth [m/rad].
+
+    Notes
+    -----
+    Linear between the points of a periodic table, so that the cost does not depend on the orders. Neglects
+    changes along the generator line and the width of the contact, which smooths waves shorter than it.
+    """
+    if waves is None:
+        return 0.0, 0.0
+    turns = azimuth * _PER_TURN
+    position = (turns - floor(turns)) * waves.points
+    cell = floor(position)
+    index = cell + lanes.load(waves.first, block, 0)
+    low = lanes.gather(waves.table, index)
+    rise = lanes.gather(waves.table, index + 1.0) - low
+    return low + (position - cell) * rise, rise * (waves.points * _PER_TURN)
+
+
+@inline
+def wavy_line(line: Any, gap: Any) -> Any:
+    """Generator line with its approach less a gap."""
+    arm, arm_slope, normal, around, along, approach, bend = line
+    approach = (approach[0] - gap, approach[1], approach[2], approach[3])
+    return arm, arm_slope, normal, around, along, approach, bend
+
+
+@inline
+def leaning_wrench(
+    lanes: Any,
+    place: Any,
+    axis: Any,
+    lean: Any,
+    force: Any,
+    climbs: Any,
+    damage: Any,
+    waves: Any,
+    roller_waves: Any,
+) -> Any:
+    """Force and moment on the roller where the normal leans with a sloping gap.
+
+    The elastic energy depends on the gap and the gap on the azimuths of the roller's orbit and spin: the
+    force normal to the sloping surface has a part along the orbit when the slope is the ring's, and a
+    moment about the roller axis when it is the roller's. A smooth ring feels no torque from the latter.
+
+    Parameters
+    ----------
+    place, axis : vector
+        Of the roller.
+    lean : tuple of 2 lane values
+        Elastic force times slope of the gap of patches over the azimuth in ring and roller, [N m].
+    force : lane value
+        Elastic force, [N].
+    climbs : tuple of 2 lane values
+        Slope of the waviness of ring and roller over the azimuth, [m/rad].
+    damage, waves, roller_waves : NamedTuple or None
+        Without any of them the normal cannot lean.
+    """
+    zero = lanes.constant(0.0)
+    level = (zero, zero, zero)
+    if damage is None and waves is None and roller_waves is None:
+        return level, level
+    along, moment = level, level
+    ring_lean = lean[0] + force * climbs[0]
+    roller_lean = lean[1] + force * climbs[1]
+    if any_positive(magnitude(ring_lean) + magnitude(roller_lean)):
+        # the contact's azimuth in the roller falls with the spin
+        moment = scale(-roller_lean, axis)
+        along = (zero, (ring_lean + roller_lean * axis[2]) / place[0], zero)
+    return along, moment
+
+
+@inline
+def add_leaning(force: Any, moment: Any, lean: Any) -> Any:
+    """Add the wrench of sloping gaps to that of a contact."""
+    return add(force, lean[0]), add(moment, lean[1])
