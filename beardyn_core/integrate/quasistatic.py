@@ -66,7 +66,15 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> QuasistaticParamet
 
 @inline
 def balance_rollers(
-    lanes: Any, rollers: Any, sums: Any, motion: Any, direction: Any, turns: Any, speeds: Any, shown: Any, p: Any
+    lanes: Any,
+    rollers: Any,
+    sums: Any,
+    motion: Any,
+    direction: Any,
+    turns: Any,
+    speeds: Any,
+    shown: Any,
+    p: Any,
 ) -> None:
     """Move all rollers one Newton step towards balance and sum their loads by row.
 
@@ -111,9 +119,7 @@ def balance_rollers(
             lanes.load(p.base.rollers, block, OVERSIZE),
         )
         view = cone_view(lanes, motion, cosine, sine, speeds[1], side)
-        move, cup, cone, rib, lever, deepest = balance(
-            lanes, block, place, axis, view, azimuths, inertia, p
-        )
+        move, cup, cone, rib, lever, deepest = balance(lanes, block, place, axis, view, azimuths, inertia, p)
         place = (place[0] + move[0], place[1] + move[1])
         axis = turned_axis(axis, move[2])
         lanes.store(rollers, block, RADIUS, place[0])

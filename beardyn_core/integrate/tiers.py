@@ -55,9 +55,7 @@ def _start_full(
 def _start_rolling(
     scene: Scene, arrangement: Arrangement, _parameters: Any, static: StaticSolution, load: Float
 ) -> State:
-    return initial_state(
-        scene.bearing, arrangement, static, load[6], cage_speed(scene.bearing, load[6])
-    )
+    return initial_state(scene.bearing, arrangement, static, load[6], cage_speed(scene.bearing, load[6]))
 
 
 def _start_lumped(

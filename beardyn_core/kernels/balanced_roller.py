@@ -68,9 +68,7 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
 
 @inline
-def lamina_springs(
-    lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, spalls: Any
-) -> Any:
+def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, spalls: Any) -> Any:
     """Elastic force with x^0 and x^1, and tangent stiffness with x^0, x^1 and x^2, over the laminae.
 
     References
@@ -204,7 +202,9 @@ def settled(force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any, 
 
 
 @inline
-def balance(lanes: Any, block: Any, place: Any, axis: Any, views: Any, azimuths: Any, loads: Any, p: Any) -> Any:
+def balance(
+    lanes: Any, block: Any, place: Any, axis: Any, views: Any, azimuths: Any, loads: Any, p: Any
+) -> Any:
     """One Newton step of a block of rollers towards balance.
 
     Parameters
@@ -253,9 +253,7 @@ def balance(lanes: Any, block: Any, place: Any, axis: Any, views: Any, azimuths:
     cone_normal = (line[2][0], line[2][2])
     cone_tilt = (tilt_arm(line[0], line[2]), tilt_arm(line[1], line[2]))
     cup_normal = (base.cup.cosine, -base.cup.sine)
-    rib_force, rib_stiffness, rib_way, rib_rate = rib_spring(
-        centre, full_axis, views[1], motion, effects.rib
-    )
+    rib_force, rib_stiffness, rib_way, rib_rate = rib_spring(centre, full_axis, views[1], motion, effects.rib)
     rib_force = rib_force + damper_force(rib_stiffness, rib_rate, effects.damping)
 
     hold = _HOLD + zero

@@ -31,7 +31,6 @@ from beardyn_core.model.layout import (
     RIB,
     SPIN,
     TILT,
-    TURN,
     VELOCITY,
 )
 
@@ -139,7 +138,9 @@ def rib_torque(rib_load: Any, speed: Any, kinematic: Any, rib: Any) -> Any:
 
 
 @inline
-def show_roller(lanes: Any, rollers: Any, block: Any, place: Any, axis: Any, turn: Any, angle: Any, p: Any) -> Any:
+def show_roller(
+    lanes: Any, rollers: Any, block: Any, place: Any, axis: Any, turn: Any, angle: Any, p: Any
+) -> Any:
     """Write a block of rollers as the full tier keeps them.
 
     Parameters

@@ -1,12 +1,13 @@
 """From nouns to numbers: what the kernels are given.
 
-=========== ===========================================================
-module      responsibility, in the order of the data
-=========== ===========================================================
-parameters  named tuples of kernel parameters; an absent effect is None
-layout      where each number of the state stands
-arrangement which roller sits in which lane
-film_factor film thickness as a plain formula and as a table entry
-build       a scene to parameters
-=========== ===========================================================
+=============== ===========================================================
+module          responsibility, in the order of the data
+=============== ===========================================================
+parameters      named tuples of kernel parameters; an absent effect is None
+layout          where each number of the state stands
+arrangement     which roller sits in which lane
+film_factor     film thickness as a plain formula and as a table entry
+build           a scene to parameters
+tier_parameters parameters of the tiers without roller dynamics
+=============== ===========================================================
 """

@@ -10,6 +10,7 @@ load_buffer the load as a stream: accepted, refused, interpolated
 mounting    axlebox, suspension, journal
 defect      spalls
 sensor      accelerometers
+tier        which bodies move by their own equations
 scene       all of it
 =========== =====================================================
 """
