@@ -20,9 +20,9 @@ SCENES = ("static_80kN", "static_5kN", "smooth_run", "cup_spall", "cone_spall")
 SETTLING_BLOCKS = 3
 
 
-def measure(name: str, laminae: int | None, blocks: int) -> dict[str, float | str | int]:
+def measure(name: str, laminae: int | None, blocks: int, tier: str = "full") -> dict[str, float | str | int]:
     """Median wall time of a block of one scene: kernel alone, and with all channels."""
-    scene = load_scene(name, laminae=laminae)
+    scene = load_scene(name, laminae=laminae, tier=tier)
     twin = Twin(scene)
     twin.warm()
     count = blocks + SETTLING_BLOCKS
@@ -36,6 +36,7 @@ def measure(name: str, laminae: int | None, blocks: int) -> dict[str, float | st
     simulated = twin.block_ns * 1e-9
     return {
         "scene": name,
+        "tier": tier,
         "laminae": scene.numerics.laminae,
         "rtf": simulated / statistics.median(total[SETTLING_BLOCKS:]),
         "rtf_kernel": simulated / statistics.median(kernel[SETTLING_BLOCKS:]),
@@ -53,11 +54,17 @@ def main() -> None:
     arguments = parser.parse_args()
     rows = [measure(name, None, arguments.blocks) for name in SCENES]
     rows.append(measure("smooth_run", 20, arguments.blocks))
+    rows += [
+        measure(name, None, 4 * arguments.blocks, tier)
+        for tier in ("quasistatic", "lumped")
+        for name in ("static_80kN", "cup_spall")
+    ]
     print(f"{platform.processor() or platform.machine()}, one core")
-    print(f"{'scene':14}{'laminae':>8}{'RTF':>8}{'kernel':>8}{'us/step':>9}")
+    print(f"{'scene':14}{'tier':12}{'laminae':>8}{'RTF':>8}{'kernel':>8}{'us/step':>9}")
     for row in rows:
         print(
-            f"{row['scene']:14}{row['laminae']:>8}{row['rtf']:>8.2f}{row['rtf_kernel']:>8.2f}{row['us_per_step']:>9.2f}"
+            f"{row['scene']:14}{row['tier']:12}{row['laminae']:>8}{row['rtf']:>8.2f}{row['rtf_kernel']:>8.2f}"
+            f"{row['us_per_step']:>9.2f}"
         )
     if arguments.json:
         with open(arguments.json, "w", encoding="utf-8") as file:

@@ -9,6 +9,10 @@ static             the double row in balance
 torque             running torque under static loads
 state              what changes during a run, and its start
 imex               linearly implicit steps of the full tier
+roller_spring      a roller as one spring, for the lumped tier
+lumped             explicit steps of the lumped tier
+quasistatic        explicit steps of the quasistatic tier
+tiers              what each tier computes with
 status             status bits and the sentence of each
 ================== ==========================================
 """

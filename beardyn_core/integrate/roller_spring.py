@@ -12,8 +12,8 @@ from beardyn_core.integrate.roller_contacts import ConePose, Float, contact_mode
 from beardyn_core.integrate.roller_equilibrium import solve_rollers
 from beardyn_core.model.tier_parameters import SpringParams, lever_of_cup
 
-TERMS = 6
-_SAMPLES = 21
+TERMS = 8
+_SAMPLES = 31
 _SMALLEST_APPROACH, _LARGEST_APPROACH = 2.0e-7, 4.0e-4
 
 
@@ -45,7 +45,8 @@ def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
     Notes
     -----
     Two line contacts in series with the rib in the force triangle nearly follow Q = K D^(10/9); what is
-    left, the profile at small loads and the point contact of the rib, is smooth in D^(1/9).
+    left, the profile at small loads and the point contact of the rib, is smooth in D^(1/9): the fit is good
+    to 1e-5 with straight rollers and to 4 % with a profile that takes ends of the roller out of contact.
     """
     approach, load = load_of_approach(bearing, laminae)
     root = approach ** (1.0 / 9.0)

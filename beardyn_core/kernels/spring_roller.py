@@ -58,7 +58,8 @@ def _series(root: Any, series: Any) -> Any:
     low = series[0] + root * series[1]
     middle = series[2] + root * series[3]
     high = series[4] + root * series[5]
-    return low + square * (middle + square * high)
+    highest = series[6] + root * series[7]
+    return low + square * middle + square * square * (high + square * highest)
 
 
 @inline
@@ -113,7 +114,7 @@ def faulted_load(
 
 @inline
 def approach_waves(lanes: Any, motion: Any, direction: Any, p: Any) -> Any:
-    """Approach and approach rate as affine functions of cosine and sine of the pocket angle, each row its own.
+    """Approach and approach rate of the rows as affine functions of cosine and sine of the pocket angle.
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ class SpringParams(NamedTuple):
     With the ninth root s of the approach D the cup load is ``D s (c0 + c1 s + ...)``.
     """
 
-    series: Any  # [6]
+    series: Any  # [8]
     lever: float  # arm of the cup's normal about the bearing centre [m]
     cone_share: float  # cone load over cup load
     rib_share: float  # rib load over cup load

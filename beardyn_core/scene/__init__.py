@@ -11,6 +11,7 @@ mounting    axlebox, suspension, journal
 defect      patches, roller diameter, worn pocket
 waviness    harmonics of raceways and rollers
 sensor      accelerometers
+tier        which bodies move by their own equations
 scene       all of it
 =========== =====================================================
 """

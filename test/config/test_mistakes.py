@@ -88,7 +88,17 @@ def test_the_unspoilt_scene_loads(write: Write) -> None:
         ("scene: mine", "scene: mine\neffects: standart", ["effects", "did you mean standard?"]),
         ("scene: mine", "scene: mine\neffects: {preset: dry, flim: true}", ["effects.flim", "`film`"]),
         ("scene: mine", "scene: mine\neffects: {preset: dry, film: 3}", ["effects.film is 3"]),
-        ("scene: mine", "scene: mine\ntier: lumped", ["tier is 'lumped'", "'full'"]),
+        ("scene: mine", "scene: mine\ntier: lumpd", ["tier is 'lumpd'", "'full'"]),
+        (
+            "scene: mine",
+            "scene: mine\ntier: lumped\neffects: {preset: standard, rib: false}",
+            ["tier: 'lumped'", "effects.rib", "absent"],
+        ),
+        (
+            "scene: mine",
+            "scene: mine\ntier: quasistatic\nnumerics: {laminae: 1}",
+            ["tier: 'quasistatic'", "numerics.laminae", "at least 2"],
+        ),
         ("scene: mine", "scene: mine\ntemperature_K: 340", ["temperature_K", "`temperature_C`", "Celsius"]),
         ("scene: mine", "scene: mine\nduration_s: 0", ["duration_s is 0", "greater than 0"]),
         ("scene: mine", "scene: mine\nsensors: []", ["sensors is []", "at least 1"]),

@@ -1,0 +1,147 @@
+"""A tier is a scene's choice: every channel, the same bits again, and what is missing is said."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
+from beardyn_core.config import load_scene
+from beardyn_core.config.load import scene_from_text
+from beardyn_core.observe.diagnosis import MonitorResult
+from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import TIER_NAMES
+from beardyn_core.study.desk_run import run
+from beardyn_core.twin import Twin
+from test.kernels.rig import started
+from test.stability.test_determinism import assert_same, wandering_load
+from test.tiers.runs import FAST, blocks_of, scene_of
+
+
+def moving(tier: str) -> Scene:
+    """Play, suspended box, tilting journal, a spall: everything a tier has."""
+    scene = load_scene("cup_spall", tier=tier)
+    return replace(scene, mounting=replace(scene.mounting, journal_tilt="free"))
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_restart_from_a_snapshot_is_bit_identical(tier: str) -> None:
+    """In the same twin after it ran on, and in a fresh twin of the same scene."""
+    scene = moving(tier)
+    twin = started(scene, wandering_load())
+    for _ in range(4):
+        twin.advance()
+    kept = twin.snapshot()
+    ahead = [twin.advance() for _ in range(5)]
+    twin.restore(kept)
+    fresh = Twin(scene)
+    fresh.restore(kept)
+    for block in ahead:
+        assert_same(twin.advance(), block)
+        assert_same(fresh.advance(), block)
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_a_block_has_the_channels_of_the_full_tier(tier: str) -> None:
+    """Same shapes; rollers orbit with the cage at its kinematic speed; no pocket contact, no audit."""
+    full, fast = (
+        blocks_of(scene_of("cup_spall", "full"), 0.1)[-1],
+        blocks_of(scene_of("cup_spall", tier), 0.1)[-1],
+    )
+    assert fast.body_pose.shape == full.body_pose.shape
+    assert fast.contacts.shape == full.contacts.shape
+    assert fast.acceleration.shape == full.acceleration.shape
+    scene = scene_of("cup_spall", tier)
+    np.testing.assert_allclose(
+        fast.cage_speed[:, 0], cage_speed(scene.bearing, 1.0) * fast.shaft_speed, rtol=1e-4
+    )
+    np.testing.assert_allclose(
+        fast.roller_speed, fast.cage_speed[:, :1, None] * np.ones((1, 2, 17)), rtol=1e-3
+    )
+    assert not fast.contacts[..., 3, :].any()
+    assert fast.audit is None
+    assert np.any(fast.contacts[-1, ..., :3, 3:6])
+    loaded = np.linalg.norm(fast.contacts[-1, ..., 0, 3:6], axis=-1) > 500.0
+    film_fast, film_full = fast.contacts[-1, ..., 0, 7][loaded], full.contacts[-1, ..., 0, 7][loaded]
+    np.testing.assert_allclose(film_fast, film_full, rtol=0.05)
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_mirrored_rollers_carry_mirrored_loads(tier: str) -> None:
+    """Pure radial load: both rows carry the same, roller k of one as roller k of the other."""
+    block = blocks_of(scene_of("static_80kN", tier), 0.1)[-1]
+    load = np.linalg.norm(block.contacts[-1, :, :, 0, 3:6], axis=-1)
+    np.testing.assert_allclose(load[0], load[1], rtol=1e-9, atol=1e-6)
+    assert np.abs(block.force[:, 1]).max() < 1e-6 * block.force[:, 2].mean()
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_effects_beyond_a_tier_are_listed_and_not_ignored(tier: str) -> None:
+    scene = replace(scene_of("static_80kN", tier), duration=0.1)
+    summary = run(scene)
+    assert summary.not_in_tier == ("traction", "cage", "audit")
+    assert summary.effects == ("contact_damping", "film", "rib", "gravity")
+    assert summary.energy_residual is None
+    truth = Twin(scene).truth()
+    assert truth["tier"] == tier
+    assert truth["not_in_this_tier"]["effects"] == ["traction", "cage", "audit"]
+    assert "energy audit" in truth["not_in_this_tier"]["channels"]
+
+
+def test_the_full_tier_misses_nothing() -> None:
+    assert scene_of("static_80kN", "full").missing_effects == ()
+
+
+@pytest.mark.parametrize("tier", TIER_NAMES)
+def test_a_tier_brings_its_own_step_and_a_resolved_scene_keeps_it(tier: str) -> None:
+    scene = load_scene("static_80kN", tier=tier)
+    assert scene.numerics.steps_per_sample == (4 if tier == "full" else 1)
+    assert scene_from_text(scene.source_text).numerics == scene.numerics
+    assert scene_from_text(scene.source_text).tier == tier
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_half_the_step_gives_the_same_load_distribution(tier: str) -> None:
+    scene = scene_of("static_80kN", tier)
+    fine = replace(scene, numerics=replace(scene.numerics, steps_per_sample=4))
+    peaks = []
+    for each in (scene, fine):
+        blocks = blocks_of(each, 0.3)[5:]
+        cup = np.concatenate([np.linalg.norm(block.contacts[..., 0, 3:6], axis=-1) for block in blocks])
+        peaks.append(cup.max(axis=(1, 2)).mean())
+    assert peaks[0] == pytest.approx(peaks[1], rel=1e-3)
+
+
+def verdicts(tier: str, name: str, healthy: bool) -> list[MonitorResult]:
+    """What the monitor says of a run."""
+    scene = scene_of(name, tier)
+    scene = replace(scene, defects=()) if healthy else scene
+    monitor = Monitor(fault_frequencies(scene.bearing), scene.bearing.roller_count)
+    results = []
+    for block in blocks_of(scene, 2.2):
+        monitor.push_vibration(block.waveform_time_ns, block.acceleration[0])
+        monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
+        monitor.push_load(block.trend_time_ns, block.load[:, 2])
+        result = monitor.update()
+        results += [result] if result is not None and result.verdict != "waiting" else []
+    return results
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tier", FAST)
+@pytest.mark.parametrize(("name", "verdict"), [("cup_spall", "cup"), ("cone_spall", "cone")])
+def test_monitor_finds_a_spall_in_a_run_of_a_fast_tier(tier: str, name: str, verdict: str) -> None:
+    results = verdicts(tier, name, healthy=False)
+    assert results
+    assert {result.verdict for result in results} == {verdict}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tier", FAST)
+def test_monitor_is_quiet_on_the_healthy_run_of_a_fast_tier(tier: str) -> None:
+    results = verdicts(tier, "cup_spall", healthy=True)
+    assert results
+    assert {result.verdict for result in results} == {"healthy"}
