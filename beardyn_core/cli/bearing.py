@@ -7,6 +7,7 @@ import json
 import math
 import re
 import sys
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.errors import InputError, ValidityError
@@ -333,10 +334,12 @@ def _rib_lines(bearing: Bearing, load: float, speed: float) -> list[str]:
     lines = [
         "",
         f"  heaviest rib {load:,.1f} N on an ellipse of {2e3 * ellipse.around:.2f} x "
-        f"{2e3 * ellipse.along:.2f} mm, {ellipse.largest_pressure * 1e-6:.1f} MPa; slides with "
-        f"{sliding:.3f} m/s, p v {product * 1e-6:.1f} MPa m/s",
+        f"{2e3 * ellipse.along:.2f} mm, {ellipse.largest_pressure * 1e-6:.1f} MPa",
+        f"  it slides with {sliding:.3f} m/s, p v {product * 1e-6:.1f} MPa m/s",
     ]
-    return lines + [f"  warning: {sentence}" for sentence in rib_truncation(bearing, load)]
+    for sentence in rib_truncation(bearing, load):
+        lines += textwrap.wrap(f"warning: {sentence}", 96, initial_indent="  ", subsequent_indent="    ")
+    return lines
 
 
 def _frequency_lines(frequencies: FaultFrequencies, speed: float) -> list[str]:

@@ -72,6 +72,15 @@ def test_table_names_the_default_load_and_shows_every_roller(bearing_command):
     assert len(re.findall(r"^ +[\d.]+ deg ", out, re.MULTILINE)) == 17
     assert "121.563 Hz" in out
     assert max(map(len, out.splitlines())) <= 100
+    assert "heaviest rib 697" in out
+    assert "warning" not in out
+
+
+def test_rib_ellipse_beyond_the_face_is_a_warning(bearing_command):
+    status, out, _ = bearing_command("HS130x230", "--load", "0", "2e6", "8e4", "--speed", "100")
+    assert status == 0
+    assert re.search(r"warning: under \d+ N the rib's contact ellipse reaches down to", out)
+    assert max(map(len, out.splitlines())) <= 100
 
 
 def test_bad_input_is_answered_with_sentences(bearing_command):

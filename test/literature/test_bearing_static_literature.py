@@ -66,6 +66,7 @@ def test_large_roller_count_approaches_the_load_zone_integrals():
         roller_count=110,
         roller_diameter=5.0e-3,
         rib_contact_height=1.0e-3,
+        rib_undercut=0.5e-3,
         nominal_cup_angle=None,
         nominal_cone_angle=None,
         cage=dataclasses.replace(load_bearing("HS130x230").cage, circumferential_clearance=0.1e-3),
