@@ -71,7 +71,7 @@ def until_it_ends(twin: Twin, count: int) -> list[Block]:
         while len(found) < count:
             found.append(twin.advance())
     except ValidityError as error:
-        if error.block is None:
+        if not isinstance(error.block, Block):
             raise
         found.append(error.block)
     return found
