@@ -12,6 +12,7 @@ import pytest
 CLAIMS = (
     "test_raceway.py",
     "test_rib_and_pocket.py",
+    "test_cage.py",
     "test_solve.py",
     "test_film_and_traction.py",
     "test_defect.py",
