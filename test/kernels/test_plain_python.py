@@ -13,6 +13,7 @@ CLAIMS = (
     "test_raceway.py",
     "test_lamina_coupling.py",
     "test_rib_and_pocket.py",
+    "test_cage.py",
     "test_solve.py",
     "test_film_and_traction.py",
     "test_defect.py",
