@@ -79,8 +79,8 @@ class Twin:
         self.load = LoadBuffer()
         self._arrangement = Arrangement(scene.bearing.roller_count, LANE_WIDTH)
         self._lanes = Lanes(LANE_WIDTH)
-        self._work = work_space(self._arrangement)
         self._parameters = build_parameters(scene, self._arrangement, np.zeros(6))
+        self._work = work_space(self._arrangement, len(self._bending_stiffness))
         steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
         self._signals = np.zeros((steps, SIGNAL_CHANNELS))
         self._audit = np.zeros(ENERGY_TERMS)
@@ -115,7 +115,7 @@ class Twin:
         """
         log.info("loading the kernels; compiling them takes up to half a minute the first time")
         began = time.perf_counter()
-        static = _at_rest(self.roller_count)
+        static = _at_rest(self.roller_count, len(self._bending_stiffness))
         state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
         self._run(state, np.zeros((TRENDS_PER_BLOCK + 1, 10)), self._signals[:TRENDS_PER_BLOCK].copy())
         took = time.perf_counter() - began
@@ -138,7 +138,7 @@ class Twin:
         if not self.load.append(load):
             raise ValidityError(self.load.reason)
         scene, bearing = self.scene, self.scene.bearing
-        first = self.load.at_steps(0, BLOCK_NS, 1)[0]
+        first = self._loads(0, BLOCK_NS, 1)[0]
         free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
         moment = np.array([first[3], 0.0, first[5]])
         static = solve(
@@ -149,10 +149,14 @@ class Twin:
             tilt="free" if free else "locked",
             laminae=scene.numerics.laminae,
             speed=first[6],
+            bending_stiffness=self._bending_stiffness,
         )
         carried = self._weight_of_rollers_and_cages()
         preload = np.concatenate([-first[:3], -moment])
         preload[2] += carried + self._free_fall * self._parameters.mounting.box_mass
+        box = self._parameters.mounting.coupling
+        if box is not None:
+            preload[3:] -= self._free_fall * box.weight[3:]
         self._parameters = build_parameters(scene, self._arrangement, preload)
         ratio = scene.effects.cage.initial_speed_ratio if scene.effects.cage else 1.0
         orbit = ratio * cage_speed(bearing, first[6])
@@ -196,7 +200,7 @@ class Twin:
         """
         if self._state is None or self._observer is None:
             raise ValidityError("the twin has not been started: it needs its first load")
-        loads = self.load.at_steps(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
+        loads = self._loads(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
         began = time.perf_counter()
         rollers, bodies = self._run(self._state, loads, self._signals)
         wall = time.perf_counter() - began
@@ -210,12 +214,26 @@ class Twin:
             raise ValidityError(f"the run ended {moment}: {describe(status)}", block)
         return block
 
+    def _loads(self, start_ns: int, end_ns: int, steps: int) -> Float:
+        """Load at the step boundaries about the bearing centre, shape [steps + 1, 10]."""
+        loads = self.load.at_steps(start_ns, end_ns, steps)
+        offset = self.scene.mounting.load_offset
+        if any(offset):
+            loads[:, 3:6] += np.cross(offset, loads[:, :3])
+        return loads
+
+    @property
+    def _bending_stiffness(self) -> Float:
+        """Of the cup, [N/m]; empty for a rigid one."""
+        flexibility = self._parameters.effects.ring_flexibility
+        return np.zeros(0) if flexibility is None else np.asarray(flexibility.stiffness)
+
     def _run(self, state: State, loads: Float, signals: Float) -> tuple[Float, Float]:
         rollers = np.empty((TRENDS_PER_BLOCK, *state.rollers.shape))
         bodies = np.empty((TRENDS_PER_BLOCK, *state.bodies.shape))
         work = self._work
         advance(
-            self._lanes, state.rollers, state.bodies, work.rings, work.sums, work.wrenches, work.box,
+            self._lanes, state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches, work.box,
             loads, signals, rollers, bodies, state.energy, self._audit, self._parameters,
         )  # fmt: skip
         return rollers, bodies
@@ -283,13 +301,13 @@ class Twin:
         self._observer.restore(snapshot.observer)
 
 
-def _at_rest(roller_count: int) -> StaticSolution:
+def _at_rest(roller_count: int, modes: int) -> StaticSolution:
     """A bearing without load, for compiling only."""
     none = np.zeros((2, roller_count))
     return StaticSolution(
         displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,
         roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
-        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0,
+        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0, bending=np.zeros((modes, 2)),
     )  # fmt: skip
 
 

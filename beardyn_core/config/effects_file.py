@@ -13,6 +13,7 @@ from beardyn_core.config.effect_keys.contact_damping import ContactDampingKeys
 from beardyn_core.config.effect_keys.film import LineFilmKeys
 from beardyn_core.config.effect_keys.gravity import GravityKeys
 from beardyn_core.config.effect_keys.rib import RibKeys
+from beardyn_core.config.effect_keys.ring_flexibility import RingFlexibilityKeys
 from beardyn_core.config.effect_keys.traction import Traction
 from beardyn_core.config.file_model import FileModel, Name, Switch, Text
 from beardyn_core.effects import EffectSet
@@ -31,6 +32,7 @@ class EffectsKeys(FileModel):
     film: Switch[LineFilmKeys] = False
     rib: Switch[RibKeys] = False
     cage: Switch[CageEffectKeys] = False
+    ring_flexibility: Switch[RingFlexibilityKeys] = None
     gravity: Switch[GravityKeys] = False
     audit: Switch[AuditKeys] = False
 

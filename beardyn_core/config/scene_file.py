@@ -46,6 +46,37 @@ class MountingKeys(FileModel):
     damping_kN_s_per_m: NonNegativeVector = (20.0, 20.0, 10.0)
     rotational_stiffness_kN_m_per_rad: NonNegativeVector = (100.0, 200.0, 100.0)
     rotational_damping_N_m_s_per_rad: NonNegativeVector = (500.0, 1000.0, 500.0)
+    box_centre_mm: Vector = Field(
+        (0.0, 0.0, 0.0), description="centre of mass of the axlebox without the cup, from the bearing centre"
+    )
+    suspension_centre_mm: Vector = Field(
+        (0.0, 0.0, 0.0), description="where the springs act on the axlebox, from the bearing centre"
+    )
+    load_offset_mm: Vector = Field(
+        (0.0, 0.0, 0.0), description="where the load acts on the journal, from the bearing centre"
+    )
+
+    @model_validator(mode="after")
+    def _box_has_inertia(self) -> Self:
+        away = [
+            sum(c * c for k, c in enumerate(self.box_centre_mm) if k != axis) / MM**2 for axis in range(3)
+        ]
+        least = tuple(self.box_mass_kg * square for square in away)
+        if any(have <= need for have, need in zip(self.box_inertia_kg_m2, least, strict=True) if need):
+            raise problem(
+                f"box_inertia_kg_m2 is {list(self.box_inertia_kg_m2)}; about the bearing centre it must be "
+                f"above {[round(value, 4) for value in least]}, what box_mass_kg alone has at box_centre_mm"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _offset_load_turns_something(self) -> Self:
+        if any(self.load_offset_mm) and self.cup == "held" and self.journal_tilt == "locked":
+            raise problem(
+                f"load_offset_mm is {list(self.load_offset_mm)}; it turns nothing while cup is held and "
+                "journal_tilt is locked: set journal_tilt to free or cup to suspended"
+            )
+        return self
 
     def noun(self) -> Mounting:
         """The mounting, SI."""
@@ -60,7 +91,15 @@ class MountingKeys(FileModel):
             damping=scaled(self.damping_kN_s_per_m, KN),
             rotational_stiffness=scaled(self.rotational_stiffness_kN_m_per_rad, KN),
             rotational_damping=self.rotational_damping_N_m_s_per_rad,
+            box_centre=_metres(self.box_centre_mm),
+            suspension_centre=_metres(self.suspension_centre_mm),
+            load_offset=_metres(self.load_offset_mm),
         )
+
+
+def _metres(vector: tuple[float, float, float]) -> tuple[float, float, float]:
+    x, y, z = vector
+    return (x / MM, y / MM, z / MM)
 
 
 class DefectKeys(FileModel):

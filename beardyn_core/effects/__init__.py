@@ -14,6 +14,7 @@ from beardyn_core.effects.effect_set import EffectSet
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
+from beardyn_core.effects.ring_flexibility import RingFlexibility
 from beardyn_core.effects.traction import CoulombTraction, MixedTraction, ShearedFilmTraction, Traction
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "LineFilm",
     "MixedTraction",
     "Rib",
+    "RingFlexibility",
     "ShearedFilmTraction",
     "Traction",
 ]

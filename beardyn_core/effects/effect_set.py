@@ -10,6 +10,7 @@ from beardyn_core.effects.contact_damping import ContactDamping
 from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
+from beardyn_core.effects.ring_flexibility import RingFlexibility
 from beardyn_core.effects.traction import MixedTraction, Traction
 
 
@@ -25,6 +26,7 @@ class EffectSet:
     film: LineFilm | None = LineFilm()
     rib: Rib | None = Rib()
     cage: Cage | None = Cage()
+    ring_flexibility: RingFlexibility | None = None
     gravity: Gravity | None = Gravity()
     audit: Audit | None = Audit()
 

@@ -8,7 +8,7 @@ displaced and tilted cone in space, of the end sphere to the conical rib.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +47,8 @@ class ContactModel:
         Stiffness factors of one lamina contact and of the rib, [N/m^(10/9)], [N/m^1.5].
     inertia_load : float64 array, shape [3]
         Radial force, axial force and tilt moment of the orbiting roller at its mid-length, [N, N, N m].
+    bending : float64 array, shape [row, roller, 2 x mode]
+        Radial deflection of the cup at each roller per amplitude of its bending modes, [-].
     """
 
     bearing: Bearing
@@ -61,6 +63,7 @@ class ContactModel:
     lamina_factor: float
     rib_factor: float
     inertia_load: Float
+    bending: Float
 
     @property
     def apex_axial(self) -> float:
@@ -79,10 +82,13 @@ class ConePose:
         Of the bearing centre fixed to the cone, [m].
     rotation : float64 array, shape [3, 3]
         From cone axes to cup axes.
+    bending : float64 array, shape [2 x mode]
+        Amplitudes of the cup's bending modes, [m].
     """
 
     displacement: Float
     rotation: Float
+    bending: Float = field(default_factory=lambda: np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -97,8 +103,9 @@ class ContactSet:
         [N], [N/m], [J].
     by_roller : float64 array, shape [row, roller, lamina, 3]
         Change of approach with radial, axial and tilt motion of the roller, [-, -, m/rad].
-    by_cone : float64 array, shape [row, roller, lamina, 5]
-        Change of approach with cone displacement (3) and tilt about x and z, [-, m/rad].
+    by_cone : float64 array, shape [row, roller, lamina, 5 + 2 x mode]
+        Change of approach with cone displacement (3), tilt about x and z and bending of the cup,
+        [-, m/rad, -].
     """
 
     approach: Float
@@ -110,7 +117,7 @@ class ContactSet:
 
 
 def contact_model(
-    bearing: Bearing, end_play: float, laminae: int, speed: float, roller_phase: float
+    bearing: Bearing, end_play: float, laminae: int, speed: float, roller_phase: float, modes: int = 0
 ) -> ContactModel:
     """Constants of the contacts.
 
@@ -125,6 +132,8 @@ def contact_model(
         Shaft speed, [rad/s].
     roller_phase : float
         Azimuth of roller 0, [rad].
+    modes : int
+        Bending modes of the cup, with 2, 3, ... waves.
     """
     azimuth = roller_phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
     radial = np.zeros((ROW_COUNT, bearing.roller_count, 3))
@@ -150,7 +159,15 @@ def contact_model(
         lamina_factor=line_contact_factor(bearing.material, bearing.effective_length) / laminae,
         rib_factor=rib_contact_factor(bearing),
         inertia_load=_inertia_load(bearing, speed),
+        bending=_bending_shapes(azimuth, modes),
     )
+
+
+def _bending_shapes(azimuth: Float, modes: int) -> Float:
+    """Cosine and sine of 2, 3, ... times the azimuth, the same for both rows."""
+    angle = (np.arange(modes) + 2) * azimuth[:, None]
+    shapes = np.stack([np.cos(angle), np.sin(angle)], axis=-1).reshape(azimuth.size, 2 * modes)
+    return np.stack([shapes] * ROW_COUNT)
 
 
 def _inertia_load(bearing: Bearing, speed: float) -> Float:
@@ -179,8 +196,11 @@ def power_law(approach: Float, factor: float, exponent: float) -> tuple[Float, F
     return force, stiffness, force * pressed / (exponent + 1.0)
 
 
-def cup_contacts(model: ContactModel, roller: Float) -> ContactSet:
-    """Lamina contacts with the cup; `roller` is radial, axial, tilt, shape [row, roller, 3]."""
+def cup_contacts(model: ContactModel, roller: Float, pose: ConePose | None = None) -> ContactSet:
+    """Lamina contacts with the cup; `roller` is radial, axial, tilt, shape [row, roller, 3].
+
+    The pose matters for the bending of the cup only.
+    """
     bearing = model.bearing
     sine, cosine = math.sin(bearing.cup_angle), math.cos(bearing.cup_angle)
     phi = bearing.half_angle
@@ -190,11 +210,15 @@ def cup_contacts(model: ContactModel, roller: Float) -> ContactSet:
     across = model.radius * np.sin(phi - 0.5 * tilt) * half_sine
     inward = cosine * roller[..., 0:1] - sine * roller[..., 1:2]
     approach = inward + along + across - model.clearance - model.drop
+    by_cone = np.zeros((*approach.shape, 5 + model.bending.shape[-1]))
+    if pose is not None and pose.bending.size:
+        approach = approach - cosine * (model.bending @ pose.bending)[..., None]
+        by_cone[..., 5:] = -cosine * model.bending[:, :, None, :]
     by_roller = np.empty((*approach.shape, 3))
     by_roller[..., 0], by_roller[..., 1] = cosine, -sine
     by_roller[..., 2] = model.abscissa * np.cos(phi - tilt) + model.radius * np.sin(phi - tilt)
     force, stiffness, energy = power_law(approach, model.lamina_factor, LINE_EXPONENT)
-    return ContactSet(approach, force, stiffness, energy, by_roller, np.zeros((*approach.shape, 5)))
+    return ContactSet(approach, force, stiffness, energy, by_roller, by_cone)
 
 
 def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactSet:
@@ -288,7 +312,7 @@ def _assembled(
     by_roller[..., 0] = np.sum(normal * model.radial[:, :, None, :], axis=-1)
     by_roller[..., 1] = np.sum(normal * model.axial[:, :, None, :], axis=-1)
     by_roller[..., 2] = np.sum(_cross(lever, normal) * model.tilt_axis[:, :, None, :], axis=-1)
-    by_cone = np.empty((*approach.shape, 5))
+    by_cone = np.zeros((*approach.shape, 5 + model.bending.shape[-1]))
     by_cone[..., :3] = -normal
     by_cone[..., 3], by_cone[..., 4] = -about_centre[..., 0], -about_centre[..., 2]
     return ContactSet(approach, force, stiffness, energy, by_roller, by_cone)

@@ -109,6 +109,14 @@ class CageParams(NamedTuple):
     transverse_inertia: float
 
 
+class FlexibilityParams(NamedTuple):
+    """Bending modes of the cup, from two waves upwards, each in two directions."""
+
+    mass: Any  # [mode], [kg]
+    stiffness: Any  # [mode], [N/m]
+    damping: Any  # [mode], [N s/m]
+
+
 class SpallParams(NamedTuple):
     """Spalls of one surface; the patch of spall s for rollers of block b is at index s * block_count + b.
 
@@ -148,9 +156,20 @@ class EffectParams(NamedTuple):
     mixed: MixedParams | None
     rib: RibParams | None
     cage: CageParams | None
+    ring_flexibility: FlexibilityParams | None
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None
+
+
+class BoxCoupling(NamedTuple):
+    """Box whose centre of mass or whose springs are not at the bearing centre: full matrices about it."""
+
+    mass: Any  # [6, 6]
+    inverse_mass: Any  # [6, 6]
+    stiffness: Any  # [6, 6]
+    damping: Any  # [6, 6]
+    weight: Any  # [6], force and moment at 1 m/s^2 of gravity
 
 
 class MountingParams(NamedTuple):
@@ -165,6 +184,7 @@ class MountingParams(NamedTuple):
     stiffness: Any  # [6], force then moment
     damping: Any  # [6]
     preload: Any  # [6], suspension force at rest
+    coupling: BoxCoupling | None
 
 
 class Parameters(NamedTuple):

@@ -23,7 +23,7 @@ from beardyn_core.config import (
     scene_from_text,
     shipped_names,
 )
-from beardyn_core.config.effect_keys import audit, cage, contact_damping, film, gravity, rib, traction
+from beardyn_core.config.effect_keys import audit, cage, contact_damping, film, gravity, rib, ring_flexibility, traction
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.units import stem_of
@@ -46,7 +46,8 @@ LOADERS: dict[str, Callable[[str], Any]] = {
 def approximately(given: EffectSet) -> dict[str, object]:
     """Options of the effects; degrees cost the last digit of an angle."""
     return {
-        name: pytest.approx(options) for name, options in asdict(given).items() if isinstance(options, dict)
+        name: pytest.approx(options) if isinstance(options, dict) else options
+        for name, options in asdict(given).items()
     }
 
 
@@ -166,6 +167,7 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
         (film.LineFilmKeys, effects.LineFilm),
         (rib.RibKeys, effects.Rib),
         (cage.CageEffectKeys, effects.Cage),
+        (ring_flexibility.RingFlexibilityKeys, effects.RingFlexibility),
         (gravity.GravityKeys, effects.Gravity),
         (audit.AuditKeys, effects.Audit),
         (effects_file.EffectsKeys, effects.EffectSet),
