@@ -141,6 +141,7 @@ class Twin:
         first = self._loads(0, BLOCK_NS, 1)[0]
         free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
         moment = np.array([first[3], 0.0, first[5]])
+        restraint = self._tilt_restraint
         static = solve(
             bearing,
             first[:3],
@@ -150,7 +151,9 @@ class Twin:
             laminae=scene.numerics.laminae,
             speed=first[6],
             bending_stiffness=self._bending_stiffness,
+            tilt_stiffness=restraint,
         )
+        moment[[0, 2]] -= restraint * static.tilt
         carried = self._weight_of_rollers_and_cages()
         preload = np.concatenate([-first[:3], -moment])
         preload[2] += carried + self._free_fall * self._parameters.mounting.box_mass
@@ -221,6 +224,21 @@ class Twin:
         if any(offset):
             loads[:, 3:6] += np.cross(offset, loads[:, :3])
         return loads
+
+    @property
+    def _tilt_restraint(self) -> Float:
+        """Of the suspension, against the tilt of the bearing about x and z, [N m/rad].
+
+        A journal free to tilt leans the whole moment on the box, whatever holds that.
+        """
+        mounting = self.scene.mounting
+        if mounting.cup == "held" or mounting.journal_tilt == "free":
+            return np.zeros(2)
+        stiffness = self._parameters.mounting.stiffness
+        if self._parameters.mounting.coupling is not None:
+            # the bearing centre stays where it is, so its springs beside it restrain the tilt too
+            stiffness = np.diag(self._parameters.mounting.coupling.stiffness)
+        return np.asarray(stiffness)[[3, 5]]
 
     @property
     def _bending_stiffness(self) -> Float:

@@ -99,6 +99,7 @@ def solve(
     speed: float = 0.0,
     roller_phase: float = 0.0,
     bending_stiffness: ArrayLike = (),
+    tilt_stiffness: ArrayLike = (0.0, 0.0),
 ) -> StaticSolution:
     """Static equilibrium under a load on the cone.
 
@@ -121,6 +122,8 @@ def solve(
         Azimuth of roller 0 of both rows, [rad].
     bending_stiffness : array_like, shape [mode]
         Of the cup against bending with 2, 3, ... waves, [N/m]; without it the cup is rigid.
+    tilt_stiffness : array_like, shape [2]
+        Of whatever restrains the free tilt of the cone against the cup about x and z, [N m/rad].
 
     Returns
     -------
@@ -142,11 +145,12 @@ def solve(
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
     modal = np.repeat(np.asarray(bending_stiffness, dtype=np.float64), 2)
+    springs = np.concatenate([np.zeros(3), np.asarray(tilt_stiffness, dtype=np.float64), modal])
     model = contact_model(bearing, end_play, laminae, speed, roller_phase, modal.size // 2)
-    cone = _Cone(model, load, 5 if tilt == "free" else 3, modal)
+    cone = _Cone(model, load, 5 if tilt == "free" else 3, springs)
     state, unknowns, iterations = _equilibrium(cone)
     residual = cone.residual(unknowns, state)
-    held, free = _stiffness(_with_bending(state.cone_stiffness, modal))
+    held, free = _stiffness(_bending_follows(state.cone_stiffness + np.diag(springs)))
     return StaticSolution(
         displacement=unknowns[:3].copy(),
         tilt=unknowns[3:5].copy(),
@@ -165,35 +169,33 @@ def solve(
 
 
 class _Cone:
-    """Energy of the loaded cone, and of the bent cup, as a function of its pose and the bending."""
+    """Energy of the loaded cone and of the springs on it as a function of its pose and the cup's bending."""
 
-    def __init__(self, model: ContactModel, load: Float, moving: int, modal: Float) -> None:
+    def __init__(self, model: ContactModel, load: Float, moving: int, springs: Float) -> None:
         self.model = model
-        self.load = np.concatenate([load, np.zeros(modal.size)])
-        self.modal = modal
-        self.active = np.concatenate([np.arange(moving), 5 + np.arange(modal.size)])
+        self.load = np.concatenate([load, np.zeros(springs.size - 5)])
+        self.springs = springs
+        self.active = np.concatenate([np.arange(moving), np.arange(5, springs.size)])
         lever = 0.5 * model.bearing.pressure_centre_spread
-        self.scale = np.array([1.0, 1.0, 1.0, lever, lever, *np.ones(modal.size)])
+        self.scale = np.array([1.0, 1.0, 1.0, lever, lever, *np.ones(springs.size - 5)])
 
     def at(self, unknowns: Float, guess: Float | None) -> RollerState:
         pose = ConePose(unknowns[:3], _rotation(unknowns[3], unknowns[4]), unknowns[5:])
         return solve_rollers(self.model, pose, guess)
 
     def energy(self, unknowns: Float, state: RollerState) -> float:
-        bending = 0.5 * float(self.modal @ unknowns[5:] ** 2)
-        return state.energy + bending - float(self.load @ unknowns)
+        stored = 0.5 * float(self.springs @ unknowns**2)
+        return state.energy + stored - float(self.load @ unknowns)
 
     def residual(self, unknowns: Float, state: RollerState) -> Float:
         """Load that is not balanced, moments as forces at the pressure centres; shape [active]."""
-        left = self.load + state.cone_force
-        left[5:] -= self.modal * unknowns[5:]
+        left = self.load + state.cone_force - self.springs * unknowns
         return np.asarray((left / self.scale)[self.active])
 
     def step(self, unknowns: Float, state: RollerState, damping: float) -> Float:
         """Damped Newton step of the unknowns, no longer than the longest step."""
         active = self.active
-        scaled = state.cone_stiffness / np.outer(self.scale, self.scale)
-        scaled[5:, 5:] += np.diag(self.modal)
+        scaled = (state.cone_stiffness + np.diag(self.springs)) / np.outer(self.scale, self.scale)
         matrix = scaled[np.ix_(active, active)] + damping * _REFERENCE_STIFFNESS * np.eye(active.size)
         step = np.linalg.solve(matrix, self.residual(unknowns, state))
         length = float(np.linalg.norm(step))
@@ -249,12 +251,12 @@ def _rotation(about_x: float, about_z: float) -> Float:
     return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
 
 
-def _with_bending(stiffness: Float, modal: Float) -> Float:
+def _bending_follows(stiffness: Float) -> Float:
     """Stiffness of the cone pose with the bending of the cup following, shape [5, 5]."""
     pose, coupling, bending = stiffness[:5, :5], stiffness[:5, 5:], stiffness[5:, 5:]
-    if modal.size == 0:
+    if bending.size == 0:
         return pose
-    return np.asarray(pose - coupling @ np.linalg.solve(bending + np.diag(modal), coupling.T))
+    return np.asarray(pose - coupling @ np.linalg.solve(bending, coupling.T))
 
 
 def _stiffness(stiffness: Float) -> tuple[Float, Float]:
