@@ -86,12 +86,13 @@ def test_offset_load_is_the_load_with_its_moment() -> None:
 def test_eccentric_load_moves_to_the_nearer_row() -> None:
     """40 mm off the middle: the radial load is shared as by a beam on the pressure centres.
 
-    The cone tilts freely, so the thrust of the loaded row presses all rollers of the other one.
+    One lamina: with more, the tilt moves the load to the ends of the rollers and with it the pressure
+    centres. The cone tilts freely, so the thrust of the loaded row presses all rollers of the other one.
     """
     bearing = standard_scene().bearing
-    centred = solve(bearing, (0.0, 0.0, 8e4), end_play=2e-4, laminae=6, tilt="free")
+    centred = solve(bearing, (0.0, 0.0, 8e4), end_play=2e-4, laminae=1, tilt="free")
     moment = np.cross((0.0, 0.04, 0.0), (0.0, 0.0, 8e4))
-    beside = solve(bearing, (0.0, 0.0, 8e4), moment, end_play=2e-4, laminae=6, tilt="free")
+    beside = solve(bearing, (0.0, 0.0, 8e4), moment, end_play=2e-4, laminae=1, tilt="free")
     assert centred.loaded_roller_count[0] == centred.loaded_roller_count[1]
     azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
     radial = (beside.cup_load * np.cos(azimuth)).sum(axis=1)
