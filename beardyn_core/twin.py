@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -17,6 +17,7 @@ from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.state import State, initial_state, work_space
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
+from beardyn_core.integrate.warming import Warmth, cold_start, scene_at, warmed
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
@@ -54,6 +55,7 @@ class Snapshot:
     load: LoadBuffer
     observer: tuple[object, ...]
     first_audit: Float | None
+    warmth: Warmth | None = None
 
 
 class Twin:
@@ -88,6 +90,7 @@ class Twin:
         self._state: State | None = None
         self._observer: Observer | None = None
         self._index = 0
+        self._warmth = cold_start(scene) if scene.effects.thermal else None
 
     @property
     def roller_count(self) -> int:
@@ -211,6 +214,8 @@ class Twin:
         block = self._observer.observe(
             self._index, self._signals, loads, rollers, bodies, int(status), self._energy_audit(), wall
         )
+        if self._warmth is not None:
+            block = replace(block, temperature=self._warm_up(loads))
         self._index += 1
         if is_fatal(status):
             moment = f"at {block.end_ns * 1e-9:.2f} s of simulated time"
@@ -255,6 +260,23 @@ class Twin:
             loads, signals, rollers, bodies, state.energy, self._audit, self._parameters,
         )  # fmt: skip
         return rollers, bodies
+
+    def _warm_up(self, loads: Float) -> Float:
+        """Temperatures after the block just computed; the kernels go on with what they change, [K]."""
+        scene, state, before = self.scene, self._state, self._warmth
+        assert state is not None
+        assert before is not None
+        assert scene.effects.thermal is not None
+        speed = float(loads[:, 6].mean())
+        after = warmed(scene, scene.effects.thermal, before, state.energy, speed, BLOCK_NS * 1e-9)
+        if (after.film_temperature, after.end_play) != (before.film_temperature, before.end_play):
+            old = self._parameters
+            new = build_parameters(scene_at(scene, after), self._arrangement, old.mounting.preload)
+            self._parameters = new._replace(
+                rollers=old.rollers, effects=new.effects._replace(faults=old.effects.faults)
+            )
+        self._warmth = after
+        return after.temperature
 
     def _energy_audit(self) -> EnergyAudit | None:
         """Balance from the start of the run to the start of the block just computed."""
@@ -303,6 +325,7 @@ class Twin:
             self.load.copy(),
             self._observer.snapshot(),
             None if self._first_audit is None else self._first_audit.copy(),
+            self._warmth,
         )
 
     def restore(self, snapshot: Snapshot) -> None:
@@ -310,6 +333,7 @@ class Twin:
         self._index = snapshot.index
         self._state = snapshot.state.copy()
         self._parameters = snapshot.parameters
+        self._warmth = snapshot.warmth
         self.load = snapshot.load.copy()
         self._first_audit = None if snapshot.first_audit is None else snapshot.first_audit.copy()
         if self._observer is None:

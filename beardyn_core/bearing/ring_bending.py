@@ -54,9 +54,7 @@ def cup_ring(bearing: Bearing) -> ThinRing:
     """The cup, its wall taken at the mid-length of the rollers."""
     raceway = bearing.apex_distance / math.cos(bearing.half_angle) * math.sin(bearing.cup_angle)
     wall = 0.5 * bearing.outer_diameter - raceway
-    return rectangular_ring(
-        raceway, wall, bearing.width, bearing.material.youngs_modulus, bearing.cup_mass
-    )
+    return rectangular_ring(raceway, wall, bearing.width, bearing.material.youngs_modulus, bearing.cup_mass)
 
 
 def housing_ring(bearing: Bearing, wall: float, modulus: float, density: float) -> ThinRing:

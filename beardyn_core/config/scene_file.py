@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from typing_extensions import Self
 
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.thermal_closure import STEEL_EXPANSION, PartTemperatures, end_play_change
 from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.effects_file import EffectsKeys
 from beardyn_core.config.file_model import (
@@ -100,6 +101,29 @@ class MountingKeys(FileModel):
 def _metres(vector: tuple[float, float, float]) -> tuple[float, float, float]:
     x, y, z = vector
     return (x / MM, y / MM, z / MM)
+
+
+class TemperaturesKeys(FileModel):
+    """Temperatures of the parts, for the end play; it is given as mounted at the assembly temperature."""
+
+    assembly_C: Annotated[Number, Field(ge=-60.0, le=80.0)] = 20.0
+    cup_C: Annotated[Number, Field(ge=-60.0, le=250.0)]
+    cone_C: Annotated[Number, Field(ge=-60.0, le=250.0)]
+    rollers_C: Annotated[Number, Field(ge=-60.0, le=250.0)]
+    expansion_um_per_m_K: NonNegative = STEEL_EXPANSION * UM
+
+    def noun(self) -> PartTemperatures:
+        """The temperatures, SI."""
+        return PartTemperatures(
+            self.cup_C + ZERO_CELSIUS, self.cone_C + ZERO_CELSIUS, self.rollers_C + ZERO_CELSIUS
+        )
+
+    def closure(self, bearing: Bearing) -> float:
+        """What they add to the end play, [m]."""
+        change = PartTemperatures(
+            self.cup_C - self.assembly_C, self.cone_C - self.assembly_C, self.rollers_C - self.assembly_C
+        )
+        return end_play_change(bearing, change, self.expansion_um_per_m_K / UM)
 
 
 class DefectKeys(FileModel):
@@ -208,6 +232,9 @@ class SceneKeys(FileModel):
     end_play_mm: Annotated[Number, Field(ge=-0.5, le=2.0)] | None = Field(
         None, description="total axial travel, negative for preload; the bearing's own when not given"
     )
+    temperatures: TemperaturesKeys | None = Field(
+        None, description="of the parts; with them end_play_mm is the one mounted at assembly_C"
+    )
     tier: Literal["full"] = "full"
     effects: Reference[EffectsKeys] = Field(
         "standard", description="a preset, a path, or which effects are on"
@@ -244,7 +271,8 @@ class SceneKeys(FileModel):
             bearing=bearing,
             lubricant=self.lubricant.noun(),
             temperature=self.temperature_C + ZERO_CELSIUS,
-            end_play=bearing.end_play if self.end_play_mm is None else self.end_play_mm / MM,
+            end_play=(bearing.end_play if self.end_play_mm is None else self.end_play_mm / MM)
+            + (0.0 if self.temperatures is None else self.temperatures.closure(bearing)),
             tier=self.tier,
             effects=self.effects.noun(),
             operation=self.operation.noun(),
@@ -255,4 +283,5 @@ class SceneKeys(FileModel):
             duration=self.duration_s,
             seed=self.seed,
             source_text=source_text,
+            temperatures=None if self.temperatures is None else self.temperatures.noun(),
         )

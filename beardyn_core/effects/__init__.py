@@ -15,6 +15,7 @@ from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
 from beardyn_core.effects.ring_flexibility import RingFlexibility
+from beardyn_core.effects.thermal import Thermal
 from beardyn_core.effects.traction import CoulombTraction, MixedTraction, ShearedFilmTraction, Traction
 
 __all__ = [
@@ -30,5 +31,6 @@ __all__ = [
     "Rib",
     "RingFlexibility",
     "ShearedFilmTraction",
+    "Thermal",
     "Traction",
 ]

@@ -11,6 +11,7 @@ from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.rib import Rib
 from beardyn_core.effects.ring_flexibility import RingFlexibility
+from beardyn_core.effects.thermal import Thermal
 from beardyn_core.effects.traction import MixedTraction, Traction
 
 
@@ -28,6 +29,7 @@ class EffectSet:
     cage: Cage | None = Cage()
     ring_flexibility: RingFlexibility | None = None
     gravity: Gravity | None = Gravity()
+    thermal: Thermal | None = None
     audit: Audit | None = Audit()
 
     def names(self) -> tuple[str, ...]:

@@ -59,9 +59,7 @@ def bent_cup(lanes: Any, flex: Any, view: Any, cosine: Any, sine: Any, flexibili
         deflection = deflection + (flex[k, 0, PLACE] * cosine_n + flex[k, 1, PLACE] * sine_n)
         slope = slope + n * (flex[k, 1, PLACE] * cosine_n - flex[k, 0, PLACE] * sine_n)
         speed = speed + (flex[k, 0, SPEED] * cosine_n + flex[k, 1, SPEED] * sine_n)
-        speed_around = speed_around + (1.0 / n) * (
-            flex[k, 1, SPEED] * cosine_n - flex[k, 0, SPEED] * sine_n
-        )
+        speed_around = speed_around + (1.0 / n) * (flex[k, 1, SPEED] * cosine_n - flex[k, 0, SPEED] * sine_n)
         cosine_next = 2.0 * cosine * cosine_n - cosine_before
         sine_next = 2.0 * cosine * sine_n - sine_before
         cosine_before, sine_before = cosine_n, sine_n

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.thermal_closure import PartTemperatures
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.defect import Spall
 from beardyn_core.scene.mounting import Mounting
@@ -41,7 +42,7 @@ class Scene:
     temperature : float
         Of lubricant and bearing, [K].
     end_play : float
-        Total axial travel of the mounted bearing, negative for preload, [m].
+        Total axial travel of the mounted bearing at its temperatures, negative for preload, [m].
     tier : str
         ``full`` (the only tier so far).
     effects : EffectSet
@@ -57,6 +58,8 @@ class Scene:
         Seed of irregularity and sensor noise.
     source_text : str
         The YAML the scene was read from, all references resolved; recorded with the run.
+    temperatures : PartTemperatures or None
+        Of cup, cone and rollers where they differ; `end_play` already has what they do to it.
     """
 
     name: str
@@ -75,6 +78,7 @@ class Scene:
     duration: float
     seed: int
     source_text: str
+    temperatures: PartTemperatures | None = None
 
     @property
     def effect_names(self) -> tuple[str, ...]:

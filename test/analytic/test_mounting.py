@@ -114,7 +114,16 @@ def moving_box(mounting: Mounting, steps: int, step: float, gravity: float) -> t
         before = box_energy(bodies, params, params.coupling)
         worked = energy.copy()
         stored = kick_box(
-            bodies, np.zeros(6), load, load, energy, box, step, params, GravityParams(gravity), params.coupling
+            bodies,
+            np.zeros(6),
+            load,
+            load,
+            energy,
+            box,
+            step,
+            params,
+            GravityParams(gravity),
+            params.coupling,
         )
         places[k, :3] = bodies[CUP_BODY, POSITION : POSITION + 3]
         places[k, 3:] = bodies[CUP_BODY, TILT : TILT + 3]
@@ -131,7 +140,10 @@ def test_box_beside_the_bearing_swings_as_its_matrices_say() -> None:
     step, steps = 1e-5, 5000
     places, _, c = moving_box(BESIDE, steps, step, 0.0)
     system = np.block(
-        [[np.zeros((6, 6)), np.eye(6)], [-np.linalg.solve(c.mass, c.stiffness), -np.linalg.solve(c.mass, c.damping)]]
+        [
+            [np.zeros((6, 6)), np.eye(6)],
+            [-np.linalg.solve(c.mass, c.stiffness), -np.linalg.solve(c.mass, c.damping)],
+        ]
     )
     values, vectors = np.linalg.eig(system)
     start = np.concatenate([np.zeros(6), [0.01, -0.02, 0.03, 0.1, 0.2, -0.1]])
@@ -142,7 +154,7 @@ def test_box_beside_the_bearing_swings_as_its_matrices_say() -> None:
 
 
 def test_energy_of_a_box_beside_the_bearing_is_kept() -> None:
-    """Motion and spring lose what the dampers spend and win what gravity does, to second order in the step."""
+    """Motion and spring lose what dampers spend and win what gravity does, to second order."""
     _, energies, _ = moving_box(BESIDE, 5000, 1e-5, 9.81)
     motion, stored, lost, external = energies.T
     balance = motion + stored - external + lost

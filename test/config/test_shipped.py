@@ -23,7 +23,17 @@ from beardyn_core.config import (
     scene_from_text,
     shipped_names,
 )
-from beardyn_core.config.effect_keys import audit, cage, contact_damping, film, gravity, rib, ring_flexibility, traction
+from beardyn_core.config.effect_keys import (
+    audit,
+    cage,
+    contact_damping,
+    film,
+    gravity,
+    rib,
+    ring_flexibility,
+    thermal,
+    traction,
+)
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.units import stem_of
@@ -169,6 +179,7 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
         (cage.CageEffectKeys, effects.Cage),
         (ring_flexibility.RingFlexibilityKeys, effects.RingFlexibility),
         (gravity.GravityKeys, effects.Gravity),
+        (thermal.ThermalKeys, effects.Thermal),
         (audit.AuditKeys, effects.Audit),
         (effects_file.EffectsKeys, effects.EffectSet),
         (scene_file.MountingKeys, Mounting),

@@ -126,8 +126,8 @@ class Rig:
         work = self.work
         kernel(
             Lanes(self.arrangement.width), self.state.rollers, self.state.bodies, self.state.flex, work.rings,
-            work.sums, work.wrenches, work.box, loads, signals, rollers, bodies, self.state.energy, self.audit,
-            self.parameters,
+            work.sums, work.wrenches, work.box, loads, signals, rollers, bodies, self.state.energy,
+            self.audit, self.parameters,
         )  # fmt: skip
         return signals, rollers, bodies
 
