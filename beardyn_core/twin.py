@@ -256,8 +256,8 @@ class Twin:
         bodies = np.empty((TRENDS_PER_BLOCK, *state.bodies.shape))
         work = self._work
         advance(
-            self._lanes, state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches, work.box,
-            loads, signals, rollers, bodies, state.energy, self._audit, self._parameters,
+            self._lanes, state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches,
+            work.box, loads, signals, rollers, bodies, state.energy, self._audit, self._parameters,
         )  # fmt: skip
         return rollers, bodies
 

@@ -43,10 +43,10 @@ class Thermal:
         adds="Temperatures of the parts; they change the lubricant's viscosity and the end play.",
         states="6 temperatures, advanced once per block",
         cost="low",
-        validity="Needs the audit, which tells what each source loses; one temperature for both rows; the film "
-        "has the mean temperature of rollers and raceways.",
+        validity="Needs the audit, which tells what each source loses; one temperature for both rows; the "
+        "film has the mean temperature of rollers and raceways.",
         source="Lumped network; axlebox in moving air h = 0.03 (k/D)(uD/nu)^0.57, Harris, Rolling bearing "
-        "analysis; end play after Timken's indirect mounting; conductances assumed",
+        "analysis; end play as in Timken's indirect mounting; conductances assumed",
     )
 
     ambient: float = 293.15

@@ -1,4 +1,4 @@
-"""How the bearing is held: offset loads, restrained tilt, axleboxes with mass and springs beside the bearing."""
+"""How the bearing is held: offset loads, restrained tilt, mass and springs beside the bearing."""
 
 from __future__ import annotations
 

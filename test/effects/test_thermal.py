@@ -16,6 +16,9 @@ from beardyn_core.errors import InputError
 from beardyn_core.model.heat import BOX_NODE, NODES, heat_shares, moving_air, thermal_network
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.block import Block
+from beardyn_core.record.encoding import BlockEncoder
+from beardyn_core.record.messages import decode
+from beardyn_core.record.topics import topic
 from beardyn_core.scene.scene import Scene
 from test.kernels.rig import LOAD_80_KN, Float, constant_load, scene_with, standard_scene, started
 from test.stability.test_determinism import assert_same
@@ -56,14 +59,14 @@ def test_the_same_warming_everywhere_leaves_the_end_play() -> None:
 
 
 def test_scene_with_temperatures_runs_at_the_closed_end_play() -> None:
-    """Cone 20 K and rollers 15 K above the cup: 0.15 mm less than mounted; truth keeps what was mounted."""
+    """Cone 20 K and rollers 15 K above the cup, all above the assembly: 0.2 mm less than mounted."""
     scene = load_scene("static_80kN")
     text = scene.source_text + "temperatures: {assembly_C: 20, cup_C: 60, cone_C: 80, rollers_C: 75}\n"
     hot = scene_from_text(text)
     rate = end_play_per_kelvin(scene.bearing)
     expected = scene.end_play + 40.0 * rate.cup + 60.0 * rate.cone + 55.0 * rate.rollers
     assert hot.end_play == pytest.approx(expected, rel=1e-12)
-    assert -2e-4 < hot.end_play - scene.end_play < -1e-4
+    assert -2.5e-4 < hot.end_play - scene.end_play < -1.5e-4
     assert hot.temperatures == pytest.approx(PartTemperatures(333.15, 353.15, 348.15))
     assert scene_from_text(hot.source_text).end_play == hot.end_play
 
@@ -188,7 +191,9 @@ def test_bearing_warms_itself_and_thins_its_film() -> None:
     p = twin._parameters
     assert p.cup.gap == pytest.approx(0.5 * twin._warmth.end_play * p.cup.sine, rel=1e-12)
     assert last.audit is not None
-    assert last.audit.residual < 1e-3
+    # growing parts press the contacts together: that work is in no force of the audit
+    growth = 8e4 * 0.5 * abs(twin._warmth.end_play - 1e-4)
+    assert last.audit.residual * last.audit.dissipated < 1e-4 * last.audit.dissipated + growth
 
 
 def test_heat_of_the_network_is_what_the_run_has_lost() -> None:
@@ -231,3 +236,18 @@ def test_restart_of_a_warming_bearing_is_bit_identical() -> None:
     fresh.restore(kept)
     for block in ahead:
         assert_same(fresh.advance(), block)
+
+
+def test_temperatures_are_messages_of_their_own_only_with_the_effect() -> None:
+    """One sensor_msgs/Temperature per part every tenth block, in degrees Celsius, named by its frame."""
+    twin = started(warming_scene(QUICK), constant_load(LOAD_80_KN, 122.0))
+    block = twin.advance()
+    assert block.temperature is not None
+    encoder = BlockEncoder(twin.roller_count, ("axlebox_top",), "box_7")
+    messages = [message for message in encoder.encode(block) if message[0] == "temperature"]
+    decoded = [decode(topic("temperature").type, cdr) for _, _, cdr in messages]
+    assert [message.header.frame_id for message in decoded] == [f"box_7/{node}" for node in NODES]
+    np.testing.assert_allclose([m.temperature for m in decoded], block.temperature - 273.15, rtol=1e-14)
+    assert all(stamp == block.end_ns for _, stamp, _ in messages)
+    without = [name for name, _, _ in encoder.encode(replace(block, temperature=None))]
+    assert "temperature" not in without
