@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
+from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.description import RunDescription
@@ -57,6 +58,8 @@ class RunSummary:
         First and last time of the means, [s].
     cage_revolutions : int
         Whole revolutions of the cage that the means cover; 0 when the run was shorter than one.
+    temperatures : tuple of (part, temperature) pairs
+        At the end, with the thermal effect, [K].
     """
 
     scene: str
@@ -71,6 +74,7 @@ class RunSummary:
     energy_residual: float | None
     averaged: tuple[float, float]
     cage_revolutions: int
+    temperatures: tuple[tuple[str, float], ...] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -189,6 +193,7 @@ class _Trend:
         self._end_ns = 0
         self._start_ns: int | None = None
         self._residual: float | None = None
+        self._temperature: Float | None = None
         self.warnings = 0
 
     def add(self, block: Block) -> None:
@@ -197,6 +202,7 @@ class _Trend:
             self._start_ns = block.start_ns
         self._end_ns = block.end_ns
         self.warnings |= block.status
+        self._temperature = block.temperature
         self._residual = None if block.audit is None else block.audit.residual
         self._blocks.append(
             (
@@ -241,6 +247,9 @@ class _Trend:
             energy_residual=self._residual,
             averaged=averaged,
             cage_revolutions=revolutions,
+            temperatures=()
+            if self._temperature is None
+            else tuple(zip(NODES, self._temperature.tolist(), strict=True)),
         )
 
 

@@ -25,7 +25,7 @@ from beardyn_core.model.layout import (
     POSITION,
     TILT,
 )
-from beardyn_core.model.parameters import GravityParams
+from beardyn_core.model.parameters import BoxCoupling, GravityParams
 from beardyn_core.scene.mounting import Mounting
 from test.kernels.rig import Float, constant_load, scene_with, standard_scene, started
 
@@ -101,7 +101,9 @@ def test_eccentric_load_moves_to_the_nearer_row() -> None:
     assert beside.loaded_roller_count[0] == bearing.roller_count
 
 
-def moving_box(mounting: Mounting, steps: int, step: float, gravity: float) -> tuple[Float, Float, Float]:
+def moving_box(
+    mounting: Mounting, steps: int, step: float, gravity: float
+) -> tuple[Float, Float, BoxCoupling]:
     """Box alone from a shove: places [step, 6], energies of motion, spring and loss [step, 4]."""
     params = mounting_params(standard_scene().bearing, mounting, np.zeros(6))
     bodies = np.zeros((4, BODY_STATES))

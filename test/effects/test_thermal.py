@@ -10,6 +10,7 @@ import pytest
 
 from beardyn_core.bearing.thermal_closure import PartTemperatures, end_play_change, end_play_per_kelvin
 from beardyn_core.bearing.thermal_network import ThermalNetwork
+from beardyn_core.cli import simulate
 from beardyn_core.config import load_bearing, load_scene, scene_from_text, shipped_names
 from beardyn_core.effects import EffectSet, Thermal
 from beardyn_core.errors import InputError
@@ -20,6 +21,7 @@ from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import decode
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.scene import Scene
+from beardyn_core.study import desk_run
 from test.kernels.rig import LOAD_80_KN, Float, constant_load, scene_with, standard_scene, started
 from test.stability.test_determinism import assert_same
 
@@ -251,3 +253,16 @@ def test_temperatures_are_messages_of_their_own_only_with_the_effect() -> None:
     assert all(stamp == block.end_ns for _, stamp, _ in messages)
     without = [name for name, _, _ in encoder.encode(replace(block, temperature=None))]
     assert "temperature" not in without
+
+
+def test_summary_of_a_run_prints_the_temperatures() -> None:
+    summary = desk_run.run(replace(warming_scene(QUICK), duration=0.04))
+    assert [part for part, _ in summary.temperatures] == list(NODES)
+    cup = dict(summary.temperatures)["cup"] - 273.15
+    assert cup > 30.0
+    assert f"cup {cup:.1f}, cone" in simulate.text(summary, None)
+    printed = simulate.json_object(summary, None)["temperatures_C"]
+    assert printed["axlebox"] == pytest.approx(dict(summary.temperatures)["axlebox"] - 273.15)
+    plain = desk_run.run(replace(warming_scene(None), duration=0.02))
+    assert "temperatures" not in simulate.text(plain, None)
+    assert "temperatures_C" not in simulate.json_object(plain, None)
