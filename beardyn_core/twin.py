@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -17,6 +17,7 @@ from beardyn_core.integrate.state import State, initial_state, work_space
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
+from beardyn_core.integrate.warming import Warmth, cold_start, scene_at, warmed
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
@@ -57,6 +58,7 @@ class Snapshot:
     load: LoadBuffer
     observer: tuple[object, ...]
     first_audit: Float | None
+    warmth: Warmth | None = None
 
 
 class Twin:
@@ -82,10 +84,10 @@ class Twin:
         self.load = LoadBuffer()
         self._arrangement = Arrangement(scene.bearing.roller_count, LANE_WIDTH)
         self._lanes = Lanes(LANE_WIDTH)
-        self._work = work_space(self._arrangement)
         self._tier = TIERS[scene.tier]
         self._parameters = build_parameters(scene, self._arrangement, np.zeros(6))
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
+        self._work = work_space(self._arrangement, len(self._bending_stiffness))
         steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
         self._signals = np.zeros((steps, SIGNAL_CHANNELS))
         self._audit = np.zeros(ENERGY_TERMS)
@@ -93,6 +95,8 @@ class Twin:
         self._state: State | None = None
         self._observer: Observer | None = None
         self._index = 0
+        heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
+        self._warmth = cold_start(scene) if heated else None
 
     @property
     def roller_count(self) -> int:
@@ -120,7 +124,7 @@ class Twin:
         """
         log.info("loading the kernels; compiling them takes up to half a minute the first time")
         began = time.perf_counter()
-        static = _at_rest(self.roller_count)
+        static = _at_rest(self.roller_count, len(self._bending_stiffness))
         state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
         self._run(state, np.zeros((TRENDS_PER_BLOCK + 1, 10)), self._signals[:TRENDS_PER_BLOCK].copy())
         took = time.perf_counter() - began
@@ -143,9 +147,10 @@ class Twin:
         if not self.load.append(load):
             raise ValidityError(self.load.reason)
         scene, bearing = self.scene, self.scene.bearing
-        first = self.load.at_steps(0, BLOCK_NS, 1)[0]
+        first = self._loads(0, BLOCK_NS, 1)[0]
         free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
         moment = np.array([first[3], 0.0, first[5]])
+        restraint = self._tilt_restraint
         static = solve(
             bearing,
             first[:3],
@@ -156,10 +161,16 @@ class Twin:
             speed=first[6],
             coupling=scene.effects.lamina_coupling,
             oversize=roller_oversize(scene),
+            bending_stiffness=self._bending_stiffness,
+            tilt_stiffness=restraint,
         )
+        moment[[0, 2]] -= restraint * static.tilt
         carried = self._weight_of_rollers_and_cages()
         preload = np.concatenate([-first[:3], -moment])
         preload[2] += carried + self._free_fall * self._parameters.mounting.box_mass
+        box = self._parameters.mounting.coupling
+        if box is not None:
+            preload[3:] -= self._free_fall * box.weight[3:]
         self._parameters = build_parameters(scene, self._arrangement, preload)
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._state = self._tier.start(scene, self._arrangement, self._kernel_parameters, static, first)
@@ -202,7 +213,7 @@ class Twin:
         """
         if self._state is None or self._observer is None:
             raise ValidityError("the twin has not been started: it needs its first load")
-        loads = self.load.at_steps(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
+        loads = self._loads(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
         began = time.perf_counter()
         grow(self._parameters.effects.faults, self.scene, self._index * BLOCK_NS * 1e-9)
         rollers, bodies = self._run(self._state, loads, self._signals)
@@ -216,21 +227,71 @@ class Twin:
         block = self._observer.observe(
             self._index, self._signals, loads, rollers, bodies, int(status), self._energy_audit(), wall
         )
+        if self._warmth is not None:
+            block = replace(block, temperature=self._warm_up(loads))
         self._index += 1
         if is_fatal(status):
             moment = f"at {block.end_ns * 1e-9:.2f} s of simulated time"
             raise ValidityError(f"the run ended {moment}: {describe(status)}", block)
         return block
 
+    def _loads(self, start_ns: int, end_ns: int, steps: int) -> Float:
+        """Load at the step boundaries about the bearing centre, shape [steps + 1, 10]."""
+        loads = self.load.at_steps(start_ns, end_ns, steps)
+        offset = self.scene.mounting.load_offset
+        if any(offset):
+            loads[:, 3:6] += np.cross(offset, loads[:, :3])
+        return loads
+
+    @property
+    def _tilt_restraint(self) -> Float:
+        """Of the suspension, against the tilt of the bearing about x and z, [N m/rad].
+
+        A journal free to tilt leans the whole moment on the box, whatever holds that.
+        """
+        mounting = self.scene.mounting
+        if mounting.cup == "held" or mounting.journal_tilt == "free":
+            return np.zeros(2)
+        stiffness = self._parameters.mounting.stiffness
+        if self._parameters.mounting.coupling is not None:
+            # the bearing centre stays where it is, so its springs beside it restrain the tilt too
+            stiffness = np.diag(self._parameters.mounting.coupling.stiffness)
+        return np.asarray(stiffness)[[3, 5]]
+
+    @property
+    def _bending_stiffness(self) -> Float:
+        """Of the cup, [N/m]; empty for a rigid one."""
+        flexibility = self._parameters.effects.ring_flexibility
+        return np.zeros(0) if flexibility is None else np.asarray(flexibility.stiffness)
+
     def _run(self, state: State, loads: Float, signals: Float) -> tuple[Float, Float]:
         rollers = np.empty((TRENDS_PER_BLOCK, *state.rollers.shape))
         bodies = np.empty((TRENDS_PER_BLOCK, *state.bodies.shape))
         work = self._work
         self._tier.advance(
-            self._lanes, state.rollers, state.bodies, work.rings, work.sums, work.wrenches, work.box,
-            loads, signals, rollers, bodies, state.energy, self._audit, self._kernel_parameters,
+            self._lanes, state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches,
+            work.box, loads, signals, rollers, bodies, state.energy, self._audit,
+            self._kernel_parameters,
         )  # fmt: skip
         return rollers, bodies
+
+    def _warm_up(self, loads: Float) -> Float:
+        """Temperatures after the block just computed; the kernels go on with what they change, [K]."""
+        scene, state, before = self.scene, self._state, self._warmth
+        assert state is not None
+        assert before is not None
+        assert scene.effects.thermal is not None
+        speed = float(loads[:, 6].mean())
+        after = warmed(scene, scene.effects.thermal, before, state.energy, speed, BLOCK_NS * 1e-9)
+        if (after.film_temperature, after.end_play) != (before.film_temperature, before.end_play):
+            old = self._parameters
+            new = build_parameters(scene_at(scene, after), self._arrangement, old.mounting.preload)
+            self._parameters = new._replace(
+                rollers=old.rollers, effects=new.effects._replace(faults=old.effects.faults)
+            )
+            self._kernel_parameters = self._tier.parameters(scene, self._parameters)
+        self._warmth = after
+        return after.temperature
 
     def _energy_audit(self) -> EnergyAudit | None:
         """Balance from the start of the run to the start of the block just computed."""
@@ -285,6 +346,7 @@ class Twin:
             self.load.copy(),
             self._observer.snapshot(),
             None if self._first_audit is None else self._first_audit.copy(),
+            self._warmth,
         )
 
     def restore(self, snapshot: Snapshot) -> None:
@@ -293,6 +355,7 @@ class Twin:
         self._state = snapshot.state.copy()
         self._parameters = snapshot.parameters
         self._kernel_parameters = self._tier.parameters(self.scene, self._parameters)
+        self._warmth = snapshot.warmth
         self.load = snapshot.load.copy()
         self._first_audit = None if snapshot.first_audit is None else snapshot.first_audit.copy()
         if self._observer is None:
@@ -302,14 +365,14 @@ class Twin:
         self._observer.restore(snapshot.observer)
 
 
-def _at_rest(roller_count: int) -> StaticSolution:
+def _at_rest(roller_count: int, modes: int) -> StaticSolution:
     """A bearing without load, for compiling only."""
     none = np.zeros((2, roller_count))
     return StaticSolution(
         displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,
         cup_lamina_load=none[..., None], cone_lamina_load=none[..., None],
         roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
-        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0,
+        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0, bending=np.zeros((modes, 2)),
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.config.units import ZERO_CELSIUS
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
@@ -130,6 +131,11 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "cage_speed_ratio": [_number(ratio) for ratio in summary.cage_speed_ratio],
         "energy_residual": _number(summary.energy_residual),
         "torque_budget": None if summary.budget is None else summary.budget.to_json(),
+        **(
+            {"temperatures_C": {part: kelvin - ZERO_CELSIUS for part, kelvin in summary.temperatures}}
+            if summary.temperatures
+            else {}
+        ),
         "recording": None if recording is None else str(recording),
     }
 
@@ -163,6 +169,9 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         ("energy residual", residual),
         ("status", summary.status),
     ]
+    if summary.temperatures:
+        parts = (f"{part} {kelvin - ZERO_CELSIUS:.1f}" for part, kelvin in summary.temperatures)
+        lines.insert(-1, ("temperatures", f"{', '.join(parts)} °C"))
     if recording is not None:
         size = f", {recording.stat().st_size / 1e6:.1f} MB" if recording.exists() else ""
         lines.append(("recording", f"{recording}{size}"))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
-from pydantic import Field
+from pydantic import Field, model_validator
+from typing_extensions import Self
 
 from beardyn_core.config.effect_keys.audit import AuditKeys
 from beardyn_core.config.effect_keys.cage import CageSwitch
@@ -15,11 +16,13 @@ from beardyn_core.config.effect_keys.film import LineFilmKeys
 from beardyn_core.config.effect_keys.gravity import GravityKeys
 from beardyn_core.config.effect_keys.lamina_coupling import LaminaCouplingKeys
 from beardyn_core.config.effect_keys.rib import RibKeys
+from beardyn_core.config.effect_keys.ring_flexibility import RingFlexibilityKeys
 from beardyn_core.config.effect_keys.rolling_resistance import RollingResistanceKeys
 from beardyn_core.config.effect_keys.seal import SealKeys
 from beardyn_core.config.effect_keys.small_rib import SmallRibKeys
+from beardyn_core.config.effect_keys.thermal import ThermalKeys
 from beardyn_core.config.effect_keys.traction import Traction
-from beardyn_core.config.file_model import FileModel, Name, Switch, Text
+from beardyn_core.config.file_model import FileModel, Name, Switch, Text, problem
 from beardyn_core.effects import EffectSet
 
 _SWITCHED: dict[bool, Any] = {True: {}, False: None}
@@ -41,8 +44,16 @@ class EffectsKeys(FileModel):
     small_rib: Switch[SmallRibKeys] = None
     cage: CageSwitch = False
     seal: Switch[SealKeys] = None
+    ring_flexibility: Switch[RingFlexibilityKeys] = None
     gravity: Switch[GravityKeys] = False
+    thermal: Switch[ThermalKeys] = None
     audit: Switch[AuditKeys] = False
+
+    @model_validator(mode="after")
+    def _heat_is_known(self) -> Self:
+        if self.thermal and self.audit in (None, False):
+            raise problem("thermal needs the audit, which tells what each source loses: set audit to true")
+        return self
 
     @classmethod
     def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:

@@ -8,6 +8,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from typing_extensions import Self
 
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.thermal_closure import STEEL_EXPANSION, PartTemperatures, end_play_change
 from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.defect_file import DefectKeys, RoughnessKeys, WavinessKeys
 from beardyn_core.config.effects_file import EffectsKeys
@@ -47,6 +49,37 @@ class MountingKeys(FileModel):
     damping_kN_s_per_m: NonNegativeVector = (20.0, 20.0, 10.0)
     rotational_stiffness_kN_m_per_rad: NonNegativeVector = (100.0, 200.0, 100.0)
     rotational_damping_N_m_s_per_rad: NonNegativeVector = (500.0, 1000.0, 500.0)
+    box_centre_mm: Vector = Field(
+        (0.0, 0.0, 0.0), description="centre of mass of the axlebox without the cup, from the bearing centre"
+    )
+    suspension_centre_mm: Vector = Field(
+        (0.0, 0.0, 0.0), description="where the springs act on the axlebox, from the bearing centre"
+    )
+    load_offset_mm: Vector = Field(
+        (0.0, 0.0, 0.0), description="where the load acts on the journal, from the bearing centre"
+    )
+
+    @model_validator(mode="after")
+    def _box_has_inertia(self) -> Self:
+        away = [
+            sum(c * c for k, c in enumerate(self.box_centre_mm) if k != axis) / MM**2 for axis in range(3)
+        ]
+        least = tuple(self.box_mass_kg * square for square in away)
+        if any(have <= need for have, need in zip(self.box_inertia_kg_m2, least, strict=True) if need):
+            raise problem(
+                f"box_inertia_kg_m2 is {list(self.box_inertia_kg_m2)}; about the bearing centre it must be "
+                f"above {[round(value, 4) for value in least]}, what box_mass_kg alone has at box_centre_mm"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _offset_load_turns_something(self) -> Self:
+        if any(self.load_offset_mm) and self.cup == "held" and self.journal_tilt == "locked":
+            raise problem(
+                f"load_offset_mm is {list(self.load_offset_mm)}; it turns nothing while cup is held and "
+                "journal_tilt is locked: set journal_tilt to free or cup to suspended"
+            )
+        return self
 
     def noun(self) -> Mounting:
         """The mounting, SI."""
@@ -61,7 +94,38 @@ class MountingKeys(FileModel):
             damping=scaled(self.damping_kN_s_per_m, KN),
             rotational_stiffness=scaled(self.rotational_stiffness_kN_m_per_rad, KN),
             rotational_damping=self.rotational_damping_N_m_s_per_rad,
+            box_centre=_metres(self.box_centre_mm),
+            suspension_centre=_metres(self.suspension_centre_mm),
+            load_offset=_metres(self.load_offset_mm),
         )
+
+
+def _metres(vector: tuple[float, float, float]) -> tuple[float, float, float]:
+    x, y, z = vector
+    return (x / MM, y / MM, z / MM)
+
+
+class TemperaturesKeys(FileModel):
+    """Temperatures of the parts, for the end play; it is given as mounted at the assembly temperature."""
+
+    assembly_C: Annotated[Number, Field(ge=-60.0, le=80.0)] = 20.0
+    cup_C: Annotated[Number, Field(ge=-60.0, le=250.0)]
+    cone_C: Annotated[Number, Field(ge=-60.0, le=250.0)]
+    rollers_C: Annotated[Number, Field(ge=-60.0, le=250.0)]
+    expansion_um_per_m_K: NonNegative = STEEL_EXPANSION * UM
+
+    def noun(self) -> PartTemperatures:
+        """The temperatures, SI."""
+        return PartTemperatures(
+            self.cup_C + ZERO_CELSIUS, self.cone_C + ZERO_CELSIUS, self.rollers_C + ZERO_CELSIUS
+        )
+
+    def closure(self, bearing: Bearing) -> float:
+        """What they add to the end play, [m]."""
+        change = PartTemperatures(
+            self.cup_C - self.assembly_C, self.cone_C - self.assembly_C, self.rollers_C - self.assembly_C
+        )
+        return end_play_change(bearing, change, self.expansion_um_per_m_K / UM)
 
 
 class SensorKeys(FileModel):
@@ -111,6 +175,9 @@ class SceneKeys(FileModel):
     )
     tier: Literal["lumped", "quasistatic", "full"] = Field(
         "full", description="which bodies move by their own equations of motion"
+    )
+    temperatures: TemperaturesKeys | None = Field(
+        None, description="of the parts; with them end_play_mm is the one mounted at assembly_C"
     )
     effects: Reference[EffectsKeys] = Field(
         "standard", description="a preset, a path, or which effects are on"
@@ -164,7 +231,8 @@ class SceneKeys(FileModel):
             bearing=bearing,
             lubricant=self.lubricant.noun(),
             temperature=self.temperature_C + ZERO_CELSIUS,
-            end_play=bearing.end_play if self.end_play_mm is None else self.end_play_mm / MM,
+            end_play=(bearing.end_play if self.end_play_mm is None else self.end_play_mm / MM)
+            + (0.0 if self.temperatures is None else self.temperatures.closure(bearing)),
             tier=self.tier,
             effects=self.effects.noun(),
             operation=self.operation.noun(),
@@ -176,4 +244,5 @@ class SceneKeys(FileModel):
             seed=self.seed,
             source_text=source_text,
             waviness=tuple(wave.noun() for wave in self.waviness),
+            temperatures=None if self.temperatures is None else self.temperatures.noun(),
         )

@@ -16,9 +16,11 @@ from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.lamina_coupling import LaminaCoupling
 from beardyn_core.effects.rib import Rib, RibMixedFilm, RibShearedFilm
+from beardyn_core.effects.ring_flexibility import RingFlexibility
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
 from beardyn_core.effects.small_rib import SmallRib
+from beardyn_core.effects.thermal import Thermal
 from beardyn_core.effects.traction import (
     CoulombTraction,
     LoadSharingTraction,
@@ -47,10 +49,12 @@ __all__ = [
     "Rib",
     "RibMixedFilm",
     "RibShearedFilm",
+    "RingFlexibility",
     "RollingResistance",
     "RotatingCage",
     "Seal",
     "ShearedFilmTraction",
     "SmallRib",
+    "Thermal",
     "Traction",
 ]

@@ -12,9 +12,11 @@ from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.lamina_coupling import LaminaCoupling
 from beardyn_core.effects.rib import Rib
+from beardyn_core.effects.ring_flexibility import RingFlexibility
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
 from beardyn_core.effects.small_rib import SmallRib
+from beardyn_core.effects.thermal import Thermal
 from beardyn_core.effects.traction import MixedTraction, Traction
 
 
@@ -35,7 +37,9 @@ class EffectSet:
     small_rib: SmallRib | None = None
     cage: CageModel | None = Cage()
     seal: Seal | None = None
+    ring_flexibility: RingFlexibility | None = None
     gravity: Gravity | None = Gravity()
+    thermal: Thermal | None = None
     audit: Audit | None = Audit()
 
     def names(self) -> tuple[str, ...]:

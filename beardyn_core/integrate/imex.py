@@ -9,12 +9,13 @@ from beardyn_core.kernels.bodies import (
     collect_reactions,
     drift_bodies,
     kick_cone,
-    kick_cup,
     show_rings,
     sum_lanes,
 )
+from beardyn_core.kernels.box import box_energy, kick_box
 from beardyn_core.kernels.cage_bodies import cage_energy, move_cages, pass_on, place_cages
 from beardyn_core.kernels.land import push_lands, settle_lands
+from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
 from beardyn_core.kernels.roller import step_rollers
 from beardyn_core.kernels.seal import add_seals
 from beardyn_core.model.layout import (
@@ -67,10 +68,9 @@ def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
             total += p.rollers[block, MASK, lane] * energy
     mounting = p.mounting
     for i in range(3):
-        total += 0.5 * mounting.box_mass * bodies[CUP_BODY, LINEAR + i] ** 2
-        total += 0.5 * mounting.box_inertia[i] * bodies[CUP_BODY, ANGULAR + i] ** 2
         total += 0.5 * mounting.journal_mass * bodies[CONE_BODY, LINEAR + i] ** 2
         total += 0.5 * mounting.journal_inertia * bodies[CONE_BODY, ANGULAR + i] ** 2
+    total += box_energy(bodies, mounting, mounting.coupling)
     return total + cage_energy(bodies, p.effects.cage)
 
 
@@ -104,6 +104,7 @@ def advance(
     lanes: Any,
     rollers: Any,
     bodies: Any,
+    flex: Any,
     rings: Any,
     sums: Any,
     wrenches: Any,
@@ -125,10 +126,12 @@ def advance(
         State of the rollers, changed in place.
     bodies : float64 array, shape [4, BODY_STATES]
         Cup, cone, cages; changed in place.
+    flex : float64 array, shape [mode, 2, 2]
+        Bending of the cup, no modes without it; changed in place.
     rings : float64 array, shape [group, 3, RING_FIELDS, lane]
-    sums : float64 array, shape [group, 1, SUM_FIELDS, lane]
+    sums : float64 array, shape [group, 1, SUM_FIELDS + 2 x mode, lane]
     wrenches : float64 array, shape [4, 6]
-    box : float64 array, shape [6]
+    box : float64 array, shape [12]
         Work space.
     loads : float64 array, shape [step + 1, 10]
         Load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step boundaries.
@@ -151,23 +154,28 @@ def advance(
     for step in range(steps):
         drift_bodies(bodies, p.step)
         place_cages(bodies, p.effects.cage)
+        drift_flex(flex, p.step, p.effects.ring_flexibility)
         show_rings(bodies, rings, place)
         sums[:] = 0.0
         if step == 0:
             audit[:] = energy
-            audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p)
+            audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(
+                flex, p.effects.ring_flexibility
+            )
         for group in range(groups):
             for index in range(blocks_per_group):
-                step_rollers(lanes, group * blocks_per_group + index, rollers, rings[group], sums[group], p)
+                step_rollers(
+                    lanes, group * blocks_per_group + index, rollers, rings[group], sums[group], flex, p
+                )
         collect_reactions(sums, wrenches)
         lands = push_lands(bodies, wrenches, p.effects.cage)
         pass_on(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
         add_seals(bodies, wrenches, energy, p.step, p.effects.seal)
-        stored = kick_cup(
+        stored = kick_box(
             bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
-            p.effects.gravity,
+            p.effects.gravity, p.mounting.coupling,
         )  # fmt: skip
         for i in range(6):
             signals[step, SIGNAL_ACCELERATION + i] = box[i]
@@ -176,6 +184,7 @@ def advance(
         )
         move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage)
+        stored += kick_flex(flex, sums, energy, p.step, p.effects.ring_flexibility)
         energy[ENERGY_EXTERNAL] += sum_lanes(sums, WORK_GRAVITY)
         for source in range(LOSSES):
             energy[ENERGY_LOST + source] += sum_lanes(sums, WORK_LOST + source)
@@ -184,7 +193,11 @@ def advance(
             for i in range(ENERGY_ELASTIC):
                 audit[i] = 0.5 * (audit[i] + energy[i])
             audit[ENERGY_ELASTIC] = sum_lanes(sums, ELASTIC) + stored
-            audit[ENERGY_KINETIC] = 0.5 * (audit[ENERGY_KINETIC] + kinetic_energy(rollers, bodies, p))
+            audit[ENERGY_KINETIC] = 0.5 * (
+                audit[ENERGY_KINETIC]
+                + kinetic_energy(rollers, bodies, p)
+                + flex_energy(flex, p.effects.ring_flexibility)
+            )
         if (step + 1) % stride == 0:
             roller_trend[(step + 1) // stride - 1] = rollers
             body_trend[(step + 1) // stride - 1] = bodies

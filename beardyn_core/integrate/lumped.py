@@ -11,7 +11,8 @@ from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.jit import entry
-from beardyn_core.kernels.bodies import drift_bodies, kick_cone, kick_cup
+from beardyn_core.kernels.bodies import drift_bodies, kick_cone
+from beardyn_core.kernels.box import kick_box
 from beardyn_core.kernels.kinematic_rollers import (
     collect_rows,
     relative_cone,
@@ -64,6 +65,7 @@ def advance_lumped(
     lanes: Any,
     rollers: Any,
     bodies: Any,
+    flex: Any,
     rings: Any,
     sums: Any,
     wrenches: Any,
@@ -80,8 +82,8 @@ def advance_lumped(
 
     Parameters
     ----------
-    rings, audit : float64 arrays
-        Not used: the cone is seen as a whole, and no energy balance is kept.
+    flex, rings, audit : float64 arrays
+        Not used: rings are rigid, the cone is seen as a whole, and no energy balance is kept.
     p : LumpedParameters
     """
     steps = signals.shape[0]
@@ -100,9 +102,9 @@ def advance_lumped(
         rib = collect_rows(sums, wrenches, direction, base.cup.cosine, base.cup.sine, k.rolling_weight)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
-        kick_cup(
+        kick_box(
             bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, base.mounting,
-            base.effects.gravity,
+            base.effects.gravity, base.mounting.coupling,
         )  # fmt: skip
         for i in range(6):
             signals[step, SIGNAL_ACCELERATION + i] = box[i]

@@ -7,7 +7,8 @@ from typing import Any
 
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
-from beardyn_core.kernels.bodies import drift_bodies, kick_cone, kick_cup
+from beardyn_core.kernels.bodies import drift_bodies, kick_cone
+from beardyn_core.kernels.box import kick_box
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -156,6 +157,7 @@ def advance_quasistatic(
     lanes: Any,
     rollers: Any,
     bodies: Any,
+    flex: Any,
     rings: Any,
     sums: Any,
     wrenches: Any,
@@ -192,9 +194,9 @@ def advance_quasistatic(
         rib = collect_rows(sums, wrenches, direction, base.cup.cosine, base.cup.sine, k.rolling_weight)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
-        kick_cup(
+        kick_box(
             bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, base.mounting,
-            base.effects.gravity,
+            base.effects.gravity, base.mounting.coupling,
         )  # fmt: skip
         for i in range(6):
             signals[step, SIGNAL_ACCELERATION + i] = box[i]

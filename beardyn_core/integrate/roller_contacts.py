@@ -8,7 +8,7 @@ displaced and tilted cone in space, of the end sphere to the conical rib.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,6 +58,8 @@ class ContactModel:
         Radial force, axial force and tilt moment of the orbiting roller at its mid-length, [N, N, N m].
     coupling : LaminaRoot or None
         Matrices of coupled laminae.
+    bending : float64 array, shape [row, roller, 2 x mode]
+        Radial deflection of the cup at each roller per amplitude of its bending modes, [-].
     """
 
     bearing: Bearing
@@ -73,6 +75,7 @@ class ContactModel:
     lamina_factor: float
     rib_factor: float
     inertia_load: Float
+    bending: Float
     coupling: LaminaRoot | None = None
 
     @property
@@ -92,10 +95,13 @@ class ConePose:
         Of the bearing centre fixed to the cone, [m].
     rotation : float64 array, shape [3, 3]
         From cone axes to cup axes.
+    bending : float64 array, shape [2 x mode]
+        Amplitudes of the cup's bending modes, [m].
     """
 
     displacement: Float
     rotation: Float
+    bending: Float = field(default_factory=lambda: np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -111,8 +117,9 @@ class ContactSet:
         energy that of the line, [row, roller, 1].
     by_roller : float64 array, shape [row, roller, lamina, 3]
         Change of approach with radial, axial and tilt motion of the roller, [-, -, m/rad].
-    by_cone : float64 array, shape [row, roller, lamina, 5]
-        Change of approach with cone displacement (3) and tilt about x and z, [-, m/rad].
+    by_cone : float64 array, shape [row, roller, lamina, 5 + 2 x mode]
+        Change of approach with cone displacement (3), tilt about x and z and bending of the cup,
+        [-, m/rad, -].
     """
 
     approach: Float
@@ -131,6 +138,7 @@ def contact_model(
     roller_phase: float,
     coupling: LaminaCoupling | None = None,
     oversize: Float | None = None,
+    modes: int = 0,
 ) -> ContactModel:
     """Constants of the contacts.
 
@@ -149,6 +157,8 @@ def contact_model(
         Coupling of the laminae.
     oversize : float64 array, shape [row, roller], optional
         Radius error of each roller, [m].
+    modes : int
+        Bending modes of the cup, with 2, 3, ... waves.
     """
     error = np.zeros((ROW_COUNT, bearing.roller_count)) if oversize is None else oversize
     azimuth = roller_phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
@@ -174,7 +184,15 @@ def contact_model(
         rib_factor=rib_contact_factor(bearing),
         inertia_load=_inertia_load(bearing, speed),
         coupling=None if coupling is None else bearing_lamina_root(bearing, coupling, laminae),
+        bending=_bending_shapes(azimuth, modes),
     )
+
+
+def _bending_shapes(azimuth: Float, modes: int) -> Float:
+    """Cosine and sine of 2, 3, ... times the azimuth, the same for both rows."""
+    angle = (np.arange(modes) + 2) * azimuth[:, None]
+    shapes = np.stack([np.cos(angle), np.sin(angle)], axis=-1).reshape(azimuth.size, 2 * modes)
+    return np.stack([shapes] * ROW_COUNT)
 
 
 def _inertia_load(bearing: Bearing, speed: float) -> Float:
@@ -219,8 +237,11 @@ def stiffened(stiffness: Float, direction: Float) -> Float:
     return stiffness[..., None] * direction
 
 
-def cup_contacts(model: ContactModel, roller: Float) -> ContactSet:
-    """Lamina contacts with the cup; `roller` is radial, axial, tilt, shape [row, roller, 3]."""
+def cup_contacts(model: ContactModel, roller: Float, pose: ConePose | None = None) -> ContactSet:
+    """Lamina contacts with the cup; `roller` is radial, axial, tilt, shape [row, roller, 3].
+
+    The pose matters for the bending of the cup only.
+    """
     bearing = model.bearing
     sine, cosine = math.sin(bearing.cup_angle), math.cos(bearing.cup_angle)
     phi = bearing.half_angle
@@ -230,11 +251,15 @@ def cup_contacts(model: ContactModel, roller: Float) -> ContactSet:
     across = model.radius * np.sin(phi - 0.5 * tilt) * half_sine
     inward = cosine * roller[..., 0:1] - sine * roller[..., 1:2]
     approach = inward + along + across - model.clearance - model.drop + model.oversize * math.cos(phi)
+    by_cone = np.zeros((*approach.shape, 5 + model.bending.shape[-1]))
+    if pose is not None and pose.bending.size:
+        approach = approach - cosine * (model.bending @ pose.bending)[..., None]
+        by_cone[..., 5:] = -cosine * model.bending[:, :, None, :]
     by_roller = np.empty((*approach.shape, 3))
     by_roller[..., 0], by_roller[..., 1] = cosine, -sine
     by_roller[..., 2] = model.abscissa * np.cos(phi - tilt) + model.radius * np.sin(phi - tilt)
     force, stiffness, energy = line_law(model, approach)
-    return ContactSet(approach, force, stiffness, energy, by_roller, np.zeros((*approach.shape, 5)))
+    return ContactSet(approach, force, stiffness, energy, by_roller, by_cone)
 
 
 def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactSet:
@@ -349,7 +374,7 @@ def _assembled(
     by_roller[..., 0] = np.sum(normal * model.radial[:, :, None, :], axis=-1)
     by_roller[..., 1] = np.sum(normal * model.axial[:, :, None, :], axis=-1)
     by_roller[..., 2] = np.sum(_cross(lever, normal) * model.tilt_axis[:, :, None, :], axis=-1)
-    by_cone = np.empty((*approach.shape, 5))
+    by_cone = np.zeros((*approach.shape, 5 + model.bending.shape[-1]))
     by_cone[..., :3] = -normal
     by_cone[..., 3], by_cone[..., 4] = -about_centre[..., 0], -about_centre[..., 2]
     return ContactSet(approach, force, stiffness, energy, by_roller, by_cone)

@@ -46,11 +46,12 @@ class RollerState:
     cup, cone, rib : ContactSet
     residual : float
         Largest force that is left on a roller, [N].
-    cone_force : float64 array, shape [5]
-        Force of the rollers on the cone and its moment about x and z, [N, N m].
-    cone_stiffness : float64 array, shape [5, 5]
+    cone_force : float64 array, shape [5 + 2 x mode]
+        Force of the rollers on the cone, its moment about x and z, [N, N m], and their force on the
+        amplitudes of the cup's bending, [N].
+    cone_stiffness : float64 array, shape [5 + 2 x mode, 5 + 2 x mode]
         Change of the opposite of `cone_force` with the cone pose, rollers following.
-    follow : float64 array, shape [row, roller, 3, 5]
+    follow : float64 array, shape [row, roller, 3, 5 + 2 x mode]
         Change of roller position with the cone pose.
     energy : float
         Contact energy less the work of the inertia loads, [J].
@@ -116,7 +117,7 @@ class _Rollers:
 
     def contacts(self, position: Float) -> tuple[ContactSet, ContactSet, ContactSet]:
         return (
-            cup_contacts(self.model, position),
+            cup_contacts(self.model, position, self.pose),
             self.cone(position),
             rib_contacts(self.model, position, self.pose),
         )
@@ -146,9 +147,10 @@ class _Rollers:
         trial = self.at(position)
         held = ~free
         contacts = tuple(_without(contact, free) for contact in self.contacts(position))
-        cone_force = np.zeros(5)
-        stiffness = np.zeros((5, 5))
-        coupling = np.zeros((*position.shape, 5))
+        size = 5 + self.model.bending.shape[-1]
+        cone_force = np.zeros(size)
+        stiffness = np.zeros((size, size))
+        coupling = np.zeros((*position.shape, size))
         for contact in contacts:
             cone_force -= np.einsum("ijk,ijkm->m", contact.force, contact.by_cone)
             weighted = stiffened(contact.stiffness, contact.by_cone)
@@ -247,7 +249,7 @@ def _on_cup_and_rib(model: ContactModel, pose: ConePose) -> Float:
     )
     position = np.zeros_like(model.centre)
     for _ in range(4):
-        cup = cup_contacts(model, position)
+        cup = cup_contacts(model, position, pose)
         rib = rib_contacts(model, position, pose)
         matrix = np.stack([cup.by_roller[:, :, 0, :2], rib.by_roller[:, :, 0, :2]], axis=-2)
         excess = np.stack([cup.approach.max(axis=-1), rib.approach[..., 0]], axis=-1) - wanted

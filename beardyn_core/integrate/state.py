@@ -42,11 +42,14 @@ class State:
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
     bodies : float64 array, shape [4, BODY_STATES]
     energy : float64 array, shape [ENERGY_TERMS]
+    flex : float64 array, shape [mode, 2, 2]
+        Bending of the cup: cosine and sine amplitude, displacement [m] and velocity [m/s].
     """
 
     rollers: Float
     bodies: Float
     energy: Float
+    flex: Float
 
     def copy(self) -> State:
         """A copy that shares nothing."""
@@ -63,14 +66,14 @@ class WorkSpace:
     box: Float
 
 
-def work_space(arrangement: Arrangement) -> WorkSpace:
-    """Work space for the rollers' arrangement."""
+def work_space(arrangement: Arrangement, modes: int = 0) -> WorkSpace:
+    """Work space for the rollers' arrangement and the bending modes of the cup."""
     groups, width = arrangement.group_count, arrangement.width
     return WorkSpace(
         np.zeros((groups, 3, RING_FIELDS, width)),
-        np.zeros((groups, 1, SUM_FIELDS, width)),
+        np.zeros((groups, 1, SUM_FIELDS + 2 * modes, width)),
         np.zeros((4, 6)),
-        np.zeros(6),
+        np.zeros(12),
     )
 
 
@@ -125,4 +128,6 @@ def initial_state(
     bodies[CONE_BODY, TILT], bodies[CONE_BODY, TILT + 2] = static.tilt
     bodies[CONE_BODY, RATE] = shaft_speed
     bodies[CAGE_BODY:, RATE] = cage_speed
-    return State(rollers, bodies, np.zeros(ENERGY_TERMS))
+    flex = np.zeros((*static.bending.shape, 2))
+    flex[..., 0] = static.bending
+    return State(rollers, bodies, np.zeros(ENERGY_TERMS), flex)

@@ -1,13 +1,14 @@
-"""Static equilibrium of the double row: rigid rings, every roller between cup, cone and rib.
+"""Static equilibrium of the double row: every roller between cup, cone and rib.
 
-Unknown are the displacement of the cone relative to the cup and, when it is free, its tilt about x and z.
-The rollers follow (`roller_equilibrium`); what is left is a convex problem in three or five unknowns.
+Unknown are the displacement of the cone relative to the cup and, when it is free, its tilt about x and z,
+and the amplitudes of the cup's bending when it is not rigid. The rollers follow (`roller_equilibrium`); what
+is left is a convex problem in three or five unknowns and two for each bending mode.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -55,6 +56,8 @@ class StaticSolution:
         Newton steps of the cone.
     residual : float
         What is left of the load, [N].
+    bending : float64 array, shape [mode, 2]
+        Cosine and sine amplitude of the cup's bending with 2, 3, ... waves, [m].
 
     Notes
     -----
@@ -76,6 +79,7 @@ class StaticSolution:
     stiffness_tilt_free: Float
     iterations: int
     residual: float
+    bending: Float = field(default_factory=lambda: np.zeros((0, 2)))
 
     @property
     def loaded_roller_count(self) -> tuple[int, int]:
@@ -101,6 +105,8 @@ def solve(
     roller_phase: float = 0.0,
     coupling: LaminaCoupling | None = None,
     oversize: Float | None = None,
+    bending_stiffness: ArrayLike = (),
+    tilt_stiffness: ArrayLike = (0.0, 0.0),
 ) -> StaticSolution:
     """Static equilibrium under a load on the cone.
 
@@ -125,6 +131,10 @@ def solve(
         Coupling of the laminae along the rollers.
     oversize : float64 array, shape [row, roller], optional
         Radius error of each roller, [m].
+    bending_stiffness : array_like, shape [mode]
+        Of the cup against bending with 2, 3, ... waves, [N/m]; without it the cup is rigid.
+    tilt_stiffness : array_like, shape [2]
+        Of whatever restrains the free tilt of the cone against the cup about x and z, [N m/rad].
 
     Returns
     -------
@@ -145,14 +155,18 @@ def solve(
     """
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
-    model = contact_model(bearing, end_play, laminae, speed, roller_phase, coupling, oversize)
-    cone = _Cone(model, load, 5 if tilt == "free" else 3)
+    modal = np.repeat(np.asarray(bending_stiffness, dtype=np.float64), 2)
+    springs = np.concatenate([np.zeros(3), np.asarray(tilt_stiffness, dtype=np.float64), modal])
+    model = contact_model(
+        bearing, end_play, laminae, speed, roller_phase, coupling, oversize, modal.size // 2
+    )
+    cone = _Cone(model, load, 5 if tilt == "free" else 3, springs)
     state, unknowns, iterations = _equilibrium(cone)
-    residual = cone.residual(state)
-    held, free = _stiffness(state.cone_stiffness)
+    residual = cone.residual(unknowns, state)
+    held, free = _stiffness(_bending_follows(state.cone_stiffness + np.diag(springs)))
     return StaticSolution(
         displacement=unknowns[:3].copy(),
-        tilt=unknowns[3:].copy(),
+        tilt=unknowns[3:5].copy(),
         cup_load=state.cup.force.sum(axis=-1),
         cone_load=state.cone.force.sum(axis=-1),
         rib_load=state.rib.force.sum(axis=-1),
@@ -165,64 +179,68 @@ def solve(
         stiffness_tilt_free=free,
         iterations=iterations,
         residual=float(np.abs(residual).max()),
+        bending=unknowns[5:].reshape(-1, 2).copy(),
     )
 
 
 class _Cone:
-    """Energy of the loaded cone as a function of its pose."""
+    """Energy of the loaded cone and of the springs on it as a function of its pose and the cup's bending."""
 
-    def __init__(self, model: ContactModel, load: Float, active: int) -> None:
+    def __init__(self, model: ContactModel, load: Float, moving: int, springs: Float) -> None:
         self.model = model
-        self.load = load
-        self.active = active
+        self.load = np.concatenate([load, np.zeros(springs.size - 5)])
+        self.springs = springs
+        self.active = np.concatenate([np.arange(moving), np.arange(5, springs.size)])
         lever = 0.5 * model.bearing.pressure_centre_spread
-        self.scale = np.array([1.0, 1.0, 1.0, lever, lever])
+        self.scale = np.array([1.0, 1.0, 1.0, lever, lever, *np.ones(springs.size - 5)])
 
     def at(self, unknowns: Float, guess: Float | None) -> RollerState:
-        pose = ConePose(unknowns[:3], _rotation(unknowns[3], unknowns[4]))
+        pose = ConePose(unknowns[:3], _rotation(unknowns[3], unknowns[4]), unknowns[5:])
         return solve_rollers(self.model, pose, guess)
 
     def energy(self, unknowns: Float, state: RollerState) -> float:
-        return state.energy - float(self.load @ unknowns)
+        stored = 0.5 * float(self.springs @ unknowns**2)
+        return state.energy + stored - float(self.load @ unknowns)
 
-    def residual(self, state: RollerState) -> Float:
+    def residual(self, unknowns: Float, state: RollerState) -> Float:
         """Load that is not balanced, moments as forces at the pressure centres; shape [active]."""
-        return ((self.load + state.cone_force) / self.scale)[: self.active]
+        left = self.load + state.cone_force - self.springs * unknowns
+        return np.asarray((left / self.scale)[self.active])
 
-    def step(self, state: RollerState, damping: float) -> Float:
+    def step(self, unknowns: Float, state: RollerState, damping: float) -> Float:
         """Damped Newton step of the unknowns, no longer than the longest step."""
         active = self.active
-        scaled = state.cone_stiffness / np.outer(self.scale, self.scale)
-        matrix = scaled[:active, :active] + damping * _REFERENCE_STIFFNESS * np.eye(active)
-        step = np.linalg.solve(matrix, self.residual(state))
+        scaled = (state.cone_stiffness + np.diag(self.springs)) / np.outer(self.scale, self.scale)
+        matrix = scaled[np.ix_(active, active)] + damping * _REFERENCE_STIFFNESS * np.eye(active.size)
+        step = np.linalg.solve(matrix, self.residual(unknowns, state))
         length = float(np.linalg.norm(step))
         if length > _LONGEST_STEP:
             step *= _LONGEST_STEP / length
-        full = np.zeros(5)
-        full[:active] = step / self.scale[:active]
+        full = np.zeros(self.scale.size)
+        full[active] = step / self.scale[active]
         return full
 
 
 def _equilibrium(cone: _Cone) -> tuple[RollerState, Float, int]:
     """Pose of the cone at which the load is balanced."""
-    unknowns = np.zeros(5)
+    unknowns = np.zeros(cone.scale.size)
     state = cone.at(unknowns, None)
     energy = cone.energy(unknowns, state)
     damping = 10.0
     stalled = 0
     for iteration in range(_ITERATIONS):
-        size = float(np.abs(cone.residual(state)).max())
+        size = float(np.abs(cone.residual(unknowns, state)).max())
         scale = float(np.abs(cone.load / cone.scale).max()) + 0.1 * float(state.cup.force.sum())
         if size <= _TOLERANCE * scale + _ROUNDING_FORCE or (
             (stalled > 3 or iteration > 60) and size <= _ACCEPTABLE * scale
         ):
             return state, unknowns, iteration
-        step = cone.step(state, damping)
+        step = cone.step(unknowns, state, damping)
         moved = unknowns + step
         guess = state.position + state.follow @ step
         trial = cone.at(moved, guess)
         trial_energy = cone.energy(moved, trial)
-        smaller = float(np.abs(cone.residual(trial)).max()) < size
+        smaller = float(np.abs(cone.residual(moved, trial)).max()) < size
         lower = trial_energy < energy - 1.0e-12 * abs(energy)
         if lower or smaller:
             unknowns, state, energy = moved, trial, trial_energy
@@ -246,6 +264,14 @@ def _rotation(about_x: float, about_z: float) -> Float:
     first = float(np.sinc(angle / math.pi))
     second = 0.5 * float(np.sinc(0.5 * angle / math.pi)) ** 2
     return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
+
+
+def _bending_follows(stiffness: Float) -> Float:
+    """Stiffness of the cone pose with the bending of the cup following, shape [5, 5]."""
+    pose, coupling, bending = stiffness[:5, :5], stiffness[:5, 5:], stiffness[5:, 5:]
+    if bending.size == 0:
+        return pose
+    return np.asarray(pose - coupling @ np.linalg.solve(bending, coupling.T))
 
 
 def _stiffness(stiffness: Float) -> tuple[Float, Float]:

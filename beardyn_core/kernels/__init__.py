@@ -6,23 +6,23 @@ module            responsibility, in the order of the data
 lanes             the lane value, its arithmetic, load and store
 lane_math         elementary functions with stated errors
 vectors           three-vectors of lane values
-saturation        functions that saturate, divided by their argument, for arguments from zero on
+saturation        saturating functions over their argument
 orbit             motion of rollers in frames that turn with their orbit
 raceway           laminated roller on a conical raceway
-lamina_coupling   raceway laminae that sink with each other: the surface beside a loaded lamina follows it
+lamina_coupling   laminae that sink with each other
 film              film thickness of a lamina
 traction          friction of a lamina
-slip_laws         dry friction near zero slip: the laws by which its sharp corner is rounded, as force over slip speed
-film_traction     traction of a full elastohydrodynamic film: friction force of a lamina over its slip speed
+slip_laws         dry friction near zero slip: laws that round its corner
+film_traction     traction of a full film
 defect            gap over patches of raceways and rollers
 waviness          gap of waviness; the force along a sloping gap
 rib               large end on the cone rib
-rib_gap           where the large roller end meets the rib: sphere, rib face with its edges, rim of the roller end
+rib_gap           where the large end meets the rib, its edges and the rim
 rib_friction      film and friction of the rib contact
-small_rib         small roller end at the small rib of the cone: the flat end against a circle of the rib
+small_rib         small roller end at the small rib of the cone
 pocket            roller in its cage pocket
-pocket_film       lubricant between a roller and a cage bar: a rigid line contact with a bounded thickness
-pocket_simple     pockets of the cheaper cages: two touches instead of five, along the pitch circle only
+pocket_film       lubricant between roller and cage bar
+pocket_simple     pockets of the cheaper cages
 rolling           couple against rolling, and its part of a step
 drag              medium around the rollers, and its part of a step
 exchange          what a contact hands to rings, audit and outputs
@@ -32,8 +32,10 @@ pocket_step       the pocket contact within a step
 solve             the 6x6 system of one roller
 roller            one step of a block of rollers
 bodies            cup, cone and cages as scalar rigid bodies
-cage_bodies       motion of the cages as bodies: free, turning with the rings' mean place, or prescribed
-land              land of a cage in a cylinder of cup or cone: short journal bearing, and solid contact at both edges
+cage_bodies       cages as bodies: free, following the rings, or prescribed
+box               axlebox on its springs
+ring_flexibility  bending of the cup
+land              land of a cage in cup or cone
 seal              seals between cup and shaft
 balanced_roller   a roller in balance (quasistatic tier)
 kinematic_rollers rollers that orbit kinematically

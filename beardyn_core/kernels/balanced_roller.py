@@ -10,15 +10,15 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import spall_gap
+from beardyn_core.kernels.defect import find_damage, spring_count, spring_damage, spring_table
 from beardyn_core.kernels.exchange import implicit_time
 from beardyn_core.kernels.lane_math import at_least, at_most, ninth_root, sqrt, where_greater
 from beardyn_core.kernels.raceway import generator_line
 from beardyn_core.kernels.vectors import add, cross, dot, scale, subtract, turn_in
+from beardyn_core.kernels.waviness import wave_gap, wavy_line
 from beardyn_core.model.parameters import (
     LAMINA_DROP,
     LAMINA_PLACE,
-    LAMINA_RADIUS,
     LAMINA_STIFFNESS,
 )
 
@@ -68,7 +68,7 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
 
 @inline
-def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, spalls: Any) -> Any:
+def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, patches: Any) -> Any:
     """Elastic force with x^0 and x^1, and tangent stiffness with x^0, x^1 and x^2, over the laminae.
 
     References
@@ -78,12 +78,13 @@ def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae
     zero = lanes.constant(0.0)
     force_0, force_1 = zero, zero
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
-    for k in range(laminae.shape[1]):
+    surface, roller_surface, damage = patches
+    page = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
+    springs = spring_count(page, laminae, damage, None)
+    laminae = spring_table(laminae, damage)
+    for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        radius = laminae[LAMINA_RADIUS, k]
-        gap = spall_gap(lanes, block, azimuths[0], k, radius, spalls[0]) + spall_gap(
-            lanes, block, azimuths[1], k, radius, spalls[1]
-        )
+        share, gap = spring_damage(lanes, page, k, damage)
         depth = (
             approach[0]
             + x * (approach[1] + x * (approach[2] + x * approach[3]))
@@ -92,7 +93,7 @@ def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae
         )
         touching = at_least(depth, _SMALLEST_APPROACH)
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
-        tangent = where_greater(depth, 0.0, tangent, zero)
+        tangent = share * where_greater(depth, 0.0, tangent, zero)
         force = 0.9 * tangent * touching
         force_0 = force_0 + force
         force_1 = force_1 + force * x
@@ -239,16 +240,24 @@ def balance(
     factor = implicit_time(4.0 * p.step, effects.damping) / p.step
     radius = roller.radius + azimuths[3]
     cup_approach, cup_tilt, lever = cup_line(place, axis, radius, base.cup, roller)
+    cup_wave = wave_gap(lanes, block, azimuths[0], faults.cup_waves)[0]
+    cup_wave = cup_wave + wave_gap(lanes, block, -azimuths[2], faults.roller_waves)[0]
+    cup_approach = (cup_approach[0] - cup_wave, cup_approach[1], cup_approach[2], cup_approach[3])
     cup = lamina_springs(
-        lanes, block, cup_approach, (azimuths[0], -azimuths[2]), base.laminae, (faults.cup, faults.roller)
-    )
+        lanes, block, cup_approach, (azimuths[0], -azimuths[2]), base.laminae,
+        (faults.cup, faults.roller, faults.cup_damage),
+    )  # fmt: skip
     motion = (views[2], views[3])
     centre = subtract((place[0], zero, place[1]), views[0])
     full_axis = (axis[0], zero, axis[1])
     line = generator_line(centre, full_axis, views[1], azimuths[3], base.cone, roller)
+    cone_wave = wave_gap(lanes, block, azimuths[1], faults.cone_waves)[0]
+    cone_wave = cone_wave + wave_gap(lanes, block, _PI - azimuths[2], faults.roller_waves)[0]
+    line = wavy_line(line, cone_wave)
     cone = lamina_springs(
-        lanes, block, line[5], (azimuths[1], _PI - azimuths[2]), base.laminae, (faults.cone, faults.roller)
-    )
+        lanes, block, line[5], (azimuths[1], _PI - azimuths[2]), base.laminae,
+        (faults.cone, faults.roller, faults.cone_damage),
+    )  # fmt: skip
     cone_force = damped(cone, cone_rate(line, centre, motion), effects.damping)
     cone_normal = (line[2][0], line[2][2])
     cone_tilt = (tilt_arm(line[0], line[2]), tilt_arm(line[1], line[2]))

@@ -182,6 +182,17 @@ def mean_gap(lanes: Any, page: Any, lamina: Any, count: Any, damage: Any) -> Any
 
 
 @inline
+def gap_moments(lanes: Any, page: Any, lamina: Any, count: Any, damage: Any) -> Any:
+    """Mean gap [m] and mean squared gap [m^2] along one lamina."""
+    if damage is None:
+        return 0.0, 0.0
+    field = SPRING_FIELDS * (count + lamina)
+    gap = lanes.load(damage.springs, page, field + SPRING_GAP)
+    mean = lanes.load(damage.springs, page, field + SPRING_SHARE) * gap
+    return mean, mean * gap
+
+
+@inline
 def mean_slopes(lanes: Any, lamina: Any, count: Any, damage: Any) -> Any:
     """Mean slope of the gap along one lamina over the ring's and the roller's azimuth, [m/rad]."""
     field = SPRING_FIELDS * (count + lamina)

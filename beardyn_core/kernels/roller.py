@@ -18,6 +18,7 @@ from beardyn_core.kernels.orbit import angular_velocity, drift, ring_view, weigh
 from beardyn_core.kernels.pocket_step import add_cage, cage_before, finish_cage
 from beardyn_core.kernels.raceway_step import finish_raceway, raceway_contact, raceway_matrix, raceway_wrench
 from beardyn_core.kernels.rib_step import add_rib, finish_rib, rib_before, rib_matrix
+from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, bent_cup
 from beardyn_core.kernels.rolling import add_rolling, finish_rolling, rolling_before, rolling_matrix
 from beardyn_core.kernels.small_rib import add_small_rib, finish_small_rib, small_rib_before, small_rib_matrix
 from beardyn_core.kernels.solve import inertia_matrix, solve
@@ -42,7 +43,7 @@ _PI = 3.141592653589793
 
 
 @inline
-def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p: Any) -> None:
+def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, flex: Any, p: Any) -> None:
     """Advance one block of rollers by one step and add what it does to the rings.
 
     Parameters
@@ -53,8 +54,10 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
         State, changed in place.
     rings : float64 array, shape [ring, RING_FIELDS, lane]
         Cup, cone and cage as the rollers of each row see them, at the end of the drift.
-    sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Reactions and energy terms, added to.
+    sums : float64 array, shape [1, SUM_FIELDS + 2 x mode, lane]
+        Reactions, energy terms and modal forces, added to.
+    flex : float64 array, shape [mode, 2, 2]
+        Bending of the cup.
     p : Parameters
     """
     step, effects, roller = p.step, p.effects, p.roller
@@ -70,15 +73,17 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     zero = lanes.constant(0.0)
     body = ((radius, zero, axial), axis, velocity, omega, orbit_rate)
     cup_view = ring_view(lanes, rings, CUP, cosine, sine)
+    bent_view, shift = bent_cup(lanes, flex, cup_view, cosine, sine, effects.ring_flexibility)
     cone_view = ring_view(lanes, rings, CONE, cosine, sine)
     spin = lanes.load(rollers, block, SPIN)
     faults = effects.faults
 
     cup = raceway_contact(
-        lanes, block, CUP, cup_view, body, oversize,
+        lanes, block, CUP, bent_view, body, oversize,
         (azimuth - lanes.load(rings, CUP, RING_TURN), -spin), p.cup,
         (faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves), p,
     )  # fmt: skip
+    cup = about_rigid_cup(cup, shift, effects.ring_flexibility)
     cone = raceway_contact(
         lanes, block, CONE, cone_view, body, oversize,
         (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin), p.cone,
@@ -129,6 +134,7 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, p:
     change = solve(matrix, right)
 
     force, moment = finish_raceway(lanes, rollers, sums, block, CUP, cup, change, mask, cosine, sine, p)
+    bend_cup(lanes, sums, force, mask, cosine, sine, flex.shape[0], effects.ring_flexibility)
     cone_force, cone_moment = finish_raceway(
         lanes, rollers, sums, block, CONE, cone, change, mask, cosine, sine, p
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import spall_gap
+from beardyn_core.kernels.defect import find_damage, gap_moments
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -17,8 +17,8 @@ from beardyn_core.kernels.kinematic_rollers import (
     show_roller,
 )
 from beardyn_core.kernels.lane_math import at_least, quick_ninth_root, where_greater
+from beardyn_core.kernels.waviness import wave_gap
 from beardyn_core.model.layout import MASK, PENETRATION, POCKET_ANGLE
-from beardyn_core.model.parameters import LAMINA_RADIUS
 
 _SMALLEST_APPROACH = 1e-12
 _TINY_GAP_SQUARED = 1e-24
@@ -90,21 +90,25 @@ def faulted_load(
     """
     if faults is None:
         return spring_load(approach, rate, p.spring, p.base.effects.damping)
-    laminae, damping = p.base.laminae, p.base.effects.damping
+    count, damping = p.base.laminae.shape[1], p.base.effects.damping
     azimuth, spin = angle + turns[0], turns[2]
+    on_cup = (azimuth, lanes.constant(-spin))
+    on_cone = (azimuth - turns[1], lanes.constant(_PI - spin))
+    cup_page = find_damage(lanes, block, on_cup, count, (faults.cup, faults.roller), faults.cup_damage)
+    cone_page = find_damage(lanes, block, on_cone, count, (faults.cone, faults.roller), faults.cone_damage)
+    cup_wave = wave_gap(lanes, block, on_cup[0], faults.cup_waves)[0]
+    cup_wave = cup_wave + wave_gap(lanes, block, on_cup[1], faults.roller_waves)[0]
+    cone_wave = wave_gap(lanes, block, on_cone[0], faults.cone_waves)[0]
+    cone_wave = cone_wave + wave_gap(lanes, block, on_cone[1], faults.roller_waves)[0]
+    approach = approach - (cup_wave + p.spring.cone_share * cone_wave)
     mean, square = lanes.constant(0.0), lanes.constant(0.0)
-    for k in range(laminae.shape[1]):
-        radius = laminae[LAMINA_RADIUS, k]
-        on_cup = spall_gap(lanes, block, azimuth, k, radius, faults.cup) + spall_gap(
-            lanes, block, lanes.constant(-spin), k, radius, faults.roller
-        )
-        on_cone = spall_gap(lanes, block, azimuth - turns[1], k, radius, faults.cone) + spall_gap(
-            lanes, block, lanes.constant(_PI - spin), k, radius, faults.roller
-        )
-        gap = on_cup + p.spring.cone_share * on_cone
-        mean = mean + gap
-        square = square + gap * gap
-    count = laminae.shape[1]
+    for k in range(count):
+        cup_mean, cup_square = gap_moments(lanes, cup_page, k, count, faults.cup_damage)
+        cone_mean, cone_square = gap_moments(lanes, cone_page, k, count, faults.cone_damage)
+        cone_mean = p.spring.cone_share * cone_mean
+        cone_square = p.spring.cone_share * p.spring.cone_share * cone_square
+        mean = mean + (cup_mean + cone_mean)
+        square = square + (cup_square + cone_square + 2.0 * cup_mean * cone_mean)
     mean, square = mean / count, square / count
     share = mean * mean / (square + _TINY_GAP_SQUARED)
     gap = square * mean / (mean * mean + _TINY_GAP_SQUARED)

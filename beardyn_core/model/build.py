@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.arrangement import Arrangement
+from beardyn_core.model.box_coupling import box_coupling
 from beardyn_core.model.cage_params import cage_params
 from beardyn_core.model.coupling_params import coupling_params
 from beardyn_core.model.fault_params import fault_params, roller_oversize
+from beardyn_core.model.flexibility_params import flexibility_params
 from beardyn_core.model.lamina_table import lamina_table
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
 from beardyn_core.model.loss_params import drag_params, rolling_params, seal_params
@@ -48,6 +50,7 @@ def mounting_params(bearing: Bearing, mounting: Mounting, preload: NDArray[np.fl
         stiffness=np.array([*mounting.stiffness, *mounting.rotational_stiffness], dtype=float),
         damping=np.array([*mounting.damping, *mounting.rotational_damping], dtype=float),
         preload=np.array(preload, dtype=float),
+        coupling=box_coupling(bearing, mounting),
     )
 
 
@@ -112,6 +115,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             rib=rib_params(scene),
             small_rib=small_rib_params(bearing, effects),
             load_sharing=load_sharing,
+            ring_flexibility=flexibility_params(bearing, effects),
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=fault_params(scene, arrangement, laminae),
             audit=AuditParams(1.0) if effects.audit else None,

@@ -74,6 +74,7 @@ LOSS_NAMES = (
     "drag",
     "seal",
     "suspension",
+    "ring_bending",
 )
 (
     LOSS_SLIDING,
@@ -86,8 +87,9 @@ LOSS_NAMES = (
     LOSS_DRAG,
     LOSS_SEAL,
     LOSS_SUSPENSION,
-) = range(10)
-LOSSES = 10
+    LOSS_RING_BENDING,
+) = range(11)
+LOSSES = 11
 
 # --- sums over the rollers, lanes [0, field, lane]
 REACTION = 0  # 3 rings x (force, moment)
@@ -95,7 +97,7 @@ WORK_LOST = 18  # dissipated energy of the step by source, LOSSES fields [J]
 WORK_NUMERICAL = WORK_LOST + LOSSES
 WORK_GRAVITY = WORK_NUMERICAL + 1
 ELASTIC = WORK_NUMERICAL + 2  # elastic energy at the beginning of the step [J]
-SUM_FIELDS = WORK_NUMERICAL + 3
+SUM_FIELDS = WORK_NUMERICAL + 3  # then, with flexible rings, 2 modal forces for each mode
 
 # --- signals of every step [step, channel]
 SIGNAL_FORCE = 0  # 6: rollers on the cup, about the bearing centre [N, N m]

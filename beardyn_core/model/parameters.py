@@ -349,6 +349,14 @@ SPRING_SHARE, SPRING_GAP, SPRING_RING_SLOPE, SPRING_ROLLER_SLOPE = range(4)
 SPRING_FIELDS = 4
 
 
+class FlexibilityParams(NamedTuple):
+    """Bending modes of the cup, from two waves upwards, each in two directions."""
+
+    mass: Any  # [mode], [kg]
+    stiffness: Any  # [mode], [N/m]
+    damping: Any  # [mode], [N s/m]
+
+
 class SurfaceParams(NamedTuple):
     """Patches of one surface."""
 
@@ -413,10 +421,21 @@ class EffectParams(NamedTuple):
     rib: RibParams | None
     small_rib: SmallRibParams | None
     cage: CageParams | None
+    ring_flexibility: FlexibilityParams | None
     seal: SealParams | None
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None
+
+
+class BoxCoupling(NamedTuple):
+    """Box whose centre of mass or whose springs are not at the bearing centre: full matrices about it."""
+
+    mass: Any  # [6, 6]
+    inverse_mass: Any  # [6, 6]
+    stiffness: Any  # [6, 6]
+    damping: Any  # [6, 6]
+    weight: Any  # [6], force and moment at 1 m/s^2 of gravity
 
 
 class MountingParams(NamedTuple):
@@ -431,6 +450,7 @@ class MountingParams(NamedTuple):
     stiffness: Any  # [6], force then moment
     damping: Any  # [6]
     preload: Any  # [6], suspension force at rest
+    coupling: BoxCoupling | None
 
 
 class Parameters(NamedTuple):

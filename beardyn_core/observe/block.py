@@ -93,6 +93,8 @@ class Block:
     audit : EnergyAudit or None
     wall_s : float
         Wall time the block took to compute, [s].
+    temperature : float64 array or None, shape [node]
+        Of `model.heat.NODES` at the end of the block, with the thermal effect, [K].
     """
 
     index: int
@@ -122,3 +124,4 @@ class Block:
     status: int
     audit: EnergyAudit | None
     wall_s: float
+    temperature: Float | None = None

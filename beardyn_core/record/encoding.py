@@ -8,15 +8,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.block import CONTACT_FIELDS, Block, EnergyAudit
 from beardyn_core.observe.torque_budget import NUMERICAL
 from beardyn_core.record.clouds import CloudTemplate, column_dtype, points_of
 from beardyn_core.record.messages import Diagnostic, Template, header, make
-from beardyn_core.record.topics import FRAME, IMU, JOINTS, WRENCH, vibration_topic
+from beardyn_core.record.topics import FRAME, IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
 
 LOST = "lost_"
+ZERO_CELSIUS = 273.15
+TEMPERATURE_EVERY = 10  # blocks
 POSE_AXES = ("x", "y", "z", "qx", "qy", "qz", "qw")
 TWIST_AXES = ("vx", "vy", "vz", "wx", "wy", "wz")
 WAVEFORM = column_dtype(tuple((axis, "f4") for axis in WRENCH_AXES))
@@ -59,6 +62,15 @@ def imu_template(frame: str) -> Template:
         )
 
     return Template(build, {"acceleration": 3})
+
+
+def temperature_template(frame: str) -> Template:
+    """Messages of ``temperature`` of the part that the frame names: slot ``celsius``."""
+
+    def build(celsius: NDArray[np.float64]) -> Any:
+        return make(TEMPERATURE, header=header(0, frame), temperature=celsius[0], variance=0.0)
+
+    return Template(build, {"celsius": 1})
 
 
 def joint_template(names: tuple[str, ...], frame: str, effort: bool) -> Template:
@@ -111,6 +123,7 @@ class BlockEncoder:
         self._vibration = CloudTemplate(VIBRATION, frame)
         self._bodies = CloudTemplate(BODIES, frame)
         self._contacts = CloudTemplate(CONTACTS, frame)
+        self._temperatures = [temperature_template(f"{frame}/{node}") for node in NODES]
 
     def encode(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
         """Messages of a block: topic name, stamp [ns], CDR bytes; each topic in the order of time."""
@@ -120,6 +133,11 @@ class BlockEncoder:
             yield from self._waveforms(block)
         if len(block.snapshot_time_ns):
             yield from self._snapshots(block)
+        if block.temperature is not None and block.index % TEMPERATURE_EVERY == 0:
+            stamp = np.array([block.end_ns], dtype=np.int64)
+            for template, kelvin in zip(self._temperatures, block.temperature, strict=True):
+                (cdr,) = template.encode(stamp, celsius=np.array([[kelvin - ZERO_CELSIUS]]))
+                yield "temperature", block.end_ns, cdr
 
     def _trend(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
         times = block.trend_time_ns

@@ -17,6 +17,7 @@ FRAME = "axlebox"
 WRENCH = "geometry_msgs/msg/WrenchStamped"
 TWIST = "geometry_msgs/msg/TwistStamped"
 IMU = "sensor_msgs/msg/Imu"
+TEMPERATURE = "sensor_msgs/msg/Temperature"
 JOINTS = "sensor_msgs/msg/JointState"
 
 
@@ -105,6 +106,15 @@ TOPICS: tuple[Topic, ...] = (
         "every 20 ms, 200 snapshots a second",
         "loaded contacts: sample, t, row, roller, kind (0 cup, 1 cone, 2 rib, 3 pocket), point, "
         "force on the roller, slip, film",
+    ),
+    Topic(
+        "temperature",
+        TEMPERATURE,
+        *_RELIABLE,
+        50,
+        "every 0.2 s, with the thermal effect",
+        "temperature of one part, degrees Celsius; the frame names it: <frame>/axlebox, cup, cone, rollers, "
+        "cages or grease",
     ),
     Topic(
         "truth", STRING, *_LATCHED, 1, "once", "JSON: scene, faults, fault frequencies, versions, description"

@@ -26,7 +26,14 @@ class Mounting:
     stiffness, damping : tuple of 3 floats
         Suspension between axlebox and bogie in x, y, z, [N/m], [N s/m].
     rotational_stiffness, rotational_damping : tuple of 3 floats
-        The same about x, y, z, [N m/rad], [N m s/rad].
+        The same about x, y, z: the restraint of the axlebox against tilting, [N m/rad], [N m s/rad].
+    box_centre : tuple of 3 floats
+        Centre of mass of the axlebox without the cup, from the bearing centre, [m].
+    suspension_centre : tuple of 3 floats
+        Where the suspension springs act on the axlebox, from the bearing centre, [m].
+    load_offset : tuple of 3 floats
+        Where the load acts on the journal, from the bearing centre: its force also turns the journal
+        with the moment offset x force, [m]. A journal that is locked holds all but its first value.
     """
 
     cup: str = "suspended"
@@ -39,3 +46,6 @@ class Mounting:
     damping: tuple[float, float, float] = (2.0e4, 2.0e4, 1.0e4)
     rotational_stiffness: tuple[float, float, float] = (1.0e5, 2.0e5, 1.0e5)
     rotational_damping: tuple[float, float, float] = (5.0e2, 1.0e3, 5.0e2)
+    box_centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    suspension_centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    load_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.thermal_closure import PartTemperatures
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.mounting import Mounting
@@ -43,7 +44,7 @@ class Scene:
     temperature : float
         Of lubricant and bearing, [K].
     end_play : float
-        Total axial travel of the mounted bearing, negative for preload, [m].
+        Total axial travel of the mounted bearing at its temperatures, negative for preload, [m].
     tier : str
         Name of a tier, see `scene.tier`.
     effects : EffectSet
@@ -60,6 +61,8 @@ class Scene:
     source_text : str
         The YAML the scene was read from, all references resolved; recorded with the run.
     waviness : tuple of Waviness
+    temperatures : PartTemperatures or None
+        Of cup, cone and rollers where they differ; `end_play` already has what they do to it.
     """
 
     name: str
@@ -79,6 +82,7 @@ class Scene:
     seed: int
     source_text: str
     waviness: tuple[Waviness, ...] = ()
+    temperatures: PartTemperatures | None = None
 
     @property
     def effect_names(self) -> tuple[str, ...]:

@@ -35,7 +35,7 @@ class TierNoun:
     absent: tuple[str, ...]
 
 
-_FAST = frozenset({"contact_damping", "film", "rib", "gravity", "faults"})
+_FAST = frozenset({"contact_damping", "film", "rib", "gravity", "faults", "waviness"})
 _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
 
 TIERS = {

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
+from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.torque_budget import TorqueBudget, torque_budget
 from beardyn_core.rail.build import load_history
@@ -64,6 +65,8 @@ class RunSummary:
         Whole revolutions of the cage that the means cover; 0 when the run was shorter than one.
     faults : tuple of str
         Defects and waviness of the scene in words.
+    temperatures : tuple of (part, temperature) pairs
+        At the end, with the thermal effect, [K].
     """
 
     scene: str
@@ -81,6 +84,7 @@ class RunSummary:
     averaged: tuple[float, float]
     cage_revolutions: int
     faults: tuple[str, ...] = ()
+    temperatures: tuple[tuple[str, float], ...] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -200,6 +204,7 @@ class _Trend:
         self._start_ns: int | None = None
         self._residual: float | None = None
         self._lost: list[tuple[float, ...]] = []  # block start [s], energy lost by source [J]
+        self._temperature: Float | None = None
         self.warnings = 0
 
     def add(self, block: Block) -> None:
@@ -208,6 +213,7 @@ class _Trend:
             self._start_ns = block.start_ns
         self._end_ns = block.end_ns
         self.warnings |= block.status
+        self._temperature = block.temperature
         self._residual = None if block.audit is None else block.audit.residual
         if block.audit is not None and block.audit.losses:
             self._lost.append((block.start_ns * 1e-9, *block.audit.losses, block.audit.numerical))
@@ -259,6 +265,9 @@ class _Trend:
             averaged=averaged,
             cage_revolutions=revolutions,
             faults=scene.fault_sentences,
+            temperatures=()
+            if self._temperature is None
+            else tuple(zip(NODES, self._temperature.tolist(), strict=True)),
         )
 
     def _budget(self, times: Float, shaft_speed: Float, first: float) -> TorqueBudget | None:

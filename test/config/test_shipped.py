@@ -32,9 +32,11 @@ from beardyn_core.config.effect_keys import (
     gravity,
     lamina_coupling,
     rib,
+    ring_flexibility,
     rolling_resistance,
     seal,
     small_rib,
+    thermal,
     traction,
 )
 from beardyn_core.config.file_model import FileModel
@@ -195,7 +197,9 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
         (cage.KinematicCageKeys, effects.KinematicCage),
         (cage.PocketFilmKeys, effects.PocketFilm),
         (cage.LandGuidanceKeys, effects.LandGuidance),
+        (ring_flexibility.RingFlexibilityKeys, effects.RingFlexibility),
         (gravity.GravityKeys, effects.Gravity),
+        (thermal.ThermalKeys, effects.Thermal),
         (audit.AuditKeys, effects.Audit),
         (effects_file.EffectsKeys, effects.EffectSet),
         (scene_file.MountingKeys, Mounting),

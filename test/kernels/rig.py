@@ -100,6 +100,9 @@ class Rig:
     ) -> Rig:
         bearing = scene.bearing
         arrangement = Arrangement(bearing.roller_count, width)
+        parameters = build_parameters(scene, arrangement, np.zeros(6))
+        flexibility = parameters.effects.ring_flexibility
+        bending = np.zeros(0) if flexibility is None else flexibility.stiffness
         static = solve(
             bearing,
             np.array(force),
@@ -108,14 +111,15 @@ class Rig:
             speed=speed,
             coupling=scene.effects.lamina_coupling,
             oversize=roller_oversize(scene),
+            bending_stiffness=bending,
         )
         orbit = cage_ratio * cage_speed(bearing, speed)
-        parameters = build_parameters(scene, arrangement, np.zeros(6))
         state = initial_state(bearing, arrangement, static, speed, orbit)
         load = np.array([*force, 0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0])
         return Rig(
-            scene, arrangement, parameters, state, work_space(arrangement), load, np.zeros(ENERGY_TERMS)
-        )
+            scene, arrangement, parameters, state, work_space(arrangement, len(bending)), load,
+            np.zeros(ENERGY_TERMS),
+        )  # fmt: skip
 
     def run(
         self, steps: int, trends: int = 1, kernel: Callable[..., None] = advance
@@ -127,9 +131,9 @@ class Rig:
         loads = np.repeat(self.load[None], steps + 1, axis=0)
         work = self.work
         kernel(
-            Lanes(self.arrangement.width), self.state.rollers, self.state.bodies, work.rings, work.sums,
-            work.wrenches, work.box, loads, signals, rollers, bodies, self.state.energy, self.audit,
-            self.parameters,
+            Lanes(self.arrangement.width), self.state.rollers, self.state.bodies, self.state.flex, work.rings,
+            work.sums, work.wrenches, work.box, loads, signals, rollers, bodies, self.state.energy,
+            self.audit, self.parameters,
         )  # fmt: skip
         return signals, rollers, bodies
 

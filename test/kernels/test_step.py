@@ -28,6 +28,7 @@ from beardyn_core.model.layout import (
     TURN,
     VELOCITY,
 )
+from beardyn_core.scene.scene import Scene
 from test.kernels import naive_step
 from test.kernels.rig import Rig, standard_scene
 from test.kernels.test_raceway import lamina_friction
@@ -69,9 +70,9 @@ def cartesian(fields: Float) -> naive_step.RollerState:
     return naive_step.RollerState(centre, out(AXIS), out(VELOCITY), out(MOMENTUM))
 
 
-def shaken(seed: int, width: int = 8) -> Rig:
+def shaken(seed: int, width: int = 8, scene: Scene | None = None) -> Rig:
     """The standard bearing under 80 kN with every place and velocity disturbed; all four contacts work."""
-    rig = Rig.at_equilibrium(standard_scene(), width=width)
+    rig = Rig.at_equilibrium(scene or standard_scene(), width=width)
     rng = np.random.default_rng(seed)
     fields = rig.fields()[:ROLLER_STATES]
     shape = fields.shape[1:]

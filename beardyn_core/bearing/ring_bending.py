@@ -1,0 +1,64 @@
+"""Bending of a thin ring in its plane: stiffness and mass of the modes with n waves around it.
+
+A mode is the radial deflection w = a cos(n t) + b sin(n t) with the tangential one v that keeps the ring's
+length, w + dv/dt = 0. The modes with n >= 2 carry no net force and no net moment: they add to the motion of
+the rigid ring and do not change it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from beardyn_core.bearing.geometry import Bearing
+
+
+@dataclass(frozen=True)
+class ThinRing:
+    """A circular ring of constant section.
+
+    Parameters
+    ----------
+    radius : float
+        Of the middle of the wall, [m].
+    rigidity : float
+        Young's modulus times second moment of area for bending in the ring's plane, [N m^2].
+    mass : float
+        [kg].
+    """
+
+    radius: float
+    rigidity: float
+    mass: float
+
+    def modal_stiffness(self, waves: int) -> float:
+        """Second derivative of the bending energy with the amplitude of a mode, [N/m].
+
+        References
+        ----------
+        Rayleigh (1894), The theory of sound, art. 233: V = (EI / 2 R^3) integral of (w + w'')^2 dt.
+        """
+        return math.pi * self.rigidity * (waves**2 - 1) ** 2 / self.radius**3
+
+    def modal_mass(self, waves: int) -> float:
+        """Second derivative of the kinetic energy with the speed of the amplitude, [kg]."""
+        return 0.5 * self.mass * (1.0 + 1.0 / waves**2)
+
+
+def rectangular_ring(inner: float, wall: float, width: float, modulus: float, mass: float) -> ThinRing:
+    """Ring of rectangular section from its inner radius, wall thickness and width along the axis, [m]."""
+    return ThinRing(inner + 0.5 * wall, modulus * width * wall**3 / 12.0, mass)
+
+
+def cup_ring(bearing: Bearing) -> ThinRing:
+    """The cup, its wall taken at the mid-length of the rollers."""
+    raceway = bearing.apex_distance / math.cos(bearing.half_angle) * math.sin(bearing.cup_angle)
+    wall = 0.5 * bearing.outer_diameter - raceway
+    return rectangular_ring(raceway, wall, bearing.width, bearing.material.youngs_modulus, bearing.cup_mass)
+
+
+def housing_ring(bearing: Bearing, wall: float, modulus: float, density: float) -> ThinRing:
+    """The wall of the housing around the cup, as wide as the bearing."""
+    inner = 0.5 * bearing.outer_diameter
+    mass = density * bearing.width * math.pi * ((inner + wall) ** 2 - inner**2)
+    return rectangular_ring(inner, wall, bearing.width, modulus, mass)

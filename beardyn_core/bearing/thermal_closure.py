@@ -1,0 +1,70 @@
+"""What temperature does to the end play: rings and rollers grow about the bearing centre.
+
+The bearing is in O arrangement, so a hot cone with hot rollers closes the end play and a hot cup opens it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from beardyn_core.bearing.geometry import Bearing
+
+STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
+
+
+@dataclass(frozen=True)
+class PartTemperatures:
+    """Temperatures of the parts that carry the load.
+
+    Parameters
+    ----------
+    cup, cone, rollers : float
+        [K].
+    """
+
+    cup: float
+    cone: float
+    rollers: float
+
+
+def end_play_per_kelvin(bearing: Bearing, expansion: float = STEEL_EXPANSION) -> PartTemperatures:
+    """Change of the end play with the temperature of each part, [m/K].
+
+    Notes
+    -----
+    The cup grows about the bearing centre, which moves its raceway at the rollers along the normal by the
+    growth times a sin(alpha_o), with the apex of the row at the distance a on the other side of the centre.
+    Cone and rollers together do the same with the opposite sign. A roller by itself grows from its large
+    end, which the rib holds: across both flanks by the growth times the diameter there (times the cosine
+    of its half angle). End play is the normal gap of both rows over sin(alpha_o).
+
+    References
+    ----------
+    The Timken Company, Engineering manual, thermal effect on the setting of an indirect mounting:
+    -alpha dT [(D_1 cot(alpha_o1) + D_2 cot(alpha_o2)) / 2 - L], D mean cup raceway diameters and L their
+    distance; it is the sum of cone and rollers here.
+    """
+    apex = bearing.apex_distance * math.cos(bearing.contact_angle) - 0.5 * bearing.row_spacing
+    sine = math.sin(bearing.cup_angle)
+    large_end = bearing.apex_distance + 0.5 * bearing.roller_length
+    rollers = 2.0 * large_end * math.sin(bearing.half_angle)
+    unit = 2.0 * expansion / sine
+    return PartTemperatures(
+        cup=unit * apex * sine, cone=-unit * (apex * sine - rollers), rollers=-unit * rollers
+    )
+
+
+def end_play_change(bearing: Bearing, change: PartTemperatures, expansion: float = STEEL_EXPANSION) -> float:
+    """Change of the end play when the parts change their temperatures, [m].
+
+    Parameters
+    ----------
+    bearing : Bearing
+    change : PartTemperatures
+        Against where the end play was measured, [K].
+    expansion : float
+        Coefficient of linear expansion, [1/K].
+    """
+    rate = end_play_per_kelvin(bearing, expansion)
+    return rate.cup * change.cup + rate.cone * change.cone + rate.rollers * change.rollers

@@ -1,0 +1,101 @@
+"""Slow warming beside the fast motion: temperatures advanced once per block, and what they change."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.thermal_closure import PartTemperatures, end_play_change
+from beardyn_core.effects import Thermal
+from beardyn_core.model.heat import CONE_NODE, CUP_NODE, NODES, ROLLER_NODE, heat_shares, thermal_network
+from beardyn_core.model.layout import ENERGY_LOST, LOSSES
+from beardyn_core.scene.scene import Scene
+
+Float = NDArray[np.float64]
+
+# Parameters are rebuilt when the film has warmed by this much or the end play has moved that far.
+_NOTICEABLE_WARMING = 0.02  # [K]
+_NOTICEABLE_CLOSURE = 2.0e-8  # [m]
+
+
+@dataclass(frozen=True)
+class Warmth:
+    """Temperatures at the end of a block, and the energy that was lost until then.
+
+    Parameters
+    ----------
+    temperature : float64 array, shape [node]
+        Of `model.heat.NODES`, [K].
+    lost : float64 array, shape [source]
+        Since the start of the run, [J].
+    film_temperature, end_play : float
+        That the kernels work with now, [K], [m].
+    """
+
+    temperature: Float
+    lost: Float
+    film_temperature: float
+    end_play: float
+
+
+def film_temperature(temperature: Float) -> float:
+    """Of the film: the mean of the surfaces that carry it into the contacts, [K]."""
+    return float(0.5 * temperature[ROLLER_NODE] + 0.25 * (temperature[CUP_NODE] + temperature[CONE_NODE]))
+
+
+def cold_start(scene: Scene) -> Warmth:
+    """Every part at the scene's temperature, or at its own when the scene gives them."""
+    temperature = np.full(len(NODES), scene.temperature)
+    if scene.temperatures is not None:
+        parts = scene.temperatures
+        temperature[[CUP_NODE, CONE_NODE, ROLLER_NODE]] = parts.cup, parts.cone, parts.rollers
+    return Warmth(temperature, np.zeros(LOSSES), scene.temperature, scene.end_play)
+
+
+def warmed(
+    scene: Scene, thermal: Thermal, now: Warmth, energy: Float, shaft_speed: float, block: float
+) -> Warmth:
+    """Temperatures after a block.
+
+    Parameters
+    ----------
+    scene : Scene
+    thermal : Thermal
+    now : Warmth
+        At its beginning.
+    energy : float64 array, shape [ENERGY_TERMS]
+        At its end, [J].
+    shaft_speed : float
+        Mean of the block, [rad/s].
+    block : float
+        Duration, [s].
+
+    Notes
+    -----
+    A source that gains energy over a block (a pocket bounce) takes its heat back.
+    """
+    lost = energy[ENERGY_LOST : ENERGY_LOST + LOSSES].copy()
+    heat = (lost - now.lost) / block @ heat_shares()
+    network = thermal_network(scene.bearing, thermal, scene.mounting.box_mass, shaft_speed)
+    temperature = network.after(now.temperature, heat, thermal.ambient, block)
+    start = cold_start(scene).temperature
+    change = temperature - start
+    end_play = scene.end_play + end_play_change(
+        scene.bearing,
+        PartTemperatures(change[CUP_NODE], change[CONE_NODE], change[ROLLER_NODE]),
+        thermal.expansion,
+    )
+    film = scene.temperature + film_temperature(temperature) - film_temperature(start)
+    if (
+        abs(film - now.film_temperature) < _NOTICEABLE_WARMING
+        and abs(end_play - now.end_play) < _NOTICEABLE_CLOSURE
+    ):
+        film, end_play = now.film_temperature, now.end_play
+    return Warmth(temperature, lost, film, end_play)
+
+
+def scene_at(scene: Scene, warmth: Warmth) -> Scene:
+    """The scene with film temperature and end play as they are now."""
+    return replace(scene, temperature=warmth.film_temperature, end_play=warmth.end_play)

@@ -1,0 +1,149 @@
+"""Bending of the cup: how the rollers see it, what they do to it, and its own motion.
+
+The modes are one array ``flex`` of shape [mode, 2, 2]: mode k has n = k + 2 waves, then cosine and sine
+amplitude, then displacement [m] and velocity [m/s] (positions at whole steps, velocities half a step later,
+like all bodies). The radial deflection at azimuth t is w = sum a cos(n t) + b sin(n t), the tangential one
+v = sum (b cos(n t) - a sin(n t)) / n keeps the length of the ring.
+
+Seen from one roller, a bent raceway is to first order the round one moved by w outwards and by dw/dt along
+the orbit: that gives its gap, the slope of its normal and the shifted contact point in one go. The slope is
+what makes the normal force conservative, so the energy audit closes.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.bodies import sum_lanes
+from beardyn_core.kernels.exchange import accumulate
+from beardyn_core.kernels.vectors import add
+from beardyn_core.model.layout import ENERGY_LOST, LOSS_RING_BENDING, SUM_FIELDS
+
+PLACE, SPEED = 0, 1
+
+
+@inline
+def bent_cup(lanes: Any, flex: Any, view: Any, cosine: Any, sine: Any, flexibility: Any) -> Any:
+    """The cup as each roller sees it, bent.
+
+    Parameters
+    ----------
+    flex : float64 array, shape [mode, 2, 2]
+    view : tuple of 4 vectors
+        Origin, axis, velocity and angular velocity of the rigid cup in the orbit frames.
+    cosine, sine : lane values
+        Of the orbit azimuth.
+    flexibility : FlexibilityParams or None
+
+    Returns
+    -------
+    view : tuple of 4 vectors
+        With the origin and the velocity of the piece of raceway at the roller.
+    shift : vector
+        By how much the origin moved, [m].
+
+    Notes
+    -----
+    Neglects the turn of the piece of raceway about the axle.
+    """
+    zero = lanes.constant(0.0)
+    if flexibility is None:
+        return view, (zero, zero, zero)
+    deflection, slope, speed, speed_around = zero, zero, zero, zero
+    cosine_before, sine_before = cosine, sine
+    cosine_n = 2.0 * cosine * cosine - 1.0
+    sine_n = 2.0 * cosine * sine
+    for k in range(flex.shape[0]):
+        n = k + 2.0
+        deflection = deflection + (flex[k, 0, PLACE] * cosine_n + flex[k, 1, PLACE] * sine_n)
+        slope = slope + n * (flex[k, 1, PLACE] * cosine_n - flex[k, 0, PLACE] * sine_n)
+        speed = speed + (flex[k, 0, SPEED] * cosine_n + flex[k, 1, SPEED] * sine_n)
+        speed_around = speed_around + (1.0 / n) * (flex[k, 1, SPEED] * cosine_n - flex[k, 0, SPEED] * sine_n)
+        cosine_next = 2.0 * cosine * cosine_n - cosine_before
+        sine_next = 2.0 * cosine * sine_n - sine_before
+        cosine_before, sine_before = cosine_n, sine_n
+        cosine_n, sine_n = cosine_next, sine_next
+    shift = (deflection, slope, zero)
+    return (add(view[0], shift), view[1], add(view[2], (speed, speed_around, zero)), view[3]), shift
+
+
+@inline
+def about_rigid_cup(contact: Any, shift: Any, flexibility: Any) -> Any:
+    """The contact with its place from the origin of the rigid cup, about which reactions are summed."""
+    if flexibility is None:
+        return contact
+    line, slip, sums, log2_speed, centre = contact
+    return line, slip, sums, log2_speed, add(centre, shift)
+
+
+@inline
+def bend_cup(
+    lanes: Any, sums: Any, force: Any, mask: Any, cosine: Any, sine: Any, modes: Any, flexibility: Any
+) -> None:
+    """Add the work that the rollers' reaction does on a unit of each amplitude to the sums.
+
+    Parameters
+    ----------
+    force : vector
+        Of the cup on the roller, [N].
+    modes : int
+    """
+    if flexibility is None:
+        return
+    cosine_before, sine_before = cosine, sine
+    cosine_n = 2.0 * cosine * cosine - 1.0
+    sine_n = 2.0 * cosine * sine
+    for k in range(modes):
+        along = (1.0 / (k + 2.0)) * force[1]
+        accumulate(lanes, sums, SUM_FIELDS + 2 * k, mask * (along * sine_n - force[0] * cosine_n))
+        accumulate(lanes, sums, SUM_FIELDS + 2 * k + 1, mask * (0.0 - force[0] * sine_n - along * cosine_n))
+        cosine_next = 2.0 * cosine * cosine_n - cosine_before
+        sine_next = 2.0 * cosine * sine_n - sine_before
+        cosine_before, sine_before = cosine_n, sine_n
+        cosine_n, sine_n = cosine_next, sine_next
+
+
+@inline
+def drift_flex(flex: Any, step: Any, flexibility: Any) -> None:
+    """Move all amplitudes along their velocities."""
+    if flexibility is None:
+        return
+    for k in range(flex.shape[0]):
+        for i in range(2):
+            flex[k, i, PLACE] += step * flex[k, i, SPEED]
+
+
+@inline
+def kick_flex(flex: Any, sums: Any, energy: Any, step: Any, flexibility: Any) -> Any:
+    """Accelerate the amplitudes under the rollers; returns the bending energy, [J].
+
+    Spring and damper are implicit like those of the contacts, so a mode may be as stiff as one likes.
+    """
+    if flexibility is None:
+        return 0.0
+    stored = 0.0
+    for k in range(flex.shape[0]):
+        stiffness, damping = flexibility.stiffness[k], flexibility.damping[k]
+        inertia = flexibility.mass[k] + step * (0.5 * damping + 0.25 * step * stiffness)
+        for i in range(2):
+            place, speed = flex[k, i, PLACE], flex[k, i, SPEED]
+            push = sum_lanes(sums, SUM_FIELDS + 2 * k + i) - stiffness * place - damping * speed
+            change = step * push / inertia
+            middle = speed + 0.5 * change
+            energy[ENERGY_LOST + LOSS_RING_BENDING] += step * damping * middle * middle
+            stored += 0.5 * stiffness * place * place
+            flex[k, i, SPEED] = speed + change
+    return stored
+
+
+@inline
+def flex_energy(flex: Any, flexibility: Any) -> Any:
+    """Kinetic energy of the modes, [J]."""
+    if flexibility is None:
+        return 0.0
+    total = 0.0
+    for k in range(flex.shape[0]):
+        for i in range(2):
+            total += 0.5 * flexibility.mass[k] * flex[k, i, SPEED] ** 2
+    return total
