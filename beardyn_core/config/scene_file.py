@@ -152,7 +152,7 @@ class NumericsKeys(FileModel):
 
     laminae: Annotated[Count, Field(ge=1, le=100)] = 6
     steps_per_sample: Annotated[Count, Field(ge=1, le=64)] = Field(
-        4, description="time steps per waveform sample of 1/25600 s; 1 in the tiers lumped and quasistatic"
+        4, description="time steps per waveform sample of 1/25600 s; 1 in tier lumped, 2 in quasistatic"
     )
 
     def noun(self) -> Numerics:
