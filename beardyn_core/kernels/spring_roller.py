@@ -18,7 +18,7 @@ from beardyn_core.kernels.kinematic_rollers import (
 )
 from beardyn_core.kernels.lane_math import at_least, quick_ninth_root, where_greater
 from beardyn_core.kernels.waviness import wave_gap
-from beardyn_core.model.layout import MASK, PENETRATION, POCKET_ANGLE
+from beardyn_core.model.layout import MASK, OVERSIZE, PENETRATION, POCKET_ANGLE
 
 _SMALLEST_APPROACH = 1e-12
 _TINY_GAP_SQUARED = 1e-24
@@ -196,6 +196,8 @@ def load_rollers(
     for block in range(rollers.shape[0]):
         cosine, sine = lanes.load(p.pockets, block, 0), lanes.load(p.pockets, block, 1)
         approach = approach_wave[0] * cosine + approach_wave[1] * sine + approach_wave[2]
+        # a thicker roller is pressed on both sides
+        approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
         rate = rate_wave[0] * cosine + rate_wave[1] * sine + rate_wave[2]
         angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
         pressed = faulted_load(lanes, block, approach, rate, angle, turns, p.faults, p)

@@ -63,8 +63,9 @@ def approximately(given: EffectSet) -> dict[str, object]:
     """Options of the effects; degrees cost the last digit of an angle."""
     return {
         name: {key: value if value is None else pytest.approx(value) for key, value in options.items()}
-        for name, options in asdict(given).items()
         if isinstance(options, dict)
+        else options
+        for name, options in asdict(given).items()
     }
 
 
@@ -214,7 +215,8 @@ def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(
     assert {stem_of(key) for key in keys.model_fields} - of_the_file == {field.name for field in fields(noun)}
     if keys is not effects_file.EffectsKeys:
         kind = keys.model_fields.get("kind")
-        described: Any = keys.model_validate({"kind": get_args(kind.annotation)[0]} if kind else {})
+        told = {"kind": get_args(kind.annotation)[0]} if kind and kind.is_required() else {}
+        described: Any = keys.model_validate(told)
         for name, value in vars(noun()).items():
             found = getattr(described.noun(), name)
             plain = value is None or isinstance(value, str)
