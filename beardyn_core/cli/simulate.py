@@ -10,7 +10,6 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.config.units import ZERO_CELSIUS
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
     from beardyn_core.study.desk_run import RunSummary
 
 DONE, INVALID = 0, 3
+_ZERO_CELSIUS = 273.15  # config.units is heavy to import
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -116,6 +116,8 @@ def _number(value: float | None) -> float | None:
 
 def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
     """What ``--json`` prints."""
+    from beardyn_core.study.life_text import life_object
+
     return {
         "scene": summary.scene,
         "tier": summary.tier,
@@ -130,9 +132,10 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "shaft_torque_Nm": _number(summary.shaft_torque),
         "cage_speed_ratio": [_number(ratio) for ratio in summary.cage_speed_ratio],
         "energy_residual": _number(summary.energy_residual),
+        "life": None if summary.life is None else life_object(summary.life),
         "torque_budget": None if summary.budget is None else summary.budget.to_json(),
         **(
-            {"temperatures_C": {part: kelvin - ZERO_CELSIUS for part, kelvin in summary.temperatures}}
+            {"temperatures_C": {part: kelvin - _ZERO_CELSIUS for part, kelvin in summary.temperatures}}
             if summary.temperatures
             else {}
         ),
@@ -142,6 +145,8 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
 
 def text(summary: RunSummary, recording: Path | None) -> str:
     """Readable summary."""
+    from beardyn_core.study.life_text import life_sentence
+
     fx, fy, fz = summary.mean_force
     first, last = summary.averaged
     ratios = ", ".join(f"{ratio:.4f} (row {row})" for row, ratio in enumerate(summary.cage_speed_ratio))
@@ -170,8 +175,10 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         ("status", summary.status),
     ]
     if summary.temperatures:
-        parts = (f"{part} {kelvin - ZERO_CELSIUS:.1f}" for part, kelvin in summary.temperatures)
+        parts = (f"{part} {kelvin - _ZERO_CELSIUS:.1f}" for part, kelvin in summary.temperatures)
         lines.insert(-1, ("temperatures", f"{', '.join(parts)} °C"))
+    if summary.life is not None:
+        lines.insert(-1, ("rating life", life_sentence(summary.life)))
     if recording is not None:
         size = f", {recording.stat().st_size / 1e6:.1f} MB" if recording.exists() else ""
         lines.append(("recording", f"{recording}{size}"))

@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,9 @@ from beardyn_core.observe.torque_budget import TorqueBudget, torque_budget
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.sinks import Sink
+from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.study.rating_life import RatingLife, scene_life
 from beardyn_core.twin import Twin
 
 COMPLETE = "complete"
@@ -63,6 +65,8 @@ class RunSummary:
         First and last time of the means, [s].
     cage_revolutions : int
         Whole revolutions of the cage that the means cover; 0 when the run was shorter than one.
+    life : RatingLife or None
+        Under the run's load history; ``None`` when the shaft stood, or no equilibrium carries a load class.
     faults : tuple of str
         Defects and waviness of the scene in words.
     temperatures : tuple of (part, temperature) pairs
@@ -83,6 +87,7 @@ class RunSummary:
     budget: TorqueBudget | None
     averaged: tuple[float, float]
     cage_revolutions: int
+    life: RatingLife | None = None
     faults: tuple[str, ...] = ()
     temperatures: tuple[tuple[str, float], ...] = ()
 
@@ -157,7 +162,15 @@ def run(
         raise
     if failures := _close(opened, closing):
         raise InputError(failures)
-    return trend.summary(scene, wall_time, status)
+    return replace(trend.summary(scene, wall_time, status), life=_life(scene, load))
+
+
+def _life(scene: Scene, load: LoadHistory) -> RatingLife | None:
+    """Rating life under the load of the run; a load that nothing can carry has none."""
+    try:
+        return scene_life(scene, load)
+    except ValidityError:
+        return None
 
 
 def _close(sinks: Sequence[Sink], status: str) -> list[str]:

@@ -10,6 +10,18 @@ from beardyn_core.study.rating_life import RatingLife
 _MILLION = 1.0e6
 
 
+def _millions(revolutions: float) -> str:
+    return f"{revolutions / _MILLION:,.0f}" if math.isfinite(revolutions) else "endless"
+
+
+def life_sentence(life: RatingLife) -> str:
+    """The lives in one line."""
+    return (
+        f"basic {_millions(life.basic)} (ISO 281), {_millions(life.reference_basic)} (ISO 16281); modified "
+        f"{_millions(life.modified)}, {_millions(life.reference_modified)} million revolutions"
+    )
+
+
 def life_object(life: RatingLife) -> dict[str, Any]:
     """The lives for ``--json``; endless ones are null."""
 
@@ -30,14 +42,11 @@ def life_object(life: RatingLife) -> dict[str, Any]:
 
 def life_lines(life: RatingLife) -> list[str]:
     """The lives as lines of text."""
-
-    def millions(revolutions: float) -> str:
-        return f"{revolutions / _MILLION:,.0f}" if math.isfinite(revolutions) else "endless"
-
     return [
         "Rating life, million revolutions at 90 % reliability",
-        f"  ISO 281    basic {millions(life.basic)}, modified {millions(life.modified)}; "
+        f"  ISO 281    basic {_millions(life.basic)}, modified {_millions(life.modified)}; "
         f"equivalent load {life.equivalent_load / 1e3:.1f} kN",
-        f"  ISO 16281  basic {millions(life.reference_basic)}, modified {millions(life.reference_modified)}",
+        f"  ISO 16281  basic {_millions(life.reference_basic)}, "
+        f"modified {_millions(life.reference_modified)}",
         f"  viscosity ratio {life.viscosity_ratio:.2f}, contamination {life.contamination:g}",
     ]

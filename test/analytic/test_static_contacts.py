@@ -94,7 +94,7 @@ def test_gaps_are_the_smallest_distances_found_by_brute_force(displacement, tilt
                 rim = (
                     centre
                     + x * axis
-                    + model.radius[lamina] * (np.cos(around) * first + np.sin(around) * second)
+                    + model.radius[row, index, lamina] * (np.cos(around) * first + np.sin(around) * second)
                 )
                 values = gap(rim)
                 best = float(around[int(values.argmin()), 0])

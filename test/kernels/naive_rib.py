@@ -43,10 +43,13 @@ def depth_by_search(centre: Float, axis: Float, ring_axis: Float, rib: Any) -> t
     bounds = [(1e3 * window.low, 1e3 * window.high), (-10.0, 10.0)]
     best = None
     for start in (window.low, 0.5 * (window.low + window.high), window.high):
-        found = minimize(
-            distance, x0=[1e3 * start, 0.1], bounds=bounds, method="Nelder-Mead",
-            options={"xatol": 1e-9, "fatol": 1e-12, "maxiter": 4000, "maxfev": 4000},
-        )  # fmt: skip
+        place = np.array([1e3 * start, 0.1])
+        for _ in range(3):  # a simplex that has collapsed on a bound starts again
+            found = minimize(
+                distance, x0=place, bounds=bounds, method="Nelder-Mead",
+                options={"xatol": 1e-9, "fatol": 1e-12, "maxiter": 4000, "maxfev": 4000},
+            )  # fmt: skip
+            place = found.x
         if best is None or found.fun < best.fun:
             best = found
     assert best is not None

@@ -187,3 +187,10 @@ def test_a_run_too_short_for_a_trend_has_no_means(
     summary = desk_run.run(load_scene("static_80kN", duration=0.02))
     assert summary.complete
     assert all(math.isnan(value) for value in (*summary.mean_force, *summary.cage_speed_ratio))
+
+
+def test_summary_holds_the_rating_life_of_the_load(rolling: type[PureRolling]) -> None:
+    summary = desk_run.run(load_scene("static_80kN", duration=0.04))
+    assert summary.life is not None
+    assert summary.life.equivalent_load == pytest.approx(80e3)
+    assert summary.life.reference_basic > summary.life.basic
