@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize, minimize_scalar
+from scipy.optimize import minimize_scalar
 
 from test.kernels.naive import Motion, Wrench
 
@@ -36,25 +37,25 @@ def depth_by_search(centre: Float, axis: Float, ring_axis: Float, rib: Any) -> t
     radial, around = _frame(ring_axis, sphere)
     window = rib.window
 
-    def distance(unknowns: Float) -> float:
-        point = face_point(1e-3 * unknowns[0], 1e-2 * unknowns[1], ring_axis, radial, around, rib)
-        return 1e3 * float(np.linalg.norm(point - sphere))
+    def distance(height: float, turn: float) -> float:
+        return float(np.linalg.norm(face_point(height, turn, ring_axis, radial, around, rib) - sphere))
 
-    bounds = [(1e3 * window.low, 1e3 * window.high), (-10.0, 10.0)]
-    best = None
-    for start in (window.low, 0.5 * (window.low + window.high), window.high):
-        place = np.array([1e3 * start, 0.1])
-        for _ in range(3):  # a simplex that has collapsed on a bound starts again
-            found = minimize(
-                distance, x0=place, bounds=bounds, method="Nelder-Mead",
-                options={"xatol": 1e-9, "fatol": 1e-12, "maxiter": 4000, "maxfev": 4000},
-            )  # fmt: skip
-            place = found.x
-        if best is None or found.fun < best.fun:
-            best = found
-    assert best is not None
-    point = face_point(1e-3 * best.x[0], 1e-2 * best.x[1], ring_axis, radial, around, rib)
-    return rib.sphere_radius + window.rounding - 1e-3 * float(best.fun), point
+    def nearest_turn(height: float) -> float:
+        found = minimize_scalar(
+            partial(distance, height), bounds=(-0.1, 0.1), method="bounded", options={"xatol": 1e-12}
+        )
+        return float(found.x)
+
+    inside = minimize_scalar(
+        lambda height: distance(height, nearest_turn(height)),
+        bounds=(window.low, window.high), method="bounded", options={"xatol": 1e-13},
+    )  # fmt: skip
+    height = min(
+        (window.low, float(inside.x), window.high), key=lambda height: distance(height, nearest_turn(height))
+    )
+    turn = nearest_turn(height)
+    point = face_point(height, turn, ring_axis, radial, around, rib)
+    return rib.sphere_radius + window.rounding - distance(height, turn), point
 
 
 def rim_depth_by_search(centre: Float, axis: Float, ring_axis: Float, rib: Any) -> tuple[float, Float]:
