@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.integrate.state import State
+from beardyn_core.model.guide_parameters import RibParams
 from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
@@ -27,7 +28,6 @@ from beardyn_core.model.layout import (
     RIB,
     ROLLER_STATES,
 )
-from beardyn_core.model.parameters import RibParams
 
 LARGEST_PENETRATION = 2.0e-4
 LARGEST_CHATTER_INDEX = 0.2

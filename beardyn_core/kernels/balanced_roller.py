@@ -16,11 +16,7 @@ from beardyn_core.kernels.lane_math import at_least, at_most, ninth_root, sqrt, 
 from beardyn_core.kernels.raceway import generator_line
 from beardyn_core.kernels.vectors import add, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import wave_gap, wavy_line
-from beardyn_core.model.parameters import (
-    LAMINA_DROP,
-    LAMINA_PLACE,
-    LAMINA_STIFFNESS,
-)
+from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 _SMALLEST_APPROACH = 1e-15
 # A roller that touches nothing is held by this little [N/m], and moves at most this far in a step [m].

@@ -11,7 +11,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.model.parameters import (
+from beardyn_core.model.fault_parameters import (
     PATCH_POINTS,
     PLACE_ARC_RADIUS,
     PLACE_AZIMUTH,

@@ -6,7 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude
-from beardyn_core.model.parameters import LAMINA_FILM
+from beardyn_core.model.contact_parameters import LAMINA_FILM
 
 _LOG2_THICKEST_RIGID_FILM = -13.287712379549449  # 0.1 mm, where an unloaded roller has no contact any more
 

@@ -13,7 +13,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, sqrt, where_greater
 from beardyn_core.kernels.saturation import asinh_over, decay_over
-from beardyn_core.model.parameters import LAMINA_PRESSURE
+from beardyn_core.model.contact_parameters import LAMINA_PRESSURE
 
 _LOG2_E = 1.4426950408889634
 _LARGEST_LOG2_THICKENING = 30.0

@@ -10,7 +10,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
-from beardyn_core.model.parameters import LAMINA_STIFFNESS
+from beardyn_core.model.contact_parameters import LAMINA_STIFFNESS
 
 # rows of the work space
 DEPTH, SURFACE, SPRING, FORCE = range(4)

@@ -25,7 +25,7 @@ from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_l
 from beardyn_core.kernels.lane_math import at_least, ninth_root, sqrt, where_greater
 from beardyn_core.kernels.traction import friction_rate
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
-from beardyn_core.model.parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
+from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 _SMALLEST_APPROACH = 1e-15
 

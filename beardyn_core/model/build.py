@@ -11,22 +11,14 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.box_coupling import box_coupling
 from beardyn_core.model.cage_params import cage_params
+from beardyn_core.model.contact_parameters import DampingParams, RacewayParams, RollerParams
 from beardyn_core.model.coupling_params import coupling_params
 from beardyn_core.model.fault_params import fault_params, roller_oversize
 from beardyn_core.model.flexibility_params import flexibility_params
 from beardyn_core.model.lamina_table import lamina_table
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
 from beardyn_core.model.loss_params import drag_params, rolling_params, seal_params
-from beardyn_core.model.parameters import (
-    AuditParams,
-    DampingParams,
-    EffectParams,
-    GravityParams,
-    MountingParams,
-    Parameters,
-    RacewayParams,
-    RollerParams,
-)
+from beardyn_core.model.parameters import AuditParams, EffectParams, GravityParams, MountingParams, Parameters
 from beardyn_core.model.rib_params import rib_params
 from beardyn_core.model.small_rib_params import small_rib_params
 from beardyn_core.model.traction_params import raceway_film_params, traction_params

@@ -7,14 +7,14 @@ import math
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.effects import Cage, KinematicCage, RotatingCage
-from beardyn_core.model.layout import CONE_BODY, CUP_BODY
-from beardyn_core.model.parameters import (
+from beardyn_core.model.guide_parameters import (
     CageParams,
     KinematicCageParams,
     LandParams,
     PocketFilmParams,
     RotatingCageParams,
 )
+from beardyn_core.model.layout import CONE_BODY, CUP_BODY
 from beardyn_core.scene.scene import Scene
 
 # Walls of a pocket that can resist at a time, two bars at two abscissae each.

@@ -8,7 +8,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.parameters import CouplingParams
+from beardyn_core.model.contact_parameters import CouplingParams
 
 
 def coupling_params(

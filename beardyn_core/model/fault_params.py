@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.lamina_table import lamina_places
-from beardyn_core.model.parameters import (
+from beardyn_core.model.fault_parameters import (
     PATCH_FIELDS,
     PATCH_POINTS,
     PLACE_ARC_RADIUS,
@@ -25,6 +24,7 @@ from beardyn_core.model.parameters import (
     FaultParams,
     SurfaceParams,
 )
+from beardyn_core.model.lamina_table import lamina_places
 from beardyn_core.model.patch_path import PATH_CELLS, reach_of, roller_path
 from beardyn_core.model.waviness_params import wave_params
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket

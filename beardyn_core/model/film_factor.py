@@ -14,7 +14,12 @@ from beardyn_core.bearing.film_thickness import (
     thermal_loading,
 )
 from beardyn_core.effects import LineFilm
-from beardyn_core.model.parameters import FilmParams, RigidFilmParams, RoelandsParams, ThermalFilmParams
+from beardyn_core.model.contact_parameters import (
+    FilmParams,
+    RigidFilmParams,
+    RoelandsParams,
+    ThermalFilmParams,
+)
 from beardyn_core.scene.scene import Scene
 
 

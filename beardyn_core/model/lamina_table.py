@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.model.film_factor import log2_film_factor
-from beardyn_core.model.parameters import (
+from beardyn_core.model.contact_parameters import (
     LAMINA_DROP,
     LAMINA_FILM,
     LAMINA_PLACE,
@@ -19,6 +18,7 @@ from beardyn_core.model.parameters import (
     LAMINA_ROWS,
     LAMINA_STIFFNESS,
 )
+from beardyn_core.model.film_factor import log2_film_factor
 from beardyn_core.scene.scene import Scene
 
 

@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet
-from beardyn_core.model.lamina_table import equivalent_radius
-from beardyn_core.model.parameters import (
+from beardyn_core.model.contact_parameters import (
     BibouletHoupertParams,
     DragParams,
     HysteresisParams,
     PowerLawRollingParams,
     RollingParams,
-    SealParams,
     ThermalRollingParams,
 )
+from beardyn_core.model.lamina_table import equivalent_radius
+from beardyn_core.model.parameters import SealParams
 from beardyn_core.scene.scene import Scene
 
 AIR_DENSITY = 1.2

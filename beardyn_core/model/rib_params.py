@@ -9,7 +9,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.hertz import exact_rib_contact
 from beardyn_core.bearing.rib_film import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
 from beardyn_core.effects import Rib, RibShearedFilm
-from beardyn_core.model.parameters import (
+from beardyn_core.model.guide_parameters import (
     RibDrillingParams,
     RibEndParams,
     RibFilmParams,

@@ -6,7 +6,8 @@ import math
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet
-from beardyn_core.model.parameters import DampingParams, SmallRibParams
+from beardyn_core.model.contact_parameters import DampingParams
+from beardyn_core.model.guide_parameters import SmallRibParams
 
 
 def small_rib_params(bearing: Bearing, effects: EffectSet) -> SmallRibParams | None:

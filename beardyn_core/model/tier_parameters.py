@@ -9,7 +9,8 @@ import numpy as np
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
-from beardyn_core.model.parameters import FaultParams, Parameters
+from beardyn_core.model.fault_parameters import FaultParams
+from beardyn_core.model.parameters import Parameters
 from beardyn_core.scene.scene import Scene
 
 

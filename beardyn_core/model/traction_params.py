@@ -12,9 +12,7 @@ from beardyn_core.effects import (
     ShearedFilmTraction,
     Traction,
 )
-from beardyn_core.model.film_factor import film_params
-from beardyn_core.model.lamina_table import equivalent_radius, lamina_places
-from beardyn_core.model.parameters import (
+from beardyn_core.model.contact_parameters import (
     AiharaParams,
     CoulombParams,
     EyringParams,
@@ -24,6 +22,8 @@ from beardyn_core.model.parameters import (
     ShearedFilmParams,
     SlipLawParams,
 )
+from beardyn_core.model.film_factor import film_params
+from beardyn_core.model.lamina_table import equivalent_radius, lamina_places
 from beardyn_core.scene.scene import Scene
 
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.parameters import WaveParams
+from beardyn_core.model.fault_parameters import WaveParams
 from beardyn_core.scene.scene import Scene
 
 POINTS_PER_WAVE = 64  # linear interpolation is then good to 0.12 % of the amplitude of the shortest wave

@@ -17,6 +17,7 @@ from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, P
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
+from beardyn_core.model.guide_parameters import LandParams
 from beardyn_core.model.layout import (
     ANGULAR,
     BODY_STATES,
@@ -27,7 +28,7 @@ from beardyn_core.model.layout import (
     RATE,
     TILT,
 )
-from beardyn_core.model.parameters import LandParams, Parameters
+from beardyn_core.model.parameters import Parameters
 from test.kernels import naive_cage, naive_step
 from test.kernels.cage_entries import journals, kinematic_pockets, lands, rotating_pockets
 from test.kernels.casting import through

@@ -12,8 +12,8 @@ import pytest
 
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
+from beardyn_core.model.fault_parameters import FaultParams
 from beardyn_core.model.fault_params import surface_radius
-from beardyn_core.model.parameters import FaultParams
 from beardyn_core.scene.defect import PATCH_KINDS, Patch, WornPocket
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.kernels import naive

@@ -11,7 +11,8 @@ import pytest
 from beardyn_core.config import load_lubricant
 from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction, MixedTraction
 from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.parameters import LAMINA_PRESSURE, Parameters
+from beardyn_core.model.contact_parameters import LAMINA_PRESSURE
+from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.traction_params import aihara_params
 from test.kernels.casting import through
 from test.kernels.entries import frictions
