@@ -35,6 +35,10 @@ def _no_such(key: str, number: int, bearing: Bearing) -> list[str]:
     ]
 
 
+def _not_on_a_roller(roller: int, on: str) -> str:
+    return f"roller is {roller}, but on is {on!r}: only `on: roller` has a roller's number"
+
+
 class GrowthKeys(FileModel):
     """Linear growth of a patch during the run."""
 
@@ -73,6 +77,12 @@ class PatchKeys(FileModel):
         None, description="of the shoulder on each side; a quarter of the width when not given"
     )
     growth: GrowthKeys | None = None
+
+    @model_validator(mode="after")
+    def _roller_is_meant(self) -> Self:
+        if self.on != "roller" and self.roller != 0:  # a recorded scene says every number, 0 too
+            raise problem(_not_on_a_roller(self.roller, self.on))
+        return self
 
     def contradictions(self, bearing: Bearing) -> list[str]:
         """What of this defect does not fit the bearing; key, value and what is allowed."""
@@ -229,6 +239,12 @@ class WavinessKeys(FileModel):
         partly = self.orders is not None or self.amplitude_um is not None
         if singles == (self.band is not None) or (self.band is not None and partly):
             raise problem("give either `orders` with `amplitude_um`, or `band`")
+        return self
+
+    @model_validator(mode="after")
+    def _roller_is_meant(self) -> Self:
+        if self.on != "roller" and self.roller is not None:
+            raise problem(_not_on_a_roller(self.roller, self.on))
         return self
 
     def contradictions(self, bearing: Bearing) -> list[str]:

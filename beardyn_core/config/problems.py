@@ -59,6 +59,10 @@ def _value(value: Any) -> str:
     return text if len(text) <= 80 else f"{text[:77]}..."
 
 
+# What else a union takes where a mapping was expected, by the tag of its mapping.
+_INSTEAD_OF_KEYS = {"<inline>": "a name or ", "<options>": "true, false or "}
+
+
 def _expectation(found: Any, unit: str | None) -> str:
     """What is allowed where a value was refused."""
     kind, context = found["type"], found.get("ctx", {})
@@ -82,12 +86,12 @@ def _expectation(found: Any, unit: str | None) -> str:
     if kind == "string_too_long":
         return f"it must be at most {context['max_length']} characters"
     if kind in ("bool_type", "bool_parsing"):
-        return "it must be true, false or a mapping of options"
+        return "it must be true or false"
     if kind == "literal_error":
         allowed = context["expected"].replace(" or ", ", ")
         return f"allowed are {allowed}{_guess(found['input'], allowed)}"
     if kind in ("model_type", "model_attributes_type", "dict_type"):
-        named = "a name or " if found["loc"][-1:] == ("<inline>",) else ""
+        named = _INSTEAD_OF_KEYS.get(str(found["loc"][-1]) if found["loc"] else "", "")
         return f"it must be {named}a mapping of keys to values"
     if kind in ("tuple_type", "list_type"):
         return f"it must be a list{in_unit}"
@@ -115,7 +119,9 @@ def _complaint(key: str, found: Any, unit: str | None) -> str:
     if kind == "problem":
         return f"{key}{': ' if key else ''}{context['advice']}"
     if kind == "union_tag_invalid":
-        allowed = context["expected_tags"].replace("<", "").replace(">", "")
+        tags = re.findall(r"'<(\w+)>'", context["expected_tags"])
+        # a switch is true or false, not a kind
+        allowed = ", ".join(repr(tag) for tag in tags if tag != "switch")
         kind_given = value.get("kind") if isinstance(value, dict) else None
         if kind_given is None:
             return f"{key}.kind is missing; allowed are {allowed}"

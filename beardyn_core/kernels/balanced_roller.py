@@ -12,15 +12,17 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, spring_count, spring_damage, spring_table
 from beardyn_core.kernels.exchange import implicit_time
-from beardyn_core.kernels.lane_math import at_least, at_most, ninth_root, sqrt, where_greater
+from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, ninth_root, sqrt, where_greater
 from beardyn_core.kernels.raceway import generator_line
 from beardyn_core.kernels.vectors import add, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import wave_gap, wavy_line
 from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 _SMALLEST_APPROACH = 1e-15
-# A roller that touches nothing is held by this little [N/m], and moves at most this far in a step [m].
-_HOLD = 1.0e5
+# A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
+# contact, but enough that it drifts towards a raceway or the rib by about a micrometre a step instead of
+# jumping far into it. It moves at most this far in a step [m].
+_HOLD = 2.0e7
 _LONGEST_MOVE = 2.0e-5
 
 
@@ -271,12 +273,10 @@ def balance(
     rib_only = (rib_stiffness, zero, zero)
     system = add_raceway(system, (rib_force, zero), rib_only, rib_way, (rib_way[2], zero), factor)
     step = solve_three(system)
-    furthest = _LONGEST_MOVE / roller.half_length
-    move = (
-        at_most(at_least(step[0], -_LONGEST_MOVE), _LONGEST_MOVE),
-        at_most(at_least(step[1], -_LONGEST_MOVE), _LONGEST_MOVE),
-        at_most(at_least(step[2], -furthest), furthest),
-    )
+    # shortened as a whole: parts of a move do not balance
+    longest = at_least(magnitude(step[0]), at_least(magnitude(step[1]), roller.half_length * magnitude(step[2])))
+    shorter = _LONGEST_MOVE / at_least(longest, _LONGEST_MOVE)
+    move = (shorter * step[0], shorter * step[1], shorter * step[2])
     reach = roller.half_length
     cup_load = settled(cup[0], cup[1], cup_normal, cup_tilt, factor, move, reach)
     cone_load = settled(cone_force, cone[1], cone_normal, cone_tilt, factor, move, reach)

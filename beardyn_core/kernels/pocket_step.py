@@ -7,7 +7,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import pocket_wear
 from beardyn_core.kernels.exchange import account, account_loss, output_contact, react
-from beardyn_core.kernels.lane_math import sqrt
+from beardyn_core.kernels.lane_math import sqrt, where_greater
 from beardyn_core.kernels.orbit import ring_view
 from beardyn_core.kernels.pocket import pocket_contact, pocket_loss, pocket_sum
 from beardyn_core.kernels.pocket_simple import kinematic_pocket, pair_loss, pair_sum, rotating_pocket
@@ -118,8 +118,16 @@ def finish_cage(
     force, moment, energy = contact[1]
     touches, bar = contact[2]
     react(lanes, sums, CAGE_BODY, mask, centre, force, moment, cosine, sine)
-    slip = touches[0][3]
-    output_contact(lanes, rollers, block, POCKET, force, bar, sqrt(dot(slip, slip)), lanes.constant(0.0))
+    slip = sqrt(_slip_squared(touches))
+    output_contact(lanes, rollers, block, POCKET, force, bar, slip, lanes.constant(0.0))
     lost = p.step * _loss(touches, change, cage.rotating, cage.kinematic)
     account_loss(lanes, sums, mask, LOSS_POCKET, lost, p.effects.audit)
     account(lanes, sums, mask, lanes.constant(0.0), energy, p.effects.audit)
+
+
+@inline
+def _slip_squared(touches: Any) -> Any:
+    """Slip speed at the bar that presses more, squared."""
+    front, behind = add(touches[0][0], touches[1][0]), add(touches[2][0], touches[3][0])
+    ahead, back = touches[0][3], touches[2][3]
+    return where_greater(dot(behind, behind), dot(front, front), dot(back, back), dot(ahead, ahead))

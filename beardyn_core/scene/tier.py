@@ -54,7 +54,7 @@ TIERS = {
             "quasistatic",
             "axlebox with cup, journal with cones; every roller in balance with its laminae",
             _FAST,
-            2,  # with 1, an axial load that swings through the play makes the rollers lag and diverge
+            2,  # with 1 a spall's edge is half as well resolved in time
             needs_rib=True,
             smallest_laminae=2,
             absent=_FAST_ABSENT,

@@ -82,6 +82,11 @@ WAVE = {"on": "cup", "row": 0}
             ["defects[0].kind is 'dentt'", "did you mean 'dent'?", "'diameter'"],
         ),
         ({"defects": [{**SPALL, "rim_height_mm": 1}]}, ["defects[0].rim_height_mm", "`rim_height_um`"]),
+        ({"defects": [{**SPALL, "roller": 3}]}, ["defects[0]: roller is 3, but on is 'cup'"]),
+        (
+            {"waviness": [{**WAVE, "on": "cone", "roller": 0, "orders": [2], "amplitude_um": 1}]},
+            ["waviness[0]: roller is 0, but on is 'cone'"],
+        ),
         (
             {"defects": [{**SPALL, "growth": {"from_s": 2, "to_s": 1}}]},
             ["defects[0].growth: to_s is 1", "greater than from_s, 2"],

@@ -245,7 +245,7 @@ def test_a_cage_is_the_free_one_unless_it_says_otherwise(write: Write) -> None:
 @pytest.mark.parametrize(
     ("cage", "words"),
     [
-        ("{kind: loose}", ["effects.cage.kind is 'loose'", "'six_dof', 'rotating', 'kinematic'"]),
+        ("{kind: loose}", ["effects.cage.kind is 'loose'", "allowed are 'six_dof', 'rotating', 'kinematic'"]),
         ("{kind: rotating, lubrication: true}", ["effects.cage.lubrication", "unknown key"]),
         ("{pocket_wear_mm: -1}", ["effects.cage.pocket_wear_mm is -1", "at least 0"]),
         ("{guidance: {on: rib}}", ["effects.cage.guidance.on is 'rib'", "allowed are 'cup', 'cone'"]),
@@ -327,3 +327,16 @@ def test_lubricant_without_pressure_viscosity_has_that_of_its_base_oil(write: Wr
     assert loaded.lubricant.pressure_viscosity == pytest.approx(13.65e-9, rel=1e-3)
     again = scene_from_text(loaded.source_text)
     assert again.lubricant == loaded.lubricant
+
+
+@pytest.mark.parametrize(
+    ("effects", "end"),
+    [
+        ("film: {isoviscous: 1}", "effects.film.isoviscous is 1; it must be true or false"),
+        ("rib: {window: 3}", "effects.rib.window is 3; it must be true or false"),
+        ("film: 3", "effects.film is 3; it must be true, false or a mapping of keys to values"),
+    ],
+)
+def test_a_mistake_in_a_switch_says_what_it_takes(write: Write, effects: str, end: str) -> None:
+    (sentence,) = problems_of(write(GOOD + f"effects: {{{effects}}}\n"))
+    assert sentence.endswith(end)

@@ -12,6 +12,7 @@ from beardyn_core.config import load_scene
 from beardyn_core.config.load import scene_from_text
 from beardyn_core.observe.diagnosis import MonitorResult
 from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIER_NAMES
 from beardyn_core.study.desk_run import run
@@ -147,3 +148,31 @@ def test_monitor_is_quiet_on_the_healthy_run_of_a_fast_tier(tier: str) -> None:
     results = verdicts(tier, "cup_spall", healthy=True)
     assert results
     assert {result.verdict for result in results} == {"healthy"}
+
+
+@pytest.mark.parametrize("steps", [1, 2])
+def test_quasistatic_rollers_that_start_in_a_groove_carry_the_load(steps: int) -> None:
+    """The static start knows no groove under every roller: all lose their contact at once."""
+    scene = scene_of("brinelling", "quasistatic")
+    blocks = blocks_of(replace(scene, numerics=replace(scene.numerics, steps_per_sample=steps)), 0.1)
+    assert all(block.status == 0 for block in blocks)
+    lifted = blocks_of(replace(scene_of("static_80kN", "quasistatic"), end_play=scene.end_play), 0.1)[-1]
+    np.testing.assert_allclose(blocks[-1].force[:, 2].mean(), lifted.force[:, 2].mean(), rtol=1e-3)
+
+
+@pytest.mark.parametrize("frequency", [2.0, 20.0])
+def test_quasistatic_rollers_follow_an_axial_load_through_the_play(frequency: float) -> None:
+    """One step a sample is as good as eight; a row whose load goes away leaves cup and rib and comes back."""
+    scene = scene_of("cup_spall", "quasistatic")
+    found = {}
+    for steps in (1, 8):
+        twin = Twin(replace(scene, numerics=replace(scene.numerics, steps_per_sample=steps), end_play=2e-4))
+        load = load_history(scene.operation, scene.mounting, 0.5, scene.seed)
+        load.wrench[:, 1] += 2e4 * np.sin(2e-9 * np.pi * frequency * load.time_ns)
+        twin.start(load)
+        blocks = [twin.advance() for _ in range(24)]
+        assert all(block.status == 0 for block in blocks)
+        found[steps] = np.concatenate([block.force[:, :3] for block in blocks])
+    common = min(len(force) for force in found.values())  # the filters hold back samples of unlike steps
+    # of first order in the step; a tenth of a percent of the swing
+    assert np.sqrt(np.mean((found[1][:common] - found[8][:common]) ** 2)) < 20.0
