@@ -26,6 +26,8 @@ _ITERATIONS = 300
 _TOLERANCE = 1.0e-11
 _ACCEPTABLE = 1.0e-8
 _ROUNDING_FORCE = 1.0e-8
+# [N]; without a load there is no scale to compare with.
+_ACCEPTABLE_FORCE = 1.0e-3
 # Longest step of the cone; it also carries a cone that touches nothing through its play.
 _LONGEST_STEP = 1.0e-4
 _REFERENCE_STIFFNESS = 1.0e9
@@ -232,7 +234,7 @@ def _equilibrium(cone: _Cone) -> tuple[RollerState, Float, int]:
         size = float(np.abs(cone.residual(unknowns, state)).max())
         scale = float(np.abs(cone.load / cone.scale).max()) + 0.1 * float(state.cup.force.sum())
         if size <= _TOLERANCE * scale + _ROUNDING_FORCE or (
-            (stalled > 3 or iteration > 60) and size <= _ACCEPTABLE * scale
+            (stalled > 3 or iteration > 60) and size <= _ACCEPTABLE * scale + _ACCEPTABLE_FORCE
         ):
             return state, unknowns, iteration
         step = cone.step(unknowns, state, damping)

@@ -274,7 +274,9 @@ def balance(
     system = add_raceway(system, (rib_force, zero), rib_only, rib_way, (rib_way[2], zero), factor)
     step = solve_three(system)
     # shortened as a whole: parts of a move do not balance
-    longest = at_least(magnitude(step[0]), at_least(magnitude(step[1]), roller.half_length * magnitude(step[2])))
+    longest = at_least(
+        magnitude(step[0]), at_least(magnitude(step[1]), roller.half_length * magnitude(step[2]))
+    )
     shorter = _LONGEST_MOVE / at_least(longest, _LONGEST_MOVE)
     move = (shorter * step[0], shorter * step[1], shorter * step[2])
     reach = roller.half_length

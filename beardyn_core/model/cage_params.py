@@ -105,7 +105,10 @@ def _land(scene: Scene, step: float) -> LandParams | None:
         offset = 0.5 * bearing.roller_length * math.cos(bearing.contact_angle)
     radius, width, clearance = 0.5 * diameter, options.land_width, options.clearance
     viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
-    film = viscosity * radius * width**3 / (2.0 * clearance**2)
+    # the cage is explicit: a film of cold lubricant may not resist more than it can follow within a step
+    largest = 0.25 * _least_inertia(bearing) / step
+    film = min(viscosity * radius * width**3 / (2.0 * clearance**2), 0.5 * largest * clearance / math.pi)
+    drag = 2.0 * math.pi * viscosity * radius**3 * width / clearance
     return LandParams(
         body=float(CUP_BODY if options.on == "cup" else CONE_BODY),
         outside=outside,
@@ -114,8 +117,8 @@ def _land(scene: Scene, step: float) -> LandParams | None:
         half_width=0.5 * width,
         place=offset,
         film=film,
-        drag=2.0 * math.pi * viscosity * radius**3 * width / clearance,
-        most_eccentric=most_eccentric(film / clearance, 0.25 * _least_inertia(bearing) / step),
+        drag=min(drag, 0.25 * bearing.cage.polar_inertia / step),
+        most_eccentric=most_eccentric(film / clearance, largest),
         stiffness=bearing.cage.stiffness,
         damping=bearing.cage.damping,
         friction=options.friction,

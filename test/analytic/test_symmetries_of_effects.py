@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config import load_scene
 from beardyn_core.effects import (
     Audit,
@@ -43,7 +42,6 @@ from beardyn_core.scene.defect import Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.waviness import Waviness
 from beardyn_core.twin import Twin
 
 Float = NDArray[np.float64]
@@ -172,7 +170,10 @@ def test_a_scene_in_a_mirror_runs_as_its_mirror_image(effects: str, tier: str, m
         tolerance = 1e-6
         np.testing.assert_allclose(other.force * wrench, one.force, rtol=0.0, atol=tolerance * scale)
         np.testing.assert_allclose(
-            turn * other.shaft_torque, one.shaft_torque, rtol=0.0, atol=tolerance * np.abs(one.shaft_torque).max()
+            turn * other.shaft_torque,
+            one.shaft_torque,
+            rtol=0.0,
+            atol=tolerance * np.abs(one.shaft_torque).max(),
         )
         cages = other.cage_speed if backwards else other.cage_speed[:, ::-1]
         np.testing.assert_allclose(turn * cages, one.cage_speed, rtol=tolerance)
@@ -185,9 +186,7 @@ def test_a_scene_in_a_mirror_runs_as_its_mirror_image(effects: str, tier: str, m
             contacts[..., 3:6] * mirror, one.contacts[..., 3:6], rtol=0.0, atol=tolerance * scale
         )
         pressed = np.linalg.norm(one.contacts[..., 3:6], axis=-1) > 1.0
-        np.testing.assert_allclose(
-            contacts[pressed, 6], one.contacts[pressed, 6], rtol=1e-4, atol=1e-5
-        )
+        np.testing.assert_allclose(contacts[pressed, 6], one.contacts[pressed, 6], rtol=1e-4, atol=1e-5)
         if one.temperature is not None:
             assert other.temperature is not None
             np.testing.assert_allclose(other.temperature, one.temperature, rtol=1e-9)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -11,12 +12,14 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.config import load_scene
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.status import Status
 from beardyn_core.jit import OPTIONS
 from beardyn_core.model.build import build_parameters
+from beardyn_core.model.cage_params import cage_params
 from beardyn_core.model.layout import (
     CAGE_BODY,
     CUP_BODY,
@@ -239,3 +242,17 @@ def test_lands_lose_energy_and_guide_the_cage() -> None:
     rig = rig_of(CAGES["on the cup"])
     rig.run(512)
     assert rig.state.energy[ENERGY_LOST + LOSS_LAND] > 0.0
+
+
+@pytest.mark.parametrize("temperature", [213.15, 233.15, 343.15])
+def test_land_film_of_cold_lubricant_stays_within_what_an_explicit_cage_follows(temperature: float) -> None:
+    scene = replace(load_scene("static_5kN"), temperature=temperature)
+    scene = replace(scene, effects=replace(scene.effects, cage=Cage(guidance=LandGuidance())))
+    step = 1e-5
+    cage = cage_params(scene, step)
+    assert cage is not None
+    assert cage.land is not None
+    land, ring = cage.land, scene.bearing.cage
+    assert math.pi * land.film / land.clearance * step < 0.5 * ring.mass
+    assert land.drag * step < 0.5 * ring.polar_inertia
+    assert 0.0 < land.most_eccentric <= 0.99
