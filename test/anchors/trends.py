@@ -64,6 +64,22 @@ SPEEDS = tuple(Condition(speed=value) for value in (1000.0, 1500.0, 2000.0))
 RADIALS = tuple(Condition(radial=value) for value in (70.0, 80.0, 90.0))
 TEMPERATURES = tuple(Condition(temperature=value) for value in (50.0, 70.0, 90.0))
 
+FLAT = (
+    "it stays the same within 3 %: ours is the balance of elastic contacts, ribs and sheared films, "
+    "in which nothing that matters here goes with {}"
+)
+ELASTIC = (
+    "attitudes follow the elastic approaches, which grow with load while rings are rigid and the load zone "
+    "hardly changes; the source's axlebox restrains the tilt in a way that is not known"
+)
+OVER = (
+    (ECCENTRICITIES, True, "load eccentricity from 0 over 20 to 40 mm", "", ""),
+    (THRUSTS, True, "axial load from 12 over 15 to 18 kN", "", ""),
+    (SPEEDS, True, "speed from 1000 over 1500 to 2000 rpm", FLAT.format("speed"), FLAT.format("speed")),
+    (RADIALS, False, "radial load from 70 over 80 to 90 kN", ELASTIC, ELASTIC),
+    (TEMPERATURES, False, "temperature from 50 over 70 to 90 deg C", "", FLAT.format("temperature")),
+)
+
 TRENDS = (
     Trend(
         "D22", "skew is least and tilt largest at the most loaded roller", ZHAO, attitude_of_the_most_loaded,
@@ -73,15 +89,9 @@ TRENDS = (
     *(
         Trend(
             "D22", f"{part} {'rises' if rises else 'falls'} with {over.split(' from')[0]}", ZHAO,
-            partial(monotone, part, conditions, rises, over),
+            partial(monotone, part, conditions, rises, over), misses=misses,
         )
-        for conditions, rises, over in (
-            (ECCENTRICITIES, True, "load eccentricity from 0 over 20 to 40 mm"),
-            (THRUSTS, True, "axial load from 12 over 15 to 18 kN"),
-            (SPEEDS, True, "speed from 1000 over 1500 to 2000 rpm"),
-            (RADIALS, False, "radial load from 70 over 80 to 90 kN"),
-            (TEMPERATURES, False, "temperature from 50 over 70 to 90 deg C"),
-        )
-        for part in ("skew", "tilt")
+        for conditions, rises, over, of_skew, of_tilt in OVER
+        for part, misses in (("skew", of_skew), ("tilt", of_tilt))
     ),
 )  # fmt: skip
