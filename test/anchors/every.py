@@ -42,11 +42,6 @@ UNREACHED: tuple[tuple[str, str], ...] = (
         "apart by its cause",
     ),
     (
-        "D22, 5 loaded rollers a row, 7 at 40 mm off centre",
-        "measured in an axlebox of unknown stiffness; ours are 7 and 3 with the cup's tilt locked and "
-        "17 and 5 with it free, so neither limit of the boundary condition is theirs",
-    ),
-    (
         "D33, coefficients of restitution",
         "contacts lose energy in proportion to their stiffness and approach speed, as lubricated contacts "
         "that stay closed do; there is no law of impact with a given restitution",

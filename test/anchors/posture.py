@@ -51,7 +51,7 @@ def scene_of(condition: Condition) -> Scene:
     scene = load_scene("static_80kN")
     effects = replace(
         scene.effects,
-        traction=LoadSharingTraction(film_traction="bair_winer"),
+        traction=LoadSharingTraction(film_traction="bair_winer", inlet_shear=True),
         film=LineFilm(isoviscous=True),
         rib=Rib(drilling=True, lubrication=RibShearedFilm()),
     )

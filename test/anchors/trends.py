@@ -6,6 +6,8 @@ from functools import partial
 
 import numpy as np
 
+from beardyn_core.config import load_bearing
+from beardyn_core.integrate.static import solve
 from test.anchors.anchor import Finding, Trend
 from test.anchors.posture import Condition, Posture, posture
 
@@ -64,6 +66,29 @@ SPEEDS = tuple(Condition(speed=value) for value in (1000.0, 1500.0, 2000.0))
 RADIALS = tuple(Condition(radial=value) for value in (70.0, 80.0, 90.0))
 TEMPERATURES = tuple(Condition(temperature=value) for value in (50.0, 70.0, 90.0))
 
+
+def loaded_rollers() -> Finding:
+    """Static counts of the loaded rollers with the load on the centre and 40 mm beside it."""
+    bearing = load_bearing("HS130x230")
+    counts = {
+        (tilt, eccentricity): solve(
+            bearing,
+            (0.0, 1e3 * BASE.axial, 1e3 * BASE.radial),
+            (eccentricity * BASE.radial, 0.0, 0.0),
+            end_play=bearing.end_play,
+            tilt=tilt,
+        ).loaded_roller_count
+        for tilt in ("locked", "free")
+        for eccentricity in (0.0, 40.0)
+    }
+    shown = "; ".join(
+        f"{max(rows)} and {min(rows)} at {eccentricity:g} mm with the tilt {tilt}"
+        for (tilt, eccentricity), rows in counts.items()
+    )
+    holds = any(counts[tilt, 0.0] == (5, 5) and max(counts[tilt, 40.0]) == 7 for tilt in ("locked", "free"))
+    return Finding(holds, f"Loaded rollers of the rows: {shown}.")
+
+
 FLAT = (
     "it stays the same within 3 %: ours is the balance of elastic contacts, ribs and sheared films, "
     "in which nothing that matters here goes with {}"
@@ -86,6 +111,11 @@ TRENDS = (
         picture="posture.png",
     ),
     Trend("D22", "the rows tilt opposite ways", ZHAO, rows_tilt_opposite),
+    Trend(
+        "D22", "5 loaded rollers in each row, 7 in the loaded row at 40 mm off centre", ZHAO, loaded_rollers,
+        misses="measured with 7 instrumented places in an axlebox of unknown stiffness, which holds the tilt "
+        "neither rigidly nor freely",
+    ),
     *(
         Trend(
             "D22", f"{part} {'rises' if rises else 'falls'} with {over.split(' from')[0]}", ZHAO,
