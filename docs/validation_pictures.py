@@ -18,7 +18,7 @@ DPI = 80
 
 def draw_posture(path: Path) -> None:
     """Skew and tilt over azimuth for three load eccentricities, both rows."""
-    figure, axes = plt.subplots(2, 2, figsize=(9.0, 4.6), sharex=True, sharey="row", layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(8.0, 4.2), sharex=True, sharey="row", layout="constrained")
     for condition in ECCENTRICITIES:
         run = posture(condition)
         for row, name in ((0, "inboard row"), (1, "outboard row")):
@@ -71,7 +71,8 @@ def draw_skid(path: Path) -> None:
     figure, panel = plt.subplots(figsize=(5.6, 3.2), layout="constrained")
     for fill, name in ((skid.FRESH, "fresh grease"), (skid.SETTLED, "settled grease")):
         panel.semilogx(skid.LOADS_KN, [100.0 * slip for slip in skid.slips(fill)], "o-", label=name)
-    panel.axhspan(10.0, 60.0, alpha=0.12, color="grey", label="published at light load")
+    light = (skid.LOADS_KN[0], skid.LIGHT_KN)
+    panel.fill_between(light, 10.0, 60.0, alpha=0.25, color="grey", label="published at light load")
     panel.set_xlabel("radial load, kN")
     panel.set_ylabel("cage slip, %")
     panel.set_ylim(-2.0, 100.0)

@@ -89,20 +89,23 @@ def loaded_rollers() -> Finding:
     return Finding(holds, f"Loaded rollers of the rows: {shown}.")
 
 
-FLAT = (
-    "it stays the same within 3 %: ours is the balance of elastic contacts, ribs and sheared films, "
-    "in which nothing that matters here goes with {}"
+STEADY = (
+    "it changes by no more than 3 %: ours is a balance of elastic contacts, ribs and sheared films that the "
+    "speed hardly enters; with constant coefficients of friction skew does rise, from 0.34 to 0.37 mrad"
 )
+THIN = "it falls from 50 to 70 deg C and then stays the same within 0.5 %"
+COLD = "tilt follows from the elastic contacts alone, which know no temperature"
 ELASTIC = (
-    "attitudes follow the elastic approaches, which grow with load while rings are rigid and the load zone "
-    "hardly changes; the source's axlebox restrains the tilt in a way that is not known"
+    "it follows the elastic approaches, which grow with load as long as rings are rigid and the tilt free; "
+    "the source's axlebox restrains the tilt in a way that is not known, and with the tilt locked ours is a "
+    "fraction of this and without a trend"
 )
 OVER = (
     (ECCENTRICITIES, True, "load eccentricity from 0 over 20 to 40 mm", "", ""),
     (THRUSTS, True, "axial load from 12 over 15 to 18 kN", "", ""),
-    (SPEEDS, True, "speed from 1000 over 1500 to 2000 rpm", FLAT.format("speed"), FLAT.format("speed")),
+    (SPEEDS, True, "speed from 1000 over 1500 to 2000 rpm", STEADY, STEADY),
     (RADIALS, False, "radial load from 70 over 80 to 90 kN", ELASTIC, ELASTIC),
-    (TEMPERATURES, False, "temperature from 50 over 70 to 90 deg C", "", FLAT.format("temperature")),
+    (TEMPERATURES, False, "temperature from 50 over 70 to 90 deg C", THIN, COLD),
 )
 
 TRENDS = (
