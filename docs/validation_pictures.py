@@ -18,7 +18,7 @@ DPI = 80
 
 def draw_posture(path: Path) -> None:
     """Skew and tilt over azimuth for three load eccentricities, both rows."""
-    figure, axes = plt.subplots(2, 2, figsize=(8.0, 4.2), sharex=True, sharey="row", layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(7.4, 4.0), sharex=True, sharey="row", layout="constrained")
     for condition in ECCENTRICITIES:
         run = posture(condition)
         for row, name in ((0, "inboard row"), (1, "outboard row")):
