@@ -39,6 +39,16 @@ def allowed(anchor: Anchor) -> str:
     return " + ".join(parts) or "exact"
 
 
+def reference_cells(anchor: Anchor) -> tuple[str, str, str]:
+    """What a row says without computing anything."""
+    return anchor.label, anchor.quantity, f"{number(anchor.reference)} {anchor.unit}".strip()
+
+
+def unreached_line(label: str, why: str) -> str:
+    """One entry of what is not compared."""
+    return f"- {label}: {why}."
+
+
 def row(anchor: Anchor) -> tuple[str, bool]:
     """One row of the table, and whether ours agrees."""
     ours = anchor.ours()
@@ -50,9 +60,7 @@ def row(anchor: Anchor) -> tuple[str, bool]:
     )
     verdict = "agrees" if agrees else f"**misses**: {anchor.misses or 'not explained'}"
     cells = (
-        anchor.label,
-        anchor.quantity,
-        f"{number(anchor.reference)} {anchor.unit}".strip(),
+        *reference_cells(anchor),
         f"{number(ours)} {anchor.unit}".strip(),
         off,
         allowed(anchor),
@@ -92,7 +100,7 @@ def main() -> None:
     for name, draw in PICTURES.items():
         draw(PAGE.with_name("pictures") / name)
     unreached = ["## Not compared", ""]
-    unreached += [f"- {label}: {why}" for label, why in UNREACHED]
+    unreached += [unreached_line(label, why) for label, why in UNREACHED]
     total = (
         f"{good} of {len(ANCHORS)} numbers agree within their tolerance; "
         f"{held} of {len(TRENDS)} published trends are reproduced.\n\n## Numbers\n\n"

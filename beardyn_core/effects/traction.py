@@ -126,6 +126,9 @@ class LoadSharingTraction:
         tau_0 of ``eyring``, [Pa].
     limiting_shear : float
         Limiting shear stress of ``bair_winer`` over the mean contact pressure.
+    inlet_shear : bool
+        Shear of the oil in the gap around the contact, which drives rollers that are hardly loaded: there it
+        is many times what the small Hertzian area gives.
     """
 
     about: ClassVar[About] = About(
@@ -142,6 +145,7 @@ class LoadSharingTraction:
     largest_slide: float = 0.25
     eyring_stress: float = 5.0e6
     limiting_shear: float = 0.045
+    inlet_shear: bool = False
 
 
 Traction = CoulombTraction | MixedTraction | ShearedFilmTraction | LoadSharingTraction

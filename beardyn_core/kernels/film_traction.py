@@ -124,6 +124,22 @@ def bair_winer_rate(
 
 
 @inline
+def inlet_rate(log2_film: Any, lamina: Any, ring: Any, laminae: Any, factor: Any) -> Any:
+    """Shear of the oil at ambient viscosity in the parabolic gap around a contact, [N s/m].
+
+    eta l times the integral of dx/h from the far inlet to Reynolds' exit, h + x^2/2R: all the friction of
+    rigid surfaces, and small beside that of the flats where they are pressed.
+
+    References
+    ----------
+    Martin (1916), after Dowson, D. and Higginson, G. R. (1966), Elasto-Hydrodynamic Lubrication, ch. 4.
+    """
+    if factor is None:
+        return 0.0
+    return factor * sqrt(exp2(-log2_film) / laminae[LAMINA_PRESSURE + ring, lamina])
+
+
+@inline
 def limited_newton_rate(
     load: Any, slip_squared: Any, log2_film: Any, lamina: Any, ring: Any, laminae: Any, film: Any, limit: Any
 ) -> Any:

@@ -9,6 +9,7 @@ from beardyn_core.kernels.film_traction import (
     aihara_rate,
     bair_winer_rate,
     eyring_rate,
+    inlet_rate,
     limited_newton_rate,
 )
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, sqrt
@@ -126,6 +127,7 @@ def _shared_rate(
         aihara_rate(load, slip, log2_rolling, lamina, ring, laminae, sharing.aihara)
         + eyring_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.eyring)
         + bair_winer_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.bair_winer)
+        + inlet_rate(log2_film, lamina, ring, laminae, sharing.inlet)
     )
     wet = at_most(wet, sharing.friction * load / at_least(slip, 1e-12))
     share = exp2(-1.8 * _LOG2_E * exp2(1.2 * (log2_film - sharing.log2_roughness)))

@@ -127,6 +127,7 @@ class LoadSharingParams(NamedTuple):
     aihara: AiharaParams | None
     eyring: EyringParams | None
     bair_winer: ShearedFilmParams | None
+    inlet: float | None  # shear of the gap around the contact [N s/m Pa^0.5/N^0.5 m^0.5]
 
 
 class DampingParams(NamedTuple):

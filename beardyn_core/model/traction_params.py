@@ -26,6 +26,8 @@ from beardyn_core.model.film_factor import film_params
 from beardyn_core.model.lamina_table import equivalent_radius, lamina_places
 from beardyn_core.scene.scene import Scene
 
+REYNOLDS_EXIT = 0.47513  # where the film of a parabolic gap ends, over sqrt(2 R h)
+
 
 def raceway_film_params(scene: Scene) -> FilmParams | None:
     """Film of the raceway contacts, ``None`` when absent."""
@@ -103,4 +105,17 @@ def _load_sharing_params(scene: Scene, traction: LoadSharingTraction) -> LoadSha
         else None,
         eyring=EyringParams(traction.eyring_stress) if kind == "eyring" else None,
         bair_winer=ShearedFilmParams(traction.limiting_shear) if kind == "bair_winer" else None,
+        inlet=_inlet_factor(scene) if traction.inlet_shear else None,
     )
+
+
+def _inlet_factor(scene: Scene) -> float:
+    """Shear of the inlet of a lamina: eta l sqrt(2 R/h) (pi/2 + atan 0.4751) = factor/sqrt(c h).
+
+    c is the lamina's `LAMINA_PRESSURE`, pi E'/(32 R l), which holds the radius.
+    """
+    length = scene.bearing.effective_length / scene.numerics.laminae
+    viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
+    modulus = scene.bearing.material.contact_modulus
+    reach = math.sqrt(2.0) * (0.5 * math.pi + math.atan(REYNOLDS_EXIT))
+    return viscosity * reach * math.sqrt(math.pi / 32.0 * modulus * length)

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from beardyn_core.config import load_scene
 from beardyn_core.study.desk_run import RunSummary, run
-from test.anchors.anchor import Anchor
+from test.anchors.anchor import Anchor, Finding, Trend
 
 SANTOS = "Santos 2017, mean ring reaction"
 
@@ -97,5 +97,46 @@ ANCHORS = (
         lambda: residual(small_step()),
         absolute=0.02,
         slow=True,
+    ),
+)
+
+ANCESTOR_S = (24 * 3600.0, 8 * 3600.0, 9.5 * 3600.0)
+HORIZON_S = 0.03
+SERVICE = ("static_5kN", "static_80kN", "smooth_run")
+
+
+def faster_than_the_ancestor() -> Finding:
+    """The ancestor's case, a quarter turn of the cage under 5 kN, on one processor core."""
+    found = run(replace(load_scene("static_5kN"), duration=HORIZON_S))
+    best = min(ANCESTOR_S) / HORIZON_S
+    ratio = found.wall_time / found.duration
+    return Finding(
+        ratio < best,
+        f"{HORIZON_S:g} s take {1e3 * found.wall_time:.0f} ms, {ratio:.2g} times real time; the ancestor "
+        f"needed 8 to 24 h, {best:.2g} to {max(ANCESTOR_S) / HORIZON_S:.2g} times.",
+    )
+
+
+def service_slip() -> Finding:
+    """Largest slip of a cage in runs under service load."""
+    slips = {name: max(abs(1.0 - ratio) for ratio in summary(name).cage_speed_ratio) for name in SERVICE}
+    return Finding(
+        max(slips.values()) < 0.01,
+        "Cage slip " + ", ".join(f"{100.0 * slip:.2f} % in {name}" for name, slip in slips.items()) + ".",
+    )
+
+
+TRENDS = (
+    Trend(
+        "D3",
+        "0.03 s of the ancestor's case take less than its 8 to 24 hours",
+        "Santos 2017, run times of three cases",
+        faster_than_the_ancestor,
+    ),
+    Trend(
+        "D30",
+        "cage slip in service is mostly below 1 %",
+        "cage slip found in published data sets, up to 4 % in a 6203",
+        service_slip,
     ),
 )

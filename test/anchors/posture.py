@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.config import load_scene
+from beardyn_core.effects import LineFilm, LoadSharingTraction, Rib, RibShearedFilm
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
@@ -42,12 +43,24 @@ class Posture:
 
 
 def scene_of(condition: Condition) -> Scene:
+    """The condition on a bearing with play, free to tilt, with films that shear in raceways and ribs.
+
+    Skew is a balance of rib and raceway friction, and temperature acts through the viscosity alone, so
+    constant friction coefficients would leave out what two of the trends are about.
+    """
     scene = load_scene("static_80kN")
+    effects = replace(
+        scene.effects,
+        traction=LoadSharingTraction(film_traction="bair_winer", inlet_shear=True),
+        film=LineFilm(isoviscous=True),
+        rib=Rib(drilling=True, lubrication=RibShearedFilm()),
+    )
     force = (0.0, 1e3 * condition.axial, 1e3 * condition.radial)
     # a force along z at y = e turns about x
     moment = (condition.eccentricity * condition.radial, 0.0, 0.0)
     return replace(
         scene,
+        effects=effects,
         operation=ConstantOperation(force=force, moment=moment, speed=condition.speed * np.pi / 30.0),
         mounting=replace(scene.mounting, journal_tilt="free"),
         end_play=0.2e-3,

@@ -6,6 +6,8 @@ from functools import partial
 
 import numpy as np
 
+from beardyn_core.config import load_bearing
+from beardyn_core.integrate.static import solve
 from test.anchors.anchor import Finding, Trend
 from test.anchors.posture import Condition, Posture, posture
 
@@ -64,24 +66,65 @@ SPEEDS = tuple(Condition(speed=value) for value in (1000.0, 1500.0, 2000.0))
 RADIALS = tuple(Condition(radial=value) for value in (70.0, 80.0, 90.0))
 TEMPERATURES = tuple(Condition(temperature=value) for value in (50.0, 70.0, 90.0))
 
+
+def loaded_rollers() -> Finding:
+    """Static counts of the loaded rollers with the load on the centre and 40 mm beside it."""
+    bearing = load_bearing("HS130x230")
+    counts = {
+        (tilt, eccentricity): solve(
+            bearing,
+            (0.0, 1e3 * BASE.axial, 1e3 * BASE.radial),
+            (eccentricity * BASE.radial, 0.0, 0.0),
+            end_play=bearing.end_play,
+            tilt=tilt,
+        ).loaded_roller_count
+        for tilt in ("locked", "free")
+        for eccentricity in (0.0, 40.0)
+    }
+    shown = "; ".join(
+        f"{max(rows)} and {min(rows)} at {eccentricity:g} mm with the tilt {tilt}"
+        for (tilt, eccentricity), rows in counts.items()
+    )
+    holds = any(counts[tilt, 0.0] == (5, 5) and max(counts[tilt, 40.0]) == 7 for tilt in ("locked", "free"))
+    return Finding(holds, f"Loaded rollers of the rows: {shown}.")
+
+
+STEADY = (
+    "it changes by no more than 3 %: ours is a balance of elastic contacts, ribs and sheared films that the "
+    "speed hardly enters; with constant coefficients of friction skew does rise, from 0.34 to 0.37 mrad"
+)
+THIN = "it falls from 50 to 70 deg C and then stays the same within 0.5 %"
+COLD = "tilt follows from the elastic contacts alone, which know no temperature"
+ELASTIC = (
+    "it follows the elastic approaches, which grow with load as long as rings are rigid and the tilt free; "
+    "the source's axlebox restrains the tilt in a way that is not known, and with the tilt locked ours is a "
+    "fraction of this and without a trend"
+)
+OVER = (
+    (ECCENTRICITIES, True, "load eccentricity from 0 over 20 to 40 mm", "", ""),
+    (THRUSTS, True, "axial load from 12 over 15 to 18 kN", "", ""),
+    (SPEEDS, True, "speed from 1000 over 1500 to 2000 rpm", STEADY, STEADY),
+    (RADIALS, False, "radial load from 70 over 80 to 90 kN", ELASTIC, ELASTIC),
+    (TEMPERATURES, False, "temperature from 50 over 70 to 90 deg C", THIN, COLD),
+)
+
 TRENDS = (
     Trend(
         "D22", "skew is least and tilt largest at the most loaded roller", ZHAO, attitude_of_the_most_loaded,
         picture="posture.png",
     ),
     Trend("D22", "the rows tilt opposite ways", ZHAO, rows_tilt_opposite),
+    Trend(
+        "D22", "5 loaded rollers in each row, 7 in the loaded row at 40 mm off centre", ZHAO, loaded_rollers,
+        misses="measured with 7 instrumented places in an axlebox of unknown stiffness, which holds the tilt "
+        "neither rigidly nor freely",
+    ),
     *(
         Trend(
             "D22", f"{part} {'rises' if rises else 'falls'} with {over.split(' from')[0]}", ZHAO,
-            partial(monotone, part, conditions, rises, over),
+            partial(monotone, part, conditions, rises, over), misses=misses,
         )
-        for conditions, rises, over in (
-            (ECCENTRICITIES, True, "load eccentricity from 0 over 20 to 40 mm"),
-            (THRUSTS, True, "axial load from 12 over 15 to 18 kN"),
-            (SPEEDS, True, "speed from 1000 over 1500 to 2000 rpm"),
-            (RADIALS, False, "radial load from 70 over 80 to 90 kN"),
-            (TEMPERATURES, False, "temperature from 50 over 70 to 90 deg C"),
-        )
-        for part in ("skew", "tilt")
+        for conditions, rises, over, of_skew, of_tilt in OVER
+        for part, misses in (("skew", of_skew), ("tilt", of_tilt))
     ),
 )  # fmt: skip

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+from scipy.integrate import quad
 
 from beardyn_core.bearing.film_thickness import line_film, rigid_line_film, thermal_factor, thermal_loading
 from beardyn_core.bearing.lubricant import Lubricant
@@ -79,6 +81,14 @@ def aihara(
     return mu_max * -math.expm1(-2.6 * slip / speed / s_max)
 
 
+def inlet_friction(slip: float, thickness: float, lamina: Lamina) -> float:
+    """eta u l times the integral of dx/h over the parabolic gap, by quadrature up to Reynolds' exit, [N]."""
+    stretch = math.sqrt(2.0 * lamina.radius * thickness)
+    integral = quad(lambda s: 1.0 / (1.0 + s * s), -math.inf, 0.47513)[0]
+    viscosity = lamina.oil.dynamic_viscosity(lamina.temperature)
+    return viscosity * slip * lamina.length * stretch / thickness * integral
+
+
 def film_friction(
     load: float, slip: float, speed: float, thickness: float, lamina: Lamina, traction: LoadSharingTraction,
     thickening: str,
@@ -86,6 +96,11 @@ def film_friction(
     """Friction of the film alone, [N]."""
     pressure = lamina.mean_pressure(load)
     area = load / pressure
+    if traction.inlet_shear:
+        around = inlet_friction(slip, thickness, lamina)
+        return around + film_friction(
+            load, slip, speed, thickness, lamina, replace(traction, inlet_shear=False), thickening
+        )
     if traction.film_traction == "aihara":
         ambient = lamina.oil.dynamic_viscosity(lamina.temperature)
         return load * aihara(ambient, 4.0 / math.pi * pressure, slip, speed, traction.largest_slide)

@@ -58,6 +58,7 @@ SHARED = (
         LoadSharingTraction(film_traction="bair_winer", limiting_shear=0.08),
         LineFilm(thickening="roelands", isoviscous=True, thermal="wilson"),
     ),
+    (LoadSharingTraction(film_traction="bair_winer", inlet_shear=True), LineFilm(isoviscous=True)),
     (LoadSharingTraction(boundary_slope=200.0), None),
 )
 ALL = (
@@ -141,7 +142,7 @@ def test_shared_load_has_the_friction_of_the_plain_formulas(
         np.testing.assert_allclose(found, exact, rtol=3e-7)
 
 
-@pytest.mark.parametrize(("traction", "film"), SHARED[:5])
+@pytest.mark.parametrize(("traction", "film"), SHARED[:6])
 def test_every_film_traction_takes_part_in_the_cases_compared(
     traction: LoadSharingTraction, film: LineFilm
 ) -> None:

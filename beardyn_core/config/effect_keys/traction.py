@@ -137,6 +137,9 @@ class LoadSharingTractionKeys(FileModel):
     limiting_shear: Annotated[Positive, Field(le=0.2)] = Field(
         LoadSharingTraction.limiting_shear, description="of bair_winer, over the mean contact pressure"
     )
+    inlet_shear: bool = Field(
+        LoadSharingTraction.inlet_shear, description="shear of the oil around the contact as well"
+    )
 
     def noun(self) -> LoadSharingTraction:
         """The load-sharing traction, SI."""
@@ -147,6 +150,7 @@ class LoadSharingTractionKeys(FileModel):
             largest_slide=self.largest_slide,
             eyring_stress=self.eyring_stress_MPa * MEGA,
             limiting_shear=self.limiting_shear,
+            inlet_shear=self.inlet_shear,
         )
 
 

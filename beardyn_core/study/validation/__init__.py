@@ -1,1 +1,0 @@
-"""Studies whose data the validation page shows; each returns plain arrays."""
