@@ -15,7 +15,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow bench validation lint format clean
+.PHONY: help demo test slow bench costs validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -32,6 +32,9 @@ slow: $(VENV)/.ready-test ## set up, then the long tests as well
 
 bench: $(VENV)/.ready ## set up, then the real-time factor of every shipped scene
 	@$(BIN)/python benchmarks/real_time_factor.py $(ARGS)
+
+costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (compiles 30 sets the first time)
+	@$(BIN)/python benchmarks/effect_costs.py $(ARGS)
 
 validation: $(VENV)/.ready-test ## set up, then run every anchor and write docs/validation.md
 	@$(BIN)/python docs/write_validation.py $(ARGS)

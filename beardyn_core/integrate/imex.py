@@ -6,6 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.bodies import (
+    collect_energy,
     collect_reactions,
     drift_bodies,
     kick_cone,
@@ -29,12 +30,8 @@ from beardyn_core.model.layout import (
     CUP_BODY,
     ELASTIC,
     ENERGY_ELASTIC,
-    ENERGY_EXTERNAL,
     ENERGY_KINETIC,
-    ENERGY_LOST,
-    ENERGY_NUMERICAL,
     LINEAR,
-    LOSSES,
     MASK,
     MOMENTUM,
     PENETRATION,
@@ -42,9 +39,6 @@ from beardyn_core.model.layout import (
     SIGNAL_FORCE,
     SIGNAL_TORQUE,
     VELOCITY,
-    WORK_GRAVITY,
-    WORK_LOST,
-    WORK_NUMERICAL,
 )
 
 
@@ -185,10 +179,7 @@ def advance(
         move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage)
         stored += kick_flex(flex, sums, energy, p.step, p.effects.ring_flexibility)
-        energy[ENERGY_EXTERNAL] += sum_lanes(sums, WORK_GRAVITY)
-        for source in range(LOSSES):
-            energy[ENERGY_LOST + source] += sum_lanes(sums, WORK_LOST + source)
-        energy[ENERGY_NUMERICAL] += sum_lanes(sums, WORK_NUMERICAL)
+        collect_energy(sums, energy, p.effects, p.effects.audit)
         if step == 0:
             for i in range(ENERGY_ELASTIC):
                 audit[i] = 0.5 * (audit[i] + energy[i])

@@ -18,7 +18,15 @@ from beardyn_core.model.layout import (
     ELASTIC,
     ENERGY_EXTERNAL,
     ENERGY_LOST,
+    ENERGY_NUMERICAL,
     LINEAR,
+    LOSS_DAMPING,
+    LOSS_DRAG,
+    LOSS_POCKET,
+    LOSS_RIB,
+    LOSS_ROLLING,
+    LOSS_SLIDING,
+    LOSS_SMALL_RIB,
     LOSS_SUSPENSION,
     POSITION,
     RATE,
@@ -30,6 +38,9 @@ from beardyn_core.model.layout import (
     RING_VELOCITY,
     TILT,
     TURN,
+    WORK_GRAVITY,
+    WORK_LOST,
+    WORK_NUMERICAL,
 )
 
 X, Y, Z = 0, 1, 2
@@ -275,6 +286,32 @@ def elastic_energy(sums: Any) -> Any:
         for lane in range(sums.shape[3]):
             total += sums[group, 0, ELASTIC, lane]
     return total
+
+
+@inline
+def collect_energy(sums: Any, energy: Any, effects: Any, audit: Any) -> None:
+    """Add to the audit what the rollers lost in this step and what weight gave them.
+
+    Sources of effects that are absent are not summed: 16 lanes one after the other take time.
+    """
+    if audit is None:
+        return
+    energy[ENERGY_EXTERNAL] += sum_lanes(sums, WORK_GRAVITY)
+    energy[ENERGY_NUMERICAL] += sum_lanes(sums, WORK_NUMERICAL)
+    _collect_loss(sums, energy, LOSS_SLIDING, audit)
+    _collect_loss(sums, energy, LOSS_DAMPING, audit)
+    _collect_loss(sums, energy, LOSS_ROLLING, effects.rolling)
+    _collect_loss(sums, energy, LOSS_RIB, effects.rib)
+    _collect_loss(sums, energy, LOSS_SMALL_RIB, effects.small_rib)
+    _collect_loss(sums, energy, LOSS_POCKET, effects.cage)
+    _collect_loss(sums, energy, LOSS_DRAG, effects.drag)
+
+
+@inline
+def _collect_loss(sums: Any, energy: Any, source: Any, effect: Any) -> None:
+    if effect is None:
+        return
+    energy[ENERGY_LOST + source] += sum_lanes(sums, WORK_LOST + source)
 
 
 @inline

@@ -12,6 +12,7 @@ from beardyn_core.kernels.rib_friction import (
     rib_friction,
     rib_log2_film,
     spin_reach,
+    with_spin,
 )
 from beardyn_core.kernels.rib_gap import rib_gap
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, subtract
@@ -87,7 +88,7 @@ def rib_contact(
         centre, arm, normal, velocity, omega, ring_axis, ring_velocity, ring_omega, orbit_rate, rib.film
     )
     log2_film = rib_log2_film(load, entrainment, rib.film)
-    sliding = dot(tangential, tangential) + reach * spin * spin
+    sliding = with_spin(dot(tangential, tangential), reach, spin, rib.drilling)
     friction = rib_friction(load, root, sliding, log2_film, rib, rib.film)
     film = rib_film_output(load, log2_film, rib.film)
     return normal, arm, load, tangent, friction, elastic, energy, slip, reach * friction, spin, film

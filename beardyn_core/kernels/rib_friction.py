@@ -113,3 +113,11 @@ def spin_reach(touching: Any, drilling: Any) -> Any:
     if drilling is None:
         return 0.0 * touching
     return drilling.reach * touching
+
+
+@inline
+def with_spin(sliding: Any, reach: Any, spin: Any, drilling: Any) -> Any:
+    """Square of the slip speed with that of the spin, [m^2/s^2]."""
+    if drilling is None:
+        return sliding
+    return sliding + reach * spin * spin

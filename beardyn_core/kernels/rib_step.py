@@ -46,12 +46,29 @@ def _resist_spin(matrix: Any, normal: Any, weight: Any, drilling: Any) -> Any:
 
 
 @inline
-def rib_wrench(contact: Any) -> Any:
+def rib_wrench(contact: Any, drilling: Any) -> Any:
     """Force and moment of the rib from the velocities at the beginning of the step."""
-    normal, arm, load, _tangent, friction, _elastic, _energy, slip, drilling, spin, _film = contact[1]
+    normal, arm, load, _tangent, friction, _elastic, _energy, slip, resistance, spin, _film = contact[1]
     tangential = add_scaled(slip, -dot(slip, normal), normal)
     force = add_scaled(scale(-load, normal), -friction, tangential)
-    return force, add_scaled(cross(arm, force), -drilling * spin, normal)
+    return force, _drilled(cross(arm, force), resistance, spin, normal, drilling)
+
+
+@inline
+def _drilled(moment: Any, resistance: Any, spin: Any, normal: Any, drilling: Any) -> Any:
+    """Moment with that of the friction against the spin about the normal."""
+    if drilling is None:
+        return moment
+    return add_scaled(moment, -resistance * spin, normal)
+
+
+@inline
+def _drilling_loss(resistance: Any, spin: Any, d_spin: Any, drilling: Any) -> Any:
+    """Power of the friction against the spin, and of its implicit step, [W]."""
+    if drilling is None:
+        return 0.0, 0.0
+    middle = spin + 0.5 * d_spin
+    return resistance * middle * middle, 0.5 * resistance * d_spin * middle
 
 
 @inline
@@ -59,7 +76,7 @@ def add_rib(force: Any, moment: Any, contact: Any, rib: Any) -> Any:
     """Add the rib's wrench to a sum."""
     if rib is None:
         return force, moment
-    rib_force, rib_moment = rib_wrench(contact)
+    rib_force, rib_moment = rib_wrench(contact, rib.drilling)
     return add(force, rib_force), add(moment, rib_moment)
 
 
@@ -74,6 +91,7 @@ def settle_point(
     sine: Any,
     source: Any,
     time_constant: Any,
+    drilling: Any,
     p: Any,
 ) -> Any:
     """Settle a point contact with the cone after the solve: reaction and audit.
@@ -87,6 +105,8 @@ def settle_point(
         Which loss the friction counts as.
     time_constant : float
         Damping over stiffness, [s].
+    drilling : RibDrillingParams or None
+        Whether the contact resists the spin about its normal.
 
     Returns
     -------
@@ -94,7 +114,7 @@ def settle_point(
         On the roller at the end of the step.
     """
     centre = contact[0]
-    normal, arm, _load, tangent, friction, elastic, energy, slip, drilling, spin, _film = contact[1]
+    normal, arm, _load, tangent, friction, elastic, energy, slip, resistance, spin, _film = contact[1]
     d_spin = dot(change[1], normal)
     d_slip = add(change[0], cross(change[1], arm))
     d_rate = dot(d_slip, normal)
@@ -106,13 +126,13 @@ def settle_point(
     middle = add_scaled(before, 0.5, d_sliding)
     middle_rate = rate + 0.5 * d_rate
     force = add_scaled(scale(-load, normal), -friction, sliding_after)
-    moment = add_scaled(cross(arm, force), -drilling * (spin + d_spin), normal)
+    moment = _drilled(cross(arm, force), resistance, spin + d_spin, normal, drilling)
     react(lanes, sums, CONE, mask, centre, force, moment, cosine, sine)
     damping = time_constant * tangent
-    middle_spin = spin + 0.5 * d_spin
+    drilled, extra = _drilling_loss(resistance, spin, d_spin, drilling)
     numerical = 0.5 * (friction * dot(d_sliding, middle) + damping * d_rate * middle_rate)
-    numerical = numerical + 0.5 * drilling * d_spin * middle_spin
-    lost = friction * dot(middle, middle) + drilling * middle_spin * middle_spin
+    numerical = numerical + extra
+    lost = friction * dot(middle, middle) + drilled
     audit = p.effects.audit
     account_loss(lanes, sums, mask, source, p.step * lost, audit)
     account_loss(lanes, sums, mask, LOSS_DAMPING, p.step * damping * middle_rate * middle_rate, audit)
@@ -141,7 +161,7 @@ def finish_rib(
         return force, moment
     time_constant = implicit_time(p.step, p.effects.damping) - 0.25 * p.step
     rib_force, rib_moment = settle_point(
-        lanes, sums, contact, change, mask, cosine, sine, LOSS_RIB, time_constant, p
+        lanes, sums, contact, change, mask, cosine, sine, LOSS_RIB, time_constant, rib.drilling, p
     )
     normal, arm, slip, film = contact[1][0], contact[1][1], contact[1][7], contact[1][10]
     sliding = add_scaled(slip, -dot(slip, normal), normal)

@@ -113,6 +113,6 @@ def finish_small_rib(
     if rib is None:
         return force, moment
     push, turn = settle_point(
-        lanes, sums, contact, change, mask, cosine, sine, LOSS_SMALL_RIB, rib.damping.time_constant, p
+        lanes, sums, contact, change, mask, cosine, sine, LOSS_SMALL_RIB, rib.damping.time_constant, None, p
     )
     return add(force, push), add(moment, turn)

@@ -123,10 +123,15 @@ def test_spalled_scene_in_si() -> None:
     assert (spall.width, spall.depth, spall.length) == pytest.approx((6e-3, 0.1e-3, 25e-3))
 
 
-def test_standard_preset_is_the_effect_set_with_everything_on() -> None:
+def test_standard_preset_is_the_usual_effect_set() -> None:
     standard = load_effects("standard")
     assert standard.names() == EffectSet().names()
     assert asdict(standard) == approximately(EffectSet())
+
+
+def test_full_preset_has_every_effect_but_the_slow_one() -> None:
+    members = {field.name for field in fields(EffectSet)}
+    assert set(load_effects("full").names()) == members - {"thermal"}
 
 
 def test_dry_preset_has_no_film_and_coulomb_friction() -> None:

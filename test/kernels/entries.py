@@ -129,7 +129,7 @@ def ribs(lanes: Any, states: Any, out: Any, rib: Any, damping: Any) -> None:
             rib,
             damping,
         )
-        force, moment = rib_wrench((contact[0], contact))
+        force, moment = rib_wrench((contact[0], contact), rib.drilling)
         store_vector(lanes, out, case, 0, force)
         store_vector(lanes, out, case, 3, moment)
         lanes.store(out, case, 6, contact[6])

@@ -1,0 +1,163 @@
+"""Cost of every effect: time per step of sets that differ from `standard` or `full` by one of them.
+
+All sets take turns, block by block, so that a machine that slows down slows all of them; the ratios are
+medians over the turns. Each set is compiled the first time (half a minute each). Run it on an idle machine:
+``python benchmarks/effect_costs.py [--turns N] [--only NAME ...] [--json FILE]``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import platform
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from beardyn_core.config import load_effects, load_scene
+from beardyn_core.effects import (
+    CoulombTraction,
+    Drag,
+    EffectSet,
+    KinematicCage,
+    LaminaCoupling,
+    LandGuidance,
+    LineFilm,
+    LoadSharingTraction,
+    PocketFilm,
+    Rib,
+    RibMixedFilm,
+    RibShearedFilm,
+    RingFlexibility,
+    RollingResistance,
+    RotatingCage,
+    Seal,
+    ShearedFilmTraction,
+    SmallRib,
+    Thermal,
+)
+from beardyn_core.rail.build import load_history
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+
+SETTLING_TURNS = 3
+STANDARD, FULL = load_effects("standard"), load_effects("full")
+
+
+def _sets() -> dict[str, tuple[EffectSet, str]]:
+    """Effects of each set, and the set it is compared with."""
+    found: dict[str, tuple[EffectSet, str]] = {"standard": (STANDARD, "standard")}
+
+    def more(name: str, **members: Any) -> None:
+        found[f"+ {name}"] = (replace(STANDARD, **members), "standard")
+
+    for name in STANDARD.names():
+        found[f"- {name}"] = (replace(STANDARD, **{name: None}), "standard")
+    cage, film, rib = STANDARD.cage, STANDARD.film, STANDARD.rib
+    assert cage is not None
+    assert isinstance(film, LineFilm)
+    assert isinstance(rib, Rib)
+    more("lamina_coupling", lamina_coupling=LaminaCoupling())
+    more("traction coulomb, no film", traction=CoulombTraction(), film=None)
+    more("traction sheared_film", traction=ShearedFilmTraction())
+    more("traction load_sharing", traction=LoadSharingTraction())
+    more("film thermal, isoviscous", film=replace(film, thermal="murch_wilson", isoviscous=True))
+    more("rolling_resistance", rolling_resistance=RollingResistance())
+    more("drag", drag=Drag())
+    more("rib lubrication mixed", rib=replace(rib, lubrication=RibMixedFilm()))
+    more("rib lubrication sheared_film", rib=replace(rib, lubrication=RibShearedFilm()))
+    more("rib roller_end, drilling", rib=replace(rib, roller_end=True, drilling=True))
+    more("small_rib", small_rib=SmallRib())
+    more("cage rotating", cage=RotatingCage())
+    more("cage kinematic", cage=KinematicCage())
+    more("cage lubrication", cage=replace(cage, lubrication=PocketFilm()))  # type: ignore[type-var]
+    more("cage guidance", cage=replace(cage, guidance=LandGuidance()))  # type: ignore[type-var]
+    more("seal", seal=Seal())
+    more("ring_flexibility", ring_flexibility=RingFlexibility())
+    more("thermal", thermal=Thermal())
+    found["full"] = (FULL, "standard")
+    return found
+
+
+def _with_faults(scene: Scene) -> Scene:
+    return replace(scene, defects=load_scene("cup_spall").defects)
+
+
+def _wavy(scene: Scene) -> Scene:
+    return replace(scene, waviness=load_scene("waviness").waviness)
+
+
+FAULTS: dict[str, Callable[[Scene], Scene]] = {"+ faults": _with_faults, "+ waviness": _wavy}
+
+
+def _ready(scene: Scene, turns: int) -> Twin:
+    twin = Twin(scene)
+    twin.warm()
+    duration = (turns + SETTLING_TURNS) * twin.block_ns * 1e-9
+    twin.start(load_history(scene.operation, scene.mounting, duration, scene.seed))
+    return twin
+
+
+def _microseconds(twin: Twin) -> float:
+    """Wall time of a step in the next block, all channels included."""
+    began = time.perf_counter()
+    twin.advance()
+    steps = 512 * twin.scene.numerics.steps_per_sample
+    return 1e6 * (time.perf_counter() - began) / steps
+
+
+def measure(scene_name: str, turns: int, only: list[str]) -> list[dict[str, float | str]]:
+    """Time per step of every set, and its ratio to the set it is compared with."""
+    base = load_scene(scene_name)
+    scenes = {name: replace(base, effects=effects) for name, (effects, _) in _sets().items()}
+    scenes |= {name: change(replace(base, effects=STANDARD)) for name, change in FAULTS.items()}
+    compared = {name: other for name, (_, other) in _sets().items()}
+    chosen = [name for name in scenes if not only or name == "standard" or any(o in name for o in only)]
+    twins = {name: _ready(scenes[name], turns) for name in chosen}
+    times: dict[str, list[float]] = {name: [] for name in chosen}
+    for turn in range(turns + SETTLING_TURNS):
+        for name in chosen if turn % 2 else reversed(chosen):
+            times[name].append(_microseconds(twins[name]))
+    rows: list[dict[str, float | str]] = []
+    for name in chosen:
+        other = compared.get(name, "standard")
+        found, reference = times[name][SETTLING_TURNS:], times[other][SETTLING_TURNS:]
+        ratio = statistics.median(a / b for a, b in zip(found, reference, strict=True))
+        rows.append(
+            {
+                "set": name,
+                "us_per_step": statistics.median(found),
+                "least_us_per_step": min(found),
+                "ratio": ratio,
+                "least_ratio": min(found) / min(reference),
+            }
+        )
+    return rows
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scene", default="static_80kN")
+    parser.add_argument("--turns", type=int, default=30)
+    parser.add_argument("--only", nargs="*", default=[], help="words in the names of the sets to measure")
+    parser.add_argument("--json")
+    arguments = parser.parse_args()
+    rows = measure(arguments.scene, arguments.turns, arguments.only)
+    print(f"{platform.processor() or platform.machine()}, one core, {arguments.scene}")
+    print("time per step: median and least; ratio to standard: median over turns, and of the least")
+    print(f"{'set':32}{'us/step':>9}{'least':>9}{'ratio':>9}{'least':>9}")
+    for row in rows:
+        print(
+            f"{row['set']:32}{row['us_per_step']:>9.2f}{row['least_us_per_step']:>9.2f}"
+            f"{row['ratio']:>9.3f}{row['least_ratio']:>9.3f}"
+        )
+    if arguments.json:
+        with open(arguments.json, "w", encoding="utf-8") as file:
+            json.dump(rows, file, indent=1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,137 @@
+"""Effects that are off by default leave no code: the step is no larger than one that never heard of them.
+
+For the comparison all kernels are built anew with the hooks of those effects cut out: functions that hand
+back what they were given. Two kernels, half a minute of compiling each, hence slow.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import re
+from typing import Any
+
+import numba
+import numpy as np
+import pytest
+
+from beardyn_core import kernels
+from beardyn_core.integrate import imex
+from beardyn_core.jit import OPTIONS, inline
+from test.effects.test_absent_effects import instruction_count
+from test.kernels.rig import Rig, scene_with
+
+pytestmark = pytest.mark.slow
+
+ARITHMETIC = re.compile(
+    r"v(add|sub|mul|div|sqrt|max|min|cmp|gather|rndscale|fn?madd|fn?msub)[0-9a-z]*[sp]d\s"
+)
+# What each hook of an effect that is off by default comes to without it: arguments, and what it hands back.
+CUT = {
+    # rolling resistance
+    "rolling_before": ("contact, ring, view, body, rolling", "0.0"),
+    "rolling_matrix": ("matrix, contact, step, rolling", "matrix"),
+    "add_rolling": ("moment, contact, rolling", "moment"),
+    "finish_rolling": (
+        "lanes, sums, ring, contact, change, moment, mask, cosine, sine, rolling, p",
+        "moment",
+    ),
+    # drag
+    "drag_before": ("body, view, drag", "0.0"),
+    "drag_matrix": ("matrix, contact, step, drag", "matrix"),
+    "add_drag": ("force, moment, contact, drag", "(force, moment)"),
+    "finish_drag": (
+        "lanes, sums, contact, change, force, moment, mask, cosine, sine, drag, p",
+        "(force, moment)",
+    ),
+    # small rib
+    "small_rib_before": ("body, view, zero, rib", "0.0"),
+    "small_rib_matrix": ("matrix, contact, ring_axis, step, rib", "matrix"),
+    "add_small_rib": ("force, moment, contact, rib", "(force, moment)"),
+    "finish_small_rib": (
+        "lanes, sums, contact, change, force, moment, mask, cosine, sine, rib, p",
+        "(force, moment)",
+    ),
+    # options of the rib
+    "with_spin": ("sliding, reach, spin, drilling", "sliding"),
+    "_resist_spin": ("matrix, normal, weight, drilling", "matrix"),
+    "_drilled": ("moment, resistance, spin, normal, drilling", "moment"),
+    "_drilling_loss": ("resistance, spin, d_spin, drilling", "(0.0, 0.0)"),
+    "rib_log2_film": ("load, speed, film", "0.0"),
+    # ring flexibility
+    "bent_cup": ("lanes, flex, view, cosine, sine, flexibility", "(view, 0.0)"),
+    "about_rigid_cup": ("contact, shift, flexibility", "contact"),
+    "bend_cup": ("lanes, sums, force, mask, cosine, sine, modes, flexibility", "None"),
+    "drift_flex": ("flex, step, flexibility", "None"),
+    "kick_flex": ("flex, sums, energy, step, flexibility", "0.0"),
+    "flex_energy": ("flex, flexibility", "0.0"),
+    # seals, lands, cages that follow the rings
+    "add_seals": ("bodies, wrenches, energy, step, seal", "None"),
+    "push_lands": ("bodies, wrenches, cage", "0.0"),
+    "settle_lands": ("bodies, pushed, energy, step, cage", "0.0"),
+    "place_cages": ("bodies, cage", "None"),
+    "pass_on": ("bodies, wrenches, energy, step, cage, gravity", "None"),
+    # coupled laminae, faults and waviness
+    "prepare_coupling": ("lanes, page, approach, laminae, damage, coupling", "None"),
+    "find_damage": ("lanes, block, azimuths, count, surfaces, damage", "0"),
+    "spring_table": ("laminae, damage", "laminae"),
+    "spring_count": ("page, laminae, damage, coupling", "laminae.shape[1]"),
+    "spring_damage": ("lanes, page, spring, damage", "(1.0, 0.0)"),
+    "leaning_sums": ("lanes, page, approach, springs, laminae, damage, coupling", "0.0"),
+    "leaning_wrench": (
+        "lanes, place, axis, lean, force, climbs, damage, waves, roller_waves",
+        "0.0",
+    ),
+    "add_leaning": ("force, moment, lean", "(force, moment)"),
+    "wave_gap": ("lanes, block, azimuth, waves", "(0.0, 0.0)"),
+    "wavy_line": ("line, gap", "line"),
+    "pocket_wear": ("lanes, block, pockets", "0.0"),
+    # options of film and traction
+    "log2_thermal_factor": ("log2_rolling, thermal", "0.0"),
+    "thicker_film": ("elastic, load, log2_rolling, lamina, ring, rigid", "elastic"),
+}
+
+
+def cut_out(name: str) -> Any:
+    """The hook of an absent effect as if it had never been written."""
+    arguments, result = CUT[name]
+    space: dict[str, Any] = {}
+    exec(f"def {name}({arguments}):\n    return {result}\n", space)  # the compiler reads the signature
+    return inline(space[name])
+
+
+def step_without_hooks(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """`advance` of kernels that are all built anew, the hooks cut out."""
+    modules = [
+        importlib.import_module(found.name)
+        for found in pkgutil.iter_modules(kernels.__path__, f"{kernels.__name__}.")
+    ]
+    built: dict[int, Any] = {}
+    cut = set()
+    for module in (*modules, imex):
+        for name, value in list(vars(module).items()):
+            if not isinstance(value, numba.core.registry.CPUDispatcher) or value is imex.advance:
+                continue
+            if id(value) not in built:
+                cut |= {name} & set(CUT)
+                built[id(value)] = cut_out(name) if name in CUT else inline(value.py_func)
+            monkeypatch.setattr(module, name, built[id(value)])
+    assert cut == set(CUT)  # no hook was renamed
+    return numba.njit(**OPTIONS)(imex.advance.py_func)
+
+
+def arithmetic_count(dispatcher: Any) -> int:
+    """Floating-point instructions of the compiled entry, moves and addresses left out."""
+    (listing,) = dispatcher.inspect_asm().values()
+    return sum(bool(ARITHMETIC.match(line.strip())) for line in listing.splitlines())
+
+
+def test_standard_step_is_no_larger_than_one_without_the_hooks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not one arithmetic instruction more, the same bits; where registers spill differs by 0.01 % of moves."""
+    whole = numba.njit(**OPTIONS)(imex.advance.py_func)
+    signals = Rig.at_equilibrium(scene_with()).run(64, kernel=whole)[0]
+    bare = step_without_hooks(monkeypatch)
+    np.testing.assert_array_equal(Rig.at_equilibrium(scene_with()).run(64, kernel=bare)[0], signals)
+    assert arithmetic_count(bare) > 3000
+    assert arithmetic_count(whole) <= arithmetic_count(bare)
+    assert instruction_count(whole) < 1.001 * instruction_count(bare)
