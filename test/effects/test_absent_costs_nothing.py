@@ -127,7 +127,7 @@ def arithmetic_count(dispatcher: Any) -> int:
 
 
 def test_standard_step_is_no_larger_than_one_without_the_hooks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not one arithmetic instruction more, the same bits; where registers spill differs by 0.01 % of moves."""
+    """Not one arithmetic instruction more, the same bits; register spills differ by 0.01 % of moves."""
     whole = numba.njit(**OPTIONS)(imex.advance.py_func)
     signals = Rig.at_equilibrium(scene_with()).run(64, kernel=whole)[0]
     bare = step_without_hooks(monkeypatch)
