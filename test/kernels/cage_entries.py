@@ -20,7 +20,7 @@ def rotating_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) 
         )  # fmt: skip
         touches, _bar = rotating_pocket(
             load_vector(lanes, states, case, 0), load_vector(lanes, states, case, 3), motion,
-            lanes.load(states, case, 21), load_vector(lanes, states, case, 6), roller, cage,
+            lanes.load(states, case, 21), load_vector(lanes, states, case, 6), 0.0, roller, cage,
         )  # fmt: skip
         force, moment, energy = pair_sum(touches)
         store_vector(lanes, out, case, 0, force)
