@@ -70,25 +70,6 @@ class RollingContact:
         return self.load / (self.contact_modulus * self.radius**2)
 
 
-def thermal_loading(
-    viscosity: float, temperature_coefficient: float, entrainment_speed: float, conductivity: float
-) -> float:
-    """Thermal loading parameter L = eta beta u^2 / k, [-].
-
-    Parameters
-    ----------
-    viscosity : float
-        [Pa s].
-    temperature_coefficient : float
-        beta = -d(ln eta)/dT, [1/K].
-    entrainment_speed : float
-        [m/s].
-    conductivity : float
-        k of the lubricant, [W/(m K)].
-    """
-    return viscosity * temperature_coefficient * entrainment_speed**2 / conductivity
-
-
 def thermal_reduction(loading: float) -> float:
     """Share of the isothermal rolling couple that heating of the inlet leaves, [-].
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from beardyn_core.bearing.contact_law import rib_contact
+from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
 from beardyn_core.bearing.lubricant import Lubricant
@@ -20,7 +21,6 @@ from beardyn_core.bearing.rolling_resistance import (
     biboulet_houpert_line,
     hertz_half_width,
     hysteresis_line,
-    thermal_loading,
     thermal_reduction,
     zhou_hoeprich_line,
 )

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing import rolling_resistance as laws
+from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet
 from beardyn_core.model.contact_parameters import (
@@ -67,7 +68,7 @@ def rolling_params(scene: Scene) -> RollingParams | None:
     if effect.kind == "biboulet_houpert":
         biboulet_houpert = BibouletHoupertParams(*(_log2(part) for part in _biboulet_houpert_limits(units)))
     if effect.kind != "hysteresis" and effect.thermal:
-        level = laws.thermal_loading(
+        level = thermal_loading(
             viscosity, lubricant.temperature_coefficient, 1.0, lubricant.thermal_conductivity
         )
         thermal = ThermalRollingParams(math.log2(level))

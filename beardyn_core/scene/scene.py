@@ -15,6 +15,9 @@ from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.scene.tier import missing_effects
 from beardyn_core.scene.waviness import Waviness
 
+# options of the rib that only the full tier has
+_FULL_RIB_OPTIONS = ("lubrication", "roller_end", "drilling")
+
 
 @dataclass(frozen=True)
 class Numerics:
@@ -100,5 +103,7 @@ class Scene:
 
     @property
     def missing_effects(self) -> tuple[str, ...]:
-        """Names of the effects that are asked for and that the tier does not represent."""
-        return missing_effects(self.tier, self.effect_names)
+        """Names of the effects and options that are asked for and that the tier does not represent."""
+        rib = self.effects.rib
+        options = () if rib is None else (name for name in _FULL_RIB_OPTIONS if getattr(rib, name))
+        return missing_effects(self.tier, (*self.effect_names, *(f"rib.{name}" for name in options)))

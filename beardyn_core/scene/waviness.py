@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+_SURFACES = ("cup", "cone", "roller")
+
 
 @dataclass(frozen=True)
 class Waviness:
@@ -42,7 +44,7 @@ class Waviness:
 
     def phases(self, roller: int = 0) -> NDArray[np.float64]:
         """Phase of each order; the rollers differ, shape [order], [rad]."""
-        draw = np.random.default_rng([self.seed, self.row, roller])
+        draw = np.random.default_rng([self.seed, _SURFACES.index(self.on), self.row, roller])
         return draw.uniform(0.0, 2.0 * math.pi, len(self.orders))
 
     def gap(self, azimuth: NDArray[np.float64], roller: int = 0) -> NDArray[np.float64]:

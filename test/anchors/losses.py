@@ -6,13 +6,13 @@ import math
 from dataclasses import replace
 from functools import cache, partial
 
+from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.rolling_resistance import (
     RollingContact,
     aihara_point,
     fujiwara_point,
     houpert_point,
-    thermal_loading,
     thermal_reduction,
 )
 from beardyn_core.config import load_bearing, load_lubricant

@@ -23,9 +23,7 @@ from test.kernels.rig import Rig, scene_with
 
 pytestmark = pytest.mark.slow
 
-ARITHMETIC = re.compile(
-    r"v(add|sub|mul|div|sqrt|max|min|cmp|gather|rndscale|fn?madd|fn?msub)[0-9a-z]*[sp]d\s"
-)
+ARITHMETIC = re.compile(r"v(add|sub|mul|div|sqrt|max|min|cmp|gather|fn?madd|fn?msub)[0-9a-z]*[sp]d\s")
 # What each hook of an effect that is off by default comes to without it: arguments, and what it hands back.
 CUT = {
     # rolling resistance
@@ -127,7 +125,7 @@ def arithmetic_count(dispatcher: Any) -> int:
 
 
 def test_standard_step_is_no_larger_than_one_without_the_hooks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not one arithmetic instruction more, the same bits; register spills differ by 0.01 % of moves."""
+    """Not one arithmetic instruction more, the same bits; moves differ with where registers spill: 0.01 %."""
     whole = numba.njit(**OPTIONS)(imex.advance.py_func)
     signals = Rig.at_equilibrium(scene_with()).run(64, kernel=whole)[0]
     bare = step_without_hooks(monkeypatch)

@@ -122,7 +122,7 @@ def zero() -> Float:
 def test_everything_of_no_size_is_nothing() -> None:
     """Forces and moments to 1e-12 of the load, places and velocities to 1e-12 of their size, over 1 ms.
 
-    Without contact damping, with pockets that hit, one last place of a radius becomes 1e-11 of the load.
+    No contact damping, and pockets that hit: one last place of a radius alone becomes 1e-11 of the load.
     """
     found, present = run(zero_scene(), STEPS)
     expected, absent = run(scene_with(ABSENT), STEPS)

@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from beardyn_core.bearing import rolling_resistance as laws
+from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.effects import Drag, EffectSet, RollingResistance
 from beardyn_core.model.lamina_table import equivalent_radius
 from beardyn_core.model.loss_params import (
@@ -61,7 +62,7 @@ def contact(scene: Scene, ring: int, load: float, speed: float) -> laws.RollingC
 def reduction(scene: Scene, speed: float) -> float:
     oil = scene.lubricant
     return laws.thermal_reduction(
-        laws.thermal_loading(
+        thermal_loading(
             oil.dynamic_viscosity(scene.temperature),
             oil.temperature_coefficient,
             speed,
