@@ -28,8 +28,8 @@ effects:
 ```
 
 Faults are not listed: they are present when the scene has them. Costs are shares of the time step,
-measured by `make costs` (good to 5 %): *low* below 3 %, *medium* below 15 %, *high* above. Friction that asks for a
-film and that film are counted together.
+measured by `make costs` (good to 5 %): *low* below 3 %, *medium* below 15 %, *high* above. Friction that asks
+for a film and that film are counted together.
 
 | effect | kind | adds | states | cost | valid for | source |
 |---|---|---|---|---|---|---|

@@ -23,9 +23,7 @@ from test.kernels.rig import Rig, scene_with
 
 pytestmark = pytest.mark.slow
 
-ARITHMETIC = re.compile(
-    r"v(add|sub|mul|div|sqrt|max|min|cmp|gather|fn?madd|fn?msub)[0-9a-z]*[sp]d\s"
-)
+ARITHMETIC = re.compile(r"v(add|sub|mul|div|sqrt|max|min|cmp|gather|fn?madd|fn?msub)[0-9a-z]*[sp]d\s")
 # What each hook of an effect that is off by default comes to without it: arguments, and what it hands back.
 CUT = {
     # rolling resistance
