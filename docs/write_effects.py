@@ -27,8 +27,9 @@ effects:
   cage: false               # absent: compiled away, costs nothing
 ```
 
-Faults are not listed: they are present when the scene has them. Costs are shares of the time step:
-*low* below 3 %, *medium* below 15 %, *high* above.
+Faults are not listed: they are present when the scene has them. Costs are shares of the time step,
+measured by `make costs` (good to 5 %): *low* below 3 %, *medium* below 15 %, *high* above. Friction that asks
+for a film and that film are counted together.
 
 | effect | kind | adds | states | cost | valid for | source |
 |---|---|---|---|---|---|---|

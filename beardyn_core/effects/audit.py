@@ -15,7 +15,7 @@ class Audit:
     about: ClassVar[About] = About(
         adds="Energy balance kept while the model runs.",
         states="none",
-        cost="low",
+        cost="medium",
         validity="Covers the run up to the start of the latest block.",
         source="Definition of the energy residual in the model page",
     )

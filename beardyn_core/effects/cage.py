@@ -26,7 +26,7 @@ class PocketFilm:
     about: ClassVar[About] = About(
         adds="Films between rollers and cage bars: wedge, squeeze and shear, elastic below a thickness.",
         states="none",
-        cost="medium",
+        cost="low",
         validity="Isoviscous, rigid, isothermal; no film at the pocket ends; the squeeze resistance of a "
         "pocket is bounded by what the explicit cage can follow in a step.",
         source="Martin (1916); Reynolds' equation for squeeze and shear of a cylinder near a plane",
@@ -102,7 +102,7 @@ class Cage:
     about: ClassVar[About] = About(
         adds="Cage of each row in six degrees of freedom, touched by every roller in its pocket.",
         states="12 positions and 12 velocities",
-        cost="medium",
+        cost="high",
         validity="Rigid cage; pocket contacts are springs with damping, dry unless lubricated.",
         source="Disc-on-plane contact of both bars and both pocket ends",
     )
@@ -131,7 +131,7 @@ class RotatingCage:
     about: ClassVar[About] = About(
         adds="Cage of each row with its spin as the only freedom, touched by the rollers at the bars.",
         states="2 angles and 2 speeds",
-        cost="low",
+        cost="medium",
         validity="Cage speed and skid; no whirl and no axial motion of the cage.",
         source="Disc-on-plane contact of the nearer bar",
     )
@@ -162,7 +162,7 @@ class KinematicCage:
     about: ClassVar[About] = About(
         adds="Rollers held by weak springs at the pockets of a cage of prescribed speed.",
         states="none",
-        cost="low",
+        cost="medium",
         validity="Loads, kinematics and spectra under load; no skid, no cage dynamics, no pocket forces.",
         source="Epicyclic speed of the cage; Harris and Kotzalas (2006), ch. 10",
     )

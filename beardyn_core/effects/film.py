@@ -31,7 +31,7 @@ class LineFilm:
     about: ClassVar[About] = About(
         adds="Film thickness of the raceway contacts.",
         states="none",
-        cost="medium",
+        cost="high",
         validity="Elastohydrodynamic regime of hard line contacts; light loads with isoviscous.",
         source="Dowson and Higginson (1966); Pan and Hamrock (1989); Dowson and Toyoda (1978); Martin (1916)",
     )

@@ -21,7 +21,7 @@ class Gravity:
     about: ClassVar[About] = About(
         adds="Weight of rollers, cages and axlebox.",
         states="none",
-        cost="none",
+        cost="low",
         validity="Always.",
         source="Standard gravity, CGPM (1901)",
     )

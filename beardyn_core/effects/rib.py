@@ -25,7 +25,7 @@ class RibMixedFilm:
     about: ClassVar[About] = About(
         adds="Film of the rib contact; its friction falls from boundary to film with the film parameter.",
         states="none",
-        cost="medium",
+        cost="low",
         validity="Elastohydrodynamic film, isothermal; entrainment along the ellipse is an extrapolation.",
         source="Hamrock and Dowson (1977); load sharing of Zhao et al. (2026)",
     )
@@ -50,7 +50,7 @@ class RibShearedFilm:
     about: ClassVar[About] = About(
         adds="Film of the rib contact with a friction that follows from its viscosity.",
         states="none",
-        cost="medium",
+        cost="low",
         validity="Elastohydrodynamic film, isothermal, at the mean Hertz pressure.",
         source="Hamrock and Dowson (1977); Bair and Winer (1979) for the limiting shear stress",
     )
@@ -90,7 +90,7 @@ class Rib:
     about: ClassVar[About] = About(
         adds="Sphere-on-cone contact of the large roller end with the cone rib, its edges and its film.",
         states="none",
-        cost="low",
+        cost="medium",
         validity="Elliptic Hertz contact, of the stiffness of the face also on an edge.",
         source="Hertz (1881), fit of Hamrock and Brewe (1983)",
     )

@@ -32,7 +32,7 @@ class RollingResistance:
     about: ClassVar[About] = About(
         adds="Rolling couple of the raceway contacts: hydrodynamic inlet, elastic hysteresis.",
         states="none",
-        cost="medium",
+        cost="low",
         validity="Line contacts with an even load along the roller; the laws differ by a factor of 2.",
         source="Aihara (1987); Zhou and Hoeprich (1991); Biboulet and Houpert (2010); Johnson (1985)",
     )

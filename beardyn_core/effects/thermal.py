@@ -42,7 +42,7 @@ class Thermal:
     about: ClassVar[About] = About(
         adds="Temperatures of the parts; they change the lubricant's viscosity and the end play.",
         states="6 temperatures, advanced once per block",
-        cost="low",
+        cost="medium",
         validity="Needs the audit, which tells what each source loses; one temperature for both rows; the "
         "film has the mean temperature of rollers and raceways.",
         source="Lumped network; axlebox in moving air h = 0.03 (k/D)(uD/nu)^0.57, Harris, Rolling bearing "

@@ -60,7 +60,7 @@ class MixedTraction:
     about: ClassVar[About] = About(
         adds="Raceway friction blended from boundary to full film over the film parameter.",
         states="none",
-        cost="medium",
+        cost="high",
         validity="Film parameters of any size; constant coefficients, no heating of the film.",
         source="Santos (2017), Eq. 8, after Harada and Sakaguchi (2005)",
     )
@@ -93,7 +93,7 @@ class ShearedFilmTraction:
     about: ClassVar[About] = About(
         adds="The blend with a film that shears up to a limiting stress.",
         states="none",
-        cost="medium",
+        cost="high",
         validity="Isothermal film at the mean Hertz pressure; light contacts may skid.",
         source="Bair and Winer (1979) for the limiting shear stress",
     )

@@ -11,7 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 
+from beardyn_core.config import scene_from_text
 from beardyn_core.effects import (
     Audit,
     Cage,
@@ -31,12 +33,13 @@ from beardyn_core.effects import (
     Seal,
     SmallRib,
 )
+from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.layout import ROLLER_STATES
 from beardyn_core.scene.defect import PATCH_KINDS, Defect, Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness
-from test.kernels.rig import Float, Rig, scene_with
+from test.kernels.rig import Float, Rig, scene_with, standard_scene
 
 pytestmark = pytest.mark.slow
 
@@ -183,14 +186,31 @@ def test_growth_to_the_full_size_is_the_full_size() -> None:
     assert replace(ungrown, growth=Growth(1.0, 2.0)).size_at(2.0) == SPALL.size_at(0.0)
 
 
-def test_roughness_given_as_it_is_changes_no_parameter() -> None:
-    scene = scene_with()
-    same = replace(
-        scene,
-        bearing=replace(
-            scene.bearing,
-            raceway_roughness=float(scene.bearing.raceway_roughness),
-            rib_roughness=float(scene.bearing.rib_roughness),
-        ),
-    )
-    assert same == scene
+def numbers(scene: Scene) -> Float:
+    """All numbers of the kernels' effects, one after the other."""
+    found: list[Float] = []
+
+    def collect(value: Any) -> None:
+        if isinstance(value, tuple):
+            for part in value:
+                collect(part)
+        elif value is not None:
+            found.append(np.ravel(np.asarray(value, dtype=float)))
+
+    collect(build_parameters(scene, Arrangement(scene.bearing.roller_count, 8), np.zeros(6)).effects)
+    return np.concatenate(found)
+
+
+def test_roughness_written_as_it_is_changes_nothing() -> None:
+    bearing = standard_scene().bearing
+
+    def rough(factor: float) -> Float:
+        written = yaml.safe_load(standard_scene().source_text)
+        written["roughness"] = {
+            "raceway_um": factor * bearing.raceway_roughness * 1e6,
+            "rib_um": factor * bearing.rib_roughness * 1e6,
+        }
+        return numbers(scene_from_text(yaml.safe_dump(written)))
+
+    np.testing.assert_allclose(rough(1.0), numbers(standard_scene()), rtol=1e-12)
+    assert not np.allclose(rough(2.0), numbers(standard_scene()), rtol=1e-6)
