@@ -93,6 +93,7 @@ def unbalanced(given: Scene, run: tuple[Block, ...], load: float) -> float:
     return float(np.linalg.norm(pushed - force - won / (1e-9 * (last - first))))
 
 
+@pytest.mark.slow
 @EVERY
 @pytest.mark.parametrize("load", [HEAVY, LIGHT])
 def test_combination_runs_and_its_forces_balance(index: int, load: float) -> None:
@@ -115,6 +116,7 @@ def test_combination_runs_and_its_forces_balance(index: int, load: float) -> Non
         assert run[-1].force[:, 2].mean() > 0.5 * load
 
 
+@pytest.mark.slow
 @EVERY
 @pytest.mark.parametrize("load", [HEAVY, LIGHT])
 def test_energy_of_a_combination_balances(index: int, load: float) -> None:
@@ -136,6 +138,7 @@ def test_energy_of_a_combination_balances(index: int, load: float) -> None:
     assert min(last.losses) >= 0.0
 
 
+@pytest.mark.slow
 @EVERY
 def test_what_rollers_win_in_a_combination_the_bodies_lose(index: int) -> None:
     """Momentum and angular momentum of one step, to rounding; all places and velocities are disturbed."""
@@ -161,6 +164,7 @@ def test_what_rollers_win_in_a_combination_the_bodies_lose(index: int) -> None:
     assert np.abs(angular_after - angular_before + p.step * moment).max() < 1e-13 * size
 
 
+@pytest.mark.slow
 @EVERY
 def test_no_force_of_a_combination_makes_energy(index: int) -> None:
     """Source by source and step by step, from a disturbed state; explicit forces in the sum of 200 steps.
@@ -183,6 +187,7 @@ def test_no_force_of_a_combination_makes_energy(index: int) -> None:
             assert spent[:, source].min() >= 0.0, name
 
 
+@pytest.mark.slow
 def test_restart_of_a_rich_combination_is_bit_identical() -> None:
     """A spall that grows, heat, a bent cup, films and a cage that follows the rings."""
     index = next(i for i in range(len(ROWS)) if set(scene(i).effect_names) >= RICH)
