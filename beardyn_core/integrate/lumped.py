@@ -2,36 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.kinematic_step import begin_block, begin_step, finish_step
 from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.jit import entry
-from beardyn_core.kernels.bodies import drift_bodies, kick_cone
-from beardyn_core.kernels.box import kick_box
 from beardyn_core.kernels.kinematic_rollers import (
-    collect_rows,
     relative_cone,
-    rib_torque,
-    turn_cages,
-    turned,
 )
 from beardyn_core.kernels.spring_roller import load_rollers
 from beardyn_core.model.layout import (
-    CAGE_BODY,
-    CONE_BODY,
-    CUP_BODY,
-    PENETRATION,
     POCKET_ANGLE,
-    RATE,
-    SIGNAL_ACCELERATION,
-    SIGNAL_FORCE,
-    SIGNAL_TORQUE,
-    TURN,
 )
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
@@ -88,29 +73,14 @@ def advance_lumped(
     """
     steps = signals.shape[0]
     stride = steps // roller_trend.shape[0]
-    base, k = p.base, p.kinematic
-    rollers[:, PENETRATION] = 0.0
-    direction = (math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN]))
+    direction = begin_block(rollers, bodies)
     for step in range(steps):
-        direction = turned(direction, p.step * bodies[CAGE_BODY, RATE])
-        drift_bodies(bodies, p.step)
-        turn, rate = bodies[CAGE_BODY, TURN], bodies[CAGE_BODY, RATE]
-        turns = (turn, bodies[CONE_BODY, TURN], k.spin_ratio * turn)
-        speeds = (bodies[CONE_BODY, RATE], rate)
+        direction, turns, speeds = begin_step(bodies, direction, p)
         shown = (step + 1) % stride == 0
         load_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, shown, p)
-        rib = collect_rows(sums, wrenches, direction, base.cup.cosine, base.cup.sine, k.rolling_weight)
-        for i in range(6):
-            signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
-        kick_box(
-            bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, base.mounting,
-            base.effects.gravity, base.mounting.coupling,
-        )  # fmt: skip
-        for i in range(6):
-            signals[step, SIGNAL_ACCELERATION + i] = box[i]
-        signals[step, SIGNAL_TORQUE] = rib_torque(rib, speeds[0], k, base.effects.rib)
-        kick_cone(bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, base.mounting)
-        turn_cages(bodies, k)
+        finish_step(
+            bodies, sums, wrenches, box, loads[step], loads[step + 1], signals[step], energy, direction, p
+        )
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers
             body_trend[(step + 1) // stride - 1] = bodies

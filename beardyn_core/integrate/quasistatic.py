@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
+from beardyn_core.integrate.kinematic_step import begin_block, begin_step, finish_step
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
-from beardyn_core.kernels.bodies import drift_bodies, kick_cone
-from beardyn_core.kernels.box import kick_box
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -16,31 +14,19 @@ from beardyn_core.kernels.kinematic_rollers import (
     MOMENT_COSINE,
     MOMENT_SINE,
     RIB_SUM,
-    collect_rows,
     relative_cone,
-    rib_torque,
     show_contacts,
     show_roller,
-    turn_cages,
-    turned,
 )
 from beardyn_core.kernels.lane_math import at_least
 from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
-    CAGE_BODY,
-    CONE_BODY,
-    CUP_BODY,
     MASK,
     OVERSIZE,
     PENETRATION,
     POCKET_ANGLE,
     RADIUS,
-    RATE,
-    SIGNAL_ACCELERATION,
-    SIGNAL_FORCE,
-    SIGNAL_TORQUE,
-    TURN,
 )
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
@@ -180,29 +166,14 @@ def advance_quasistatic(
     """
     steps = signals.shape[0]
     stride = steps // roller_trend.shape[0]
-    base, k = p.base, p.kinematic
-    rollers[:, PENETRATION] = 0.0
-    direction = (math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN]))
+    direction = begin_block(rollers, bodies)
     for step in range(steps):
-        direction = turned(direction, p.step * bodies[CAGE_BODY, RATE])
-        drift_bodies(bodies, p.step)
-        turn, rate = bodies[CAGE_BODY, TURN], bodies[CAGE_BODY, RATE]
-        turns = (turn, bodies[CONE_BODY, TURN], k.spin_ratio * turn)
-        speeds = (bodies[CONE_BODY, RATE], rate)
+        direction, turns, speeds = begin_step(bodies, direction, p)
         shown = (step + 1) % stride == 0
         balance_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, shown, p)
-        rib = collect_rows(sums, wrenches, direction, base.cup.cosine, base.cup.sine, k.rolling_weight)
-        for i in range(6):
-            signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
-        kick_box(
-            bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, base.mounting,
-            base.effects.gravity, base.mounting.coupling,
-        )  # fmt: skip
-        for i in range(6):
-            signals[step, SIGNAL_ACCELERATION + i] = box[i]
-        signals[step, SIGNAL_TORQUE] = rib_torque(rib, speeds[0], k, base.effects.rib)
-        kick_cone(bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, base.mounting)
-        turn_cages(bodies, k)
+        finish_step(
+            bodies, sums, wrenches, box, loads[step], loads[step + 1], signals[step], energy, direction, p
+        )
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers
             body_trend[(step + 1) // stride - 1] = bodies

@@ -10,13 +10,13 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import find_damage, spring_count, spring_damage, spring_table
+from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
 from beardyn_core.kernels.exchange import implicit_time
-from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, ninth_root, sqrt, where_greater
-from beardyn_core.kernels.raceway import generator_line
+from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt
+from beardyn_core.kernels.raceway import contact_spring, generator_line
 from beardyn_core.kernels.vectors import add, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import wave_gap, wavy_line
-from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
+from beardyn_core.model.contact_parameters import LAMINA_PLACE
 
 _SMALLEST_APPROACH = 1e-15
 # A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
@@ -73,26 +73,32 @@ def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae
     ----------
     Palmgren's line contact; see `kernels.raceway.lamina_sums`.
     """
+    surface, roller_surface, damage = patches
+    near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
+    return _near_or_far(lanes, near, approach, laminae, damage)
+
+
+@inline
+def _near_or_far(lanes: Any, near: Any, approach: Any, laminae: Any, damage: Any) -> Any:
+    if damage is None:
+        return _spring_moments(lanes, approach, laminae, None)
+    if near:
+        return _spring_moments(lanes, approach, laminae, damage)
+    return _spring_moments(lanes, approach, laminae, None)
+
+
+@inline
+def _spring_moments(lanes: Any, approach: Any, laminae: Any, damage: Any) -> Any:
     zero = lanes.constant(0.0)
     force_0, force_1 = zero, zero
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
-    surface, roller_surface, damage = patches
-    page = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
-    springs = spring_count(page, laminae, damage, None)
+    springs = spring_count(laminae, damage, None)
     laminae = spring_table(laminae, damage)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        share, gap = spring_damage(lanes, page, k, damage)
-        depth = (
-            approach[0]
-            + x * (approach[1] + x * (approach[2] + x * approach[3]))
-            - laminae[LAMINA_DROP, k]
-            - gap
-        )
-        touching = at_least(depth, _SMALLEST_APPROACH)
-        tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
-        tangent = share * where_greater(depth, 0.0, tangent, zero)
-        force = 0.9 * tangent * touching
+        share, depth, tangent, _energy = contact_spring(lanes, approach, k, laminae, damage, None)
+        tangent = share * tangent
+        force = 0.9 * tangent * at_least(depth, 0.0)
         force_0 = force_0 + force
         force_1 = force_1 + force * x
         stiffness_0 = stiffness_0 + tangent

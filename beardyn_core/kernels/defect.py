@@ -27,7 +27,7 @@ from beardyn_core.model.fault_parameters import (
 )
 
 _LAST = PATCH_POINTS - 2.0
-_FAR, _NEAR = 0, 1
+_SPRINGS = 0  # the work space has one page
 
 
 @inline
@@ -57,7 +57,7 @@ def any_near(lanes: Any, block: Any, azimuth: Any, surface: Any) -> Any:
 
 @inline
 def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any, damage: Any) -> Any:
-    """Which springs a contact has: 0 far from every patch, 1 near one, with their gaps worked out.
+    """Whether a contact is near a patch; then the gaps of its springs are worked out.
 
     Parameters
     ----------
@@ -77,29 +77,29 @@ def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any
     (by gap) and the mean gap of the lamina kept.
     """
     if damage is None:
-        return _FAR
+        return False
     if not (
         any_near(lanes, block, azimuths[0], surfaces[0]) or any_near(lanes, block, azimuths[1], surfaces[1])
     ):
-        return _FAR
+        return False
     springs = damage.springs
     zero = lanes.constant(0.0)
     for field in range(SPRING_FIELDS * 2 * count):
-        lanes.store(springs, _NEAR, field, zero)
+        lanes.store(springs, _SPRINGS, field, zero)
     add_patches(lanes, block, azimuths[0], count, SPRING_RING_SLOPE, surfaces[0], springs)
     add_patches(lanes, block, azimuths[1], count, SPRING_ROLLER_SLOPE, surfaces[1], springs)
     for k in range(count):
         sound, damaged = SPRING_FIELDS * k, SPRING_FIELDS * (count + k)
-        first = lanes.load(springs, _NEAR, damaged + SPRING_SHARE)
-        second = lanes.load(springs, _NEAR, sound + SPRING_SHARE)
+        first = lanes.load(springs, _SPRINGS, damaged + SPRING_SHARE)
+        second = lanes.load(springs, _SPRINGS, sound + SPRING_SHARE)
         share = first / at_least(second, 1e-30)
         weight = 1.0 / at_least(share, 1e-12)
-        lanes.store(springs, _NEAR, sound + SPRING_SHARE, 1.0 - share)
-        lanes.store(springs, _NEAR, damaged + SPRING_SHARE, share)
+        lanes.store(springs, _SPRINGS, sound + SPRING_SHARE, 1.0 - share)
+        lanes.store(springs, _SPRINGS, damaged + SPRING_SHARE, share)
         for field in (SPRING_GAP, SPRING_RING_SLOPE, SPRING_ROLLER_SLOPE):
-            mean = weight * lanes.load(springs, _NEAR, damaged + field)
-            lanes.store(springs, _NEAR, damaged + field, mean)
-    return _NEAR
+            mean = weight * lanes.load(springs, _SPRINGS, damaged + field)
+            lanes.store(springs, _SPRINGS, damaged + field, mean)
+    return True
 
 
 @inline
@@ -138,7 +138,7 @@ def add_patches(
 
 @inline
 def _increase(lanes: Any, springs: Any, field: Any, value: Any) -> None:
-    lanes.store(springs, _NEAR, field, lanes.load(springs, _NEAR, field) + value)
+    lanes.store(springs, _SPRINGS, field, lanes.load(springs, _SPRINGS, field) + value)
 
 
 @inline
@@ -150,56 +150,59 @@ def spring_table(laminae: Any, damage: Any) -> Any:
 
 
 @inline
-def spring_count(page: Any, laminae: Any, damage: Any, coupling: Any) -> Any:
-    """Springs of a contact; coupled laminae are not divided."""
+def spring_count(laminae: Any, damage: Any, coupling: Any) -> Any:
+    """Springs of a contact, two of each lamina near a patch; coupled laminae are not divided."""
     if damage is None:
         return laminae.shape[1]
     if coupling is None:
-        return laminae.shape[1] * (1 + page)
+        return 2 * laminae.shape[1]
     return laminae.shape[1]
 
 
 @inline
-def spring_damage(lanes: Any, page: Any, spring: Any, damage: Any) -> Any:
+def spring_damage(lanes: Any, spring: Any, damage: Any) -> Any:
     """Share of its lamina [-] and gap [m] of a spring."""
     if damage is None:
         return 1.0, 0.0
     field = SPRING_FIELDS * spring
     return (
-        lanes.load(damage.springs, page, field + SPRING_SHARE),
-        lanes.load(damage.springs, page, field + SPRING_GAP),
+        lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE),
+        lanes.load(damage.springs, _SPRINGS, field + SPRING_GAP),
     )
 
 
 @inline
-def mean_gap(lanes: Any, page: Any, lamina: Any, count: Any, damage: Any) -> Any:
+def mean_gap(lanes: Any, lamina: Any, count: Any, damage: Any) -> Any:
     """Mean gap along one lamina, [m]."""
     if damage is None:
         return 0.0
     field = SPRING_FIELDS * (count + lamina)
-    share = lanes.load(damage.springs, page, field + SPRING_SHARE)
-    return share * lanes.load(damage.springs, page, field + SPRING_GAP)
+    share = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE)
+    return share * lanes.load(damage.springs, _SPRINGS, field + SPRING_GAP)
 
 
 @inline
-def gap_moments(lanes: Any, page: Any, lamina: Any, count: Any, damage: Any) -> Any:
+def gap_moments(lanes: Any, near: Any, lamina: Any, count: Any, damage: Any) -> Any:
     """Mean gap [m] and mean squared gap [m^2] along one lamina."""
+    zero = lanes.constant(0.0)
     if damage is None:
-        return 0.0, 0.0
-    field = SPRING_FIELDS * (count + lamina)
-    gap = lanes.load(damage.springs, page, field + SPRING_GAP)
-    mean = lanes.load(damage.springs, page, field + SPRING_SHARE) * gap
-    return mean, mean * gap
+        return zero, zero
+    if near:
+        field = SPRING_FIELDS * (count + lamina)
+        gap = lanes.load(damage.springs, _SPRINGS, field + SPRING_GAP)
+        mean = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE) * gap
+        return mean, mean * gap
+    return zero, zero
 
 
 @inline
 def mean_slopes(lanes: Any, lamina: Any, count: Any, damage: Any) -> Any:
     """Mean slope of the gap along one lamina over the ring's and the roller's azimuth, [m/rad]."""
     field = SPRING_FIELDS * (count + lamina)
-    share = lanes.load(damage.springs, _NEAR, field + SPRING_SHARE)
+    share = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE)
     return (
-        share * lanes.load(damage.springs, _NEAR, field + SPRING_RING_SLOPE),
-        share * lanes.load(damage.springs, _NEAR, field + SPRING_ROLLER_SLOPE),
+        share * lanes.load(damage.springs, _SPRINGS, field + SPRING_RING_SLOPE),
+        share * lanes.load(damage.springs, _SPRINGS, field + SPRING_ROLLER_SLOPE),
     )
 
 
@@ -208,8 +211,8 @@ def spring_slopes(lanes: Any, spring: Any, damage: Any) -> Any:
     """Slope of the gap of a spring near a patch over the ring's and the roller's azimuth, [m/rad]."""
     field = SPRING_FIELDS * spring
     return (
-        lanes.load(damage.springs, _NEAR, field + SPRING_RING_SLOPE),
-        lanes.load(damage.springs, _NEAR, field + SPRING_ROLLER_SLOPE),
+        lanes.load(damage.springs, _SPRINGS, field + SPRING_RING_SLOPE),
+        lanes.load(damage.springs, _SPRINGS, field + SPRING_ROLLER_SLOPE),
     )
 
 

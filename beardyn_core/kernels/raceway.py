@@ -151,23 +151,21 @@ def geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
 
 
 @inline
-def prepare_coupling(lanes: Any, page: Any, approach: Any, laminae: Any, damage: Any, coupling: Any) -> None:
+def prepare_coupling(lanes: Any, approach: Any, laminae: Any, damage: Any, coupling: Any) -> None:
     """Springs of all laminae at once, when they are coupled; a damaged lamina takes its mean gap."""
     if coupling is None:
         return
     for k in range(laminae.shape[1]):
-        gap = mean_gap(lanes, page, k, laminae.shape[1], damage)
+        gap = mean_gap(lanes, k, laminae.shape[1], damage)
         lanes.store(coupling.work, DEPTH, k, geometric_depth(approach, gap, k, laminae))
     couple_laminae(lanes, laminae, coupling)
 
 
 @inline
-def contact_spring(
-    lanes: Any, page: Any, approach: Any, k: Any, laminae: Any, damage: Any, coupling: Any
-) -> Any:
+def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any, coupling: Any) -> Any:
     """Share of its lamina [-], penetration [m], tangent stiffness [N/m] and energy [J] of one spring."""
     if coupling is None:
-        share, gap = spring_damage(lanes, page, k, damage)
+        share, gap = spring_damage(lanes, k, damage)
         depth = geometric_depth(approach, gap, k, laminae)
         touching = at_least(depth, _SMALLEST_APPROACH)
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
@@ -202,6 +200,36 @@ def lamina_sums(
     ----------
     Palmgren's line contact, Q = 0.356 E' L^(8/9) delta^(10/9) for one contact, shared evenly by laminae.
     """
+    surface, roller_surface, damage = patches
+    near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
+    return _sums_near_or_far(lanes, near, line, slip, log2_speed, ring, laminae, damage, effects)
+
+
+@inline
+def _sums_near_or_far(
+    lanes: Any,
+    near: Any,
+    line: Any,
+    slip: Any,
+    log2_speed: Any,
+    ring: Any,
+    laminae: Any,
+    damage: Any,
+    effects: Any,
+) -> Any:
+    """Far from every patch a damaged contact is a sound one and costs no more."""
+    if damage is None:
+        return spring_sums(lanes, line, slip, log2_speed, ring, laminae, None, effects)
+    if near:
+        return spring_sums(lanes, line, slip, log2_speed, ring, laminae, damage, effects)
+    return spring_sums(lanes, line, slip, log2_speed, ring, laminae, None, effects)
+
+
+@inline
+def spring_sums(
+    lanes: Any, line: Any, slip: Any, log2_speed: Any, ring: Any, laminae: Any, damage: Any, effects: Any
+) -> Any:
+    """Sums of `lamina_sums` over the springs of one contact; `damage` is ``None`` far from every patch."""
     approach = line[5]
     rate, slip_around, slip_along = slip
     zero = lanes.constant(0.0)
@@ -209,19 +237,18 @@ def lamina_sums(
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
     friction_0, friction_1, friction_2 = zero, zero, zero
     energy = zero
-    surface, roller_surface, damage = patches
-    page = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
-    prepare_coupling(lanes, page, approach, laminae, damage, effects.coupling)
-    springs = spring_count(page, laminae, damage, effects.coupling)
+    lean = (zero, zero)
+    count = laminae.shape[1]
+    prepare_coupling(lanes, approach, laminae, damage, effects.coupling)
+    springs = spring_count(laminae, damage, effects.coupling)
     laminae = spring_table(laminae, damage)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        share, depth, tangent, stored = contact_spring(
-            lanes, page, approach, k, laminae, damage, effects.coupling
-        )
+        share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)
         touching = at_least(depth, _SMALLEST_APPROACH)
         energy = energy + share * stored
         push = spring_push(touching, rate[0] + x * rate[1], effects.damping)
+        lean = add_lean(lanes, lean, share * (0.9 * tangent * touching), k, count, damage, effects.coupling)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
         elastic = 0.9 * tangent * touching
         load = tangent * push
@@ -246,28 +273,17 @@ def lamina_sums(
         (stiffness_0, stiffness_1, stiffness_2),
         (friction_0, friction_1, friction_2),
         energy,
-        leaning_sums(lanes, page, approach, springs, laminae, damage, effects.coupling),
+        lean,
     )
 
 
 @inline
-def leaning_sums(
-    lanes: Any, page: Any, approach: Any, springs: Any, laminae: Any, damage: Any, coupling: Any
-) -> Any:
-    """Elastic force times slope of the gap over the azimuth in ring and roller, laminae summed, [N m]."""
-    ring_lean, roller_lean = lanes.constant(0.0), lanes.constant(0.0)
+def add_lean(lanes: Any, lean: Any, elastic: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
+    """Add elastic force times slope of a spring's gap over the azimuth in ring and roller, [N m]."""
     if damage is None:
-        return ring_lean, roller_lean
-    if page > 0:
-        for k in range(springs):
-            share, depth, tangent, _stored = contact_spring(
-                lanes, page, approach, k, laminae, damage, coupling
-            )
-            elastic = share * (0.9 * tangent * at_least(depth, _SMALLEST_APPROACH))
-            ring_slope, roller_slope = slope_of(lanes, k, laminae.shape[1] // 2, damage, coupling)
-            ring_lean = ring_lean + elastic * ring_slope
-            roller_lean = roller_lean + elastic * roller_slope
-    return ring_lean, roller_lean
+        return lean
+    ring_slope, roller_slope = slope_of(lanes, k, count, damage, coupling)
+    return lean[0] + elastic * ring_slope, lean[1] + elastic * roller_slope
 
 
 @inline

@@ -94,8 +94,8 @@ def faulted_load(
     azimuth, spin = angle + turns[0], turns[2]
     on_cup = (azimuth, lanes.constant(-spin))
     on_cone = (azimuth - turns[1], lanes.constant(_PI - spin))
-    cup_page = find_damage(lanes, block, on_cup, count, (faults.cup, faults.roller), faults.cup_damage)
-    cone_page = find_damage(lanes, block, on_cone, count, (faults.cone, faults.roller), faults.cone_damage)
+    cup_near = find_damage(lanes, block, on_cup, count, (faults.cup, faults.roller), faults.cup_damage)
+    cone_near = find_damage(lanes, block, on_cone, count, (faults.cone, faults.roller), faults.cone_damage)
     cup_wave = wave_gap(lanes, block, on_cup[0], faults.cup_waves)[0]
     cup_wave = cup_wave + wave_gap(lanes, block, on_cup[1], faults.roller_waves)[0]
     cone_wave = wave_gap(lanes, block, on_cone[0], faults.cone_waves)[0]
@@ -103,8 +103,8 @@ def faulted_load(
     approach = approach - (cup_wave + p.spring.cone_share * cone_wave)
     mean, square = lanes.constant(0.0), lanes.constant(0.0)
     for k in range(count):
-        cup_mean, cup_square = gap_moments(lanes, cup_page, k, count, faults.cup_damage)
-        cone_mean, cone_square = gap_moments(lanes, cone_page, k, count, faults.cone_damage)
+        cup_mean, cup_square = gap_moments(lanes, cup_near, k, count, faults.cup_damage)
+        cone_mean, cone_square = gap_moments(lanes, cone_near, k, count, faults.cone_damage)
         cone_mean = p.spring.cone_share * cone_mean
         cone_square = p.spring.cone_share * p.spring.cone_share * cone_square
         mean = mean + (cup_mean + cone_mean)

@@ -33,7 +33,7 @@ class DamageParams(NamedTuple):
     """Springs of a contact near a patch: sound parts of all laminae, then their damaged parts."""
 
     laminae: Any  # the lamina table twice over [row of the table, 2 x lamina]
-    springs: Any  # [far or near, spring x SPRING_FIELDS, lane]; far is constant, near is work space
+    springs: Any  # work space [1, spring x SPRING_FIELDS, lane]
 
 
 class WaveParams(NamedTuple):

@@ -19,7 +19,6 @@ from beardyn_core.model.fault_parameters import (
     PLACE_REPEATS,
     PLACE_SCALE,
     SPRING_FIELDS,
-    SPRING_SHARE,
     DamageParams,
     FaultParams,
     SurfaceParams,
@@ -121,8 +120,7 @@ def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
 
 def damage_params(laminae: Float, width: int) -> DamageParams:
     """Lamina table twice over (sound and damaged springs) and work space for the springs."""
-    springs = np.zeros((2, SPRING_FIELDS * 2 * laminae.shape[1], width))
-    springs[0, SPRING_SHARE::SPRING_FIELDS] = 1.0
+    springs = np.zeros((1, SPRING_FIELDS * 2 * laminae.shape[1], width))
     return DamageParams(np.ascontiguousarray(np.hstack([laminae, laminae])), springs)
 
 

@@ -68,12 +68,12 @@ CUT = {
     "place_cages": ("bodies, cage", "None"),
     "pass_on": ("bodies, wrenches, energy, step, cage, gravity", "None"),
     # coupled laminae, faults and waviness
-    "prepare_coupling": ("lanes, page, approach, laminae, damage, coupling", "None"),
-    "find_damage": ("lanes, block, azimuths, count, surfaces, damage", "0"),
+    "prepare_coupling": ("lanes, approach, laminae, damage, coupling", "None"),
+    "find_damage": ("lanes, block, azimuths, count, surfaces, damage", "False"),
     "spring_table": ("laminae, damage", "laminae"),
-    "spring_count": ("page, laminae, damage, coupling", "laminae.shape[1]"),
-    "spring_damage": ("lanes, page, spring, damage", "(1.0, 0.0)"),
-    "leaning_sums": ("lanes, page, approach, springs, laminae, damage, coupling", "0.0"),
+    "spring_count": ("laminae, damage, coupling", "laminae.shape[1]"),
+    "spring_damage": ("lanes, spring, damage", "(1.0, 0.0)"),
+    "add_lean": ("lanes, lean, elastic, k, count, damage, coupling", "lean"),
     "leaning_wrench": (
         "lanes, place, axis, lean, force, climbs, damage, waves, roller_waves",
         "0.0",

@@ -18,18 +18,18 @@ def patch_springs(
 ) -> None:
     """Damaged springs of a contact at azimuths in ring and roller, all cases seen by one block.
 
-    Outputs by lamina: share, gap, slope over the ring's and over the roller's azimuth; of the far page zeros.
+    Outputs by lamina: share, gap, slope over the ring's and over the roller's azimuth; zeros elsewhere.
     """
     for case in range(azimuths.shape[0]):
         both = (lanes.load(azimuths, case, 0), lanes.load(azimuths, case, 1))
-        page = find_damage(lanes, block, both, count, surfaces, damage)
+        near = 1.0 if find_damage(lanes, block, both, count, surfaces, damage) else 0.0
         for k in range(count):
-            share, gap = spring_damage(lanes, page, count * page + k, damage)
-            ring_slope, roller_slope = spring_slopes(lanes, count * page + k, damage)
-            lanes.store(out, case, 4 * k, share * page)
-            lanes.store(out, case, 4 * k + 1, gap)
-            lanes.store(out, case, 4 * k + 2, ring_slope * page)
-            lanes.store(out, case, 4 * k + 3, roller_slope * page)
+            share, gap = spring_damage(lanes, count + k, damage)
+            ring_slope, roller_slope = spring_slopes(lanes, count + k, damage)
+            lanes.store(out, case, 4 * k, share * near)
+            lanes.store(out, case, 4 * k + 1, gap * near)
+            lanes.store(out, case, 4 * k + 2, ring_slope * near)
+            lanes.store(out, case, 4 * k + 3, roller_slope * near)
 
 
 @entry

@@ -169,7 +169,8 @@ def test_friction_rate_is_finite_dissipates_and_keeps_to_the_dry_limit(
     rate = results(parameters(traction, film), LANES8, 4, 1, load, slip, speed)[1]
     assert np.isfinite(rate).all()
     assert np.all(rate >= 0.0)
-    assert np.all(rate * slip <= 0.1 * load * (1.0 + 1e-9))
+    # subnormal loads, below 1e-307 N, have no digits left to compare
+    assert np.all(rate * slip <= 0.1 * load * (1.0 + 1e-9) + 1e-300)
 
 
 @pytest.mark.parametrize(("traction", "film"), ALL)
