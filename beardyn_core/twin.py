@@ -238,9 +238,7 @@ class Twin:
     def _loads(self, start_ns: int, end_ns: int, steps: int) -> Float:
         """Load at the step boundaries about the bearing centre, shape [steps + 1, 10]."""
         loads = self.load.at_steps(start_ns, end_ns, steps)
-        offset = self.scene.mounting.load_offset
-        if any(offset):
-            loads[:, 3:6] += np.cross(offset, loads[:, :3])
+        loads[:, :6] = self.scene.mounting.about_bearing_centre(loads[:, :6])
         return loads
 
     @property

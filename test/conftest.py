@@ -5,8 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """The fast suite draws the same examples every time; the long battery looks for new ones."""
+    settings.register_profile("repeatable", derandomize=True)
+    if config.getoption("markexpr") == "not slow":
+        settings.load_profile("repeatable")
 
 
 @pytest.fixture(autouse=True)

@@ -163,7 +163,7 @@ class RollerErrorKeys(FileModel):
 
 
 class WornPocketKeys(FileModel):
-    """A cage pocket with more room than the others; without a cage it does nothing."""
+    """A cage pocket with more room than the others."""
 
     kind: Literal["worn_pocket"]
     row: Row = Field(description="0 inboard, 1 outboard")

@@ -211,6 +211,7 @@ class _Reading:
     def _check_contradictions(self) -> None:
         """What is well written and cannot be; parts with other mistakes are left out."""
         self._check_tier()
+        self._check_pockets()
         bearing_keys = _valid(BearingKeys, self.data.get("bearing"))
         if bearing_keys is None:
             return
@@ -236,6 +237,17 @@ class _Reading:
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.noun().rib is not None
             self._complain(("tier",), contradictions(tier, has_rib, numerics.laminae))
+
+    def _check_pockets(self) -> None:
+        effects, entries = _valid(EffectsKeys, self.data.get("effects")), self.data.get("defects")
+        if effects is None or effects.noun().cage is not None or not isinstance(entries, list):
+            return
+        for index, given in enumerate(entries):
+            if isinstance(given, dict) and given.get("kind") == "worn_pocket":
+                self._complain(
+                    ("defects", index),
+                    ["a worn pocket needs the cage, which effects leave out: set effects.cage to true"],
+                )
 
 
 def _valid(keys: type[Keys], data: Any) -> Keys | None:

@@ -55,7 +55,7 @@ SENTENCES = {
     Status.NOT_FINITE: "a number became NaN or infinite: use a smaller time step "
     "(numerics.steps_per_sample) or check the load",
     Status.PENETRATION: f"a roller is pressed more than {LARGEST_PENETRATION * 1e6:.0f} um into a raceway, "
-    "where the contact law does not hold: lower the load",
+    "where the contact law does not hold: lower the load, or make the defects smaller",
     Status.CHATTER: "a friction force flips from step to step, so torque and slip are not converged: raise "
     "numerics.steps_per_sample",
     Status.OFF_RIB: "a roller presses on its rib beyond the edge of its large end: lower the axial load "

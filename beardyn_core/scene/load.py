@@ -35,6 +35,10 @@ class LoadHistory:
     def __len__(self) -> int:
         return len(self.time_ns)
 
+    def until(self, time_ns: int) -> LoadHistory:
+        """Samples up to a time, and the first one after it."""
+        return self.part(0, int(np.searchsorted(self.time_ns, time_ns)) + 1)
+
     def part(self, first: int, last: int) -> LoadHistory:
         """Samples ``first`` (included) to ``last`` (excluded)."""
         return LoadHistory(

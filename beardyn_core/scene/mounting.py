@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 @dataclass(frozen=True)
 class Mounting:
@@ -49,3 +52,20 @@ class Mounting:
     box_centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
     suspension_centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
     load_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def about_bearing_centre(self, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Loads where they act on the journal, reduced to the bearing centre.
+
+        Parameters
+        ----------
+        wrench : float64 array, shape [..., 6]
+            Force and moment, [N, N m].
+
+        Returns
+        -------
+        float64 array, shape [..., 6]
+        """
+        if not any(self.load_offset):
+            return wrench
+        force, moment = wrench[..., :3], wrench[..., 3:]
+        return np.concatenate([force, moment + np.cross(self.load_offset, force)], axis=-1)

@@ -162,7 +162,7 @@ def run(
         raise
     if failures := _close(opened, closing):
         raise InputError(failures)
-    return replace(trend.summary(scene, wall_time, status), life=_life(scene, load))
+    return replace(trend.summary(scene, wall_time, status), life=_life(scene, load.until(trend.end_ns)))
 
 
 def _life(scene: Scene, load: LoadHistory) -> RatingLife | None:
@@ -213,7 +213,7 @@ class _Trend:
 
     def __init__(self) -> None:
         self._blocks: list[tuple[Float, Float, Float, Float, Float]] = []
-        self._end_ns = 0
+        self.end_ns = 0
         self._start_ns: int | None = None
         self._residual: float | None = None
         self._lost: list[tuple[float, ...]] = []  # block start [s], energy lost by source [J]
@@ -224,7 +224,7 @@ class _Trend:
         """Keep the trend of a block."""
         if self._start_ns is None:
             self._start_ns = block.start_ns
-        self._end_ns = block.end_ns
+        self.end_ns = block.end_ns
         self.warnings |= block.status
         self._temperature = block.temperature
         self._residual = None if block.audit is None else block.audit.residual
@@ -242,7 +242,7 @@ class _Trend:
 
     def summary(self, scene: Scene, wall_time: float, status: str) -> RunSummary:
         """Means over the last whole cage revolutions after the settling time."""
-        duration = round((self._end_ns - (self._start_ns or 0)) * 1e-9, 9)
+        duration = round((self.end_ns - (self._start_ns or 0)) * 1e-9, 9)
         force, torque, shaft = (math.nan, math.nan, math.nan), math.nan, math.nan
         cage: tuple[float, ...] = (math.nan, math.nan)
         averaged, revolutions = (0.0, 0.0), 0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,10 +84,11 @@ def scene_life(
     scene: Scene, load: LoadHistory, contamination: float = USUAL_CONTAMINATION
 ) -> RatingLife | None:
     """Life under the load history of a scene; ``None`` when the shaft never turns."""
-    free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
+    mounting = scene.mounting
+    free = mounting.journal_tilt == "free" or mounting.cup == "suspended"
     return rating_life(
         scene.bearing,
-        load_classes(load),
+        load_classes(replace(load, wrench=mounting.about_bearing_centre(load.wrench))),
         scene.lubricant,
         scene.temperature,
         end_play=scene.end_play,

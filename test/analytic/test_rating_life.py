@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -144,6 +145,29 @@ def test_constant_scene_is_one_class_and_standstill_has_no_life():
     assert found.equivalent_load == pytest.approx(80e3)
     still = LoadHistory(load.time_ns, load.wrench, 0.0 * load.shaft_speed, load.bogie)
     assert scene_life(scene, still) is None
+
+
+def test_load_beside_the_centre_lives_as_its_moment_does():
+    """25 mm beside the centre, 80 kN: the moment 2 kN m by hand, and a shorter life than centred."""
+    scene = load_scene("static_80kN")
+    load = load_history(scene.operation, scene.mounting, 0.1, scene.seed)
+    beside = replace(
+        scene, mounting=replace(scene.mounting, journal_tilt="free", load_offset=(0.0, 0.025, 0.0))
+    )
+    free = replace(scene, mounting=replace(scene.mounting, journal_tilt="free"))
+    turned = replace(load, wrench=load.wrench + np.array([0.0, 0.0, 0.0, 0.025 * 80e3, 0.0, 0.0]))
+    off_centre, centred = scene_life(beside, load), scene_life(free, load)
+    assert off_centre == scene_life(free, turned)
+    assert off_centre is not None
+    assert centred is not None
+    assert off_centre.reference_basic < 0.9 * centred.reference_basic
+
+
+def test_life_counts_only_the_load_that_was_run():
+    load = LoadHistory(np.array([0, 10, 20, 30]), np.zeros((4, 6)), np.ones(4), np.zeros((4, 3)))
+    assert load.until(15).time_ns.tolist() == [0, 10, 20]
+    assert load.until(20).time_ns.tolist() == [0, 10, 20]
+    assert load.until(40).time_ns.tolist() == [0, 10, 20, 30]
 
 
 @given(seed=st.integers(0, 1000))

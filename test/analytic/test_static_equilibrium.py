@@ -151,7 +151,8 @@ def test_mirror_image_of_the_load_swaps_the_rows(load, end_play, moment):
     )
     size = first.cup_load.max()
     np.testing.assert_allclose(image.cup_load, first.cup_load[::-1], atol=1e-6 * size)
-    np.testing.assert_allclose(image.roller_tilt, first.roller_tilt[::-1], atol=1e-9)
+    loaded = image.cup_load > 1e-6 * size  # nothing turns a roller that nothing presses
+    np.testing.assert_allclose(image.roller_tilt[loaded], first.roller_tilt[::-1][loaded], atol=1e-10)
     np.testing.assert_allclose(image.displacement, first.displacement * [1, -1, 1], atol=1e-10)
 
 

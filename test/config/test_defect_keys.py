@@ -115,6 +115,13 @@ WAVE = {"on": "cup", "row": 0}
             {"defects": [{"kind": "worn_pocket", "row": 0, "pocket": 40, "clearance_mm": 1}]},
             ["defects[0].pocket is 40", "0 to 16"],
         ),
+        (
+            {
+                "defects": [{"kind": "worn_pocket", "row": 0, "pocket": 4, "clearance_mm": 1}],
+                "effects": {"preset": "standard", "cage": False},
+            },
+            ["defects[0]", "needs the cage", "effects.cage"],
+        ),
         ({"waviness": [WAVE]}, ["waviness[0]", "`orders` with `amplitude_um`, or `band`"]),
         ({"waviness": [{**WAVE, "orders": [2]}]}, ["waviness[0]", "`orders` with `amplitude_um`"]),
         (
