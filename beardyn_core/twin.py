@@ -284,9 +284,7 @@ class Twin:
         if (after.film_temperature, after.end_play) != (before.film_temperature, before.end_play):
             old = self._parameters
             new = build_parameters(scene_at(scene, after), self._arrangement, old.mounting.preload)
-            self._parameters = new._replace(
-                rollers=old.rollers, effects=new.effects._replace(faults=old.effects.faults)
-            )
+            self._parameters = new._replace(rollers=old.rollers)
             self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._warmth = after
         return after.temperature

@@ -17,11 +17,13 @@ from beardyn_core.errors import InputError
 from beardyn_core.model.heat import BOX_NODE, NODES, heat_shares, moving_air, thermal_network
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.block import Block
+from beardyn_core.rail.build import load_history
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import decode
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
+from test.analytic.test_symmetries_of_effects import scene_of
 from test.kernels.rig import LOAD_80_KN, Float, constant_load, scene_with, standard_scene, started
 from test.stability.test_determinism import assert_same
 
@@ -266,3 +268,15 @@ def test_summary_of_a_run_prints_the_temperatures() -> None:
     plain = desk_run.run(replace(warming_scene(None), duration=0.02))
     assert "temperatures" not in simulate.text(plain, None)
     assert "temperatures_C" not in simulate.json_object(plain, None)
+
+
+def test_damaged_springs_warm_with_the_sound_ones() -> None:
+    """The film thins and the end play closes under a patch as beside it."""
+    scene = scene_of("everything", "full")
+    twin = started(scene, load_history(scene.operation, scene.mounting, 0.1, scene.seed))
+    before = twin._parameters.laminae.copy()
+    twin.advance()
+    p = twin._parameters
+    assert not np.array_equal(p.laminae, before)
+    for damage in (p.effects.faults.cup_damage, p.effects.faults.cone_damage):
+        np.testing.assert_array_equal(damage.laminae, np.hstack([p.laminae, p.laminae]))
