@@ -139,7 +139,7 @@ def mirrored(scene: Scene, mirror: Float) -> Scene:
 
 
 def run(scene: Scene) -> tuple[Block, ...]:
-    """Three blocks of a warming bearing; two of a dry one, where rounding grows in the impacts of the cage."""
+    """Three blocks of a warming bearing; two of a dry one, where the cage's impacts magnify rounding."""
     twin = Twin(scene)
     blocks = 2 if scene.effects is DRY else 3
     twin.start(load_history(scene.operation, scene.mounting, 0.1, scene.seed))

@@ -279,4 +279,5 @@ def test_damaged_springs_warm_with_the_sound_ones() -> None:
     p = twin._parameters
     assert not np.array_equal(p.laminae, before)
     for damage in (p.effects.faults.cup_damage, p.effects.faults.cone_damage):
+        assert damage is not None
         np.testing.assert_array_equal(damage.laminae, np.hstack([p.laminae, p.laminae]))
