@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.signal import firwin, kaiserord, upfirdn
 
 from beardyn_core.errors import InputError
+from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import rail_profile
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
@@ -123,6 +124,9 @@ def _ride(operation: QuarterVehicleOperation, mounting: Mounting, steps: int, se
     position = distance_at(operation.speed_profile, time)
     profile = rail_profile(operation.irregularity, float(position[-1]), seed)
     height = profile.height_at(position)
+    if operation.wheel_defects or operation.rail_defects:
+        height = height + wheel_height(operation.wheel_defects, 0.5 * operation.wheel_diameter, position)
+        height += rail_height(operation.rail_defects, position)
     height = (height - height[0]) * _rise(time, FADE_IN)
     return ride(quarter_vehicle(operation, mounting), height, 1.0 / rate)
 
