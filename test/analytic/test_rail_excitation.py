@@ -159,17 +159,16 @@ def test_a_flat_strikes_once_a_revolution(speed_kmh):
 
 
 def test_the_delivered_load_has_its_lines_at_multiples_of_the_revolution():
-    history = load_history(with_flat(120.0), Mounting(), 4.5, seed=1)
-    revolutions = 40
-    samples = 2000 * revolutions * CIRCUMFERENCE / (120 / 3.6)
-    force = np.interp(
-        1000 + np.arange(8192) * samples / 8192, np.arange(len(history)), history.wrench[:, 2]
-    )
-    lines = np.abs(np.fft.rfft(force - force.mean())) / len(force)
-    on_line = np.zeros(len(lines), dtype=bool)
-    on_line[::revolutions] = True
-    strongest = lines[on_line][1:40].max()
-    assert lines[~on_line][5 : 30 * revolutions].max() < 0.02 * strongest
+    revolutions, period = 32, 0.09  # a revolution is 180 samples
+    history = load_history(with_flat(3.6 * CIRCUMFERENCE / period), Mounting(), 6.0, seed=1)
+    force = history.wrench[-180 * revolutions :, 2]
+    lines = np.abs(np.fft.rfft((force - force.mean()) * np.hanning(len(force))))
+    order = np.arange(len(lines)) / revolutions
+    near = np.abs(order - np.round(order)) < 2.5 / revolutions
+    # half the samples of a revolution hold 90 orders; the body's own slow motion is below the first
+    assert lines[~near & (order > 0.5)].max() < 0.01 * lines[near].max()
+    strong = order[lines > 0.1 * lines.max()]
+    assert len(np.unique(np.round(strong))) > 20
 
 
 def test_braking_stretches_the_time_between_strikes_and_not_the_way():
@@ -194,18 +193,17 @@ def test_at_a_walk_the_wheel_keeps_contact_and_at_speed_it_flies_and_lands():
     takeoffs = np.flatnonzero(np.diff(flying.astype(int)) == 1)
     revolutions = (3.0 - SETTLED) * 80 / 3.6 / CIRCUMFERENCE
     assert len(takeoffs) >= int(revolutions)
-    # the longest time in the air is a free fall of about the depth of the flat: the static force
-    # accelerates the wheel downwards, the rail springs up to meet it
-    fall = np.sqrt(2 * 0.035**2 / (8 * RADIUS) * fast_mass() / static_force)
-    longest = max(np.diff(np.flatnonzero(np.diff(flying.astype(int)) != 0))[::2]) * step
-    assert 0.2 * fall < longest < 2.0 * fall
+    # in the air the static force pulls the wheel down; it lands before the flat has passed
+    landed = np.flatnonzero(np.diff(flying.astype(int)) == -1)
+    landed = landed[landed > takeoffs[0]]
+    flights = landed - takeoffs[: len(landed)]
+    assert flights.max() * step < 0.035 / (80 / 3.6)
+    longest = takeoffs[: len(landed)][np.argmax(flights)]
+    way = fast.wheel[settled][longest + 1 : longest + flights.max() + 1]
+    mass = quarter_vehicle(SMOOTH, Mounting()).mass[WHEEL]
+    assert np.diff(way, 2).mean() / step**2 == pytest.approx(-static_force / mass, rel=0.1)
     # between strikes the force is back at the static one
-    quiet = np.median(force)
-    assert quiet == pytest.approx(static_force, rel=0.05)
-
-
-def fast_mass():
-    return quarter_vehicle(SMOOTH, Mounting()).mass[WHEEL]
+    assert np.median(force) == pytest.approx(static_force, rel=0.05)
 
 
 def test_the_strike_of_a_fresh_flat_is_worst_at_a_middling_speed_and_grows_with_its_length():
@@ -258,13 +256,25 @@ def test_stable_at_every_speed_with_all_excitations_at_once(speed_kmh, shape):
     force = response.contact_force
     assert np.isfinite(force).all()
     assert force.min() >= 0.0
-    early, late = force[len(force) // 4 : len(force) // 2], force[len(force) // 2 :]
-    assert late.std() < 1.5 * early.std() + 1.0
-    assert late.max() < 30 * vehicle.static_force
-    # what comes up is what goes down: the rail carries the weight on average
-    assert late.mean() == pytest.approx(vehicle.static_force, rel=0.03)
-    history = load_history(operation, Mounting(), 1.0, seed=2)
-    assert np.isfinite(history.wrench).all()
+    if speed_kmh < 10.0:
+        assert force.max() < 5.0 * vehicle.static_force
+        return
+    # the rail carries the weight on average, and a quarter of the step gives the same strikes
+    assert force.mean() == pytest.approx(vehicle.static_force, rel=0.03)
+    fine = ride(vehicle, height_of(operation, 80_000, len(force) * 4, seed=2), step / 4).contact_force
+    assert force.std() == pytest.approx(fine.std(), rel=0.02)
+    assert force.max() == pytest.approx(fine.max(), rel=0.05)
+    assert np.isfinite(load_history(operation, Mounting(), 1.0, seed=2).wrench).all()
+
+
+def height_of(operation, rate, count, seed):
+    """Profile under the wheel as the load is made from it, on any grid."""
+    time = np.arange(count) / rate
+    position = distance_at(operation.speed_profile, time)
+    height = rail_profile(operation.irregularity, float(position[-1]), seed).height_at(position)
+    height += wheel_height(operation.wheel_defects, RADIUS, position)
+    height += rail_height(operation.rail_defects, position)
+    return (height - height[0]) * (0.5 - 0.5 * np.cos(np.pi * np.clip(time / 0.2, 0.0, 1.0)))
 
 
 @pytest.mark.parametrize(
