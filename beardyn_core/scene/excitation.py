@@ -74,7 +74,7 @@ class WheelFlat:
         chord = self.length**2 / (8.0 * wheel_radius)
         flat = f"a flat of {1e3 * self.length:g} mm on a wheel of {2e3 * wheel_radius:g} mm"
         if self.shape == "fresh" and abs(self.depth - chord) > _TOLERANCE * chord:
-            return f"{flat} is {1e3 * chord:.3g} mm deep while fresh: leave the depth out, or correct one of them"
+            return f"{flat} is {1e3 * chord:.3g} mm deep while fresh: leave the depth out or correct one"
         if self.depth > (1.0 + _TOLERANCE) * chord:
             return (
                 f"{flat} can be at most {1e3 * chord:.3g} mm deep, its depth while fresh (usual once "

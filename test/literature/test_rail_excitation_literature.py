@@ -84,18 +84,3 @@ def test_a_polygon_excites_at_its_order_times_the_revolution(order, speed_kmh, f
     force = response.contact_force[-40_000:]
     spectrum = np.abs(np.fft.rfft((force - force.mean()) * np.hanning(len(force))))
     assert np.argmax(spectrum) / (len(force) * step) == pytest.approx(frequency, rel=2e-3)
-
-
-def test_strikes_of_flats_are_as_hard_as_field_figures_have_them():
-    """Flats of 30 to 60 mm at 50 to 120 km/h: some 3 to 8 times the static force.
-
-    Magnitudes in Newton, Clark (1979), J. Mech. Eng. Sci. 21, and in the out-of-roundness survey of
-    Nielsen, Johansson (2000), Proc. IMechE F 214: peaks of a few hundred kilonewtons.
-    """
-    for length, low, high in ((0.03, 200e3, 400e3), (0.04, 300e3, 500e3), (0.06, 400e3, 700e3)):
-        for speed_kmh in (50.0, 80.0, 120.0):
-            operation = dataclasses.replace(
-                SMOOTH, speed_profile=((0.0, speed_kmh / 3.6),), wheel_defects=(WheelFlat(length),)
-            )
-            response, step = ride_of(operation, Mounting(), 1.5, seed=1)
-            assert low < response.contact_force[round(0.3 / step) :].max() < high
