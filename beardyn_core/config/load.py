@@ -13,9 +13,11 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
 from beardyn_core.config.effects_file import EffectsKeys, overlay
+from beardyn_core.config.excitation_file import WheelDefectKeys
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.lubricant_file import LubricantKeys
+from beardyn_core.config.operation_file import USUAL_WHEEL_DIAMETER_MM, WheelDiameter
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
 from beardyn_core.config.scene_file import NumericsKeys, SceneKeys
 from beardyn_core.config.units import stem_of
@@ -212,6 +214,7 @@ class _Reading:
         """What is well written and cannot be; parts with other mistakes are left out."""
         self._check_tier()
         self._check_pockets()
+        self._check_wheel()
         bearing_keys = _valid(BearingKeys, self.data.get("bearing"))
         if bearing_keys is None:
             return
@@ -229,6 +232,20 @@ class _Reading:
                 fault = _valid(keys, given)
                 for problem in fault.contradictions(bearing) if fault else []:
                     self.problems.append(f"{self.origins[0].label}: {key_path((key, index))}.{problem}")
+
+    def _check_wheel(self) -> None:
+        operation = self.data.get("operation")
+        if not isinstance(operation, dict):
+            return
+        diameter: Any = WheelDiameter
+        diameter_mm = _valid(diameter, operation.get("wheel_diameter_mm", USUAL_WHEEL_DIAMETER_MM))
+        entries = operation.get("wheel_defects")
+        keys: Any = WheelDefectKeys
+        for index, given in enumerate(entries if isinstance(entries, list) and diameter_mm else []):
+            defect = _valid(keys, given)
+            for problem in defect.contradictions(diameter_mm) if defect else []:
+                place = key_path(("operation", "wheel_defects", index))
+                self.problems.append(f"{self.origins[0].label}: {place}.{problem}")
 
     def _check_tier(self) -> None:
         tier = self.data.get("tier", "full")

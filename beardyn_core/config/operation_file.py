@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 from typing_extensions import Self
 
+from beardyn_core.config.excitation_file import RailDefectKeys, WheelDefectKeys
 from beardyn_core.config.file_model import (
     FileModel,
     NonNegative,
@@ -35,6 +36,8 @@ from beardyn_core.scene.operation import (
 Triple = tuple[float, float, float]
 RotationalSpeed = Annotated[Number, Field(ge=-6000.0, le=6000.0)]
 VehicleSpeed = Annotated[NonNegative, Field(le=400.0)]
+WheelDiameter = Annotated[Positive, Field(ge=300.0, le=1500.0)]
+USUAL_WHEEL_DIAMETER_MM = 920.0
 
 
 def scaled(vector: Triple, factor: float) -> Triple:
@@ -168,9 +171,13 @@ class QuarterVehicleKeys(FileModel):
     speed_profile: Annotated[tuple[SpeedPointKeys, ...], Field(min_length=1)] = Field(
         description="linear in between, held before and after"
     )
-    wheel_diameter_mm: Annotated[Positive, Field(ge=300.0, le=1500.0)] = 920.0
+    wheel_diameter_mm: WheelDiameter = USUAL_WHEEL_DIAMETER_MM
     lateral_force_kN: Annotated[Number, Field(ge=-100.0, le=100.0)] = 0.0
     track: TrackKeys = TrackKeys()
+    wheel_defects: tuple[WheelDefectKeys, ...] = Field((), description="flats and polygons of the wheel")
+    rail_defects: tuple[RailDefectKeys, ...] = Field(
+        (), description="dipped joints and corrugation, besides the irregularity"
+    )
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
@@ -187,6 +194,8 @@ class QuarterVehicleKeys(FileModel):
             wheel_diameter=self.wheel_diameter_mm / MM,
             lateral_force=self.lateral_force_kN * KN,
             track=self.track.noun(),
+            wheel_defects=tuple(defect.noun() for defect in self.wheel_defects),
+            rail_defects=tuple(defect.noun() for defect in self.rail_defects),
         )
 
 

@@ -6,6 +6,7 @@ import math
 
 # Small units are divided by, so that a decimal number stays the nearest one to its decimal SI value.
 MM = 1e3
+MRAD = 1e3
 UM = 1e6
 US = 1e6
 MM2_PER_S = 1e6
@@ -43,6 +44,7 @@ _WORDS = {
     "kg_m2": "kilogram square metres",
     "kN_m": "kilonewton metres",
     "N_m": "newton metres",
+    "mrad": "milliradians",
     "kmh": "kilometres per hour",
     "rpm": "revolutions per minute",
     "deg": "degrees",

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.signal import firwin, kaiserord, upfirdn
 
 from beardyn_core.errors import InputError
+from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import rail_profile
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
@@ -24,13 +25,16 @@ from beardyn_core.scene.speed import distance_at, speed_at
 Float = NDArray[np.float64]
 
 SAMPLE_NS = 500_000
-SAMPLE_RATE = 2000.0
-RIDE_FACTOR = 10
+# a strike of the wheel lasts about half a millisecond
+STRIKE_SAMPLE_NS = 100_000
+RIDE_RATE = 20_000.0
 FADE_IN = 0.2
 
 
 def load_history(operation: Operation, mounting: Mounting, duration: float, seed: int) -> LoadHistory:
-    """Load on the journal and shaft speed at 2 kHz, from time 0 to the first sample at or after the end.
+    """Load on the journal and shaft speed, from time 0 to the first sample at or after the end.
+
+    At 2 kHz; at 10 kHz when the wheel or the rail has defects.
 
     Parameters
     ----------
@@ -53,20 +57,32 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
     """
     if not 0.0 < duration < 86_400.0:
         raise InputError(f"duration is {duration:g} s; allowed is more than 0 and less than 86 400 s")
-    count = int(np.ceil(round(duration * SAMPLE_RATE, 6))) + 1
+    sample_ns = _sample_ns(operation)
+    rate = 1e9 / sample_ns
+    count = int(np.ceil(round(duration * rate, 6))) + 1
     if isinstance(operation, ConstantOperation):
         return _constant(operation, count)
     if isinstance(operation, SteppedOperation):
-        return _stepped(operation, count)
+        return _stepped(operation, count, rate)
     if isinstance(operation, QuarterVehicleOperation):
-        return _quarter_vehicle(operation, mounting, count, seed)
-    return _measured(operation, count)
+        return _quarter_vehicle(operation, mounting, count, rate, seed)
+    return _measured(operation, count, rate)
 
 
-def _history(wrench: Float, shaft_speed: Float, bogie: Float | None = None) -> LoadHistory:
+def _sample_ns(operation: Operation) -> int:
+    """Time between samples of the load, [ns]."""
+    strikes = isinstance(operation, QuarterVehicleOperation) and (
+        operation.wheel_defects or operation.rail_defects
+    )
+    return STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
+
+
+def _history(
+    wrench: Float, shaft_speed: Float, bogie: Float | None = None, sample_ns: int = SAMPLE_NS
+) -> LoadHistory:
     count = len(shaft_speed)
     return LoadHistory(
-        time_ns=np.arange(count, dtype=np.int64) * SAMPLE_NS,
+        time_ns=np.arange(count, dtype=np.int64) * sample_ns,
         wrench=np.ascontiguousarray(wrench, dtype=np.float64),
         shaft_speed=np.ascontiguousarray(shaft_speed, dtype=np.float64),
         bogie=np.zeros((count, 3)) if bogie is None else np.ascontiguousarray(bogie),
@@ -78,8 +94,8 @@ def _constant(operation: ConstantOperation, count: int) -> LoadHistory:
     return _history(wrench, np.full(count, float(operation.speed)))
 
 
-def _stepped(operation: SteppedOperation, count: int) -> LoadHistory:
-    time = np.arange(count) / SAMPLE_RATE
+def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistory:
+    time = np.arange(count) / rate
     levels = np.array([[*step.force, *step.moment, step.speed] for step in operation.steps])
     signals = np.tile(levels[0], (count, 1))
     for step, change in zip(operation.steps[1:], np.diff(levels, axis=0), strict=True):
@@ -113,54 +129,56 @@ def ride_of(
     step : float
         Its time step, [s].
     """
-    rate = SAMPLE_RATE * RIDE_FACTOR
-    return _ride(operation, mounting, round(duration * rate) + 1, seed), 1.0 / rate
+    return _ride(operation, mounting, round(duration * RIDE_RATE) + 1, seed), 1.0 / RIDE_RATE
 
 
 def _ride(operation: QuarterVehicleOperation, mounting: Mounting, steps: int, seed: int) -> Ride:
-    rate = SAMPLE_RATE * RIDE_FACTOR
-    time = np.arange(steps) / rate
+    time = np.arange(steps) / RIDE_RATE
     position = distance_at(operation.speed_profile, time)
     profile = rail_profile(operation.irregularity, float(position[-1]), seed)
     height = profile.height_at(position)
+    if operation.wheel_defects or operation.rail_defects:
+        height = height + wheel_height(operation.wheel_defects, 0.5 * operation.wheel_diameter, position)
+        height += rail_height(operation.rail_defects, position)
     height = (height - height[0]) * _rise(time, FADE_IN)
-    return ride(quarter_vehicle(operation, mounting), height, 1.0 / rate)
+    return ride(quarter_vehicle(operation, mounting), height, 1.0 / RIDE_RATE)
 
 
 def _quarter_vehicle(
-    operation: QuarterVehicleOperation, mounting: Mounting, count: int, seed: int
+    operation: QuarterVehicleOperation, mounting: Mounting, count: int, rate: float, seed: int
 ) -> LoadHistory:
     """Wheel-rail force, less the weight of the half wheelset, and the motion of the bogie.
 
     The moments of the wheel-rail forces about the axle are carried by the other axlebox: the
-    wrench has no moment. Above 0.8 kHz the signal is filtered away; the ringing of the filter around a
-    loss of contact may take the force below that of an open contact.
+    wrench has no moment. Above 0.4 of its rate the signal is filtered away; the ringing of the filter
+    around a loss of contact may take the force below that of an open contact.
     """
-    kernel = _low_pass(RIDE_FACTOR)
+    factor = round(RIDE_RATE / rate)
+    kernel = _low_pass(factor)
     # run past the end by what the filter looks ahead
-    steps = (count - 1) * RIDE_FACTOR + 1 + len(kernel) // 2
+    steps = (count - 1) * factor + 1 + len(kernel) // 2
     response = _ride(operation, mounting, steps, seed)
     vehicle = quarter_vehicle(operation, mounting)
     wrench = np.zeros((count, 6))
     wrench[:, 1] = operation.lateral_force
-    wrench[:, 2] = _decimate(response.contact_force, RIDE_FACTOR, kernel)[:count] - vehicle.journal_weight
+    wrench[:, 2] = _decimate(response.contact_force, factor, kernel)[:count] - vehicle.journal_weight
     bogie = np.zeros((count, 3))
-    bogie[:, 2] = _decimate(response.bogie, RIDE_FACTOR, kernel)[:count]
-    speed = speed_at(operation.speed_profile, np.arange(count) / SAMPLE_RATE)
-    return _history(wrench, speed / (0.5 * operation.wheel_diameter), bogie)
+    bogie[:, 2] = _decimate(response.bogie, factor, kernel)[:count]
+    speed = speed_at(operation.speed_profile, np.arange(count) / rate)
+    return _history(wrench, speed / (0.5 * operation.wheel_diameter), bogie, round(1e9 / rate))
 
 
-def _measured(operation: MeasuredOperation, count: int) -> LoadHistory:
+def _measured(operation: MeasuredOperation, count: int, rate: float) -> LoadHistory:
     measured = read_measurement(operation.path)
-    end = (count - 1) / SAMPLE_RATE
+    end = (count - 1) / rate
     if measured.time[-1] < end - 1e-9:
         raise InputError(
             f"{operation.path}: covers {measured.time[-1]:g} s; the run needs {end:g} s: "
             f"shorten the duration or give a longer file"
         )
     signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
-    factor = int(np.ceil(round(1.0 / (SAMPLE_RATE * float(np.median(np.diff(measured.time)))), 6)))
-    grid = np.arange((count - 1) * factor + 1) / (SAMPLE_RATE * factor)
+    factor = int(np.ceil(round(1.0 / (rate * float(np.median(np.diff(measured.time)))), 6)))
+    grid = np.arange((count - 1) * factor + 1) / (rate * factor)
     signals = np.column_stack([np.interp(grid, measured.time, column) for column in signals.T])
     if factor > 1:
         kernel = _low_pass(factor)

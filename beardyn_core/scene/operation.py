@@ -8,28 +8,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from beardyn_core.errors import InputError
+from beardyn_core.scene.excitation import RailDefect, WheelDefect
+from beardyn_core.scene.ranges import not_finite, outside, refuse
 
 Vector = tuple[float, float, float]
 
 IRREGULARITY_KINDS = ("german_low", "german_high", "fra_6", "none")
 WHEEL_PROFILES = ("worn", "cone")
-
-
-def _refuse(problems: Iterator[str]) -> None:
-    found = list(problems)
-    if found:
-        raise InputError(found)
-
-
-def _outside(owner: str, name: str, value: float, low: float, high: float, unit: str) -> Iterator[str]:
-    if not low <= value <= high:  # also true for NaN
-        yield f"{owner}: {name} is {value:g} {unit}; allowed is {low:g} to {high:g} {unit}"
-
-
-def _not_finite(owner: str, name: str, values: tuple[float, ...]) -> Iterator[str]:
-    if not all(math.isfinite(value) for value in values):
-        yield f"{owner}: {name} is {values}; every component must be a finite number"
 
 
 @dataclass(frozen=True)
@@ -51,12 +36,12 @@ class ConstantOperation:
     moment: Vector = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        _refuse(self._problems())
+        refuse(self._problems())
 
     def _problems(self) -> Iterator[str]:
-        yield from _not_finite("operation (constant)", "force", self.force)
-        yield from _not_finite("operation (constant)", "moment", self.moment)
-        yield from _not_finite("operation (constant)", "speed", (self.speed,))
+        yield from not_finite("operation (constant)", "force", self.force)
+        yield from not_finite("operation (constant)", "moment", self.moment)
+        yield from not_finite("operation (constant)", "speed", (self.speed,))
 
 
 @dataclass(frozen=True)
@@ -97,20 +82,20 @@ class SteppedOperation:
     ramp: float = 0.2
 
     def __post_init__(self) -> None:
-        _refuse(self._problems())
+        refuse(self._problems())
 
     def _problems(self) -> Iterator[str]:
         owner = "operation (stepped)"
         if not self.steps:
             yield f"{owner}: steps is empty; give at least one step at time 0"
             return
-        yield from _outside(owner, "ramp", self.ramp, 0.0, 3600.0, "s")
+        yield from outside(owner, "ramp", self.ramp, 0.0, 3600.0, "s")
         for index, step in enumerate(self.steps):
             name = f"{owner}, step {index}"
-            yield from _not_finite(name, "time", (step.time,))
-            yield from _not_finite(name, "force", step.force)
-            yield from _not_finite(name, "moment", step.moment)
-            yield from _not_finite(name, "speed", (step.speed,))
+            yield from not_finite(name, "time", (step.time,))
+            yield from not_finite(name, "force", step.force)
+            yield from not_finite(name, "moment", step.moment)
+            yield from not_finite(name, "speed", (step.speed,))
         if self.steps[0].time != 0.0:
             yield f"{owner}: the first step begins at {self.steps[0].time:g} s; it must begin at 0 s"
         for index, (one, two) in enumerate(itertools.pairwise(self.steps), start=1):
@@ -156,14 +141,14 @@ class Vehicle:
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
-        _refuse(self._problems())
+        refuse(self._problems())
 
     def _problems(self) -> Iterator[str]:
         owner = f"vehicle {self.name!r}"
-        yield from _outside(owner, "body_mass", self.body_mass, 1e3, 2e5, "kg")
-        yield from _outside(owner, "bogie_mass", self.bogie_mass, 1e2, 3e4, "kg")
-        yield from _outside(owner, "secondary_stiffness", self.secondary_stiffness, 1e4, 1e8, "N/m")
-        yield from _outside(owner, "secondary_damping", self.secondary_damping, 0.0, 1e7, "N s/m")
+        yield from outside(owner, "body_mass", self.body_mass, 1e3, 2e5, "kg")
+        yield from outside(owner, "bogie_mass", self.bogie_mass, 1e2, 3e4, "kg")
+        yield from outside(owner, "secondary_stiffness", self.secondary_stiffness, 1e4, 1e8, "N/m")
+        yield from outside(owner, "secondary_damping", self.secondary_damping, 0.0, 1e7, "N s/m")
         if self.wheel_profile not in WHEEL_PROFILES:
             yield f"{owner}: wheel_profile is {self.wheel_profile!r}; allowed are {', '.join(WHEEL_PROFILES)}"
 
@@ -210,7 +195,7 @@ class Track:
     subgrade_damping: float = 31.15e3
 
     def __post_init__(self) -> None:
-        _refuse(
+        refuse(
             f"track: {name} is {value:g}; it must be a positive finite number"
             for name, value in vars(self).items()
             if not 0.0 < value < math.inf
@@ -234,13 +219,13 @@ class Irregularity:
     longest_wavelength: float = 150.0
 
     def __post_init__(self) -> None:
-        _refuse(self._problems())
+        refuse(self._problems())
 
     def _problems(self) -> Iterator[str]:
         if self.kind not in IRREGULARITY_KINDS:
             yield f"irregularity: kind is {self.kind!r}; allowed are {', '.join(IRREGULARITY_KINDS)}"
-        yield from _outside("irregularity", "shortest_wavelength", self.shortest_wavelength, 0.02, 50.0, "m")
-        yield from _outside("irregularity", "longest_wavelength", self.longest_wavelength, 1.0, 1000.0, "m")
+        yield from outside("irregularity", "shortest_wavelength", self.shortest_wavelength, 0.02, 50.0, "m")
+        yield from outside("irregularity", "longest_wavelength", self.longest_wavelength, 1.0, 1000.0, "m")
         if self.shortest_wavelength >= self.longest_wavelength:
             yield (
                 f"irregularity: shortest_wavelength {self.shortest_wavelength:g} m must be less than "
@@ -263,6 +248,10 @@ class QuarterVehicleOperation:
     lateral_force : float
         Constant force on the journal along +y (towards the outboard row of a left axlebox), [N].
     track : Track
+    wheel_defects : tuple of WheelDefect
+        Flats and polygons of the running surface; they come back every revolution.
+    rail_defects : tuple of RailDefect
+        Dips and corrugation at their places along the track, besides the irregularity.
     """
 
     vehicle: Vehicle
@@ -271,19 +260,21 @@ class QuarterVehicleOperation:
     wheel_diameter: float = 0.92
     lateral_force: float = 0.0
     track: Track = field(default_factory=Track)
+    wheel_defects: tuple[WheelDefect, ...] = ()
+    rail_defects: tuple[RailDefect, ...] = ()
 
     def __post_init__(self) -> None:
-        _refuse(self._problems())
+        refuse(self._problems())
 
     def _problems(self) -> Iterator[str]:
         owner = "operation (quarter_vehicle)"
-        yield from _outside(owner, "wheel_diameter", self.wheel_diameter, 0.3, 1.5, "m")
-        yield from _outside(owner, "lateral_force", self.lateral_force, -1e5, 1e5, "N")
+        yield from outside(owner, "wheel_diameter", self.wheel_diameter, 0.3, 1.5, "m")
+        yield from outside(owner, "lateral_force", self.lateral_force, -1e5, 1e5, "N")
         if not self.speed_profile:
             yield f"{owner}: speed_profile is empty; give at least one (time, speed) point"
         for index, (time, speed) in enumerate(self.speed_profile):
-            yield from _not_finite(owner, f"time of speed_profile point {index}", (time,))
-            yield from _outside(owner, f"speed of speed_profile point {index}", speed, 0.0, 400 / 3.6, "m/s")
+            yield from not_finite(owner, f"time of speed_profile point {index}", (time,))
+            yield from outside(owner, f"speed of speed_profile point {index}", speed, 0.0, 400 / 3.6, "m/s")
         times = [time for time, _ in self.speed_profile]
         for index, (one, two) in enumerate(itertools.pairwise(times), start=1):
             if not two > one:
@@ -291,6 +282,12 @@ class QuarterVehicleOperation:
                     f"{owner}: speed_profile point {index} is at {two:g} s; it must be later than point "
                     f"{index - 1} at {one:g} s"
                 )
+        for index, defect in enumerate(self.wheel_defects):
+            for problem in defect.problems(0.5 * self.wheel_diameter):
+                yield f"{owner}, wheel defect {index}: {problem}"
+        for index, fault in enumerate(self.rail_defects):
+            for problem in fault.problems():
+                yield f"{owner}, rail defect {index}: {problem}"
 
 
 @dataclass(frozen=True)

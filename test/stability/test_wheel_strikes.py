@@ -1,0 +1,47 @@
+"""The twin under strikes of the wheel: it holds, and shakes as axleboxes over flats do."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.config import load_scene
+from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.rail.build import load_history
+from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.twin import Twin
+
+SETTLED = 0.3
+GRAVITY = 9.80665
+
+
+@pytest.mark.slow
+def test_a_healthy_bearing_under_a_wheel_flat_shakes_once_a_revolution_and_gives_no_alarm() -> None:
+    """Field figures for axleboxes over flats and joints are 50 to 200 g; a 35 mm flat is a small one."""
+    scene = load_scene("wheel_flat")
+    assert isinstance(scene.operation, QuarterVehicleOperation)
+    twin = Twin(scene)
+    twin.start(load_history(scene.operation, scene.mounting, scene.duration, scene.seed))
+    monitor = Monitor(fault_frequencies(scene.bearing), scene.bearing.roller_count)
+    vibration, times, verdicts = [], [], []
+    for _ in range(round(scene.duration * 1e9) // twin.block_ns):
+        block = twin.advance()
+        monitor.push_vibration(block.waveform_time_ns, block.acceleration[0])
+        monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
+        monitor.push_load(block.trend_time_ns, block.load[:, 2])
+        result = monitor.update()
+        if result is not None and result.verdict != "waiting":
+            verdicts.append(result.verdict)
+        vibration.append(block.acceleration[0][:, 2])
+        times.append(block.waveform_time_ns)
+    time = np.concatenate(times) * 1e-9
+    shaking = np.abs(np.concatenate(vibration) - GRAVITY)[time > SETTLED]
+    assert np.isfinite(shaking).all()
+    assert 25.0 < shaking.max() / GRAVITY < 200.0
+    loud = time[time > SETTLED][shaking > 0.5 * shaking.max()]
+    strikes = loud[np.concatenate(([True], np.diff(loud) > 0.03))]
+    speed = scene.operation.speed_profile[0][1]
+    assert np.diff(strikes).mean() == pytest.approx(np.pi * scene.operation.wheel_diameter / speed, rel=2e-3)
+    assert verdicts
+    assert set(verdicts) == {"healthy"}
