@@ -28,9 +28,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "ladder",
         help="what accuracy costs: tiers, effects, laminae and steps against a converged reference",
         description="Run a scene over tiers, effects, laminae and steps, and compare each rung with a "
-        "converged reference of the same scene: wall time per simulated second, and errors with their run-to-run band. "
-        "Takes some minutes, and half a minute more for every set of effects that is not compiled yet. Ctrl-C "
-        "keeps the rungs done so far.",
+        "converged reference of the same scene: wall time per simulated second, and errors with their "
+        "run-to-run band. Takes some minutes, and half a minute more for every set of effects that is not "
+        "compiled yet. Ctrl-C keeps the rungs done so far.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument(
@@ -42,7 +42,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--accuracy",
         metavar="PERCENT",
         type=float,
-        help="mark the rungs that meet it, %% (the scene's, or 5)",
+        help="to judge the rungs by, %% (the scene's, or 5)",
     )
     parser.add_argument(
         "--quantities",

@@ -244,7 +244,7 @@ def climb(
     accuracy: float,
     asked: tuple[str, ...] = DEFAULT_ASKED,
     progress: Progress = lambda _name, _wall: None,
-    runner: Runner = simulate,
+    runner: Runner | None = None,
 ) -> Ladder:
     """Run all rungs, the reference first, then the cheapest first.
 
@@ -259,7 +259,7 @@ def climb(
     progress : callable, optional
         Told after every block which rung it was of, and the wall time that was expected of it, [s].
     runner : callable, optional
-        Runs one scene.
+        Runs one scene; `simulate` when not given.
 
     Returns
     -------
@@ -273,6 +273,7 @@ def climb(
     ValidityError
         When the reference leaves the model's validity.
     """
+    runner = runner or simulate
 
     def run(rung: Rung, number: int) -> Run:
         expected = expected_cost(rung) * Twin.block_ns * 1e-9

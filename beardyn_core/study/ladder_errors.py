@@ -154,7 +154,11 @@ def variance(runs: Sequence[Outcome], index: int) -> Float:
     """
     between = np.var(_stacked(runs, index), axis=0, ddof=1)
     windows = np.array([[window[index] for window in run.windows] for run in runs])
-    within = np.nanmean(np.var(windows, axis=0, ddof=1), axis=0) / windows.shape[1]
+    spread = np.var(windows, axis=0, ddof=1)
+    # a bin of the load distribution may be empty in a short window
+    seen = np.isfinite(spread)
+    total = np.where(seen, spread, 0.0).sum(axis=0)
+    within = total / np.maximum(seen.sum(axis=0), 1) / windows.shape[1]
     return np.fmax(between, within)
 
 

@@ -27,6 +27,11 @@ def ladder_picture(ladder: Ladder, path: Path) -> None:
     path : Path
         Where the PNG goes.
     """
+    ladder_figure(ladder).savefig(path, dpi=DPI, format="png")
+
+
+def ladder_figure(ladder: Ladder) -> Figure:
+    """The picture as a figure."""
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots()
@@ -42,7 +47,7 @@ def ladder_picture(ladder: Ladder, path: Path) -> None:
     )  # fmt: skip
     _frame(axes, ladder)
     _name(axes, efficient)
-    figure.savefig(path, dpi=DPI, format="png")
+    return figure
 
 
 def _height(score: Score) -> float:

@@ -21,6 +21,7 @@ from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS
 
 _NAME_WIDTH = 44
 _LEGEND = (
+    "6 laminae x 4: 4 steps for each sample of 25.6 kHz; a rung without a tier is of the full tier",
     "wall: wall time per simulated second, median over blocks; RTF: its inverse",
     "errors: the worst component of each quantity, in % or dB; (in brackets): not resolved, within the "
     "run-to-run band",
@@ -56,19 +57,24 @@ def _band_text(error: QuantityError | None) -> str:
 
 def heading(ladder: Ladder) -> list[str]:
     """What is compared with what."""
-    turns = (
-        f"{ladder.revolutions} whole cage revolutions" if ladder.revolutions else "no whole cage revolution"
-    )
+    count, windows = ladder.revolutions, len(ladder.edges) - 1
+    turns = f"{count} whole cage revolutions" if count else "no whole cage revolution"
     reference = ladder.reference
     return [
         f"{ladder.scene}: {ladder.purpose}",
-        f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in {len(ladder.edges) - 1} windows "
-        f"from {ladder.edges[0]:.2f} s on",
-        f"reference: {_described(reference)}, {reference.runs} runs, {reference.cost.median:.1f} s a simulated "
-        "second",
-        f"accuracy {percent(ladder.accuracy)}: {', '.join(ladder.asked)} within "
-        f"{percent(ladder.accuracy)}, third-octave bands within {BAND_LIMIT_DB:g} dB",
+        f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in {windows} windows from "
+        f"{ladder.edges[0]:.2f} s on",
+        f"reference: {_described(reference)}, {reference.runs} runs, {reference.cost.median:.1f} s for each "
+        "simulated second",
+        f"accuracy {percent(ladder.accuracy)}: {'; '.join(limits_of(ladder))}",
     ]
+
+
+def limits_of(ladder: Ladder) -> list[str]:
+    """Which quantities have to be within what."""
+    words = {"%": percent(ladder.accuracy), "dB": f"{BAND_LIMIT_DB:g} dB"}
+    asked = {unit: [name for name in ladder.asked if UNITS[name] == unit] for unit in words}
+    return [f"{', '.join(names)} within {words[unit]}" for unit, names in asked.items() if names]
 
 
 def _described(result: RungResult) -> str:
@@ -81,7 +87,7 @@ def closing(ladder: Ladder) -> list[str]:
     """What the table comes to."""
     best = ladder.cheapest
     if best is not None:
-        found = f"{best.rung.name}, {best.cost.median:.2f} s a simulated second"
+        found = f"{best.rung.name}, {best.cost.median:.2f} s for each simulated second"
     else:
         undecided = [row.rung.name for row in ladder.rows if ladder.verdict(row) == "open"]
         found = "none" + (f"; open: {'; '.join(undecided)}" if undecided else "")

@@ -13,6 +13,7 @@ REFERENCE_LAMINAE, REFERENCE_STEPS = 20, 16
 # wall time per simulated second on one core of a 2.5 GHz machine, for the progress bar and the order of runs
 _FAST_COST = {"lumped": (0.06, 0.002), "quasistatic": (0.06, 0.012)}
 _FULL_COST = (0.10, 0.025)
+_FAST_EFFECTS = "standard"
 _MANY_EFFECTS, _MANY_EFFECTS_FACTOR = 10, 1.8
 
 
@@ -34,10 +35,17 @@ class RungList:
     neighbour: Rung
     rungs: tuple[Rung, ...]
 
+    def including(self, *more: Rung) -> RungList:
+        """The same with other rungs among those to be judged."""
+        return replace(self, rungs=tuple(sorted([*self.rungs, *more], key=expected_cost)))
+
 
 def _rung(tier: str, effects_name: str, effects: EffectSet, laminae: int, steps: int) -> Rung:
-    name = f"{tier} {effects_name}" if tier == "full" else tier
-    return Rung(f"{name}, {laminae} laminae x {steps}", tier, effects_name, effects, laminae, steps)
+    words = [] if tier == "full" else [tier]
+    if tier == "full" or effects_name != _FAST_EFFECTS:
+        words.append(f"effects {effects_name}")
+    name = ", ".join([*words, f"{laminae} laminae x {steps}"])
+    return Rung(name, tier, effects_name, effects, laminae, steps)
 
 
 def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> RungList:
@@ -80,7 +88,7 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
     if each_effect:
         steps |= {f"full - {name}": (less, ((6, 4),)) for name, less in _one_less(full)}
     found = [
-        _rung(tier, "standard", standard, laminae, count)
+        _rung(tier, _FAST_EFFECTS, standard, laminae, count)
         for tier, choices in fast.items()
         for laminae, count in choices
     ]

@@ -50,9 +50,10 @@ class FaultLine:
 
 
 def fault_line_of(scene: Scene) -> FaultLine | None:
-    """Line of the first defect of a scene; ``None`` for a healthy one."""
+    """Line of the first defect of the bearing, else of the wheel; ``None`` for a healthy scene."""
     if not scene.defects:
-        return None
+        wheel = getattr(scene.operation, "wheel_defects", ())
+        return FaultLine("wheel", float(getattr(wheel[0], "order", 1))) if wheel else None
     frequencies = fault_frequencies(scene.bearing)
     defect = scene.defects[0]
     if defect.kind in ("diameter", "worn_pocket"):
