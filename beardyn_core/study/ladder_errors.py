@@ -4,7 +4,7 @@ The bearing is chaotic: two runs that begin a hair apart share statistics, not t
 give the variance of every component twice: between whole runs, and between the same windows of two runs
 (which feel the same load), divided by the number of windows. The larger one counts. The band of an error is
 what the difference of two means stays in with 95 % probability, for all components of a quantity together
-(Student's t, Bonferroni).
+(Student's t with the degrees of freedom of Welch, Bonferroni).
 """
 
 from __future__ import annotations
@@ -101,38 +101,45 @@ def errors(found: Sequence[Outcome], reference: Sequence[Outcome]) -> tuple[Quan
     -------
     tuple of QuantityError, in the order of `QUANTITIES`
     """
-    degrees = len(reference[0].windows) * (len(reference) - 1)
     parts: dict[str, list[Part]] = {quantity: [] for quantity in QUANTITIES}
     counts = {
         quantity: sum(len(measure.parts) for measure in MEASURES if measure.quantity == quantity)
         for quantity in QUANTITIES
     }
     for index, measure in enumerate(MEASURES):
-        factor = float(student.ppf(1.0 - 0.5 * (1.0 - CONFIDENCE) / counts[measure.quantity], degrees))
-        parts[measure.quantity] += _parts(measure, index, found, reference, factor)
+        tail = 0.5 * (1.0 - CONFIDENCE) / counts[measure.quantity]
+        parts[measure.quantity] += _parts(measure, index, found, reference, tail)
     return tuple(QuantityError(quantity, UNITS[quantity], tuple(parts[quantity])) for quantity in QUANTITIES)
 
 
 def _parts(
-    measure: Measure, index: int, found: Sequence[Outcome], reference: Sequence[Outcome], factor: float
+    measure: Measure, index: int, found: Sequence[Outcome], reference: Sequence[Outcome], tail: float
 ) -> list[Part]:
     here = _stacked(found, index).mean(axis=0)
     there = _stacked(reference, index).mean(axis=0)
-    scatter = variance(reference, index)
-    own = variance(found, index) if len(found) > 1 else scatter
     if np.all(np.isnan(there)):
         return []
+    scatterers = found if len(found) > 1 else reference
+    variances = np.array(
+        [variance(scatterers, index) / len(found), variance(reference, index) / len(reference)]
+    )
+    windows = len(reference[0].windows)
+    degrees = windows * np.array([[len(scatterers) - 1], [len(reference) - 1]])
     scale = np.ones(1) if measure.scale is None else measure.scale(there)
     with np.errstate(divide="ignore", invalid="ignore"):
         error = (here - there) / scale
-        deviation = np.sqrt(own / len(found) + scatter / len(reference)) / scale
+        variances = variances / scale**2
     if measure.weighed is not None:
         counts = measure.weighed(there)
         error = np.sqrt(np.mean(error[counts] ** 2, keepdims=True))
-        deviation = np.sqrt(np.nanmean(deviation[counts] ** 2, keepdims=True))
+        variances = np.mean(variances[:, counts], axis=1, keepdims=True)
+    total = variances.sum(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        effective = np.where(total > 0.0, total**2 / (variances**2 / degrees).sum(axis=0), 1.0)
+    band = student.isf(tail, effective) * np.sqrt(total)
     return [
-        Part(name, float(e), factor * float(d))
-        for name, e, d in zip(measure.parts, error, deviation, strict=True)
+        Part(name, float(e), float(b))
+        for name, e, b in zip(measure.parts, error, band, strict=True)
         if math.isfinite(e)
     ]
 

@@ -14,6 +14,9 @@ from beardyn_core.study.rung import Rung
 
 Float = NDArray[np.float64]
 
+# a dearer rung has to lower the worst error by this share
+_WORTH_IT = 0.1
+
 
 @dataclass(frozen=True)
 class Cost:
@@ -156,7 +159,7 @@ class Ladder:
     def efficient(self) -> tuple[RungResult, ...]:
         """Rungs for which no cheaper one is as good, the cheapest first.
 
-        As good is what is not worse by more than the run-to-run band.
+        As good is what is not worse by more than the run-to-run band and a tenth.
         """
         scored = [(row.cost.median, row, score) for row in self.rows if (score := self.score(row))]
         scored.sort(key=lambda item: item[0])
@@ -174,5 +177,5 @@ class Ladder:
 
 
 def _better(one: Score, other: Score) -> bool:
-    """Whether the first is better by more than both bands together let it seem."""
-    return other.value - one.value > math.hypot(one.bar, other.bar)
+    """Whether the first is better by more than both bands together let it seem, and worth its cost."""
+    return other.value - one.value > max(math.hypot(one.bar, other.bar), _WORTH_IT * other.value)

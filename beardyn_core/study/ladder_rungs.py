@@ -78,12 +78,16 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
             "quasistatic": ((3, 1), (6, 1), (6, 2), (6, 4), (20, 2)),
         }
         losses = {name: getattr(full, name) for name in ("rolling_resistance", "drag", "seal")}
+        lossy = replace(standard, **losses)
         steps |= {
             "standard": (standard, ((3, 4), (6, 2), (6, 4), (6, 8), (20, 4))),
-            "standard + losses": (replace(standard, **losses), ((6, 4),)),
-            "full - ring_flexibility": (replace(full, ring_flexibility=None), ((6, 4),)),
+            "standard + losses": (lossy, ((6, 4),)),
+            "standard + losses + ring_flexibility": (
+                replace(lossy, ring_flexibility=full.ring_flexibility),
+                ((6, 4),),
+            ),
             "full - lamina_coupling": (replace(full, lamina_coupling=None), ((6, 4),)),
-            "full": (full, ((3, 4), (6, 2), (6, 4), (6, 8), (20, 4))),
+            "full": (full, ((3, 4), (6, 2), (6, 4), (6, 8), (20, 4), (20, 8))),
         }
     if each_effect:
         steps |= {f"full - {name}": (less, ((6, 4),)) for name, less in _one_less(full)}

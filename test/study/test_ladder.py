@@ -224,7 +224,7 @@ def test_effects_of_the_scene_itself_are_a_rung(plan: Plan) -> None:
 
 def test_the_picture_names_the_efficient_rungs(plan: Plan, tmp_path: Path) -> None:
     ladder = climbed(plan, FakeRuns())
-    (axes,) = ladder_figure(ladder).axes
+    axes = ladder_figure(ladder).axes[0]
     written = [text.get_text() for text in axes.texts]
     assert {"fast: torque", "middle: vibration"} <= set(written)
     assert any(text.startswith("exact: ") for text in written)
@@ -232,7 +232,7 @@ def test_the_picture_names_the_efficient_rungs(plan: Plan, tmp_path: Path) -> No
     path = tmp_path / "ladder.png"
     ladder_picture(ladder, path)
     with Image.open(path) as picture:
-        assert picture.size == (1100, 720)
+        assert picture.size == (1400, 860)
         assert np.unique(np.asarray(picture.convert("L"))).size > 50
     ladder_picture(climbed(plan, FakeRuns(invalid=4)), path)
 
