@@ -34,7 +34,7 @@ Float = NDArray[np.float64]
 COMPLETE = "complete"
 SETTLING_S = 0.4
 SHORTEST_COMPARISON_S, FEWEST_CAGE_REVOLUTIONS = 1.2, 4
-REVOLUTIONS_PER_WINDOW, MOST_WINDOWS = 2, 8
+MOST_WINDOWS = 10
 REFERENCE_RUNS, CHEAP_RUNS = 3, 2
 # rungs that are expected to cost less than this run more than once, [s/s]
 CHEAP = 1.5
@@ -157,8 +157,8 @@ def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> t
     whole = int(last - first + 1e-9)
     if whole == 0:
         return tuple(np.linspace(start, end, 5).tolist()), 0
-    windows = min(max(whole // REVOLUTIONS_PER_WINDOW, 1), MOST_WINDOWS)
-    each = whole // windows
+    each = math.ceil(whole / MOST_WINDOWS)
+    windows = whole // each
     marks = last - each * np.arange(windows, -1, -1)
     return tuple(np.interp(marks, turned, times).tolist()), windows * each
 

@@ -222,6 +222,15 @@ def test_effects_of_the_scene_itself_are_a_rung(plan: Plan) -> None:
     assert "own effects" in {rung.effects_name for rung in rungs_of(scene).rungs}
 
 
+def test_another_rung_takes_its_place_by_cost(plan: Plan) -> None:
+    rungs = rungs_of(plan.scene, quick=True)
+    more = rung("auto 5 %", "quasistatic", laminae=4, steps=2)
+    found = rungs.including(more)
+    assert more in found.rungs
+    assert set(found.rungs) - {more} == set(rungs.rungs)
+    assert [expected_cost(r) for r in found.rungs] == sorted(expected_cost(r) for r in found.rungs)
+
+
 def test_the_picture_names_the_efficient_rungs(plan: Plan, tmp_path: Path) -> None:
     ladder = climbed(plan, FakeRuns())
     axes = ladder_figure(ladder).axes[0]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -129,7 +131,13 @@ def test_each_fault_has_its_line() -> None:
         assert found.name == line
     frequencies = fault_frequencies(load_scene("cup_spall").bearing)
     assert fault_line_of(load_scene("oversize_roller")) == FaultLine("FTF", frequencies.ftf)
-    assert fault_line_of(load_scene("smooth_run")) is None
+    healthy = load_scene("smooth_run")
+    assert fault_line_of(healthy) is None
+    flat, polygon = SimpleNamespace(length=0.04), SimpleNamespace(order=3)
+    for defects, order in (((flat,), 1.0), ((polygon, flat), 3.0), ((), None)):
+        operation: Any = SimpleNamespace(wheel_defects=defects)
+        found = fault_line_of(replace(healthy, operation=operation))
+        assert (None if found is None else found.order) == order
 
 
 def test_windows_are_whole_cage_revolutions_also_when_the_shaft_slows_down() -> None:
