@@ -19,7 +19,7 @@ from beardyn_core.config import load_scene
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_rungs, expected_wall, plan_of
 from beardyn_core.study.ladder_picture import ladder_picture
-from beardyn_core.study.ladder_report import error_text, limits_of, machine, percent
+from beardyn_core.study.ladder_report import convergence, error_text, limits_of, machine, percent
 from beardyn_core.study.ladder_result import Ladder, RungResult
 from beardyn_core.study.ladder_rungs import REFERENCE_LAMINAE, REFERENCE_STEPS, rungs_of
 from beardyn_core.study.measures import QUANTITIES, UNITS
@@ -141,7 +141,7 @@ def table(ladder: Ladder) -> list[str]:
 
 def lessons(ladder: Ladder) -> list[str]:
     """What the rows come to when one choice changes and the others stay."""
-    found = [_cheapest(ladder)]
+    found = [_cheapest(ladder), f"Convergence: {convergence(ladder)}."]
     full = [row for row in ladder.rows if row.rung.tier == "full"]
     usual = [row for row in full if (row.rung.laminae, row.rung.steps_per_sample) == (6, 4)]
     found += _along(usual, lambda row: row.rung.effects_name, "Effects (full tier, 6 laminae x 4)", "torque")

@@ -19,7 +19,7 @@ from beardyn_core.study.ladder_errors import BAND_LIMIT_DB, Part, QuantityError
 from beardyn_core.study.ladder_result import Ladder, RungResult
 from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS
 
-_NAME_WIDTH = 44
+_BAND_ROW = "reference, and the band of a single run"
 _LEGEND = (
     "6 laminae x 4: 4 steps for each sample of 25.6 kHz; a rung without a tier is of the full tier",
     "wall: wall time per simulated second, median over blocks; RTF: its inverse",
@@ -83,6 +83,22 @@ def _described(result: RungResult) -> str:
     return f"{rung.tier}, effects {rung.effects_name}, {rung.laminae} laminae, step {micro:.1f} µs"
 
 
+def convergence(ladder: Ladder) -> str:
+    """How far the reference is converged, in a sentence; empty when its neighbour was not run."""
+    if ladder.neighbour is None:
+        return ""
+    differences = [
+        f"{error.quantity} {error_text(error)} {error.unit}"
+        for error in ladder.neighbour.errors
+        if error.worst is not None
+    ]
+    name = ladder.neighbour.rung.name
+    sentence = f"the reference with half of its laminae and twice its step ({name}): {', '.join(differences)}"
+    if ladder.unconverged:
+        sentence += f"; not converged within {percent(ladder.accuracy)}: {', '.join(ladder.unconverged)}"
+    return sentence
+
+
 def closing(ladder: Ladder) -> list[str]:
     """What the table comes to."""
     best = ladder.cheapest
@@ -108,13 +124,14 @@ def table(ladder: Ladder) -> str:
     widths = [len(name) + 2 for name in names]
     efficient = {row.rung.name for row in ladder.efficient}
     good = f"{percent(ladder.accuracy)}"
-    head = f"{'rung':{_NAME_WIDTH}}{'wall':>8}{'RTF':>8}"
+    wide = 2 + max(len(name) for name in (_BAND_ROW, *(row.rung.name for row in ladder.rows)))
+    head = f"{'rung':{wide}}{'wall':>8}{'RTF':>8}"
     head += "".join(f"{name:>{width}}" for name, width in zip(names, widths, strict=True)) + f"{good:>7}"
 
     def line(row: RungResult, name: str, texts: Sequence[str], verdict: str) -> str:
         wall = row.cost.median
         cells = "".join(f"{text:>{width}}" for text, width in zip(texts, widths, strict=True))
-        return f"{name:{_NAME_WIDTH}}{wall:>8.3f}{1.0 / wall:>8.2f}{cells}{verdict:>7}"
+        return f"{name:{wide}}{wall:>8.3f}{1.0 / wall:>8.2f}{cells}{verdict:>7}"
 
     lines = [*heading(ladder), "", head]
     for row in ladder.rows:
@@ -122,9 +139,9 @@ def table(ladder: Ladder) -> str:
         texts = [error_text(row.of(quantity)) for quantity in QUANTITIES]
         lines.append(line(row, mark + row.rung.name, texts, ladder.verdict(row)))
     bands = [_band_text(ladder.reference.of(quantity)) for quantity in QUANTITIES]
-    lines.append(line(ladder.reference, "  reference, and the band of a single run", bands, ""))
+    lines.append(line(ladder.reference, f"  {_BAND_ROW}", bands, ""))
     if ladder.neighbour is not None:
-        lines += ["", f"how far the reference is converged: the errors of {ladder.neighbour.rung.name}"]
+        lines += ["", convergence(ladder)]
     return "\n".join([*lines, "", *_LEGEND, "", *closing(ladder)])
 
 
@@ -146,6 +163,7 @@ def json_object(ladder: Ladder) -> dict[str, Any]:
         "vibration_limit_dB": BAND_LIMIT_DB,
         "reference": _row(ladder, ladder.reference),
         "neighbour": None if ladder.neighbour is None else ladder.neighbour.rung.name,
+        "unconverged": list(ladder.unconverged),
         "rungs": [_row(ladder, row) for row in ladder.rows],
         "efficient": [row.rung.name for row in ladder.efficient],
         "cheapest": None if ladder.cheapest is None else ladder.cheapest.rung.name,

@@ -156,6 +156,13 @@ class Ladder:
         return row.verdict(self.asked, self.accuracy)
 
     @property
+    def unconverged(self) -> tuple[str, ...]:
+        """Quantities in which the reference and its coarser neighbour differ by more than the accuracy."""
+        if self.neighbour is None:
+            return ()
+        return tuple(e.quantity for e in self.neighbour.errors if e.verdict(self.accuracy) == "no")
+
+    @property
     def efficient(self) -> tuple[RungResult, ...]:
         """Rungs for which no cheaper one is as good, the cheapest first.
 

@@ -154,6 +154,14 @@ def test_every_error_and_band_is_in_the_json_and_the_table_names_all_quantities(
         assert name in table(ladder)
 
 
+def test_a_reference_that_is_not_converged_is_said_to_be_so(plan: Plan) -> None:
+    assert climbed(plan, FakeRuns()).unconverged == ()
+    ladder = climb(plan, replace(RUNGS, neighbour=FAST), 0.05, ASKED, runner=FakeRuns())
+    assert ladder.unconverged == ("torque", "vibration")
+    assert "not converged within 5 %: torque, vibration" in table(ladder)
+    assert json_object(ladder)["unconverged"] == ["torque", "vibration"]
+
+
 def test_a_rung_that_leaves_its_validity_is_reported_and_never_good(plan: Plan) -> None:
     ladder = climbed(plan, FakeRuns(invalid=4))
     middle = next(row for row in ladder.rows if row.rung.name == "middle")
