@@ -9,7 +9,7 @@ from beardyn_core.effects import EffectSet
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.rung import Rung
 
-REFERENCE_LAMINAE, REFERENCE_STEPS = 20, 16
+REFERENCE_LAMINAE, REFERENCE_STEPS = 40, 8
 # wall time per simulated second on one core of a 2.5 GHz machine, for the progress bar and the order of runs
 _FAST_COST = {"lumped": (0.06, 0.002), "quasistatic": (0.06, 0.012)}
 _FULL_COST = (0.10, 0.025)
@@ -87,7 +87,7 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
                 ((6, 4),),
             ),
             "full - lamina_coupling": (replace(full, lamina_coupling=None), ((6, 4),)),
-            "full": (full, ((3, 4), (6, 2), (6, 4), (6, 8), (20, 4), (20, 8))),
+            "full": (full, ((3, 4), (6, 2), (6, 4), (6, 8), (6, 16), (10, 4))),
         }
     if each_effect:
         steps |= {f"full - {name}": (less, ((6, 4),)) for name, less in _one_less(full)}
