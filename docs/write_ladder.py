@@ -26,7 +26,8 @@ from beardyn_core.study.measures import QUANTITIES, UNITS
 
 SCENES = ("smooth_run", "cup_spall", "wheel_flat")
 ACCURACY = 0.05
-COLOURS = 64
+COLOURS = 96
+USUAL_DETAIL = (("lumped", 6, 1), ("quasistatic", 6, 2), ("full", 6, 4))
 
 HEAD = """# What accuracy costs
 
@@ -126,7 +127,7 @@ def table(ladder: Ladder) -> list[str]:
         f"| rung | wall s/s | RTF | {' | '.join(columns)} | {good} |",
         f"|---|{'--:|' * (len(columns) + 2)}---|",
     ]
-    for row in ladder.rows:
+    for row in ladder.by_cost:
         name = f"**{row.rung.name}**" if row.rung.name in efficient else row.rung.name
         cells = [error_text(row.of(quantity)) for quantity in QUANTITIES]
         wall = row.cost.median
@@ -143,8 +144,11 @@ def lessons(ladder: Ladder) -> list[str]:
     """What the rows come to when one choice changes and the others stay."""
     found = [_cheapest(ladder), f"Convergence: {convergence(ladder)}."]
     full = [row for row in ladder.rows if row.rung.tier == "full"]
-    usual = [row for row in full if (row.rung.laminae, row.rung.steps_per_sample) == (6, 4)]
-    found += _along(usual, lambda row: row.rung.effects_name, "Effects (full tier, 6 laminae x 4)", "torque")
+    usual = [row for row in full if _detail(row) == (6, 4)]
+    usual.sort(key=lambda row: len(row.rung.effects.names()))
+    for quantity in ("torque", "deflection"):
+        title = "Effects (full tier, 6 laminae x 4)"
+        found += _along(usual, lambda row: row.rung.effects_name, title, quantity)
     every = [row for row in full if row.rung.effects_name == "full"]
     found += _along(
         [row for row in every if row.rung.steps_per_sample == 4],
@@ -159,10 +163,15 @@ def lessons(ladder: Ladder) -> list[str]:
             "Steps for each sample (full tier, every effect, 6 laminae)",
             quantity,
         )
-    fast = [row for row in ladder.rows if row.rung.tier != "full" and row.rung.laminae == 6]
+    standard = [row for row in ladder.by_cost if row.rung.effects_name == "standard"]
+    tiers = [row for row in standard if (row.rung.tier, *_detail(row)) in USUAL_DETAIL]
     for quantity in ("deflection", "roller_load", "vibration"):
-        found += _along(fast, lambda row: row.rung.name, "Fast tiers", quantity)
+        found += _along(tiers, lambda row: row.rung.tier, "Tiers (standard effects, 6 laminae)", quantity)
     return found
+
+
+def _detail(row: RungResult) -> tuple[int, int]:
+    return row.rung.laminae, row.rung.steps_per_sample
 
 
 def _cheapest(ladder: Ladder) -> str:
@@ -218,7 +227,9 @@ def main() -> None:
             sys.exit("interrupted: the page is left as it was")
         picture = pictures / f"ladder_{name}.png"
         ladder_picture(ladder, picture)
-        Image.open(picture).convert("RGB").quantize(COLOURS).save(picture, optimize=True)
+        Image.open(picture).convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(
+            picture, optimize=True
+        )
         ladders.append(ladder)
         lines += section(ladder, picture)
     head = HEAD.format(

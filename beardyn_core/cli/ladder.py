@@ -78,11 +78,16 @@ def run(args: argparse.Namespace) -> int:
     if args.accuracy is not None:
         accuracy = 0.01 * args.accuracy
     asked = _names(args.quantities) if args.quantities else getattr(scene, "quantities", DEFAULT_ASKED)
-    print(f"beardyn: {scene.name}, {len(rungs.rungs)} rungs and the reference", file=sys.stderr)
+    expected = expected_wall(rungs, plan)
+    print(
+        f"beardyn: {scene.name}, {len(rungs.rungs)} rungs and the reference, "
+        f"some {expected / 60.0:.1f} minutes once all kernels are compiled",
+        file=sys.stderr,
+    )
     with _quiet():
         with _Bar("compiled", "{n:.0f}/{total:.0f}", len(rungs.rungs) + 1) as bar:
             compile_rungs(plan, rungs, bar)
-        with _Bar("run", "{percentage:.0f} %", expected_wall(rungs, plan)) as bar:
+        with _Bar("run", "{percentage:.0f} %", expected) as bar:
             ladder = climb(plan, rungs, accuracy, asked, bar)
     found = json_object(ladder)
     if args.output is not None:

@@ -134,7 +134,7 @@ def table(ladder: Ladder) -> str:
         return f"{name:{wide}}{wall:>8.3f}{1.0 / wall:>8.2f}{cells}{verdict:>7}"
 
     lines = [*heading(ladder), "", head]
-    for row in ladder.rows:
+    for row in ladder.by_cost:
         mark = "* " if row.rung.name in efficient else "  "
         texts = [error_text(row.of(quantity)) for quantity in QUANTITIES]
         lines.append(line(row, mark + row.rung.name, texts, ladder.verdict(row)))

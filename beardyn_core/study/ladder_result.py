@@ -156,6 +156,11 @@ class Ladder:
         return row.verdict(self.asked, self.accuracy)
 
     @property
+    def by_cost(self) -> tuple[RungResult, ...]:
+        """The rungs, the cheapest first."""
+        return tuple(sorted(self.rows, key=lambda row: row.cost.median))
+
+    @property
     def unconverged(self) -> tuple[str, ...]:
         """Quantities in which the reference and its coarser neighbour differ by more than the accuracy."""
         if self.neighbour is None:

@@ -284,7 +284,7 @@ def test_a_real_ladder_of_two_rungs() -> None:
 @pytest.mark.slow
 def test_the_reference_is_converged() -> None:
     """Half the laminae and twice the step of the reference move it by less than the accuracy."""
-    plan = plan_of(load_scene("static_80kN"), 0.8, 0.3)
+    plan = plan_of(load_scene("static_80kN"), 0.5, 0.25)
     rungs = rungs_of(plan.scene, quick=True)
     ladder = climb(plan, replace(rungs, rungs=(rungs.neighbour,)), 0.05, ASKED)
     assert ladder.neighbour is not None
