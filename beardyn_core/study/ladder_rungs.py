@@ -101,13 +101,32 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
         for name, (effects, choices) in steps.items()
         for laminae, count in choices
     ]
+    found.append(neighbour)
+    known = {effects: name for name, (effects, _) in steps.items()}
+    own = rung_of(scene, known.get(scene.effects, "of the scene"))
+    if _choices(own) not in [_choices(rung) for rung in found]:
+        found.append(own)
+    return RungList(reference, neighbour, tuple(sorted(found, key=expected_cost)))
+
+
+def rung_of(scene: Scene, effects_name: str, name: str = "") -> Rung:
+    """What a scene itself is computed with, as a rung.
+
+    Parameters
+    ----------
+    scene : Scene
+    effects_name : str
+        What its effects are called.
+    name : str, optional
+        Of the rung; from its choices when not given.
+    """
     numerics = scene.numerics
-    own = (scene.tier, scene.effects, numerics.laminae, numerics.steps_per_sample)
-    if own not in [(rung.tier, rung.effects, rung.laminae, rung.steps_per_sample) for rung in found]:
-        known = {effects: name for name, (effects, _) in steps.items()}
-        name = known.get(scene.effects, "own effects")
-        found.append(_rung(scene.tier, name, scene.effects, numerics.laminae, numerics.steps_per_sample))
-    return RungList(reference, neighbour, tuple(sorted([*found, neighbour], key=expected_cost)))
+    rung = _rung(scene.tier, effects_name, scene.effects, numerics.laminae, numerics.steps_per_sample)
+    return replace(rung, name=name) if name else rung
+
+
+def _choices(rung: Rung) -> tuple[str, EffectSet, int, int]:
+    return rung.tier, rung.effects, rung.laminae, rung.steps_per_sample
 
 
 def _one_less(effects: EffectSet) -> list[tuple[str, EffectSet]]:

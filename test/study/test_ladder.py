@@ -20,9 +20,10 @@ from beardyn_core.study.ladder import REFERENCE_RUNS, Plan, Run, climb, plan_of,
 from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
 from beardyn_core.study.ladder_report import json_object, table
 from beardyn_core.study.ladder_result import Ladder
-from beardyn_core.study.ladder_rungs import RungList, expected_cost, rungs_of
+from beardyn_core.study.ladder_rungs import RungList, expected_cost, rung_of, rungs_of
 from beardyn_core.study.measures import MEASURES, QUANTITIES, Outcome
 from beardyn_core.study.rung import Rung
+from beardyn_core.twin import Twin
 
 ASKED = ("force", "deflection", "roller_load", "torque", "vibration")
 STANDARD = load_effects("standard")
@@ -216,6 +217,7 @@ def test_every_rung_of_a_scene_can_be_computed_and_has_its_own_name(
         applied = found.applied(scene)
         assert not contradictions(applied.tier, applied.effects.rib is not None, applied.numerics.laminae)
         assert applied.defects == scene.defects
+        Twin(applied)
     costs = [expected_cost(rung) for rung in rungs.rungs]
     assert costs == sorted(costs)
     assert expected_cost(rungs.reference) > max(costs)
@@ -227,7 +229,13 @@ def test_every_rung_of_a_scene_can_be_computed_and_has_its_own_name(
 
 def test_effects_of_the_scene_itself_are_a_rung(plan: Plan) -> None:
     scene = replace(plan.scene, effects=replace(STANDARD, cage=None))
-    assert "own effects" in {rung.effects_name for rung in rungs_of(scene).rungs}
+    rungs = rungs_of(scene)
+    assert "of the scene" in {rung.effects_name for rung in rungs.rungs}
+    # the scene's own choice may be the neighbour itself
+    usual = rungs.neighbour.applied(plan.scene)
+    assert len(rungs_of(usual).rungs) == len(rungs_of(plan.scene).rungs)
+    assert rung_of(usual, "full") == rungs.neighbour
+    assert rung_of(usual, "auto", name="auto 5 %").name == "auto 5 %"
 
 
 def test_another_rung_takes_its_place_by_cost(plan: Plan) -> None:
