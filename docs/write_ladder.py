@@ -88,7 +88,7 @@ def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
     with tqdm(total=len(rungs.rungs), desc=f"{name}: compiled") as bar:
         compile_rungs(plan, rungs, told(bar))
     shown = "{desc} {percentage:.0f} % {bar} {postfix} [{elapsed}<{remaining}]"
-    with tqdm(total=expected_wall(rungs, plan), desc=f"{name}: run", bar_format=shown) as bar:
+    with tqdm(total=expected_wall(rungs, plan), desc=f"{name}: run", bar_format=shown, miniters=0) as bar:
         return climb(plan, rungs, ACCURACY, progress=told(bar))
 
 

@@ -162,7 +162,7 @@ class _Bar:
         from tqdm import tqdm
 
         shown = f"{what:9}{{bar:30}} {count}{{postfix}} [{{elapsed}}<{{remaining}}]"
-        self._bar = tqdm(total=total, bar_format=shown, disable=None, leave=False)
+        self._bar = tqdm(total=total, bar_format=shown, miniters=0, disable=None, leave=False)
 
     def __enter__(self) -> _Bar:
         return self

@@ -58,16 +58,20 @@ def _band_text(error: QuantityError | None) -> str:
 def heading(ladder: Ladder) -> list[str]:
     """What is compared with what."""
     count, windows = ladder.revolutions, len(ladder.edges) - 1
-    turns = f"{count} whole cage revolutions" if count else "no whole cage revolution"
+    turns = _counted(count, "whole cage revolution") if count else "no whole cage revolution"
     reference = ladder.reference
     return [
         f"{ladder.scene}: {ladder.purpose}",
-        f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in {windows} windows from "
+        f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in {_counted(windows, 'window')} from "
         f"{ladder.edges[0]:.2f} s on",
         f"reference: {_described(reference)}, {reference.runs} runs, {reference.cost.median:.1f} s for each "
         "simulated second",
         f"accuracy {percent(ladder.accuracy)}: {'; '.join(limits_of(ladder))}",
     ]
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def limits_of(ladder: Ladder) -> list[str]:
