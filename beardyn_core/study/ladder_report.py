@@ -62,8 +62,8 @@ def heading(ladder: Ladder) -> list[str]:
     reference = ladder.reference
     return [
         f"{ladder.scene}: {ladder.purpose}",
-        f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in {_counted(windows, 'window')} from "
-        f"{ladder.edges[0]:.2f} s on",
+        f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in "
+        f"{_counted(windows, 'window')} from {ladder.edges[0]:.2f} s on",
         f"reference: {_described(reference)}, {reference.runs} runs, {reference.cost.median:.1f} s for each "
         "simulated second",
         f"accuracy {percent(ladder.accuracy)}: {'; '.join(limits_of(ladder))}",
