@@ -15,7 +15,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow bench costs validation lint format clean
+.PHONY: help demo test slow bench costs ladder validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -35,6 +35,9 @@ bench: $(VENV)/.ready ## set up, then the real-time factor of every shipped scen
 
 costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (compiles 30 sets the first time)
 	@$(BIN)/python benchmarks/effect_costs.py $(ARGS)
+
+ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
+	@$(BIN)/python docs/write_ladder.py $(ARGS)
 
 validation: $(VENV)/.ready-test ## set up, then run every anchor and write docs/validation.md
 	@$(BIN)/python docs/write_validation.py $(ARGS)

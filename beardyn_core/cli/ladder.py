@@ -1,0 +1,175 @@
+"""``beardyn ladder``: what accuracy costs, for one scene."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import logging
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from beardyn_core.errors import InputError
+
+if TYPE_CHECKING:
+    from beardyn_core.study.ladder_result import Ladder
+
+DONE, INTERRUPTED = 0, 130
+_USUAL_ACCURACY = 5.0
+_LONGEST_S = 3600.0
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "ladder",
+        help="what accuracy costs: tiers, effects, laminae and steps against a converged reference",
+        description="Run a scene over tiers, effects, laminae and steps, and compare each rung with a "
+        "converged reference of the same scene: wall time per simulated second, and errors with their "
+        "run-to-run band. Takes some minutes, and half a minute more for every set of effects that is not "
+        "compiled yet. Ctrl-C keeps the rungs done so far.",
+    )
+    parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="write ladder.json and ladder.png to this folder"
+    )
+    parser.add_argument("--duration", metavar="S", type=float, help="simulated time compared, s (1.2)")
+    parser.add_argument("--settling", metavar="S", type=float, help="simulated time before that, s (0.4)")
+    parser.add_argument(
+        "--accuracy",
+        metavar="PERCENT",
+        type=float,
+        help="to judge the rungs by, %% (the scene's, or 5)",
+    )
+    parser.add_argument(
+        "--quantities",
+        metavar="NAMES",
+        help="what the accuracy is asked of, with commas between (the scene's, or all of the definition)",
+    )
+    parser.add_argument("--quick", action="store_true", help="few rungs")
+    parser.add_argument(
+        "--each-effect", action="store_true", help="also `full` less each of its effects in turn"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from beardyn_core.config import load_scene
+    from beardyn_core.study.ladder import DEFAULT_ASKED, climb, compile_rungs, expected_wall, plan_of
+    from beardyn_core.study.ladder_report import json_object, table
+    from beardyn_core.study.ladder_rungs import rungs_of
+
+    problems = option_problems(args)
+    try:
+        scene = load_scene(args.scene)
+    except InputError as error:
+        raise InputError([*error.problems, *problems]) from None
+    if problems:
+        raise InputError(problems)
+
+    plan = plan_of(scene, args.duration, args.settling)
+    rungs = rungs_of(scene, quick=args.quick, each_effect=args.each_effect)
+    accuracy = getattr(scene, "accuracy", None) or 0.01 * _USUAL_ACCURACY
+    if args.accuracy is not None:
+        accuracy = 0.01 * args.accuracy
+    asked = _names(args.quantities) if args.quantities else getattr(scene, "quantities", DEFAULT_ASKED)
+    expected = expected_wall(rungs, plan)
+    print(
+        f"beardyn: {scene.name}, {len(rungs.rungs)} rungs and the reference, "
+        f"some {expected / 60.0:.1f} minutes once all kernels are compiled",
+        file=sys.stderr,
+    )
+    with _quiet():
+        with _Bar("compiled", "{n:.0f}/{total:.0f}", len(rungs.rungs) + 1) as bar:
+            compile_rungs(plan, rungs, bar)
+        with _Bar("run", "{percentage:.0f} %", expected) as bar:
+            ladder = climb(plan, rungs, accuracy, asked, bar)
+    found = json_object(ladder)
+    if args.output is not None:
+        write(ladder, found, args.output)
+    print(json.dumps(found) if args.json else table(ladder))
+    if ladder.interrupted:
+        print("beardyn: interrupted; the rungs done so far are kept", file=sys.stderr)
+    return INTERRUPTED if ladder.interrupted else DONE
+
+
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(","))
+
+
+def option_problems(args: argparse.Namespace) -> list[str]:
+    """What is wrong with the options; nothing is created."""
+    from beardyn_core.study.measures import QUANTITIES
+
+    problems = [
+        f"{name} {value:g}: allowed is more than 0 and at most {most:g} {unit}"
+        for name, value, most, unit in (
+            ("--duration", args.duration, _LONGEST_S, "s"),
+            ("--settling", args.settling, _LONGEST_S, "s"),
+            ("--accuracy", args.accuracy, 100.0, "percent"),
+        )
+        if value is not None and not 0.0 < value <= most
+    ]
+    unknown = [name for name in _names(args.quantities) if name not in QUANTITIES] if args.quantities else []
+    problems += [
+        f"--quantities: {name!r} is not known; known are {', '.join(QUANTITIES)}" for name in unknown
+    ]
+    folder = args.output
+    if folder is None:
+        return problems
+    if folder.exists() and not folder.is_dir():
+        problems.append(f"--output {folder}: is a file; give the name of a folder")
+    elif not folder.is_dir() and not folder.parent.is_dir():
+        problems.append(f"--output {folder}: the folder {folder.parent} does not exist; create it first")
+    elif not os.access(folder if folder.is_dir() else folder.parent, os.W_OK):
+        problems.append(f"--output {folder}: cannot be written; choose a folder you may write to")
+    return problems
+
+
+def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
+    """Write ladder.json and ladder.png."""
+    from beardyn_core.study.ladder_picture import ladder_picture
+
+    try:
+        folder.mkdir(exist_ok=True)
+        (folder / "ladder.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        ladder_picture(ladder, folder / "ladder.png")
+    except OSError as error:
+        raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep each rung's messages about its kernels away from the bar."""
+    logger = logging.getLogger("beardyn")
+    before = logger.level
+    logger.setLevel(logging.WARNING)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
+
+
+class _Bar:
+    """Progress with the time left; told which rung is at work and how much of the whole is done."""
+
+    def __init__(self, what: str, count: str, total: float) -> None:
+        from tqdm import tqdm
+
+        shown = f"{what:9}{{bar:30}} {count}{{postfix}} [{{elapsed}}<{{remaining}}]"
+        self._bar = tqdm(total=total, bar_format=shown, miniters=0, disable=None, leave=False)
+
+    def __enter__(self) -> _Bar:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.close()
+
+    def __call__(self, name: str, done: float) -> None:
+        self._bar.set_postfix_str(name, refresh=False)
+        self._bar.update(min(done, max(self._bar.total - self._bar.n, 0.0)))

@@ -1,0 +1,328 @@
+"""The ladder: a scene over tiers, effects, laminae and steps against a converged reference of itself.
+
+All rungs feel the same load history and sensor noise, one after the other in one process. Repeated runs begin
+a hair apart: `varied`.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.kinematics import cage_speed_ratio
+from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.status import describe
+from beardyn_core.rail.build import load_history
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.scene import Scene
+from beardyn_core.study.ladder_errors import errors
+from beardyn_core.study.ladder_result import Cost, Ladder, RungResult
+from beardyn_core.study.ladder_rungs import RungList, expected_cost
+from beardyn_core.study.measures import FaultLine, Outcome, fault_line_of, outcome
+from beardyn_core.study.rung import Rung
+from beardyn_core.study.signals import SignalCollector
+from beardyn_core.twin import Twin
+
+Float = NDArray[np.float64]
+
+COMPLETE = "complete"
+SETTLING_S = 0.4
+SHORTEST_COMPARISON_S, FEWEST_CAGE_REVOLUTIONS = 1.2, 4
+MOST_WINDOWS = 10
+REFERENCE_RUNS, CHEAP_RUNS = 3, 2
+# rungs that are expected to cost less than this run more than once, [s/s]
+CHEAP = 1.5
+# the filters' delay: the trends of a run end this much before its last block does, rounded up, [s]
+_DELAY = 0.04
+_VARIED_END_PLAY, _VARIED_SPEED = 1.0e-9, 1.0e-4
+DEFAULT_ASKED = ("force", "deflection", "roller_load", "torque", "vibration")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What every run of a ladder is given, and the windows in which it is judged.
+
+    Parameters
+    ----------
+    scene : Scene
+    load : LoadHistory
+        Made once, felt by all rungs.
+    settling : float
+        [s].
+    edges : tuple of float
+        Ends of the windows, [s].
+    revolutions : int
+        Whole cage revolutions that the windows cover; 0 when there is none.
+    block_count : int
+    fault_line : FaultLine or None
+    """
+
+    scene: Scene
+    load: LoadHistory
+    settling: float
+    edges: tuple[float, ...]
+    revolutions: int
+    block_count: int
+    fault_line: FaultLine | None
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of a rung.
+
+    Parameters
+    ----------
+    outcome : Outcome or None
+        ``None`` when it left the model's validity.
+    walls : float64 array, shape [block]
+        Wall time per simulated second of each block after settling, [-].
+    status : str
+    """
+
+    outcome: Outcome | None
+    walls: Float
+    status: str
+
+
+Progress = Callable[[str, float], None]
+Runner = Callable[[Scene, Plan, Callable[[], None]], Run]
+
+
+def plan_of(scene: Scene, duration: float | None = None, settling: float | None = None) -> Plan:
+    """Make the load and place the windows.
+
+    Parameters
+    ----------
+    scene : Scene
+    duration : float, optional
+        Compared after settling; a second or a few cage revolutions, not longer than the scene, [s].
+    settling : float, optional
+        [s].
+
+    Raises
+    ------
+    InputError
+        When the load cannot be made, as from a measurement that is too short.
+    """
+    if settling is None:
+        settling = min(SETTLING_S, 0.25 * scene.duration)
+    if duration is None:
+        duration = _usual_duration(scene, max(scene.duration - settling - _DELAY, 0.5 * scene.duration))
+    block = Twin.block_ns * 1e-9
+    block_count = math.ceil(round((settling + duration + _DELAY) / block, 6))
+    load = load_history(scene.operation, scene.mounting, block_count * block, scene.seed)
+    edges, revolutions = window_edges(
+        load.time_ns.astype(np.float64) * 1e-9,
+        cage_speed_ratio(scene.bearing) * np.abs(load.shaft_speed),
+        settling,
+        settling + duration,
+    )
+    return Plan(scene, load, settling, edges, revolutions, block_count, fault_line_of(scene))
+
+
+def _usual_duration(scene: Scene, longest: float) -> float:
+    """A second or a few cage revolutions at the scene's first speed, [s]."""
+    probe = load_history(scene.operation, scene.mounting, min(0.1, scene.duration), scene.seed)
+    speed = cage_speed_ratio(scene.bearing) * float(np.abs(probe.shaft_speed).mean())
+    turns = FEWEST_CAGE_REVOLUTIONS * 2.0 * math.pi / speed if speed > 0.0 else 0.0
+    return min(max(SHORTEST_COMPARISON_S, 1.05 * turns), longest)
+
+
+def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> tuple[tuple[float, ...], int]:
+    """Ends of equal windows of whole cage revolutions before an end.
+
+    Parameters
+    ----------
+    times, cage_speed : float64 array, shape [sample]
+        [s], in pure rolling [rad/s].
+    start, end : float
+        Between which the windows lie, [s].
+
+    Returns
+    -------
+    tuple of float
+        Ends of the windows, [s]. Without a whole revolution: four windows of equal length.
+    int
+        Whole revolutions in all windows together.
+    """
+    steps = 0.5 * (cage_speed[1:] + cage_speed[:-1]) * np.diff(times)
+    turned = np.concatenate([[0.0], np.cumsum(steps)]) / (2.0 * math.pi)
+    first, last = np.interp([start, end], times, turned)
+    whole = int(last - first + 1e-9)
+    if whole == 0:
+        return tuple(np.linspace(start, end, 5).tolist()), 0
+    each = math.ceil(whole / MOST_WINDOWS)
+    windows = whole // each
+    marks = last - each * np.arange(windows, -1, -1)
+    return tuple(np.interp(marks, turned, times).tolist()), windows * each
+
+
+def varied(scene: Scene, number: int) -> Scene:
+    """The same scene begun a hair apart: end play by nanometres, cage speed by 1e-4 at the start.
+
+    Parameters
+    ----------
+    scene : Scene
+    number : int
+        0 is the scene itself.
+    """
+    if number == 0:
+        return scene
+    cage: Any = scene.effects.cage
+    if cage is not None:
+        ratio = cage.initial_speed_ratio + _VARIED_SPEED * number
+        scene = replace(scene, effects=replace(scene.effects, cage=replace(cage, initial_speed_ratio=ratio)))
+    return replace(scene, end_play=scene.end_play + _VARIED_END_PLAY * number)
+
+
+def simulate(scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
+    """Run a scene of a rung; compiling and starting are not timed."""
+    twin, collector = Twin(scene), SignalCollector()
+    walls: list[float] = []
+    warnings, block = 0, None
+    twin.warm()
+    try:
+        twin.start(plan.load)
+        for _ in range(plan.block_count):
+            began = time.perf_counter()
+            block = twin.advance()
+            walls.append((time.perf_counter() - began) / (1e-9 * twin.block_ns))
+            warnings |= block.status
+            collector.add(block)
+            on_block()
+    except ValidityError as error:
+        return Run(None, np.array(walls), str(error))
+    settled = math.ceil(plan.settling / (1e-9 * twin.block_ns))
+    status = f"{COMPLETE}, but {describe(warnings)}" if warnings else COMPLETE
+    return Run(
+        outcome(collector.signals(), plan.edges, plan.fault_line),
+        np.array(walls[min(settled, len(walls) - 1) :]),
+        status,
+    )
+
+
+def compile_rungs(plan: Plan, rungs: RungList, progress: Progress = lambda _name, _count: None) -> None:
+    """Compile the kernels of all rungs, or load them from the cache, before anything is timed.
+
+    Parameters
+    ----------
+    plan : Plan
+    rungs : RungList
+    progress : callable, optional
+        Told before every rung which one is next, and that one more (0 at first) is ready.
+    """
+    ready = set()
+    for number, rung in enumerate((rungs.reference, *rungs.rungs)):
+        progress(rung.name, min(number, 1))
+        kernels = (rung.tier, rung.effects)
+        if kernels not in ready:
+            Twin(rung.applied(plan.scene)).warm()
+            ready.add(kernels)
+
+
+def repeats_of(rung: Rung) -> int:
+    """How often a rung is run."""
+    return CHEAP_RUNS if expected_cost(rung) <= CHEAP else 1
+
+
+def expected_wall(rungs: RungList, plan: Plan) -> float:
+    """Wall time to expect of a ladder, for the time left, [s]."""
+    costs = REFERENCE_RUNS * expected_cost(rungs.reference)
+    costs += sum(repeats_of(rung) * expected_cost(rung) for rung in rungs.rungs)
+    return costs * plan.block_count * Twin.block_ns * 1e-9
+
+
+def climb(
+    plan: Plan,
+    rungs: RungList,
+    accuracy: float,
+    asked: tuple[str, ...] = DEFAULT_ASKED,
+    progress: Progress = lambda _name, _wall: None,
+    runner: Runner | None = None,
+) -> Ladder:
+    """Run all rungs, the reference first, then the cheapest first.
+
+    Parameters
+    ----------
+    plan : Plan
+    rungs : RungList
+    accuracy : float
+        A share; what rungs are judged by.
+    asked : tuple of str
+        Quantities it is asked of.
+    progress : callable, optional
+        Told after every block which rung it was of, and the wall time that was expected of it, [s].
+    runner : callable, optional
+        Runs one scene; `simulate` when not given.
+
+    Returns
+    -------
+    Ladder
+        After an interrupt with what was done by then.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        When nothing can be judged yet: before two runs of the reference were done.
+    ValidityError
+        When the reference leaves the model's validity.
+    """
+    runner = runner or simulate
+
+    def run(rung: Rung, number: int) -> Run:
+        expected = expected_cost(rung) * Twin.block_ns * 1e-9
+        return runner(varied(rung.applied(plan.scene), number), plan, lambda: progress(rung.name, expected))
+
+    truth: list[Run] = []
+    rows: list[RungResult] = []
+    interrupted = False
+    try:
+        for number in range(REFERENCE_RUNS):
+            truth.append(run(rungs.reference, number))
+            if truth[-1].outcome is None:
+                raise ValidityError(f"the reference cannot be computed: {truth[-1].status}")
+        for rung in rungs.rungs:
+            done = [run(rung, number) for number in range(repeats_of(rung))]
+            rows.append(_result(rung, done, truth))
+    except KeyboardInterrupt:
+        if len(truth) < 2:
+            raise
+        interrupted = True
+    return Ladder(
+        scene=plan.scene.name,
+        purpose=plan.scene.purpose,
+        accuracy=accuracy,
+        asked=asked,
+        settling=plan.settling,
+        edges=plan.edges,
+        revolutions=plan.revolutions,
+        fault_line=plan.fault_line,
+        reference=replace(
+            _result(rungs.reference, truth, truth), errors=_result(rungs.reference, truth[:1], truth).errors
+        ),
+        neighbour=next((row for row in rows if row.rung == rungs.neighbour), None),
+        rows=tuple(rows),
+        interrupted=interrupted,
+    )
+
+
+def _result(rung: Rung, runs: list[Run], truth: list[Run]) -> RungResult:
+    walls = np.concatenate([run.walls for run in runs])
+    lower, median, upper = np.quantile(walls, (0.25, 0.5, 0.75)) if len(walls) else np.full(3, np.nan)
+    cost = Cost(float(median), float(lower), float(upper))
+    outcomes = [run.outcome for run in runs if run.outcome is not None]
+    reference = [run.outcome for run in truth if run.outcome is not None]
+    status = next((run.status for run in runs if run.status != COMPLETE), COMPLETE)
+    if len(outcomes) < len(runs):
+        status = next(run.status for run in runs if run.outcome is None)
+        return RungResult(rung, len(runs), cost, (), (), status)
+    values = tuple(
+        np.mean([found.whole[index] for found in outcomes], axis=0) for index in range(len(outcomes[0].whole))
+    )
+    return RungResult(rung, len(runs), cost, errors(outcomes, reference), values, status)

@@ -1,0 +1,252 @@
+"""A ladder as a table and as JSON."""
+
+from __future__ import annotations
+
+import math
+import os
+import platform
+from collections.abc import Sequence
+from dataclasses import asdict
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.study.ladder_errors import BAND_LIMIT_DB, Part, QuantityError
+from beardyn_core.study.ladder_result import Ladder, RungResult
+from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS
+
+_BAND_ROW = "reference, and the band of a single run"
+_LEGEND = (
+    "6 laminae x 4: 4 steps for each sample of 25.6 kHz; a rung without a tier is of the full tier",
+    "wall: wall time per simulated second, median over blocks; RTF: its inverse",
+    "errors: the worst component of each quantity, in % or dB; (in brackets): not resolved, within the "
+    "run-to-run band",
+    "*: efficient, no cheaper rung is as good; open: the band hides whether the rung is good enough",
+)
+
+
+def percent(share: float) -> str:
+    """A share in percent without needless digits."""
+    return f"{100.0 * share:g} %"
+
+
+def error_text(error: QuantityError | None) -> str:
+    """The worst error of a quantity, in %, or dB; in brackets when it is not resolved."""
+    if error is None or error.worst is None:
+        return "-"
+    text = amount(abs(error.worst.error), error.unit)
+    return text if error.worst.resolved else f"({text})"
+
+
+def amount(value: float, unit: str) -> str:
+    """Two digits of a share in percent, or of dB."""
+    shown = 100.0 * value if unit == "%" else value
+    if not math.isfinite(shown):
+        return "?"
+    return f"{shown:.0f}" if shown >= 9.95 else f"{shown:.1f}" if shown >= 0.95 else f"{shown:.2f}"
+
+
+def _band_text(error: QuantityError | None) -> str:
+    bands = [part.band for part in error.parts] if error is not None else []
+    return f"±{amount(max(bands), error.unit)}" if error is not None and bands else "-"
+
+
+def heading(ladder: Ladder) -> list[str]:
+    """What is compared with what."""
+    count, windows = ladder.revolutions, len(ladder.edges) - 1
+    turns = _counted(count, "whole cage revolution") if count else "no whole cage revolution"
+    reference = ladder.reference
+    return [
+        f"{ladder.scene}: {ladder.purpose}",
+        f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in "
+        f"{_counted(windows, 'window')} from {ladder.edges[0]:.2f} s on",
+        f"reference: {_described(reference)}, {reference.runs} runs, {reference.cost.median:.1f} s for each "
+        "simulated second",
+        f"accuracy {percent(ladder.accuracy)}: {'; '.join(limits_of(ladder))}",
+    ]
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+
+
+def limits_of(ladder: Ladder) -> list[str]:
+    """Which quantities have to be within what."""
+    words = {"%": percent(ladder.accuracy), "dB": f"{BAND_LIMIT_DB:g} dB"}
+    asked = {unit: [name for name in ladder.asked if UNITS[name] == unit] for unit in words}
+    return [f"{', '.join(names)} within {words[unit]}" for unit, names in asked.items() if names]
+
+
+def _described(result: RungResult) -> str:
+    rung = result.rung
+    micro = 1e6 / (WAVEFORM_RATE * rung.steps_per_sample)
+    return f"{rung.tier}, effects {rung.effects_name}, {rung.laminae} laminae, step {micro:.1f} µs"
+
+
+def convergence(ladder: Ladder) -> str:
+    """How far the reference is converged, in a sentence; empty when its neighbour was not run."""
+    if ladder.neighbour is None:
+        return ""
+    differences = [
+        f"{error.quantity} {error_text(error)} {error.unit}"
+        for error in ladder.neighbour.errors
+        if error.worst is not None
+    ]
+    name = ladder.neighbour.rung.name
+    sentence = f"the reference with half of its laminae and twice its step ({name}): {', '.join(differences)}"
+    if ladder.unconverged:
+        sentence += f"; not converged within {percent(ladder.accuracy)}: {', '.join(ladder.unconverged)}"
+    return sentence
+
+
+def closing(ladder: Ladder) -> list[str]:
+    """What the table comes to."""
+    best = ladder.cheapest
+    if best is not None:
+        found = f"{best.rung.name}, {best.cost.median:.2f} s for each simulated second"
+    else:
+        undecided = [row.rung.name for row in ladder.rows if ladder.verdict(row) == "open"]
+        found = "none" + (f"; open: {'; '.join(undecided)}" if undecided else "")
+    lines = [f"cheapest rung within {percent(ladder.accuracy)}: {found}"]
+    lines += [
+        f"{row.rung.name}: {row.status}"
+        for row in (ladder.reference, *ladder.rows)
+        if row.status != "complete"
+    ]
+    if ladder.interrupted:
+        lines.append("interrupted: some rungs are missing")
+    return lines
+
+
+def table(ladder: Ladder) -> str:
+    """Readable table with heading and legend."""
+    names = [*(f"{quantity} {UNITS[quantity]}" for quantity in QUANTITIES)]
+    widths = [len(name) + 2 for name in names]
+    efficient = {row.rung.name for row in ladder.efficient}
+    good = f"{percent(ladder.accuracy)}"
+    wide = 2 + max(len(name) for name in (_BAND_ROW, *(row.rung.name for row in ladder.rows)))
+    head = f"{'rung':{wide}}{'wall':>8}{'RTF':>8}"
+    head += "".join(f"{name:>{width}}" for name, width in zip(names, widths, strict=True)) + f"{good:>7}"
+
+    def line(row: RungResult, name: str, texts: Sequence[str], verdict: str) -> str:
+        wall = row.cost.median
+        cells = "".join(f"{text:>{width}}" for text, width in zip(texts, widths, strict=True))
+        return f"{name:{wide}}{wall:>8.3f}{1.0 / wall:>8.2f}{cells}{verdict:>7}"
+
+    lines = [*heading(ladder), "", head]
+    for row in ladder.by_cost:
+        mark = "* " if row.rung.name in efficient else "  "
+        texts = [error_text(row.of(quantity)) for quantity in QUANTITIES]
+        lines.append(line(row, mark + row.rung.name, texts, ladder.verdict(row)))
+    bands = [_band_text(ladder.reference.of(quantity)) for quantity in QUANTITIES]
+    lines.append(line(ladder.reference, f"  {_BAND_ROW}", bands, ""))
+    if ladder.neighbour is not None:
+        lines += ["", convergence(ladder)]
+    return "\n".join([*lines, "", *_LEGEND, "", *closing(ladder)])
+
+
+def json_object(ladder: Ladder) -> dict[str, Any]:
+    """Everything that a ladder found, for `json.dumps`."""
+    return {
+        "scene": ladder.scene,
+        "purpose": ladder.purpose,
+        "versions": {name: _version(name) for name in ("beardyn", "numba", "numpy", "scipy")},
+        "machine": machine(),
+        "compared": {
+            "settling_s": ladder.settling,
+            "window_edges_s": list(ladder.edges),
+            "cage_revolutions": ladder.revolutions,
+            "fault_line": None if ladder.fault_line is None else asdict(ladder.fault_line),
+        },
+        "accuracy": ladder.accuracy,
+        "asked": list(ladder.asked),
+        "vibration_limit_dB": BAND_LIMIT_DB,
+        "reference": _row(ladder, ladder.reference),
+        "neighbour": None if ladder.neighbour is None else ladder.neighbour.rung.name,
+        "unconverged": list(ladder.unconverged),
+        "rungs": [_row(ladder, row) for row in ladder.rows],
+        "efficient": [row.rung.name for row in ladder.efficient],
+        "cheapest": None if ladder.cheapest is None else ladder.cheapest.rung.name,
+        "interrupted": ladder.interrupted,
+    }
+
+
+def _row(ladder: Ladder, row: RungResult) -> dict[str, Any]:
+    rung, score = row.rung, ladder.score(row)
+    return {
+        "name": rung.name,
+        "tier": rung.tier,
+        "effects": rung.effects_name,
+        "effect_set": asdict(rung.effects),
+        "laminae": rung.laminae,
+        "steps_per_sample": rung.steps_per_sample,
+        "step_s": 1.0 / (WAVEFORM_RATE * rung.steps_per_sample),
+        "runs": row.runs,
+        "status": row.status,
+        "wall_per_simulated_s": {name: _number(value) for name, value in asdict(row.cost).items()},
+        "real_time_factor": _number(1.0 / row.cost.median),
+        "verdict": ladder.verdict(row),
+        "score": None
+        if score is None
+        else {"quantity": score.quantity, "value": _number(score.value), "bar": _number(score.bar)},
+        "errors": {error.quantity: _error(error) for error in row.errors if error.parts},
+        "values": [
+            {"quantity": measure.quantity, "parts": list(measure.parts), "values": _numbers(values)}
+            for measure, values in zip(MEASURES, row.values, strict=False)
+        ],
+    }
+
+
+def _error(error: QuantityError) -> dict[str, Any]:
+    worst = error.worst
+    assert worst is not None
+    return {
+        "unit": "share" if error.unit == "%" else error.unit,
+        "worst": _part(worst),
+        "parts": [_part(part) for part in error.parts],
+    }
+
+
+def _part(part: Part) -> dict[str, Any]:
+    return {
+        "name": part.name,
+        "error": _number(part.error),
+        "band": _number(part.band),
+        "resolved": part.resolved,
+    }
+
+
+def _number(value: float) -> float | None:
+    """JSON has no NaN."""
+    return value if math.isfinite(value) else None
+
+
+def _numbers(values: NDArray[np.float64]) -> list[float | None]:
+    return [_number(value) for value in values.tolist()]
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "source"
+
+
+def machine() -> dict[str, Any]:
+    """What the wall times were measured on."""
+    cpu = Path("/proc/cpuinfo")
+    models = [
+        line.partition(":")[2].strip()
+        for line in (cpu.read_text(encoding="utf-8").splitlines() if cpu.exists() else ())
+        if line.startswith("model name")
+    ]
+    return {
+        "processor": models[0] if models else platform.processor() or platform.machine(),
+        "cores": os.cpu_count(),
+        "system": platform.system(),
+        "python": platform.python_version(),
+    }

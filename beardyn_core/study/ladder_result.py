@@ -1,0 +1,193 @@
+"""What a ladder found: rungs with cost and errors, which of them meet an accuracy, which are efficient."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.study.ladder_errors import QuantityError
+from beardyn_core.study.measures import FaultLine
+from beardyn_core.study.rung import Rung
+
+Float = NDArray[np.float64]
+
+# a dearer rung has to lower the worst error by this share
+_WORTH_IT = 0.1
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Wall time per simulated second, kernel and observation, compiling apart; over blocks.
+
+    Parameters
+    ----------
+    median, lower, upper : float
+        Median and quartiles, [-].
+    """
+
+    median: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Score:
+    """The worst of the asked errors in units of its limit.
+
+    Parameters
+    ----------
+    quantity : str
+    value : float
+        1 is just good enough, [-].
+    bar : float
+        Run-to-run band in the same unit, [-].
+    """
+
+    quantity: str
+    value: float
+    bar: float
+
+    @property
+    def resolved(self) -> bool:
+        """Whether the error stands out of the run-to-run band."""
+        return self.value > self.bar
+
+
+@dataclass(frozen=True)
+class RungResult:
+    """A rung with its cost and its errors.
+
+    Parameters
+    ----------
+    rung : Rung
+    runs : int
+        How often it was run.
+    cost : Cost
+    errors : tuple of QuantityError
+        Empty when a run left the model's validity.
+    values : tuple of float64 arrays, one of `measures.MEASURES` each
+        Means over the runs of what the errors are made of; empty likewise.
+    status : str
+        ``complete``, with warnings if there were any, or how a run ended.
+    """
+
+    rung: Rung
+    runs: int
+    cost: Cost
+    errors: tuple[QuantityError, ...]
+    values: tuple[Float, ...]
+    status: str
+
+    def of(self, quantity: str) -> QuantityError | None:
+        """Error of one quantity; ``None`` when there is none."""
+        return next((error for error in self.errors if error.quantity == quantity), None)
+
+    def score(self, asked: tuple[str, ...], accuracy: float) -> Score | None:
+        """The worst of the asked errors; ``None`` when a run left the model's validity."""
+        found = [
+            Score(
+                error.quantity,
+                abs(error.worst.error) / error.limit(accuracy),
+                error.worst.band / error.limit(accuracy),
+            )
+            for error in self.errors
+            if error.quantity in asked and error.worst is not None
+        ]
+        return max(found, key=lambda score: score.value, default=None)
+
+    def verdict(self, asked: tuple[str, ...], accuracy: float) -> str:
+        """Whether the rung meets an accuracy: ``yes``, ``no`` or ``open`` (the band hides it)."""
+        if not self.errors:
+            return "no"
+        found = {error.verdict(accuracy) for error in self.errors if error.quantity in asked}
+        return "no" if "no" in found else "open" if "open" in found else "yes"
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """The rungs of a scene against its reference.
+
+    Parameters
+    ----------
+    scene, purpose : str
+    accuracy : float
+        Asked for, a share.
+    asked : tuple of str
+        Quantities that it is asked of.
+    settling : float
+        Before the comparison begins, [s].
+    edges : tuple of float
+        Ends of the windows that are compared, [s].
+    revolutions : int
+        Whole cage revolutions from the first to the last edge; 0 when there is none.
+    fault_line : FaultLine or None
+    reference : RungResult
+        Its errors are those of its first run against the mean of all.
+    neighbour : RungResult
+        The reference with half of its laminae and twice its step: how far the reference is converged.
+    rows : tuple of RungResult
+        The rungs in the order in which they were run.
+    interrupted : bool
+        Whether rungs are missing.
+    """
+
+    scene: str
+    purpose: str
+    accuracy: float
+    asked: tuple[str, ...]
+    settling: float
+    edges: tuple[float, ...]
+    revolutions: int
+    fault_line: FaultLine | None
+    reference: RungResult
+    neighbour: RungResult | None
+    rows: tuple[RungResult, ...]
+    interrupted: bool = False
+
+    def score(self, row: RungResult) -> Score | None:
+        """The worst of the asked errors of a row."""
+        return row.score(self.asked, self.accuracy)
+
+    def verdict(self, row: RungResult) -> str:
+        """Whether a row meets the accuracy that is asked for."""
+        return row.verdict(self.asked, self.accuracy)
+
+    @property
+    def by_cost(self) -> tuple[RungResult, ...]:
+        """The rungs, the cheapest first."""
+        return tuple(sorted(self.rows, key=lambda row: row.cost.median))
+
+    @property
+    def unconverged(self) -> tuple[str, ...]:
+        """Quantities in which the reference and its coarser neighbour differ by more than the accuracy."""
+        if self.neighbour is None:
+            return ()
+        return tuple(e.quantity for e in self.neighbour.errors if e.verdict(self.accuracy) == "no")
+
+    @property
+    def efficient(self) -> tuple[RungResult, ...]:
+        """Rungs for which no cheaper one is as good, the cheapest first.
+
+        As good is what is not worse by more than the run-to-run band and a tenth.
+        """
+        scored = [(row.cost.median, row, score) for row in self.rows if (score := self.score(row))]
+        scored.sort(key=lambda item: item[0])
+        kept: list[tuple[RungResult, Score]] = []
+        for _, row, score in scored:
+            if all(_better(score, cheaper) for _, cheaper in kept):
+                kept.append((row, score))
+        return tuple(row for row, _ in kept)
+
+    @property
+    def cheapest(self) -> RungResult | None:
+        """The cheapest rung that meets the accuracy."""
+        meeting = [row for row in self.rows if self.verdict(row) == "yes"]
+        return min(meeting, key=lambda row: row.cost.median, default=None)
+
+
+def _better(one: Score, other: Score) -> bool:
+    """Whether the first is better by more than both bands together let it seem, and worth its cost."""
+    return other.value - one.value > max(math.hypot(one.bar, other.bar), _WORTH_IT * other.value)

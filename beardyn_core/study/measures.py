@@ -1,0 +1,257 @@
+"""What a stretch of a run comes to, in the numbers that the ladder compares."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.observe.diagnosis import MonitorSettings
+from beardyn_core.observe.features import envelope, order_spectrum, resample_by_angle
+from beardyn_core.scene.scene import Scene
+from beardyn_core.study.signals import Signals
+
+Float = NDArray[np.float64]
+
+# IEC 61260-1, base ten, and its nominal frequencies, [Hz]
+NOMINAL_BANDS = (
+    *(31.5, 40, 50, 63, 80, 100, 125, 160, 200, 250, 315, 400, 500),
+    *(630, 800, 1000, 1250, 1600, 2000, 2500, 3150, 4000, 5000, 6300, 8000, 10_000),
+)
+BAND_CENTRES = 1000.0 * 10.0 ** (0.1 * np.arange(-15, 11))
+REFERENCE_ACCELERATION = 1.0e-6  # ISO 1683, [m/s^2]
+HIGH_QUANTILE = 0.99
+# bins of the load distribution that carry this share of the largest one are the load zone
+LOAD_ZONE_SHARE = 0.05
+_PASSBAND = 0.4  # of the waveform rate: what the anti-alias filter leaves as it is
+_MONITOR = MonitorSettings()
+_TINY = 1e-300
+
+
+@dataclass(frozen=True)
+class FaultLine:
+    """The line of a scene's fault in the envelope order spectrum.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``BPFO``.
+    order : float
+        Per shaft revolution, [-].
+    """
+
+    name: str
+    order: float
+
+
+def fault_line_of(scene: Scene) -> FaultLine | None:
+    """Line of the first defect of the bearing, else of the wheel; ``None`` for a healthy scene."""
+    if not scene.defects:
+        wheel = getattr(scene.operation, "wheel_defects", ())
+        return FaultLine("wheel", float(getattr(wheel[0], "order", 1))) if wheel else None
+    frequencies = fault_frequencies(scene.bearing)
+    defect = scene.defects[0]
+    if defect.kind in ("diameter", "worn_pocket"):
+        return FaultLine("FTF", frequencies.ftf)
+    return {
+        "cup": FaultLine("BPFO", frequencies.bpfo),
+        "cone": FaultLine("BPFI", frequencies.bpfi),
+        "roller": FaultLine("2 BSF", 2.0 * frequencies.bsf),
+    }[defect.on]
+
+
+def third_octave_levels(acceleration: Float, rate: float = WAVEFORM_RATE) -> Float:
+    """Level of the acceleration in each third-octave band, all axes together.
+
+    Parameters
+    ----------
+    acceleration : float64 array, shape [sample, axis]
+        [m/s^2].
+    rate : float
+        [Hz].
+
+    Returns
+    -------
+    float64 array, shape [band]
+        Bands of `NOMINAL_BANDS`; the last one ends where the anti-alias filter begins (0.4 of the rate),
+        re 1 µm/s^2, [dB].
+
+    Notes
+    -----
+    Periodogram under a Hann window; a line between two bands is shared by them.
+    """
+    count = len(acceleration)
+    if count < 2:
+        return np.full(len(BAND_CENTRES), np.nan)
+    window = np.hanning(count + 1)[:-1]
+    # a constant times the window must not leak into the first bands: remove the weighted mean
+    centred = acceleration - window @ acceleration / window.sum()
+    spectrum = np.abs(np.fft.rfft(centred * window[:, None], axis=0)) ** 2
+    power = 2.0 / (count * np.sum(window**2)) * spectrum.sum(axis=1)
+    # a bin's power is spread evenly over its width, so that narrow bands need not hold whole bins
+    edges = (np.arange(len(power) + 1) - 0.5) * rate / count
+    below = np.concatenate([[0.0], np.cumsum(power)])
+    half = 10.0**0.05
+    top = np.minimum(BAND_CENTRES * half, _PASSBAND * rate)
+    within = np.interp(top, edges, below) - np.interp(BAND_CENTRES / half, edges, below)
+    return 10.0 * np.log10(np.maximum(within, _TINY) / REFERENCE_ACCELERATION**2)
+
+
+def load_distribution(azimuth: Float, load: Float) -> Float:
+    """Mean roller load over azimuth, in bins of one roller pitch around 2 pi k / Z.
+
+    Parameters
+    ----------
+    azimuth, load : float64 array, shape [snapshot, row, roller]
+        [rad], [N].
+
+    Returns
+    -------
+    float64 array, shape [row, bin]
+        NaN where no roller was seen, [N].
+    """
+    rows, rollers = azimuth.shape[1:]
+    place = np.floor(azimuth * (rollers / (2.0 * np.pi)) + 0.5).astype(np.int64) % rollers
+    found = np.full((rows, rollers), np.nan)
+    for row in range(rows):
+        index = place[:, row].ravel()
+        seen = np.bincount(index, minlength=rollers)
+        total = np.bincount(index, weights=load[:, row].ravel(), minlength=rollers)
+        np.divide(total, seen, out=found[row], where=seen > 0)
+    return found
+
+
+def line_level(signals: Signals, order: float) -> float:
+    """Amplitude of a line of the envelope order spectrum, re 1 µm/s^2, [dB].
+
+    Parameters
+    ----------
+    signals : Signals
+    order : float
+        Where the line is without slip, per shaft revolution; sought within the monitor's tolerance, [-].
+    """
+    times, angle = signals.wave_time, np.abs(signals.shaft_angle)
+    within = (times >= signals.trend_time[0]) & (times <= signals.trend_time[-1])
+    turned = np.interp(times[within], signals.trend_time, angle)
+    if len(turned) < 2 or np.any(np.diff(turned) <= 0.0):
+        return float("nan")
+    per_revolution = _MONITOR.samples_per_revolution
+    heard = envelope(signals.acceleration[within], WAVEFORM_RATE, _MONITOR.band)
+    even = resample_by_angle(heard, turned, per_revolution)
+    if len(even) < per_revolution:
+        return float("nan")
+    spectrum = order_spectrum(even, per_revolution, 2.0 * order, _MONITOR.background_width)
+    reach = max(_MONITOR.tolerance * order, spectrum.resolution)
+    near = np.abs(spectrum.order - order) <= reach
+    return 20.0 * float(np.log10(max(spectrum.amplitude[near].max(), _TINY) / REFERENCE_ACCELERATION))
+
+
+@dataclass(frozen=True)
+class Measure:
+    """One number, or one family of numbers, of a run.
+
+    Parameters
+    ----------
+    quantity : str
+        What it belongs to: a column of the ladder.
+    parts : tuple of str
+        Names of its components; a single one when they are folded.
+    take : callable
+        Components from the signals and the scene's fault line.
+    scale : callable or None
+        What an error is relative to, from the reference's components; ``None``: levels in dB.
+    weighed : callable or None
+        Which components count, from the reference's; with it the error is their root mean square.
+    """
+
+    quantity: str
+    parts: tuple[str, ...]
+    take: Callable[[Signals, FaultLine | None], Float]
+    scale: Callable[[Float], Float] | None
+    weighed: Callable[[Float], NDArray[np.bool_]] | None = None
+
+
+def _length(reference: Float) -> Float:
+    return np.array([np.linalg.norm(reference)])
+
+
+def _largest(reference: Float) -> Float:
+    return np.nanmax(np.abs(reference), keepdims=True)
+
+
+def _load_zone(reference: Float) -> NDArray[np.bool_]:
+    return np.asarray(reference >= LOAD_ZONE_SHARE * np.nanmax(reference))
+
+
+def _high(values: Float) -> Float:
+    return np.quantile(values, HIGH_QUANTILE, keepdims=True)
+
+
+def _largest_load(signals: Signals) -> Float:
+    return signals.roller_load.max(axis=(1, 2))
+
+
+def _line(signals: Signals, line: FaultLine | None) -> Float:
+    return np.array([np.nan if line is None else line_level(signals, line.order)])
+
+
+_AXES = ("mean x", "mean y", "mean z")
+MEASURES = (
+    Measure("force", _AXES, lambda s, _: s.force.mean(axis=0), _length),
+    Measure("force", ("99 %",), lambda s, _: _high(np.linalg.norm(s.force, axis=1)), _length),
+    Measure("deflection", _AXES, lambda s, _: s.deflection.mean(axis=0), _length),
+    Measure("deflection", ("99 %",), lambda s, _: _high(np.linalg.norm(s.deflection, axis=1)), _length),
+    Measure("roller_load", ("largest, mean",), lambda s, _: _largest_load(s).mean(keepdims=True), _length),
+    Measure("roller_load", ("largest, 99 %",), lambda s, _: _high(_largest_load(s)), _length),
+    Measure(
+        "roller_load",
+        ("rms over the load zone",),
+        lambda s, _: load_distribution(s.roller_azimuth, s.roller_load).ravel(),
+        _largest,
+        _load_zone,
+    ),
+    Measure("torque", ("mean",), lambda s, _: s.torque.mean(keepdims=True), _length),
+    Measure(
+        "vibration",
+        tuple(f"{band:g} Hz" for band in NOMINAL_BANDS),
+        lambda s, _: third_octave_levels(s.acceleration),
+        None,
+    ),
+    Measure("cage_speed", ("row 0", "row 1"), lambda s, _: s.cage_speed.mean(axis=0), np.abs),
+    Measure("fault_line", ("envelope",), _line, None),
+)
+QUANTITIES = tuple(dict.fromkeys(measure.quantity for measure in MEASURES))
+UNITS = {measure.quantity: "dB" if measure.scale is None else "%" for measure in MEASURES}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one run came to.
+
+    Parameters
+    ----------
+    whole : tuple of float64 arrays, one of `MEASURES` each
+        Over all windows together.
+    windows : tuple of such tuples
+        Over each window.
+    """
+
+    whole: tuple[Float, ...]
+    windows: tuple[tuple[Float, ...], ...]
+
+
+def measured(signals: Signals, line: FaultLine | None) -> tuple[Float, ...]:
+    """Components of all `MEASURES` of a stretch."""
+    return tuple(measure.take(signals, line) for measure in MEASURES)
+
+
+def outcome(signals: Signals, edges: tuple[float, ...], line: FaultLine | None) -> Outcome:
+    """What a run came to over windows with the given ends, [s]."""
+    whole = signals.between(edges[0], edges[-1])
+    windows = tuple(measured(whole.between(start, end), line) for start, end in pairwise(edges))
+    return Outcome(measured(whole, line), windows)

@@ -1,0 +1,49 @@
+"""A rung of the ladder: one choice of tier, effects, laminae and step for a scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from beardyn_core.effects import EffectSet
+from beardyn_core.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One choice of what a scene is computed with.
+
+    Parameters
+    ----------
+    name : str
+        Names the rung in tables and pictures.
+    tier : str
+        Name of a tier, see `scene.tier`.
+    effects_name : str
+        What the set of effects is called.
+    effects : EffectSet
+    laminae : int
+        Of each roller.
+    steps_per_sample : int
+        Time steps per waveform sample (25.6 kHz), [-].
+    """
+
+    name: str
+    tier: str
+    effects_name: str
+    effects: EffectSet
+    laminae: int
+    steps_per_sample: int
+
+    def applied(self, scene: Scene) -> Scene:
+        """The scene with this choice; bearing, load, faults, sensors and seed stay.
+
+        Parameters
+        ----------
+        scene : Scene
+
+        Returns
+        -------
+        Scene
+        """
+        numerics = replace(scene.numerics, laminae=self.laminae, steps_per_sample=self.steps_per_sample)
+        return replace(scene, tier=self.tier, effects=self.effects, numerics=numerics)

@@ -1,0 +1,113 @@
+"""What a run is judged by: the channels of its blocks in one piece, and windows of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.observe.block import CONTACT_KINDS, Block
+
+Float = NDArray[np.float64]
+
+_CUP_BODY, _CONE_BODY, _FIRST_ROLLER = 0, 1, 4  # order of `Twin.body_names`
+_CUP_CONTACT = CONTACT_KINDS.index("cup")
+_FORCE = slice(3, 6)  # of `CONTACT_FIELDS`
+
+
+@dataclass(frozen=True)
+class Signals:
+    """Channels of a stretch of a run.
+
+    Parameters
+    ----------
+    trend_time : float64 array, shape [trend]
+        Of the channels at 400 Hz, [s].
+    force : float64 array, shape [trend, 3]
+        Of the rollers on the cup, [N].
+    torque : float64 array, shape [trend]
+        Of the bearing on the shaft, [N m].
+    shaft_angle : float64 array, shape [trend]
+        [rad].
+    cage_speed : float64 array, shape [trend, row]
+        [rad/s].
+    snapshot_time : float64 array, shape [snapshot]
+        Of the channels at 200 Hz, [s].
+    deflection : float64 array, shape [snapshot, 3]
+        Of the cone against the cup, [m].
+    roller_azimuth : float64 array, shape [snapshot, row, roller]
+        From +z towards +x, [rad].
+    roller_load : float64 array, shape [snapshot, row, roller]
+        Between cup and roller, [N].
+    wave_time : float64 array, shape [sample]
+        Of the acceleration, [s].
+    acceleration : float64 array, shape [sample, 3]
+        Read by the first accelerometer, [m/s^2].
+    """
+
+    trend_time: Float
+    force: Float
+    torque: Float
+    shaft_angle: Float
+    cage_speed: Float
+    snapshot_time: Float
+    deflection: Float
+    roller_azimuth: Float
+    roller_load: Float
+    wave_time: Float
+    acceleration: Float
+
+    def between(self, start: float, end: float) -> Signals:
+        """The samples from a time to before another one, [s]."""
+        trend, snapshot, wave = (
+            slice(*np.searchsorted(times, (start - 1e-9, end - 1e-9)))
+            for times in (self.trend_time, self.snapshot_time, self.wave_time)
+        )
+        return Signals(
+            self.trend_time[trend],
+            self.force[trend],
+            self.torque[trend],
+            self.shaft_angle[trend],
+            self.cage_speed[trend],
+            self.snapshot_time[snapshot],
+            self.deflection[snapshot],
+            self.roller_azimuth[snapshot],
+            self.roller_load[snapshot],
+            self.wave_time[wave],
+            self.acceleration[wave],
+        )
+
+
+class SignalCollector:
+    """Keeps of every block what a run is judged by."""
+
+    def __init__(self) -> None:
+        self._parts: list[tuple[NDArray[Any], ...]] = []
+
+    def add(self, block: Block) -> None:
+        """Keep the channels of a block."""
+        rows, rollers = block.roller_angle.shape[1:]
+        pose = block.body_pose
+        places = pose[:, _FIRST_ROLLER:, :3] - pose[:, _CUP_BODY, None, :3]
+        azimuth = np.arctan2(places[..., 0], places[..., 2]).reshape(-1, rows, rollers)
+        self._parts.append(
+            (
+                block.trend_time_ns * 1e-9,
+                block.force[:, :3],
+                block.shaft_torque,
+                block.shaft_angle,
+                block.cage_speed,
+                block.snapshot_time_ns * 1e-9,
+                pose[:, _CONE_BODY, :3] - pose[:, _CUP_BODY, :3],
+                azimuth,
+                np.linalg.norm(block.contacts[..., _CUP_CONTACT, _FORCE], axis=-1),
+                block.waveform_time_ns * 1e-9,
+                block.acceleration[0] if len(block.acceleration) else np.zeros((0, 3)),
+            )
+        )
+
+    def signals(self) -> Signals:
+        """All blocks in one piece."""
+        return Signals(*(np.concatenate(parts) for parts in zip(*self._parts, strict=True)))

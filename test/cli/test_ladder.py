@@ -1,0 +1,106 @@
+"""`beardyn ladder`: bad input, what it writes, what it prints."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from beardyn_core.cli import main as command
+from beardyn_core.study import ladder
+from beardyn_core.study.ladder import Plan, Run
+from beardyn_core.study.measures import MEASURES, Outcome
+
+
+def one_run(scene: Any, plan: Plan, on_block: Any) -> Run:
+    """Stands in for a run: torque and cost by step, nothing scatters but the last digit."""
+    on_block()
+    steps = scene.numerics.steps_per_sample
+    values = tuple(
+        np.full(
+            40 if measure.weighed else len(measure.parts),
+            1.0 + (1.0 / steps**2 if measure.quantity == "torque" else 0.0) + 1e3 * scene.end_play,
+        )
+        for measure in MEASURES
+    )
+    return Run(Outcome(values, (values, values)), np.full(3, 0.1 * steps), "complete")
+
+
+@pytest.fixture
+def runs(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """Rungs that were run, with stand-ins for compiling and running."""
+    seen: list[Any] = []
+
+    def runner(scene: Any, plan: Plan, on_block: Any) -> Run:
+        seen.append(scene)
+        return one_run(scene, plan, on_block)
+
+    monkeypatch.setattr(ladder, "simulate", runner)
+    monkeypatch.setattr(ladder.Twin, "warm", lambda _twin: 0.0)
+    return seen
+
+
+def test_every_mistake_is_told_at_once_and_nothing_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], runs: list[Any]
+) -> None:
+    scene = tmp_path / "bad.yaml"
+    scene.write_text("scene: bad\nbearing: HS130\nlubricant: L055\noperation: {kind: constant}\n")
+    words = ["ladder", str(scene), "-o", str(tmp_path / "missing" / "out"), "--duration", "-1"]
+    words += ["--accuracy", "0", "--quantities", "force,noise"]
+    assert command.main(words) == command.BAD_INPUT
+    told = capsys.readouterr()
+    assert told.out == ""
+    for mistake in ("'HS130'", "force_kN is missing", "missing", "--duration -1", "--accuracy 0", "'noise'"):
+        assert mistake in told.err
+    assert list(tmp_path.iterdir()) == [scene]
+    assert not runs
+
+
+def test_an_output_that_is_a_file_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "taken"
+    path.touch()
+    assert command.main(["ladder", "static_80kN", "-o", str(path)]) == command.BAD_INPUT
+    assert "is a file; give the name of a folder" in capsys.readouterr().err
+
+
+def test_table_json_and_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str], runs: list[Any]) -> None:
+    folder = tmp_path / "out"
+    words = ["ladder", "static_80kN", "--quick", "--duration", "0.3", "--accuracy", "10", "-o", str(folder)]
+    assert command.main(words) == command.DONE
+    told = capsys.readouterr()
+    assert "cheapest rung within 10 %: effects " in told.out
+    found = json.loads((folder / "ladder.json").read_text())
+    assert found["accuracy"] == pytest.approx(0.1)
+    # (1/4^2 - 1/8^2) / (1 + 1/8^2) = 4.6 %, with 2 steps 23 %
+    verdicts = {(row["tier"], row["steps_per_sample"]): row["verdict"] for row in found["rungs"]}
+    assert verdicts == {("lumped", 1): "no", ("quasistatic", 2): "no", ("full", 4): "yes"}
+    assert (folder / "ladder.png").stat().st_size > 10_000
+    assert {scene.tier for scene in runs} == {"lumped", "quasistatic", "full"}
+
+
+def test_json_alone_on_standard_output(capsys: pytest.CaptureFixture[str], runs: list[Any]) -> None:
+    assert command.main(["ladder", "static_80kN", "--quick", "--duration", "0.3", "--json"]) == command.DONE
+    found = json.loads(capsys.readouterr().out)
+    assert found["scene"] == "static_80kN"
+    assert found["asked"] == list(ladder.DEFAULT_ASKED)
+
+
+def test_an_interrupt_keeps_the_rungs_done_so_far(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, runs: list[Any]
+) -> None:
+    def impatient(scene: Any, plan: Plan, on_block: Any) -> Run:
+        if scene.tier == "full" and scene.numerics.steps_per_sample == 4:
+            raise KeyboardInterrupt
+        return one_run(scene, plan, on_block)
+
+    monkeypatch.setattr(ladder, "simulate", impatient)
+    words = ["ladder", "static_80kN", "--quick", "--duration", "0.3", "-o", str(tmp_path / "out")]
+    assert command.main(words) == command.INTERRUPTED
+    told = capsys.readouterr()
+    assert "interrupted: some rungs are missing" in told.out
+    found = json.loads((tmp_path / "out" / "ladder.json").read_text())
+    assert found["interrupted"]
+    assert {row["tier"] for row in found["rungs"]} == {"lumped", "quasistatic"}

@@ -1,0 +1,304 @@
+"""The ladder: which rungs, which of them are efficient or good enough, and what a run of it leaves behind."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from beardyn_core.config import load_effects, load_scene
+from beardyn_core.errors import ValidityError
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import contradictions
+from beardyn_core.study.ladder import REFERENCE_RUNS, Plan, Run, climb, plan_of, repeats_of, varied
+from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
+from beardyn_core.study.ladder_report import json_object, table
+from beardyn_core.study.ladder_result import Ladder
+from beardyn_core.study.ladder_rungs import RungList, expected_cost, rung_of, rungs_of
+from beardyn_core.study.measures import MEASURES, QUANTITIES, Outcome
+from beardyn_core.study.rung import Rung
+from beardyn_core.twin import Twin
+
+ASKED = ("force", "deflection", "roller_load", "torque", "vibration")
+STANDARD = load_effects("standard")
+SIZES = [2 * 20 if measure.weighed else len(measure.parts) for measure in MEASURES]
+
+
+def rung(name: str, tier: str = "full", laminae: int = 6, steps: int = 4) -> Rung:
+    return Rung(name, tier, "standard", STANDARD, laminae, steps)
+
+
+REFERENCE = rung("reference", laminae=20, steps=16)
+FAST, MIDDLE, EXACT, SLOW = (
+    rung("fast", "lumped", 1, 1), rung("middle", "quasistatic"), rung("exact", steps=7), rung("slow", steps=8)
+)  # fmt: skip
+RUNGS = RungList(REFERENCE, SLOW, (FAST, MIDDLE, EXACT, SLOW))
+# wall time per simulated second, error of the torque, level of all bands [dB]
+TRUTH = {
+    (1, 1): (0.1, 0.5, 4.0),
+    (6, 4): (0.3, 0.02, 1.0),
+    (6, 7): (1.0, 0.0, 0.0),
+    (6, 8): (2.0, 0.0, 0.0),
+    (20, 16): (9.0, 0.0, 0.0),
+}
+
+
+class FakeRuns:
+    """Outcomes with known errors and a known scatter; the last choice invalid or interrupted if asked."""
+
+    def __init__(
+        self, scatter: float = 1e-3, invalid: int | None = None, interrupted: int | None = None
+    ) -> None:
+        self._generator = np.random.default_rng(5)
+        self._scatter, self._invalid, self._interrupted = scatter, invalid, interrupted
+        self.scenes: list[Scene] = []
+
+    def __call__(self, scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
+        steps = scene.numerics.steps_per_sample
+        self.scenes.append(scene)
+        on_block()
+        if steps == self._interrupted:
+            raise KeyboardInterrupt
+        if steps == self._invalid:
+            return Run(None, np.array([1.0]), "the run ended at 0.1 s: a number became NaN")
+        wall, torque, level = TRUTH[scene.numerics.laminae, steps]
+        windows = tuple(self._values(torque, level) for _ in range(5))
+        whole = tuple(np.mean([window[i] for window in windows], axis=0) for i in range(len(MEASURES)))
+        return Run(Outcome(whole, windows), np.full(5, wall), "complete")
+
+    def _values(self, torque: float, level: float) -> tuple[np.ndarray, ...]:
+        return tuple(
+            np.full(size, 1.0 + (torque if m.quantity == "torque" else 0.0))
+            + (120.0 + level if m.quantity == "vibration" else 0.0)
+            + self._scatter * self._generator.standard_normal(size)
+            for m, size in zip(MEASURES, SIZES, strict=True)
+        )
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return plan_of(load_scene("static_80kN"), 0.5, 0.1)
+
+
+def climbed(plan: Plan, runs: FakeRuns, accuracy: float = 0.05) -> Ladder:
+    return climb(plan, RUNGS, accuracy, ASKED, runner=runs)
+
+
+def test_efficient_rungs_and_the_cheapest_good_one(plan: Plan) -> None:
+    ladder = climbed(plan, FakeRuns())
+    verdicts = {row.rung.name: ladder.verdict(row) for row in ladder.rows}
+    assert verdicts == {"fast": "no", "middle": "yes", "exact": "yes", "slow": "yes"}
+    # `slow` costs more than `exact` and is not better
+    assert [row.rung.name for row in ladder.efficient] == ["fast", "middle", "exact"]
+    assert ladder.cheapest is not None
+    assert ladder.cheapest.rung.name == "middle"
+
+
+def test_what_is_good_enough_depends_on_the_accuracy_asked_for(plan: Plan) -> None:
+    ladder = climbed(plan, FakeRuns(), accuracy=0.01)
+    assert ladder.cheapest is not None
+    assert ladder.cheapest.rung.name == "exact"
+    score = ladder.score(ladder.rows[1])
+    assert score is not None
+    assert score.quantity == "torque"
+    assert score.value == pytest.approx(2.0, rel=0.1)
+
+
+def test_a_quantity_that_is_not_asked_for_does_not_count(plan: Plan) -> None:
+    ladder = climb(plan, RUNGS, 0.01, ("force",), runner=FakeRuns())
+    assert ladder.cheapest is not None
+    assert ladder.cheapest.rung.name == "fast"
+
+
+def test_an_error_inside_the_band_is_not_resolved_and_nothing_is_claimed(plan: Plan) -> None:
+    ladder = climbed(plan, FakeRuns(scatter=0.2))
+    middle = next(row for row in ladder.rows if row.rung.name == "middle")
+    torque = middle.of("torque")
+    assert torque is not None
+    assert torque.worst is not None
+    assert not torque.worst.resolved
+    assert ladder.verdict(middle) == "open"
+    assert ladder.cheapest is None
+    # a cheaper rung that may be as good leaves a dearer one inefficient
+    assert [row.rung.name for row in ladder.efficient] == ["fast"]
+    text = table(ladder)
+    assert "(" in next(line for line in text.splitlines() if line.strip().startswith("middle"))
+    assert "cheapest rung within 5 %: none; open: " in text
+
+
+def test_every_error_and_band_is_in_the_json_and_the_table_names_all_quantities(plan: Plan) -> None:
+    ladder = climbed(plan, FakeRuns())
+    found = json.loads(json.dumps(json_object(ladder), allow_nan=False))
+    assert [row["name"] for row in found["rungs"]] == ["fast", "middle", "exact", "slow"]
+    assert found["efficient"] == ["fast", "middle", "exact"]
+    assert found["cheapest"] == "middle"
+    assert found["neighbour"] == "slow"
+    assert found["machine"]["cores"] >= 1
+    assert found["versions"]["numpy"] == np.__version__
+    fast = found["rungs"][0]
+    assert fast["wall_per_simulated_s"]["median"] == pytest.approx(0.1)
+    assert fast["errors"]["torque"]["worst"]["error"] == pytest.approx(0.5, abs=0.01)
+    assert len(fast["errors"]["vibration"]["parts"]) == 26
+    assert set(fast["errors"]) == set(QUANTITIES)
+    for name in (
+        "fast",
+        "middle",
+        *QUANTITIES,
+        "5 whole cage revolutions" if ladder.revolutions == 5 else "",
+    ):
+        assert name in table(ladder)
+
+
+def test_a_reference_that_is_not_converged_is_said_to_be_so(plan: Plan) -> None:
+    assert climbed(plan, FakeRuns()).unconverged == ()
+    ladder = climb(plan, replace(RUNGS, neighbour=FAST), 0.05, ASKED, runner=FakeRuns())
+    assert ladder.unconverged == ("torque", "vibration")
+    assert "not converged within 5 %: torque, vibration" in table(ladder)
+    assert json_object(ladder)["unconverged"] == ["torque", "vibration"]
+
+
+def test_a_rung_that_leaves_its_validity_is_reported_and_never_good(plan: Plan) -> None:
+    ladder = climbed(plan, FakeRuns(invalid=4))
+    middle = next(row for row in ladder.rows if row.rung.name == "middle")
+    assert ladder.verdict(middle) == "no"
+    assert ladder.score(middle) is None
+    assert [row.rung.name for row in ladder.efficient] == ["fast", "exact"]
+    assert "middle: the run ended at 0.1 s: a number became NaN" in table(ladder)
+    json.dumps(json_object(ladder), allow_nan=False)
+
+
+def test_a_reference_that_leaves_its_validity_ends_the_ladder(plan: Plan) -> None:
+    with pytest.raises(ValidityError, match="reference cannot be computed"):
+        climbed(plan, FakeRuns(invalid=16))
+
+
+def test_an_interrupt_keeps_what_was_done(plan: Plan) -> None:
+    ladder = climbed(plan, FakeRuns(interrupted=7))
+    assert ladder.interrupted
+    assert [row.rung.name for row in ladder.rows] == ["fast", "middle"]
+    assert ladder.neighbour is None
+    assert "some rungs are missing" in table(ladder)
+    with pytest.raises(KeyboardInterrupt):
+        climbed(plan, FakeRuns(interrupted=16))
+
+
+def test_repeated_runs_begin_a_hair_apart_and_feel_the_same(plan: Plan) -> None:
+    runs = FakeRuns()
+    climbed(plan, runs)
+    reference = runs.scenes[:REFERENCE_RUNS]
+    assert len({scene.end_play for scene in reference}) == REFERENCE_RUNS
+    assert all(scene.seed == plan.scene.seed for scene in runs.scenes)
+    assert max(abs(scene.end_play - plan.scene.end_play) for scene in runs.scenes) < 1e-8
+    assert varied(plan.scene, 0) is plan.scene
+    other = varied(plan.scene, 1)
+    assert other.effects.cage is not None
+    assert plan.scene.effects.cage is not None
+    assert other.effects.cage.initial_speed_ratio == pytest.approx(1.0001)
+    assert len(runs.scenes) == REFERENCE_RUNS + sum(repeats_of(rung) for rung in RUNGS.rungs)
+
+
+@pytest.mark.parametrize("name", ["smooth_run", "cup_spall", "static_5kN"])
+@pytest.mark.parametrize(("quick", "each_effect"), [(True, False), (False, False), (False, True)])
+def test_every_rung_of_a_scene_can_be_computed_and_has_its_own_name(
+    name: str, quick: bool, each_effect: bool
+) -> None:
+    scene = load_scene(name)
+    rungs = rungs_of(scene, quick, each_effect)
+    every = [rungs.reference, *rungs.rungs]
+    assert len({rung.name for rung in every}) == len(every)
+    assert rungs.neighbour in rungs.rungs
+    for found in every:
+        applied = found.applied(scene)
+        assert not contradictions(applied.tier, applied.effects.rib is not None, applied.numerics.laminae)
+        assert applied.defects == scene.defects
+        Twin(applied)
+    costs = [expected_cost(rung) for rung in rungs.rungs]
+    assert costs == sorted(costs)
+    assert expected_cost(rungs.reference) > max(costs)
+    own = (scene.tier, scene.effects, scene.numerics.laminae, scene.numerics.steps_per_sample)
+    assert own in [(rung.tier, rung.effects, rung.laminae, rung.steps_per_sample) for rung in rungs.rungs]
+    assert {rung.tier for rung in rungs.rungs} == {"lumped", "quasistatic", "full"}
+    assert {"dry", "standard", "full"} <= {rung.effects_name for rung in rungs.rungs}
+
+
+def test_effects_of_the_scene_itself_are_a_rung(plan: Plan) -> None:
+    scene = replace(plan.scene, effects=replace(STANDARD, cage=None))
+    rungs = rungs_of(scene)
+    assert "of the scene" in {rung.effects_name for rung in rungs.rungs}
+    # the scene's own choice may be the neighbour itself
+    usual = rungs.neighbour.applied(plan.scene)
+    assert len(rungs_of(usual).rungs) == len(rungs_of(plan.scene).rungs)
+    assert rung_of(usual, "full") == rungs.neighbour
+    assert rung_of(usual, "auto", name="auto 5 %").name == "auto 5 %"
+
+
+def test_another_rung_takes_its_place_by_cost(plan: Plan) -> None:
+    rungs = rungs_of(plan.scene, quick=True)
+    more = rung("auto 5 %", "quasistatic", laminae=4, steps=2)
+    found = rungs.including(more)
+    assert more in found.rungs
+    assert set(found.rungs) - {more} == set(rungs.rungs)
+    assert [expected_cost(r) for r in found.rungs] == sorted(expected_cost(r) for r in found.rungs)
+
+
+def test_the_picture_names_the_efficient_rungs(plan: Plan, tmp_path: Path) -> None:
+    ladder = climbed(plan, FakeRuns())
+    axes = ladder_figure(ladder).axes[0]
+    written = [text.get_text() for text in axes.texts]
+    assert {"fast: torque", "middle: vibration"} <= set(written)
+    assert any(text.startswith("exact: ") for text in written)
+    assert not any(text.startswith("slow") for text in written)
+    path = tmp_path / "ladder.png"
+    ladder_picture(ladder, path)
+    with Image.open(path) as picture:
+        assert picture.size == (1400, 860)
+        assert np.unique(np.asarray(picture.convert("L"))).size > 50
+    ladder_picture(climbed(plan, FakeRuns(invalid=4)), path)
+
+
+def test_a_real_ladder_of_two_rungs() -> None:
+    """Full tier against quasi-static rollers: the same force, torque without sliding friction."""
+    scene = load_scene("static_80kN")
+    plan = plan_of(scene, 0.25, 0.1)
+    neighbour = rung("neighbour", steps=4, laminae=5)
+    rungs = RungList(
+        rung("reference", steps=4), neighbour, (rung("rollers in balance", "quasistatic"), neighbour)
+    )
+    ladder = climb(plan, rungs, 0.05, ASKED)
+    balanced, near = ladder.rows
+    assert ladder.revolutions == 2
+    assert balanced.status == near.status == "complete"
+    force, torque = balanced.of("force"), balanced.of("torque")
+    assert force is not None
+    assert torque is not None
+    assert force.worst is not None
+    assert torque.worst is not None
+    assert abs(force.worst.error) < 0.01
+    assert torque.worst.resolved
+    assert ladder.verdict(balanced) == "no"
+    load = near.of("roller_load")
+    assert load is not None
+    assert load.worst is not None
+    assert 1e-6 < abs(load.worst.error) < 0.05
+    assert near.cost.median > balanced.cost.median > 0.0
+
+
+@pytest.mark.slow
+def test_the_reference_is_converged() -> None:
+    """Half the laminae and twice the step of the reference move it by less than the accuracy."""
+    plan = plan_of(load_scene("static_80kN"), 0.5, 0.25)
+    rungs = rungs_of(plan.scene, quick=True)
+    ladder = climb(plan, replace(rungs, rungs=(rungs.neighbour,)), 0.05, ASKED)
+    assert ladder.neighbour is not None
+    for quantity in ("force", "deflection", "roller_load", "torque"):
+        error = ladder.neighbour.of(quantity)
+        assert error is not None
+        assert error.worst is not None
+        assert abs(error.worst.error) - error.worst.band < 0.02, quantity
+        assert math.isfinite(error.worst.band)
