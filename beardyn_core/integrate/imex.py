@@ -160,21 +160,21 @@ def advance(
             audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(
                 flex, p.effects.ring_flexibility
             )
-        mark(timers, RINGS, 0.0)
+        mark(timers, RINGS)
         for group in range(groups):
             for index in range(blocks_per_group):
                 step_rollers(
                     lanes, group * blocks_per_group + index, rollers, rings[group], sums[group], flex, p
                 )
         collect_reactions(sums, wrenches)
-        mark(timers, RINGS, 0.0)
+        mark(timers, RINGS)
         lands = push_lands(bodies, wrenches, p.effects.cage)
         pass_on(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
-        mark(timers, CAGE, 0.0)
+        mark(timers, CAGE)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
         add_seals(bodies, wrenches, energy, p.step, p.effects.seal)
-        mark(timers, LOSS, 0.0)
+        mark(timers, LOSS)
         stored = kick_box(
             bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
             p.effects.gravity, p.mounting.coupling,
@@ -184,13 +184,13 @@ def advance(
         signals[step, SIGNAL_TORQUE] = kick_cone(
             bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, p.mounting
         )
-        mark(timers, RINGS, 0.0)
+        mark(timers, RINGS)
         move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage)
-        mark(timers, CAGE, 0.0)
+        mark(timers, CAGE)
         stored += kick_flex(flex, sums, energy, p.step, p.effects.ring_flexibility)
         collect_energy(sums, energy, p.effects, p.effects.audit)
-        mark(timers, RINGS, 0.0)
+        mark(timers, RINGS)
         if step == 0:
             for i in range(ENERGY_ELASTIC):
                 audit[i] = 0.5 * (audit[i] + energy[i])

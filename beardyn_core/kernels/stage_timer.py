@@ -1,7 +1,7 @@
 """Where the time of a step goes: a cycle counter read between the stages of a few steps.
 
-One step in `PERIOD` is timed; in the others a mark is a branch that is never taken, and without timers it is
-nothing at all. In a timed step every mark waits until all that came before it is done, so that each cycle
+One step in `PERIOD` is timed, and the one before it, only to have the code of the marks in the cache. In the
+others a mark is a branch that is never taken, and without timers it is nothing at all. In a timed step every mark waits until all that came before it is done, so that each cycle
 belongs to one stage. Stages therefore do not overlap in a timed step as they do in the others: the numbers
 are *shares*, the part of the step that each stage takes when it has the processor for itself, and the
 seconds of a summary are those shares of the kernel's wall time. An interval without work is counted in each
@@ -23,48 +23,68 @@ from numba.extending import intrinsic, overload
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lanes import VectorType
-from beardyn_core.model.stages import CYCLES, EMPTY, LAST, MARKS, OWN, ROW, TIMED_STEPS
+from beardyn_core.model.stages import CYCLES, EMPTY, LAST, MARKS, OWN, ROW, TIMED_STEPS, TIMER_SLOTS
 
 PERIOD = 256
-_FIRST = 100  # not the first step of a block, which takes the energy audit
+_TIMED = 4  # not the first step of a block, which takes the energy audit
 _HAS_COUNTER = platform.machine().lower() in ("x86_64", "amd64", "i386", "i686")
+_DOUBLE, _INT = ir.DoubleType(), ir.IntType(64)
+_OWN_ROW, _OWN_LAST = OWN * TIMER_SLOTS + ROW, OWN * TIMER_SLOTS + LAST
 
 
-def _need(builder: Any, kind: types.Type, value: Any) -> None:
-    """Make the compiler have the numbers of a value ready at this place."""
-    if isinstance(kind, types.BaseTuple):
-        for place, part in enumerate(kind.types):
-            _need(builder, part, builder.extract_value(value, place))
-    elif isinstance(kind, types.Float | VectorType):
-        takes = ir.FunctionType(ir.VoidType(), [value.type])
-        builder.asm(takes, "", "x", [value], True)
+def _add(builder: Any, address: Any, number: Any) -> None:
+    builder.store(builder.fadd(builder.load(address), number), address)
+
+
+def _read_counter(builder: Any) -> Any:
+    """The cycle counter once all earlier work is done, as a float64: exact for a month of cycles."""
+    nothing = ir.FunctionType(ir.VoidType(), [])
+    wait = cgutils.get_or_insert_function(builder.module, nothing, "llvm.x86.sse2.lfence")
+    number = ir.FunctionType(ir.IntType(64), [])
+    read = cgutils.get_or_insert_function(builder.module, number, "llvm.readcyclecounter")
+    builder.call(wait, [])
+    count = builder.call(read, [])
+    builder.call(wait, [])
+    return builder.uitofp(count, ir.DoubleType())
 
 
 @intrinsic
-def _cycle_count(_typing: Any, results: Any) -> Any:
-    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+def _mark(_typing: Any, timers: Any, stage: Any, result: Any) -> Any:
+    """`mark_result` with its branch told to be unlikely, so that the compiler keeps registers for the other side."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         if not _HAS_COUNTER:
-            return ir.Constant(ir.DoubleType(), 0.0)
-        nothing = ir.FunctionType(ir.VoidType(), [])
-        wait = cgutils.get_or_insert_function(builder.module, nothing, "llvm.x86.sse2.lfence")
-        number = ir.FunctionType(ir.IntType(64), [])
-        read = cgutils.get_or_insert_function(builder.module, number, "llvm.readcyclecounter")
-        _need(builder, results, args[0])
-        builder.call(wait, [])
-        count = builder.call(read, [])
-        return builder.uitofp(count, ir.DoubleType())
+            return context.get_dummy_value()
+        data = context.make_array(signature.args[0])(context, builder, args[0]).data
+        row = builder.load(builder.gep(data, [_INT(_OWN_ROW)]))
+        with cgutils.if_unlikely(builder, builder.fcmp_ordered(">", row, ir.Constant(_DOUBLE, 0.0))):
+            if isinstance(result, VectorType | types.Float):
+                needs = ir.FunctionType(ir.VoidType(), [args[2].type])
+                builder.asm(needs, "", "x", [args[2]], True)  # nothing, but its operand must be ready
+            now = _read_counter(builder)
+            last = builder.gep(data, [_INT(_OWN_LAST)])
+            stage_slot = builder.add(builder.fptosi(row, _INT), args[1])
+            _add(builder, builder.gep(data, [stage_slot]), builder.fsub(now, builder.load(last)))
+            marks = builder.gep(data, [builder.add(_INT(MARKS * TIMER_SLOTS), args[1])])
+            _add(builder, marks, ir.Constant(_DOUBLE, 1.0))
+            builder.store(now, last)
+        return context.get_dummy_value()
 
-    return types.float64(results), generate
+    return types.void(timers, types.intp, result), generate
 
 
-def cycle_count(_results: Any) -> float:
-    """Cycles since the machine started, results at hand; nanoseconds in plain Python."""
-    return float(time.perf_counter_ns())
+def _mark_plainly(timers: Any, stage: int, _result: Any) -> None:
+    """`mark_result` in plain Python, in nanoseconds."""
+    if timers[OWN, ROW] > 0.0:
+        now = float(time.perf_counter_ns())
+        timers.flat[int(timers[OWN, ROW]) + stage] += now - timers[OWN, LAST]
+        timers[MARKS, stage] += 1.0
+        timers[OWN, LAST] = now
 
 
-@overload(cycle_count)
-def _overload_cycle_count(_results):
-    return lambda _results: _cycle_count(_results)
+@overload(_mark_plainly, inline="always")
+def _overload_mark(timers, stage, _result):
+    return lambda timers, stage, _result: _mark(timers, stage, _result)
 
 
 @inline
@@ -81,16 +101,17 @@ def time_step(timers: Any, step: Any) -> None:
     if timers is None:
         return
     timers[OWN, ROW] = 0.0
-    if step % PERIOD == _FIRST:
+    if step % PERIOD == _TIMED or step % PERIOD == _TIMED - 1:
         row = CYCLES + (step // PERIOD) % TIMED_STEPS
         timers[row] = 0.0
-        timers[OWN, ROW] = row
-        timers[OWN, LAST] = cycle_count(0.0)
-        mark(timers, EMPTY, 0.0)
+        timers[OWN, ROW] = row * TIMER_SLOTS
+        mark(timers, EMPTY)
+        timers[row, EMPTY] = 0.0
+        mark(timers, EMPTY)
 
 
 @inline
-def mark(timers: Any, stage: Any, results: Any) -> None:
+def mark(timers: Any, stage: Any) -> None:
     """End a stage: what passed since the last mark is its.
 
     Parameters
@@ -99,13 +120,23 @@ def mark(timers: Any, stage: Any, results: Any) -> None:
         Counters of `model.stages`; ``None``: no timers, and compiles to nothing.
     stage : int
         Slot of the stage.
-    results : lane value or tuple
-        What the stage works out: the compiler may not leave it for later. Arrays need not be named.
     """
     if timers is None:
         return
-    if timers[OWN, ROW] > 0.0:
-        now = cycle_count(results)
-        timers[int(timers[OWN, ROW]), stage] += now - timers[OWN, LAST]
-        timers[MARKS, stage] += 1.0
-        timers[OWN, LAST] = now
+    _mark_plainly(timers, stage, None)
+
+
+@inline
+def mark_result(timers: Any, stage: Any, result: Any) -> None:
+    """`mark` of a stage so short that the compiler would mix it with the next one.
+
+    Parameters
+    ----------
+    timers : float64 array, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS], or None
+    stage : int
+    result : lane value
+        What the stage works out, to be ready at the mark.
+    """
+    if timers is None:
+        return
+    _mark_plainly(timers, stage, result)

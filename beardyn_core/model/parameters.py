@@ -77,7 +77,7 @@ class EffectParams(NamedTuple):
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None
-    timers: Any  # [cycles or marks, slot] of `model.stages`, None without
+    timers: Any  # [CYCLES + TIMED_STEPS, TIMER_SLOTS], see `model.stages`, None without
 
 
 class BoxCoupling(NamedTuple):
