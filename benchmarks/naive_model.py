@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,12 +84,11 @@ class NaiveModel:
                 self._roller(bodies, row, k, rollers[row, k], np.zeros((4, 3)), found)
         return found
 
-    def _roller(
-        self, bodies: Float, row: int, k: int, roller: Float, rates: Float, wrenches: Float
-    ) -> None:
+    def _roller(self, bodies: Float, row: int, k: int, roller: Float, rates: Float, wrenches: Float) -> None:
         """Rates of one roller; adds its reactions."""
         p, scene = self.rig.parameters, self.rig.scene
-        effects, constants = p.effects, p.roller
+        effects: Any = p.effects  # the standard ones, all present
+        constants = p.roller
         centre, axis, velocity, momentum = roller
         axis = axis / np.linalg.norm(axis)
         spin = float(momentum @ axis)
@@ -102,7 +100,9 @@ class NaiveModel:
         cage = ring_of(bodies, CAGE_BODY + row, row, effects.cage.place)
 
         def against(ring: naive_step.Ring, ring_axis: Float) -> naive.Motion:
-            return naive.Motion(centre - ring.origin, axis, velocity, omega, ring_axis, ring.velocity, ring.omega)
+            return naive.Motion(
+                centre - ring.origin, axis, velocity, omega, ring_axis, ring.velocity, ring.omega
+            )
 
         damping = effects.damping.time_constant
         contacts = []
@@ -114,7 +114,9 @@ class NaiveModel:
                 return lamina_friction(scene, p, side, lamina, load, slip, speed)
 
             contacts.append(
-                naive.raceway_wrench(motion, raceway, constants, p.laminae, friction=law, damping_time=damping)
+                naive.raceway_wrench(
+                    motion, raceway, constants, p.laminae, friction=law, damping_time=damping
+                )
             )
         contacts.append(naive.rib_wrench(against(cone, cone.axis), effects.rib, damping_time=damping))
         pocket = 2.0 * math.pi * k / scene.bearing.roller_count
@@ -136,8 +138,9 @@ class NaiveModel:
         rates[:] = velocity - cup.velocity, np.cross(omega, axis), force / constants.mass, moment
 
     def _body_rates(self, bodies: Float, wrenches: Float) -> Float:
-        p = self.rig.parameters
-        mounting, cage = p.mounting, p.effects.cage
+        mounting = self.rig.parameters.mounting
+        effects: Any = self.rig.parameters.effects
+        cage = effects.cage
         rates = np.zeros_like(bodies)
         rates[:, POSITION : POSITION + 3] = bodies[:, LINEAR : LINEAR + 3]
         rates[:, TILT : TILT + 3] = bodies[:, ANGULAR : ANGULAR + 3]
@@ -151,7 +154,7 @@ class NaiveModel:
             across = wrenches[body, 3:] - about_axis * axis
             spinning = cage.polar_inertia * bodies[body, RATE]
             rates[body, LINEAR : LINEAR + 3] = wrenches[body, :3] / cage.mass
-            rates[body, LINEAR + _Z] -= p.effects.gravity.acceleration
+            rates[body, LINEAR + _Z] -= effects.gravity.acceleration
             rates[body, ANGULAR + _X] = (
                 across[_X] + spinning * bodies[body, ANGULAR + _Z]
             ) / cage.transverse_inertia

@@ -44,7 +44,9 @@ class Table:
         """For the terminal."""
         cells = [self.columns, *(tuple(shown(cell) for cell in row) for row in self.rows)]
         widths = [max(len(row[i]) for row in cells) for i in range(len(self.columns))]
-        text = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in cells]
+        text = [
+            "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in cells
+        ]
         return ["", self.title, "-" * len(self.title), *text, *([self.note] if self.note else [])]
 
     def to_json(self) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from itertools import pairwise
 from pathlib import Path
 
 from benchmarks.real_time_factor import SETS
@@ -63,7 +64,9 @@ def _run(code: str, *words: str, cache: str | None = None) -> list[float]:
 def compiling(sets: tuple[str, ...] = SETS) -> Table:
     """Kernel of the full tier for every shipped set, and of the fast tiers for the standard one."""
     rows = []
-    for tier, name in [("full", name) for name in sets] + [(t, "standard") for t in ("quasistatic", "lumped")]:
+    for tier, name in [("full", name) for name in sets] + [
+        (t, "standard") for t in ("quasistatic", "lumped")
+    ]:
         with tempfile.TemporaryDirectory() as cache:
             wall, processor = _run(_COMPILE, name, tier, cache=cache)
         rows.append((tier, name, wall, processor))
@@ -82,9 +85,10 @@ def cold_start(repetitions: int, scene: str = "smooth_run") -> Table:
     for _ in range(repetitions):
         begin = time.time()
         stamps = [begin, *_run(_START, scene)]
-        durations.append([b - a for a, b in zip(stamps, stamps[1:], strict=False)])
+        durations.append([b - a for a, b in pairwise(stamps)])
     rows: list[tuple[str, float]] = [
-        (part, statistics.median(column)) for part, column in zip(_PARTS, zip(*durations, strict=True), strict=True)
+        (part, statistics.median(column))
+        for part, column in zip(_PARTS, zip(*durations, strict=True), strict=True)
     ]
     rows.append(("to the first block", statistics.median(sum(each) for each in durations)))
     return Table(

@@ -19,7 +19,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "warmup",
         help="compile the kernels of a scene ahead of its first run",
         description="Compile the kernels that scenes need and keep them in the cache, so that the first run "
-        "starts at once. Without a scene: all shipped scenes, and every shipped set of effects in every tier.",
+        "starts at once. Without a scene: all shipped scenes, and each shipped set of effects in every tier.",
     )
     parser.add_argument("scene", nargs="*", metavar="SCENE", help="shipped scene or YAML file (see above)")
     parser.add_argument("--effects", metavar="NAME", help="preset or file of effects (the scene's own)")
@@ -42,7 +42,9 @@ def run(args: argparse.Namespace) -> int:
         with when_compiling(lambda: None) as compiled:
             Twin(scene).warm()
         came = "compiled" if compiled else "in the cache"
-        print(f"{name:28} {scene.tier:12} {came}, ready after {time.perf_counter() - began:.1f} s", flush=True)
+        print(
+            f"{name:28} {scene.tier:12} {came}, ready after {time.perf_counter() - began:.1f} s", flush=True
+        )
     return 0
 
 

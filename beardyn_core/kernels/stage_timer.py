@@ -1,11 +1,13 @@
 """Where the time of a step goes: a cycle counter read between the stages of a few steps.
 
 One step in `PERIOD` is timed, and the one before it, only to have the code of the marks in the cache. In the
-others a mark is a branch that is never taken, and without timers it is nothing at all. In a timed step every mark waits until all that came before it is done, so that each cycle
-belongs to one stage. Stages therefore do not overlap in a timed step as they do in the others: the numbers
-are *shares*, the part of the step that each stage takes when it has the processor for itself, and the
-seconds of a summary are those shares of the kernel's wall time. An interval without work is counted in each
-timed step too and deducted for every mark. Film and traction are marked lamina by lamina.
+others a mark is a branch that is never taken, and without timers it is nothing at all.
+
+In a timed step every mark waits until all that came before it is done, so that each cycle belongs to one
+stage. Stages then do not overlap as they do in other steps: the numbers are *shares*, the part of the step
+that a stage takes when it has the processor for itself, and the seconds of a summary are those shares of the
+kernel's wall time. An interval without work is counted too and deducted for every mark; film and traction are
+marked lamina by lamina. The cycles so found add up to those of an untimed step within some per cent.
 
 Only x86 lets a program read its cycle counter; elsewhere nothing is counted and the kernel is one stage.
 """
@@ -14,6 +16,7 @@ from __future__ import annotations
 
 import platform
 import time
+from collections.abc import Callable
 from typing import Any
 
 import llvmlite.ir as ir
@@ -30,6 +33,8 @@ _TIMED = 4  # not the first step of a block, which takes the energy audit
 _HAS_COUNTER = platform.machine().lower() in ("x86_64", "amd64", "i386", "i686")
 _DOUBLE, _INT = ir.DoubleType(), ir.IntType(64)
 _OWN_ROW, _OWN_LAST = OWN * TIMER_SLOTS + ROW, OWN * TIMER_SLOTS + LAST
+
+_typed_intrinsic: Callable[[Callable[..., Any]], Callable[..., Any]] = intrinsic  # called without the context
 
 
 def _add(builder: Any, address: Any, number: Any) -> None:
@@ -48,9 +53,9 @@ def _read_counter(builder: Any) -> Any:
     return builder.uitofp(count, ir.DoubleType())
 
 
-@intrinsic
+@_typed_intrinsic
 def _mark(_typing: Any, timers: Any, stage: Any, result: Any) -> Any:
-    """`mark_result` with its branch told to be unlikely, so that the compiler keeps registers for the other side."""
+    """`mark_result`; its branch is told to be unlikely, which keeps the registers for the other side."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         if not _HAS_COUNTER:

@@ -166,7 +166,9 @@ def run(
         raise
     if failures := _close(opened, closing):
         raise InputError(failures)
-    return replace(trend.summary(scene, wall_time, status), life=_life(scene, load), stages=twin.stages.times())
+    return replace(
+        trend.summary(scene, wall_time, status), life=_life(scene, load), stages=twin.stages.times()
+    )
 
 
 def _life(scene: Scene, load: LoadHistory) -> RatingLife | None:

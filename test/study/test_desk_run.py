@@ -14,7 +14,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_scene
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
-from beardyn_core.observe.stage_clock import SINKS, StageClock
+from beardyn_core.observe.stage_clock import StageClock
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.operation import MeasuredOperation
