@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -200,7 +201,7 @@ def yardstick(simulated: float, kernel_rtf: float) -> Table:
         "yardstick",
         "The same model written plainly: NumPy and scipy's solve_ivp",
         ("method", "simulated us", "steps", "evaluations", "wall s", "RTF", "beardyn is faster by"),
-        list(rows),
+        rows,
         f"Forces of both at the start: cup {force_off:.1e}, shaft torque {torque_off:.1e} apart (relative). "
         "Extrapolated from the time simulated.",
     )

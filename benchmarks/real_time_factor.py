@@ -49,7 +49,7 @@ def _table(name: str, title: str, timings: dict[str, Timing], reference: str) ->
         for each, timing in timings.items()
     ]
     columns = ("run", "laminae", "RTF", "kernel us/step", f"time against {reference}")
-    return Table(name, title, columns, list(rows))
+    return Table(name, title, columns, rows)
 
 
 def standard_alone(turns: int) -> Table:

@@ -6,6 +6,7 @@ import os
 import platform
 import statistics
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -31,13 +32,13 @@ class Table:
         Key in the JSON file.
     title, note : str
     columns : tuple of str
-    rows : list of tuples of cells
+    rows : sequence of tuples of cells
     """
 
     name: str
     title: str
     columns: tuple[str, ...]
-    rows: list[tuple[Cell, ...]]
+    rows: Sequence[tuple[Cell, ...]]
     note: str = ""
 
     def lines(self) -> list[str]:

@@ -42,6 +42,6 @@ def sinks(blocks: int, repetitions: int) -> Table:
         "sinks",
         "Recording",
         ("sink", "blocks/s", "MB/s", "MB per simulated s", "% of a real-time second"),
-        list(rows),
+        rows,
         f"Medians of {repetitions} recordings of {blocks} blocks of 20 ms.",
     )

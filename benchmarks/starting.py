@@ -74,7 +74,7 @@ def compiling(sets: tuple[str, ...] = SETS) -> Table:
         "compiling",
         "Compiling the kernels, empty cache",
         ("tier", "effects", "wall s", "processor s"),
-        list(rows),
+        rows,
     )
 
 
@@ -92,6 +92,6 @@ def cold_start(repetitions: int, scene: str = "smooth_run") -> Table:
     ]
     rows.append(("to the first block", statistics.median(sum(each) for each in durations)))
     return Table(
-        "cold_start", f"Cold start of {scene}, kernels in the cache", ("part", "s"), list(rows),
+        "cold_start", f"Cold start of {scene}, kernels in the cache", ("part", "s"), rows,
         f"Medians of {repetitions} processes.",
     )  # fmt: skip

@@ -8,7 +8,7 @@ from beardyn_core.config import load_effects, load_scene
 from beardyn_core.observe.stage_clock import STAGES
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
-from benchmarks.runs import Table, started, straight_line, take_turns
+from benchmarks.runs import Cell, Table, started, straight_line, take_turns
 
 LAMINAE = (4, 8, 12, 20)
 ROLLERS = (8, 12, 16, 20, 24)
@@ -31,7 +31,7 @@ def stages(blocks: int) -> Table:
         steps = blocks * 512 * scene.numerics.steps_per_sample
         times.append({each.stage: 1e6 * each.seconds / steps for each in twin.stages.times()})
     times = [{**found, "sum": sum(found.values())} for found in times]
-    rows = [
+    rows: list[tuple[Cell, ...]] = [
         (
             stage,
             *(value for found in times for value in (found.get(stage, 0.0), share(found, stage))),
@@ -43,7 +43,7 @@ def stages(blocks: int) -> Table:
         "stages",
         "Stages of a step, full tier, 80 kN, 6 laminae",
         ("stage", "standard us/step", "standard %", "full us/step", "full %"),
-        list(rows),
+        rows,
         "contact to rings: shares of the kernel, measured in one step of 256 with the stages kept apart.",
     )
 
@@ -97,7 +97,7 @@ def rollers(turns: int) -> Table:
         "rollers",
         "Scaling in rollers, standard effects, 6 laminae",
         ("rollers", "us/step", "against the line"),
-        list(rows),
+        rows,
         f"Line: {line.offset:.2f} us + {line.slope:.3f} us per roller, R^2 = {line.fit:.4f}.",
     )
 
@@ -105,7 +105,8 @@ def rollers(turns: int) -> Table:
 def _with_rollers(scene: Scene, count: int) -> Scene:
     assert isinstance(scene.operation, ConstantOperation)
     share_of_load = count / scene.bearing.roller_count
-    force = tuple(share_of_load * component for component in scene.operation.force)
+    x, y, z = scene.operation.force
+    force = (share_of_load * x, share_of_load * y, share_of_load * z)
     return replace(
         scene,
         bearing=replace(scene.bearing, roller_count=count),

@@ -82,8 +82,8 @@ against, first-order equations of all bodies in NumPy and scipy's `solve_ivp`: w
 TAIL = """## Absent effects
 
 An absent effect costs nothing: the compiled step has no arithmetic instruction more than one that was built
-without the hooks of the absent effects, and gives the same bits (`test/effects/test_absent_costs_nothing.py`).
-What a present effect costs is measured by `make costs`.
+without the hooks of the absent effects, and gives the same bits, as
+`test/effects/test_absent_costs_nothing.py` shows. What a present effect costs is measured by `make costs`.
 """
 
 
