@@ -6,7 +6,7 @@ import argparse
 import json
 import time
 from collections.abc import Callable
-from typing import Any
+from pathlib import Path
 
 from benchmarks import naive_model, real_time_factor, sink_throughput, starting, step_costs
 from benchmarks.runs import Table, machine
@@ -41,7 +41,9 @@ def _standard_rtf(done: dict[str, Table], turns: int) -> float:
 def main() -> None:
     """Measure, print, write."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
-    parser.add_argument("--json", metavar="FILE", default="bench.json", help="where the numbers go")
+    parser.add_argument(
+        "--json", metavar="FILE", type=Path, default=Path("bench.json"), help="where the numbers go"
+    )
     parser.add_argument("--only", nargs="+", choices=PARTS, default=list(PARTS), help="parts to measure")
     parser.add_argument("--quick", action="store_true", help="fewer turns, for a glance")
     arguments = parser.parse_args()
@@ -53,14 +55,10 @@ def main() -> None:
         if part in arguments.only:
             done[part] = measure(part, arguments.quick, done)
             print("\n".join(done[part].lines()), flush=True)
-    result: dict[str, Any] = {
-        "machine": about,
-        "wall_s": time.perf_counter() - began,
-        "tables": {table.name: table.to_json() for table in done.values()},
-    }
-    with open(arguments.json, "w", encoding="utf-8") as file:
-        json.dump(result, file, indent=1)
-    print(f"\n{result['wall_s']:.0f} s; numbers in {arguments.json}")
+            tables = {table.name: table.to_json() for table in done.values()}
+            result = {"machine": about, "wall_s": time.perf_counter() - began, "tables": tables}
+            arguments.json.write_text(json.dumps(result, indent=1), encoding="utf-8")
+    print(f"\n{time.perf_counter() - began:.0f} s; numbers in {arguments.json}")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from beardyn_core.scene.scene import Scene
 from benchmarks.runs import SETTLING_BLOCKS, Cell, Table, started, straight_line, take_turns
 
 LAMINAE = (4, 8, 12, 20)
-ROLLERS = (8, 12, 16, 20, 24)
+ROLLERS = (8, 12, 16, 20)
 SURFACES = {
     "frictionless": "contact",
     "dry": "+ Coulomb friction",

@@ -42,7 +42,7 @@ stage waiting for the one before, and the kernel's wall time is shared out by th
 geometry of the raceway contacts and the springs of their laminae, *cage* the pockets and the cages' own
 motion, *losses* rolling resistance, drag and seals, *solve* the 6 x 6 system of each roller, *settle* the
 raceway forces of the end of the step with their energy terms, *motion* drift and kick of the rollers, *rings*
-cup, cone and axlebox.
+cup, cone and axlebox. A stage without work shows up to 1.5 %, what is left of its marks.
 
 The timers are an argument like every effect: without them they compile to nothing. With them a step that is
 not timed has about 240 branches more. That could not be told from none: the median of the ratio was 0.98, and
