@@ -15,7 +15,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow bench costs ladder validation lint format clean
+.PHONY: help demo test slow bench performance costs ladder validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -30,8 +30,11 @@ test: $(VENV)/.ready-test ## set up, then the tests
 slow: $(VENV)/.ready-test ## set up, then the long tests as well
 	@$(BIN)/python -m pytest -m "slow or not slow" $(ARGS)
 
-bench: $(VENV)/.ready ## set up, then the real-time factor of every shipped scene
-	@$(BIN)/python benchmarks/real_time_factor.py $(ARGS)
+bench: $(VENV)/.ready-test ## set up, then every speed in one run: tables, and bench.json
+	@$(BIN)/python -m benchmarks $(ARGS)
+
+performance: ## write docs/performance.md from bench.json
+	@$(BIN)/python docs/write_performance.py bench.json
 
 costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (compiles 30 sets the first time)
 	@$(BIN)/python benchmarks/effect_costs.py $(ARGS)

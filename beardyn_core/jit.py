@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numba
+from numba.core import event
 
 # No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars then differ by the rounding of
 # fused multiplications only, and one machine always gives the same bits.
@@ -66,3 +68,34 @@ def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH) -> A
         return numba.njit(cache=True, **{**OPTIONS, "fastmath": set(flags)})(function)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
+
+
+class _CompilerWatch(event.Listener):
+    """Keeps what is compiled, and says so when it begins."""
+
+    def __init__(self, say: Callable[[], None]) -> None:
+        self.begun: list[str] = []
+        self._say = say
+
+    def on_start(self, event: Any) -> None:
+        """A function was not in the cache."""
+        self.begun.append(str(event.data["dispatcher"]))
+        if len(self.begun) == 1:
+            self._say()
+
+    def on_end(self, event: Any) -> None:
+        """A function is ready."""
+
+
+@contextmanager
+def when_compiling(say: Callable[[], None]) -> Iterator[list[str]]:
+    """Call ``say`` once, when a kernel turns out not to be in the cache, before it is compiled.
+
+    Yields
+    ------
+    list of str
+        What has been compiled: empty when all came from the cache.
+    """
+    watch = _CompilerWatch(say)
+    with event.install_listener("numba:compile", watch):
+        yield watch.begun

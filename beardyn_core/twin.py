@@ -18,6 +18,7 @@ from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.integrate.warming import Warmth, cold_start, scene_at, warmed
+from beardyn_core.jit import when_compiling
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
@@ -34,8 +35,10 @@ from beardyn_core.model.layout import (
     SIGNAL_FORCE,
 )
 from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
+from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
 from beardyn_core.scene.defect import truth_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
@@ -44,6 +47,8 @@ from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 
 Float = NDArray[np.float64]
 LANE_WIDTH = 8
+
+COMPILING = "compiling the kernels of these effects: once, up to half a minute"
 
 log = logging.getLogger("beardyn")
 
@@ -72,6 +77,8 @@ class Twin:
     ----------
     load : LoadBuffer
         What has arrived and not been used, with the count of refused pieces.
+    stages : StageClock
+        Where the wall time of the blocks went.
     block_ns : int
         Simulated time of a block, [ns].
     """
@@ -95,6 +102,7 @@ class Twin:
         self._state: State | None = None
         self._observer: Observer | None = None
         self._index = 0
+        self.stages = StageClock()
         heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
         self._warmth = cold_start(scene) if heated else None
 
@@ -122,13 +130,14 @@ class Twin:
         float
             Wall time it took, [s].
         """
-        log.info("loading the kernels; compiling them takes up to half a minute the first time")
         began = time.perf_counter()
         static = _at_rest(self.roller_count, len(self._bending_stiffness))
         state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
-        self._run(state, np.zeros((TRENDS_PER_BLOCK + 1, 10)), self._signals[:TRENDS_PER_BLOCK].copy())
+        with when_compiling(lambda: log.info(COMPILING)) as compiled:
+            self._run(state, np.zeros((TRENDS_PER_BLOCK + 1, 10)), self._signals[:TRENDS_PER_BLOCK].copy())
         took = time.perf_counter() - began
-        log.info("kernels ready after %.1f s", took)
+        if compiled:
+            log.info("kernels ready after %.1f s", took)
         return took
 
     def start(self, load: LoadHistory) -> None:
@@ -213,11 +222,14 @@ class Twin:
         """
         if self._state is None or self._observer is None:
             raise ValidityError("the twin has not been started: it needs its first load")
+        self.stages.begin()
         loads = self._loads(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
+        self.stages.lap(LOAD)
         began = time.perf_counter()
         grow(self._parameters.effects.faults, self.scene, self._index * BLOCK_NS * 1e-9)
         rollers, bodies = self._run(self._state, loads, self._signals)
         wall = time.perf_counter() - began
+        self.stages.lap_kernel(stage_cycles(self._parameters.effects.timers))
         status = assess(
             self._state,
             len(self._signals),
@@ -227,9 +239,11 @@ class Twin:
         block = self._observer.observe(
             self._index, self._signals, loads, rollers, bodies, int(status), self._energy_audit(), wall
         )
+        self.stages.lap(OBSERVE)
         if self._warmth is not None:
             block = replace(block, temperature=self._warm_up(loads))
         self._index += 1
+        self.stages.lap(REST)
         if is_fatal(status):
             moment = f"at {block.end_ns * 1e-9:.2f} s of simulated time"
             raise ValidityError(f"the run ended {moment}: {describe(status)}", block)

@@ -139,12 +139,14 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
             if summary.temperatures
             else {}
         ),
+        "stages_s": {each.stage: each.seconds for each in summary.stages},
         "recording": None if recording is None else str(recording),
     }
 
 
 def text(summary: RunSummary, recording: Path | None) -> str:
     """Readable summary."""
+    from beardyn_core.observe.stage_clock import stage_lines
     from beardyn_core.study.life_text import life_sentence
 
     fx, fy, fz = summary.mean_force
@@ -183,4 +185,6 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         size = f", {recording.stat().st_size / 1e6:.1f} MB" if recording.exists() else ""
         lines.append(("recording", f"{recording}{size}"))
     table = [] if summary.budget is None else ["", *summary.budget.lines()]
+    if summary.stages:
+        table += ["", *stage_lines(summary.stages, summary.duration)]
     return "\n".join([*(f"{name:20} {value}" for name, value in lines), *table])

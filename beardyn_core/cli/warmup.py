@@ -4,6 +4,13 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from beardyn_core.scene.scene import Scene
+
+_PRESET_SCENE = "smooth_run"
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -12,22 +19,42 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "warmup",
         help="compile the kernels of a scene ahead of its first run",
         description="Compile the kernels that scenes need and keep them in the cache, so that the first run "
-        "starts at once.",
+        "starts at once. Without a scene: all shipped scenes, and each shipped set of effects in every tier.",
     )
-    parser.add_argument(
-        "scene", nargs="*", metavar="SCENE", help="shipped scene or YAML file (all shipped ones)"
-    )
+    parser.add_argument("scene", nargs="*", metavar="SCENE", help="shipped scene or YAML file (see above)")
+    parser.add_argument("--effects", metavar="NAME", help="preset or file of effects (the scene's own)")
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full (the scene's own)")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.config import load_scene, shipped_names
+    from beardyn_core.config import load_scene
+    from beardyn_core.jit import when_compiling
     from beardyn_core.twin import Twin
 
-    scenes = [load_scene(name) for name in args.scene or shipped_names("scenes")]
-    for scene in scenes:
+    if args.scene:
+        named = [(name, load_scene(name, effects=args.effects, tier=args.tier)) for name in args.scene]
+    else:
+        named = list(_shipped(args.effects, args.tier))
+    for name, scene in named:
         began = time.perf_counter()
-        Twin(scene).warm()
-        print(f"{scene.name:16} ready after {time.perf_counter() - began:.1f} s")
+        with when_compiling(lambda: None) as compiled:
+            Twin(scene).warm()
+        came = "compiled" if compiled else "in the cache"
+        print(
+            f"{name:28} {scene.tier:12} {came}, ready after {time.perf_counter() - began:.1f} s", flush=True
+        )
     return 0
+
+
+def _shipped(effects: str | None, tier: str | None) -> Iterator[tuple[str, Scene]]:
+    """Shipped scenes as they are, then every preset in every tier, with what each is called."""
+    from beardyn_core.config import load_scene, shipped_names
+    from beardyn_core.scene.tier import TIERS
+
+    for name in shipped_names("scenes"):
+        yield name, load_scene(name, effects=effects, tier=tier)
+    for preset in [effects] if effects else shipped_names("effects"):
+        for each in [tier] if tier else TIERS:
+            yield f"{_PRESET_SCENE}, {preset}", load_scene(_PRESET_SCENE, effects=preset, tier=each)

@@ -19,6 +19,7 @@ from beardyn_core.kernels.land import push_lands, settle_lands
 from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
 from beardyn_core.kernels.roller import step_rollers
 from beardyn_core.kernels.seal import add_seals
+from beardyn_core.kernels.stage_timer import mark, time_step
 from beardyn_core.model.layout import (
     ANGULAR,
     AXIS,
@@ -40,6 +41,7 @@ from beardyn_core.model.layout import (
     SIGNAL_TORQUE,
     VELOCITY,
 )
+from beardyn_core.model.stages import CAGE, LOSS, RINGS
 
 
 @inline
@@ -145,7 +147,9 @@ def advance(
     blocks_per_group = rollers.shape[0] // groups
     clear_block_sums(rollers)
     place = cage_place(p)
+    timers = p.effects.timers
     for step in range(steps):
+        time_step(timers, step)
         drift_bodies(bodies, p.step)
         place_cages(bodies, p.effects.cage)
         drift_flex(flex, p.step, p.effects.ring_flexibility)
@@ -156,17 +160,21 @@ def advance(
             audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(
                 flex, p.effects.ring_flexibility
             )
+        mark(timers, RINGS)
         for group in range(groups):
             for index in range(blocks_per_group):
                 step_rollers(
                     lanes, group * blocks_per_group + index, rollers, rings[group], sums[group], flex, p
                 )
         collect_reactions(sums, wrenches)
+        mark(timers, RINGS)
         lands = push_lands(bodies, wrenches, p.effects.cage)
         pass_on(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
+        mark(timers, CAGE)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
         add_seals(bodies, wrenches, energy, p.step, p.effects.seal)
+        mark(timers, LOSS)
         stored = kick_box(
             bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
             p.effects.gravity, p.mounting.coupling,
@@ -176,10 +184,13 @@ def advance(
         signals[step, SIGNAL_TORQUE] = kick_cone(
             bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, p.mounting
         )
+        mark(timers, RINGS)
         move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage)
+        mark(timers, CAGE)
         stored += kick_flex(flex, sums, energy, p.step, p.effects.ring_flexibility)
         collect_energy(sums, energy, p.effects, p.effects.audit)
+        mark(timers, RINGS)
         if step == 0:
             for i in range(ENERGY_ELASTIC):
                 audit[i] = 0.5 * (audit[i] + energy[i])

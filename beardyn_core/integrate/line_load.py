@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
@@ -112,6 +111,8 @@ def line_load(
             force: Float = factor * np.maximum(depth, 0.0) ** LINE_EXPONENT
             return force
         return coupled_law(depth, factor, matrices)[0]
+
+    from scipy.optimize import brentq  # takes a while, and no run needs it
 
     # one lamina that touches bounds the approach from below; each carrying the whole load, from above
     lowest = float(np.min(drop - tilt * place))

@@ -23,9 +23,11 @@ from beardyn_core.kernels.defect import (
 from beardyn_core.kernels.film import log2_film_thickness
 from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
 from beardyn_core.kernels.lane_math import at_least, ninth_root, sqrt, where_greater
+from beardyn_core.kernels.stage_timer import mark_result
 from beardyn_core.kernels.traction import friction_rate
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
+from beardyn_core.model.stages import CONTACT, FILM, TRACTION
 
 _SMALLEST_APPROACH = 1e-15
 
@@ -254,10 +256,13 @@ def spring_sums(
         load = tangent * push
         around = slip_around[0] + x * slip_around[1]
         along = slip_along[0] + x * slip_along[1]
+        mark_result(effects.timers, CONTACT, load)
         log2_film = log2_film_thickness(load, log2_speed, k, ring, laminae, effects.film)
+        mark_result(effects.timers, FILM, log2_film)
         friction = friction_rate(
             load, around * around + along * along, log2_film, log2_speed, k, ring, laminae, effects
         )
+        mark_result(effects.timers, TRACTION, friction)
         elastic, tangent, friction = share * elastic, share * tangent, share * friction
         force_0 = force_0 + elastic
         force_1 = force_1 + elastic * x

@@ -22,6 +22,7 @@ from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, ben
 from beardyn_core.kernels.rolling import add_rolling, finish_rolling, rolling_before, rolling_matrix
 from beardyn_core.kernels.small_rib import add_small_rib, finish_small_rib, small_rib_before, small_rib_matrix
 from beardyn_core.kernels.solve import inertia_matrix, solve
+from beardyn_core.kernels.stage_timer import mark
 from beardyn_core.kernels.vectors import add, add_scaled, dot, turn_in
 from beardyn_core.model.layout import (
     ANGLE,
@@ -38,6 +39,7 @@ from beardyn_core.model.layout import (
     SPIN,
     VELOCITY,
 )
+from beardyn_core.model.stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
 
 _PI = 3.141592653589793
 
@@ -76,7 +78,8 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
     bent_view, shift = bent_cup(lanes, flex, cup_view, cosine, sine, effects.ring_flexibility)
     cone_view = ring_view(lanes, rings, CONE, cosine, sine)
     spin = lanes.load(rollers, block, SPIN)
-    faults = effects.faults
+    faults, timers = effects.faults, effects.timers
+    mark(timers, MOTION)
 
     cup = raceway_contact(
         lanes, block, CUP, bent_view, body, oversize,
@@ -89,15 +92,19 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
         (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin), p.cone,
         (faults.cone, faults.roller, faults.cone_damage, faults.cone_waves, faults.roller_waves), p,
     )  # fmt: skip
+    mark(timers, CONTACT)
     cup_rolling = rolling_before(cup, CUP, cup_view, body, effects.rolling)
     cone_rolling = rolling_before(cone, CONE, cone_view, body, effects.rolling)
     drag = drag_before(body, cup_view, effects.drag)
+    mark(timers, LOSS)
     rib = rib_before(body, cone_view, zero, effects.rib, effects.damping)
     small_rib = small_rib_before(body, cone_view, zero, effects.small_rib)
+    mark(timers, RIB)
     cage = cage_before(
         lanes, rings, p.rollers, block, body, azimuth, cosine, sine, roller, faults.pockets, effects.cage
     )
 
+    mark(timers, CAGE)
     matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, axis, zero)
     matrix = raceway_matrix(matrix, cup, step, effects.damping)
     matrix = raceway_matrix(matrix, cone, step, effects.damping)
@@ -132,6 +139,7 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
         step * turning_moment[0], step * turning_moment[1], step * turning_moment[2],
     )  # fmt: skip
     change = solve(matrix, right)
+    mark(timers, SOLVE)
 
     force, moment = finish_raceway(lanes, rollers, sums, block, CUP, cup, change, mask, cosine, sine, p)
     bend_cup(lanes, sums, force, mask, cosine, sine, flex.shape[0], effects.ring_flexibility)
@@ -140,6 +148,7 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
     )
     force = add(add(force, cone_force), gravity)
     moment = add(moment, cone_moment)
+    mark(timers, SETTLE)
     moment = finish_rolling(
         lanes, sums, CUP, cup_rolling, change, moment, mask, cosine, sine, effects.rolling, p
     )
@@ -147,14 +156,17 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
         lanes, sums, CONE, cone_rolling, change, moment, mask, cosine, sine, effects.rolling, p
     )
     force, moment = finish_drag(lanes, sums, drag, change, force, moment, mask, cosine, sine, effects.drag, p)
+    mark(timers, LOSS)
     force, moment = finish_rib(
         lanes, rollers, sums, block, rib, change, force, moment, mask, cosine, sine, effects.rib, p
     )
     force, moment = finish_small_rib(
         lanes, sums, small_rib, change, force, moment, mask, cosine, sine, effects.small_rib, p
     )
+    mark(timers, RIB)
     finish_cage(lanes, rollers, sums, block, cage, change, mask, cosine, sine, effects.cage, p)
     force, moment = add_cage(force, moment, cage, effects.cage)
+    mark(timers, CAGE)
     work = step * dot(gravity, add_scaled(velocity, 0.5, change[0]))
     account_gravity(lanes, sums, mask, work, effects.audit)
 
@@ -166,3 +178,4 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
     store_vector(lanes, rollers, block, AXIS, axis)
     store_vector(lanes, rollers, block, VELOCITY, add_scaled(velocity, step / roller.mass, force))
     store_vector(lanes, rollers, block, MOMENTUM, add_scaled(momentum, step, moment))
+    mark(timers, MOTION)

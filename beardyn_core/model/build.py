@@ -21,6 +21,7 @@ from beardyn_core.model.loss_params import drag_params, rolling_params, seal_par
 from beardyn_core.model.parameters import AuditParams, EffectParams, GravityParams, MountingParams, Parameters
 from beardyn_core.model.rib_params import rib_params
 from beardyn_core.model.small_rib_params import small_rib_params
+from beardyn_core.model.stages import new_timers
 from beardyn_core.model.traction_params import raceway_film_params, traction_params
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
@@ -111,5 +112,6 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=fault_params(scene, arrangement, laminae),
             audit=AuditParams(1.0) if effects.audit else None,
+            timers=new_timers(),
         ),
     )

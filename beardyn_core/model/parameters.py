@@ -77,6 +77,7 @@ class EffectParams(NamedTuple):
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None
+    timers: Any  # [CYCLES + TIMED_STEPS, TIMER_SLOTS], see `model.stages`, None without
 
 
 class BoxCoupling(NamedTuple):

@@ -6,9 +6,9 @@ from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import firwin
 
 from beardyn_core.jit import entry
+from beardyn_core.rail.low_pass import low_pass
 
 Float = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ LARGEST_FACTOR = 64
 @cache
 def _half_kernel(factor: int) -> Float:
     """Taps from the first to the middle one of the symmetric kernel, sum over all taps 1."""
-    kernel = firwin(2 * DELAY * factor + 1, 1.0 / factor, window=("kaiser", _KAISER_BETA))
+    kernel = low_pass(2 * DELAY * factor + 1, 1.0 / factor, _KAISER_BETA)
     return np.ascontiguousarray(kernel[: DELAY * factor + 1])
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import firwin, kaiserord, upfirdn
 
 from beardyn_core.errors import InputError
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import rail_profile
+from beardyn_core.rail.low_pass import kaiser_order, low_pass
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
 from beardyn_core.scene.load import LoadHistory
@@ -188,13 +188,13 @@ def _measured(operation: MeasuredOperation, count: int, rate: float) -> LoadHist
 
 def _low_pass(factor: int) -> Float:
     """Symmetric kernel of odd length: flat to 0.4, 70 dB down from 0.6 of the new rate."""
-    length, beta = kaiserord(70.0, 0.4 / factor)
-    return firwin(length | 1, 1.0 / factor, window=("kaiser", beta))
+    length, beta = kaiser_order(70.0, 0.4 / factor)
+    return low_pass(length | 1, 1.0 / factor, beta)
 
 
 def _decimate(signal: Float, factor: int, kernel: Float) -> Float:
     """Every factor-th sample of the filtered signal, without delay, ends held."""
     half = len(kernel) // 2
     padded = np.concatenate([np.full(half, signal[0]), signal, np.full(half, signal[-1])])
-    filtered = upfirdn(kernel, padded - signal[0])[2 * half : 2 * half + len(signal)]
+    filtered = np.convolve(padded - signal[0], kernel, mode="valid")
     return filtered[::factor] + signal[0]

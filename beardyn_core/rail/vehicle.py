@@ -7,7 +7,6 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 from beardyn_core.jit import entry
 from beardyn_core.rail.track import lump
@@ -144,6 +143,8 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float) -> Ride:
     rates[:6, 6:] = np.eye(6)
     rates[6:, :6] = -inverse_mass[:, None] * vehicle.stiffness
     rates[6:, 6:] = -inverse_mass[:, None] * vehicle.damping
+    from scipy.linalg import expm  # takes a while, and only a ride needs it
+
     contact_force, bogie, wheel = _run(
         expm(rates * step),
         np.ascontiguousarray(height, dtype=np.float64),

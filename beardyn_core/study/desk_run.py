@@ -18,6 +18,7 @@ from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
+from beardyn_core.observe.stage_clock import REST, SINKS, StageClock, StageTime
 from beardyn_core.observe.torque_budget import TorqueBudget, torque_budget
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.description import RunDescription
@@ -71,6 +72,8 @@ class RunSummary:
         Defects and waviness of the scene in words.
     temperatures : tuple of (part, temperature) pairs
         At the end, with the thermal effect, [K].
+    stages : tuple of StageTime
+        Where the wall time from the first block to the last went, recording and drawing included.
     """
 
     scene: str
@@ -90,6 +93,7 @@ class RunSummary:
     life: RatingLife | None = None
     faults: tuple[str, ...] = ()
     temperatures: tuple[tuple[str, float], ...] = ()
+    stages: tuple[StageTime, ...] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -147,10 +151,10 @@ def run(
                 wall_time += time.perf_counter() - began
                 status = str(error)
                 if isinstance(error.block, Block):
-                    _deliver(error.block, opened, trend, progress)
+                    _deliver(error.block, opened, trend, progress, twin.stages)
                 break
             wall_time += time.perf_counter() - began
-            _deliver(block, opened, trend, progress)
+            _deliver(block, opened, trend, progress, twin.stages)
         if status == COMPLETE and trend.warnings:
             status = f"{COMPLETE}, but {describe(trend.warnings)}"
         closing = "" if status.startswith(COMPLETE) else status
@@ -162,7 +166,11 @@ def run(
         raise
     if failures := _close(opened, closing):
         raise InputError(failures)
-    return replace(trend.summary(scene, wall_time, status), life=_life(scene, load.until(trend.end_ns)))
+    return replace(
+        trend.summary(scene, wall_time, status),
+        life=_life(scene, load.until(trend.end_ns)),
+        stages=twin.stages.times(),
+    )
 
 
 def _life(scene: Scene, load: LoadHistory) -> RatingLife | None:
@@ -199,13 +207,21 @@ def _undisturbed() -> Iterator[None]:
 
 
 def _deliver(
-    block: Block, sinks: Sequence[Sink], trend: _Trend, progress: Callable[[Block], None] | None
+    block: Block,
+    sinks: Sequence[Sink],
+    trend: _Trend,
+    progress: Callable[[Block], None] | None,
+    clock: StageClock,
 ) -> None:
     trend.add(block)
+    clock.lap(REST)
     for sink in sinks:
         sink.write(block)
+    if sinks:
+        clock.lap(SINKS)
     if progress is not None:
         progress(block)
+    clock.lap(REST)
 
 
 class _Trend:

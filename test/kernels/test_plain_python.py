@@ -19,6 +19,7 @@ CLAIMS = (
     "test_defect.py",
     "test_losses.py",
     "test_losses_step.py",
+    "test_stage_timer.py",
     "test_lane_math.py::test_plain_operations_are_exact",
     "test_lane_math.py::test_nan_survives",
     "test_step.py::test_step_of_every_roller_is_that_of_dense_algebra",

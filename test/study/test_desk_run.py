@@ -14,6 +14,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_scene
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
+from beardyn_core.observe.stage_clock import StageClock
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.operation import MeasuredOperation
@@ -35,6 +36,7 @@ class PureRolling:
     def __init__(self, scene: Scene) -> None:
         self.body_names = body_names(scene.bearing.roller_count)
         self._run = SyntheticRun(SHAFT_SPEED)
+        self.stages = StageClock()
         self._index = 0
 
     def warm(self) -> None:

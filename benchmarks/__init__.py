@@ -1,0 +1,12 @@
+"""Speed of the twin: `make bench` runs all of it, ``python -m benchmarks --help`` a part.
+
+| module | measures |
+|---|---|
+| `runs` | twins that take turns, block by block; tables |
+| `real_time_factor` | simulated over wall time: tiers, sets of effects, scenes |
+| `step_costs` | stages of a step, cost of a lamina, scaling in rollers and laminae |
+| `starting` | compile time with an empty cache, cold start with a warm one |
+| `sink_throughput` | recording |
+| `naive_model` | the yardstick: the same model written plainly, in scipy's `solve_ivp` |
+| `effect_costs` | cost of every effect, a run of its own: `make costs` |
+"""

@@ -1,0 +1,141 @@
+"""Twins that take turns, and the tables that measurements end in."""
+
+from __future__ import annotations
+
+import os
+import platform
+import statistics
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+
+from beardyn_core.rail.build import load_history
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+
+SETTLING_BLOCKS = 3
+Cell = str | float | int
+
+
+@dataclass(frozen=True)
+class Table:
+    """A result: for the terminal, for JSON and for the documentation.
+
+    Parameters
+    ----------
+    name : str
+        Key in the JSON file.
+    title, note : str
+    columns : tuple of str
+    rows : sequence of tuples of cells
+    """
+
+    name: str
+    title: str
+    columns: tuple[str, ...]
+    rows: Sequence[tuple[Cell, ...]]
+    note: str = ""
+
+    def lines(self) -> list[str]:
+        """For the terminal."""
+        cells = [self.columns, *(tuple(shown(cell) for cell in row) for row in self.rows)]
+        widths = [max(len(row[i]) for row in cells) for i in range(len(self.columns))]
+        text = [
+            "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in cells
+        ]
+        return ["", self.title, "-" * len(self.title), *text, *([self.note] if self.note else [])]
+
+    def to_json(self) -> dict[str, Any]:
+        """Title, note and rows as objects."""
+        rows = [dict(zip(self.columns, row, strict=True)) for row in self.rows]
+        return {"title": self.title, "note": self.note, "columns": list(self.columns), "rows": rows}
+
+
+def shown(cell: Cell) -> str:
+    """Three significant digits, whole numbers whole."""
+    if isinstance(cell, float):
+        return f"{cell:.0f}" if abs(cell) >= 1000.0 else f"{cell:.3g}"
+    return str(cell)
+
+
+@dataclass
+class Timing:
+    """Wall times of the blocks of one twin, in the order of the turns, [s]."""
+
+    twin: Twin
+    kernel: list[float] = field(default_factory=list)
+    total: list[float] = field(default_factory=list)
+
+    def step_us(self) -> float:
+        """Median time of a step in the kernel, [us]."""
+        return 1e6 * statistics.median(self.kernel) / (512 * self.twin.scene.numerics.steps_per_sample)
+
+    def real_time_factor(self) -> float:
+        """Simulated over wall time of the median block, all channels included."""
+        return self.twin.block_ns * 1e-9 / statistics.median(self.total)
+
+    def ratio_to(self, other: Timing) -> float:
+        """Median over the turns of the time against that of another twin."""
+        return statistics.median(a / b for a, b in zip(self.total, other.total, strict=True))
+
+
+def started(scene: Scene, blocks: int) -> Twin:
+    """A twin at t = 0 with load for some blocks."""
+    twin = Twin(scene)
+    twin.warm()
+    twin.start(load_history(scene.operation, scene.mounting, blocks * twin.block_ns * 1e-9, scene.seed))
+    return twin
+
+
+def take_turns(scenes: dict[str, Scene], turns: int) -> dict[str, Timing]:
+    """Run scenes block by block in turns, so that a machine that slows down slows all of them."""
+    count = turns + SETTLING_BLOCKS
+    timings = {name: Timing(started(scene, count)) for name, scene in scenes.items()}
+    for turn in range(count):
+        for name in scenes if turn % 2 else reversed(scenes):
+            timing = timings[name]
+            began = time.perf_counter()
+            block = timing.twin.advance()
+            took = time.perf_counter() - began
+            if turn >= SETTLING_BLOCKS:
+                timing.total.append(took)
+                timing.kernel.append(block.wall_s)
+    return timings
+
+
+@dataclass(frozen=True)
+class Line:
+    """Straight line through measurements: value at 0, slope, coefficient of determination."""
+
+    offset: float
+    slope: float
+    fit: float
+
+
+def straight_line(x: list[float], y: list[float]) -> Line:
+    """Least squares."""
+    slope, offset = np.polyfit(x, y, 1)
+    left = np.asarray(y) - (offset + slope * np.asarray(x))
+    spread = np.asarray(y) - np.mean(y)
+    return Line(float(offset), float(slope), float(1.0 - (left @ left) / (spread @ spread)))
+
+
+def machine() -> dict[str, Cell]:
+    """What the numbers were measured on."""
+    name = platform.processor() or platform.machine()
+    cpu = Path("/proc/cpuinfo")
+    if cpu.exists():
+        models = [line.split(":")[1].strip() for line in cpu.read_text().splitlines() if "model name" in line]
+        name = models[0] if models else name
+    return {
+        "processor": name,
+        "cores": os.cpu_count() or 1,
+        "load_average_before": os.getloadavg()[0],
+        "python": platform.python_version(),
+        "numba": numba.__version__,
+    }

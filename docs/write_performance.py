@@ -1,0 +1,160 @@
+"""Write docs/performance.md from what `make bench` wrote: ``python docs/write_performance.py bench.json``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+PAGE = Path(__file__).with_name("performance.md")
+
+HEAD = """# Performance
+
+Written by `make performance` from the numbers of `make bench`: {processor}, one core, numba {numba}, Python
+{python}; load average before the run {load_average_before:.2f}. All times are medians over blocks of 20 ms;
+runs that are compared take turns, block by block.
+
+"""
+
+GOALS = """## Goals
+
+The real-time factor (RTF) is simulated over wall time, all channels of a run included.
+
+"""
+
+TEXTS = {
+    "real_time_factor": """## Tiers and effects
+
+Every tier with every shipped set of effects, steady 80 kN at 1165 rpm, 6 laminae unless named.
+
+""",
+    "scenes": """## Scenes
+
+Shipped scenes as they are.
+
+""",
+    "stages": """## Where the time goes
+
+`beardyn simulate` prints this table for every run, `--json` has it as `stages_s`. Time outside the kernel is
+measured with a clock; within the kernel one step in 256 is timed with the processor's cycle counter, each
+stage waiting for the one before, and the kernel's wall time is shared out by those cycles. *contact* is the
+geometry of the raceway contacts and the springs of their laminae, *cage* the pockets and the cages' own
+motion, *losses* rolling resistance, drag and seals, *solve* the 6 x 6 system of each roller, *settle* the
+raceway forces of the end of the step with their energy terms, *motion* drift and kick of the rollers, *rings*
+cup, cone and axlebox. A stage without work shows up to 1.5 %, what is left of its marks.
+
+The timers are an argument like every effect: without them they compile to nothing. With them a step that is
+not timed has about 240 branches more. That could not be told from none: the median of the ratio was 0.98, and
+code that lies elsewhere in memory makes 5 % either way.
+
+""",
+    "laminae": """## Laminae
+
+""",
+    "rollers": """## Rollers
+
+Eight lanes hold four rollers of each row; a number that is no multiple of four fills up with shadows.
+
+""",
+    "cold_start": """## Start
+
+From the start of the process to the end of the first block, kernels in the cache. `beardyn warmup` fills the
+cache with every shipped scene and every set of effects in every tier.
+
+""",
+    "compiling": """## Compiling
+
+A new set of effects is compiled once, with a message; the cache is named by a hash of the sources.
+
+""",
+    "sinks": """## Recording
+
+""",
+    "yardstick": """## Yardstick
+
+The same bearing, load, laminae, effects and initial state in the plain force laws that the kernels are tested
+against, first-order equations of all bodies in NumPy and scipy's `solve_ivp`: what one writes first.
+
+""",
+}
+
+TAIL = """## Absent effects
+
+An absent effect costs nothing: the compiled step has no arithmetic instruction more than one that was built
+without the hooks of the absent effects, and gives the same bits, as
+`test/effects/test_absent_costs_nothing.py` shows. What a present effect costs is measured by `make costs`.
+"""
+
+
+def goal_rows(tables: dict[str, Any]) -> list[tuple[str, str, str, str, str]]:
+    """What is asked for, floor, goal, measured, and how far it came."""
+
+    def of(table: str, key: str, name: str, column: str) -> float | None:
+        rows = tables.get(table, {"rows": []})["rows"]
+        return next((float(row[column]) for row in rows if row[key] == name), None)
+
+    rows = []
+    for what, name, floor, goal in (
+        ("full tier, film, cages, ribs, 6 laminae: RTF", "full standard", 1.2, 2.0),
+        ("the same with 20 laminae: RTF", "full standard, 20 laminae", 0.6, 1.0),
+        ("quasistatic: RTF", "quasistatic standard", 20.0, 50.0),
+        ("lumped: RTF", "lumped standard", 300.0, 1000.0),
+    ):
+        found = of("real_time_factor", "run", name, "RTF")
+        if found is not None:
+            came = "goal" if found >= goal else "floor" if found >= floor else "short of the floor"
+            rows.append((what, f"{floor:g}", f"{goal:g}", f"{found:.3g}", came))
+    for what, found, most in (
+        ("cold start to the first block, s", of("cold_start", "part", "to the first block", "s"), 3.0),
+        ("compiling `standard`, s", of("compiling", "effects", "standard", "wall s"), 20.0),
+        ("compiling `full`, s", of("compiling", "effects", "full", "wall s"), 20.0),
+    ):
+        if found is not None:
+            rows.append((what, "", f"< {most:g}", f"{found:.3g}", "goal" if found < most else "missed"))
+    fit = of("laminae", "effects", "standard", "R^2")
+    if fit is not None:
+        rows.append(
+            ("cost linear in laminae, R^2", "", "1", f"{fit:.4f}", "goal" if fit > 0.99 else "missed")
+        )
+    return rows
+
+
+def markdown(columns: list[str], rows: list[list[str]]) -> str:
+    """A table."""
+    lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
+    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
+
+
+def shown(cell: Any) -> str:
+    """Three significant digits."""
+    if isinstance(cell, float):
+        return f"{cell:.0f}" if abs(cell) >= 1000.0 else f"{cell:.3g}"
+    return str(cell)
+
+
+def page(result: dict[str, Any]) -> str:
+    """The whole page."""
+    tables = result["tables"]
+    columns = ["", "floor", "goal", "measured", "reached"]
+    parts = [HEAD.format(**result["machine"]), GOALS]
+    parts.append(markdown(columns, [list(row) for row in goal_rows(tables)]) + "\n")
+    for name, text in TEXTS.items():
+        if name not in tables:
+            continue
+        table = tables[name]
+        rows = [[shown(row[column]) for column in table["columns"]] for row in table["rows"]]
+        note = f"\n{table['note']}\n" if table["note"] else ""
+        parts.append(text + markdown(table["columns"], rows) + note + "\n")
+    return "".join([*parts, TAIL])
+
+
+def main() -> None:
+    """Read and write."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("numbers", type=Path, help="JSON file of make bench")
+    PAGE.write_text(page(json.loads(parser.parse_args().numbers.read_text())), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,57 @@
+"""What a user sees while kernels are compiled, and that Ctrl-C ends it."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+
+from beardyn_core import twin
+from beardyn_core.cli.main import main
+from beardyn_core.config import load_scene
+from beardyn_core.jit import when_compiling
+
+
+def test_only_a_kernel_that_is_not_compiled_yet_is_announced_and_once() -> None:
+    summed = numba.njit(lambda values: 3.0 * values.sum())  # not kept in the cache
+    said: list[str] = []
+    for _ in range(2):
+        with when_compiling(lambda: said.append("compiling")) as compiled:
+            assert summed(np.ones(3)) == 9.0
+        assert said == ["compiling"]
+    assert not compiled
+
+
+def test_a_scene_whose_kernels_are_in_the_cache_says_nothing(caplog: pytest.LogCaptureFixture) -> None:
+    scene = load_scene("static_80kN", tier="lumped")
+    twin.Twin(scene).warm()
+    caplog.clear()
+    with caplog.at_level(logging.INFO, logger="beardyn"):
+        twin.Twin(scene).warm()
+    assert caplog.messages == []
+
+
+def test_warmup_tells_what_it_found(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["warmup", "static_80kN", "--tier", "lumped"]) == 0
+    assert main(["warmup", "static_80kN", "--tier", "lumped"]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last.split()[:2] == ["static_80kN", "lumped"]
+    assert "in the cache" in last
+
+
+def test_ctrl_c_while_compiling_ends_the_command(repository: Path, tmp_path: Path) -> None:
+    environment = {**os.environ, "PYTHONPATH": str(repository), "BEARDYN_CACHE_DIR": str(tmp_path)}
+    words = [sys.executable, "-m", "beardyn_core.cli.main", "warmup", "static_80kN"]
+    with subprocess.Popen(words, env=environment, stderr=subprocess.PIPE, text=True) as running:
+        assert running.stderr is not None
+        assert twin.COMPILING in running.stderr.readline()
+        running.send_signal(signal.SIGINT)
+        assert "interrupted" in running.stderr.read()
+    assert running.returncode == 130

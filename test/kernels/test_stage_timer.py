@@ -1,0 +1,119 @@
+"""The timers in the step: who gets the cycles, which steps are timed, and what a disturbance does."""
+
+from __future__ import annotations
+
+import platform
+from typing import Any
+
+import numpy as np
+import pytest
+
+from beardyn_core.jit import entry, inline
+from beardyn_core.kernels.stage_timer import PERIOD, mark, time_step
+from beardyn_core.model.stages import (
+    CAGE,
+    CONTACT,
+    CYCLES,
+    EMPTY,
+    FILM,
+    KERNEL_STAGES,
+    MARKS,
+    RIB,
+    TIMED_STEPS,
+    new_timers,
+    stage_cycles,
+)
+
+X86 = platform.machine().lower() in ("x86_64", "amd64")
+pytestmark = pytest.mark.skipif(not X86, reason="only x86 lets a program read its cycle counter")
+
+
+@inline
+def _grind(values: Any, times: Any) -> None:
+    """Each pass waits for the one before: a hundred cycles and more."""
+    for _ in range(times):
+        for i in range(1, len(values)):
+            values[i] = 1.0 / (1.0 + values[i - 1] * values[i])
+
+
+@entry
+def grinding(values, timers, steps):
+    """Three stages: one unit of work, none, and four units in two pieces."""
+    for step in range(steps):
+        time_step(timers, step)
+        _grind(values, 20)
+        mark(timers, CONTACT)
+        mark(timers, FILM)
+        for _ in range(2):
+            _grind(values, 40)
+            mark(timers, RIB)
+
+
+def ground(steps: int) -> Any:
+    timers = new_timers()
+    grinding(np.full(16, 0.5), timers, steps)
+    return timers
+
+
+def test_the_stage_that_works_gets_the_cycles() -> None:
+    cycles = stage_cycles(ground(TIMED_STEPS * PERIOD))
+    assert cycles[RIB] / cycles[CONTACT] == pytest.approx(4.0, rel=0.25)
+    assert cycles[FILM] < 0.1 * cycles[CONTACT]
+    assert cycles[CAGE] == 0.0
+
+
+def test_one_step_in_many_is_timed() -> None:
+    timers = ground(3 * PERIOD)
+    assert timers[MARKS, CONTACT] == 2 * 3  # and the step before
+    assert timers[MARKS, RIB] == 2 * 6
+    assert np.count_nonzero(timers[CYCLES:, CONTACT]) == 3
+
+
+def test_rows_hold_the_steps_timed_last() -> None:
+    timers = ground((TIMED_STEPS + 1) * PERIOD)
+    once = np.delete(timers[CYCLES:, CONTACT], 0)
+    assert timers[CYCLES, CONTACT] < 1.9 * np.median(once)
+
+
+def test_no_step_timed_is_no_cycles() -> None:
+    np.testing.assert_array_equal(stage_cycles(ground(3)), np.zeros(len(KERNEL_STAGES)))
+    np.testing.assert_array_equal(stage_cycles(None), np.zeros(len(KERNEL_STAGES)))
+
+
+def test_a_step_that_was_interrupted_is_left_out_and_marks_are_free() -> None:
+    timers = new_timers()
+    timers[CYCLES:, CONTACT] = 1300.0
+    timers[CYCLES:, EMPTY] = 50.0
+    timers[MARKS, CONTACT], timers[MARKS, EMPTY] = 6.0 * TIMED_STEPS, 2.0 * TIMED_STEPS
+    timers[CYCLES + 2, CONTACT] = 1e7  # the processor did something else for 4 ms
+    assert stage_cycles(timers)[CONTACT] == 1300.0 - 6.0 * 50.0
+
+
+@entry
+def without_timers(values):
+    """The same work, its hooks without timers."""
+    time_step(None, 100)
+    _grind(values, 20)
+    mark(None, CONTACT)
+
+
+@entry
+def without_hooks(values):
+    """The same work, never any hooks."""
+    _grind(values, 20)
+
+
+def test_absent_timers_leave_no_code() -> None:
+    first, second = np.full(16, 0.5), np.full(16, 0.5)
+    without_timers(first)
+    without_hooks(second)
+    np.testing.assert_array_equal(first, second)
+    if hasattr(without_timers, "inspect_asm"):  # not in plain Python
+        assert body(without_timers) == body(without_hooks)
+        assert any("rdtsc" in line for line in body(grinding))
+
+
+def body(dispatcher: Any) -> list[str]:
+    """Instructions of a compiled entry, without their operands."""
+    listing = "\n".join(dispatcher.inspect_asm().values())
+    return [line.split()[0] for line in listing.splitlines() if line.startswith("\t") and line[1] != "."]
