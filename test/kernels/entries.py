@@ -85,8 +85,9 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         slip = sliding(line, centre, velocity, omega, ring_velocity, ring_omega)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
         sums = lamina_sums(
-            lanes, 0, line, slip, log2_speed, (zero, zero), ring, p.laminae, (None, None, None), p.effects
-        )
+            lanes, 0, line, slip, log2_speed, (zero, zero), ring, p.laminae, (None, None, None),
+            p.lamina_loads, 1.0, p.effects,
+        )  # fmt: skip
         level = ((zero, zero, zero), (zero, zero, zero))
         sums = (sums[0], sums[1], sums[2], sums[3], level)
         force, moment = raceway_wrench((line, slip, sums, log2_speed, centre), p.effects.damping)
