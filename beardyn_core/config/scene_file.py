@@ -153,12 +153,12 @@ class NumericsKeys(FileModel):
     laminae: Annotated[Count, Field(ge=1, le=100)] = 6
     steps_per_sample: Annotated[Count, Field(ge=1, le=64)] | Literal["auto"] = Field(
         4,
-        description="time steps per waveform sample of 1/25600 s; 1 in tier lumped, 2 in quasistatic; auto: as "
-        "many as load, speed and effects need",
+        description="time steps per waveform sample of 1/25600 s; 1 in tier lumped, 2 in quasistatic; auto: "
+        "as many as load, speed and effects need",
     )
     vibration_up_to_kHz: Annotated[NonNegative, Field(le=12.8)] = Field(
         10.0,
-        description="what auto keeps within 1.5 dB in third octaves; 0 when force, torque and motion matter only",
+        description="what auto keeps within 1.5 dB in third octaves; 0 when only force and torque matter",
     )
 
     def noun(self) -> Numerics:

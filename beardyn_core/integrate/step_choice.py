@@ -50,7 +50,7 @@ LARGEST_STEPS = 64
 _WITHIN_DECIBELS = {2: 5_700.0, 3: 7_200.0}
 _BAND_PER_STEP = 2_830.0
 _BOUNCES_PER_STEP = 0.5
-# Chatter index of friction with a slope of 10 s/m at 2 steps per sample, and the power of the step it follows.
+# Chatter index of friction with a slope of 10 s/m at 2 steps per sample; it goes with this power of the step.
 _CHATTER_INDEX = 0.33
 _CHATTER_SLOPE = 10.0
 _CHATTER_POWER = 1.4

@@ -72,7 +72,7 @@ def test_load_sharing_without_a_film_is_steep_at_low_speed() -> None:
 
 def test_a_light_axlebox_and_a_stiff_cage_take_smaller_steps() -> None:
     light = Mounting(box_mass=0.1, journal_mass=0.1)
-    assert steps(mounting=light) >= steps()
+    assert steps(mounting=light) > steps()
     stiff = replace(HS, cage=replace(HS.cage, stiffness=30.0 * HS.cage.stiffness))
     found = choose_steps(stiff, LOADS, SPEEDS, STANDARD, band=0.0)
     assert found.steps_per_sample > 4
@@ -176,5 +176,5 @@ def test_chosen_step_is_converged(point: str, band: float) -> None:
     assert run.torque == pytest.approx(fine.torque, rel=5e-3)
     assert run.scatter == pytest.approx(fine.scatter, rel=0.2)
     assert run.chatter < LARGEST_CHATTER_INDEX
-    heard = THIRDS * 2.0 ** (1.0 / 6.0) <= 1.13 * band
+    heard = 1.02 * band >= THIRDS
     assert np.abs((run.levels - fine.levels)[heard]).max(initial=0.0) < 1.5
