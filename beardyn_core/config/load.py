@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -24,11 +25,14 @@ from beardyn_core.config.units import stem_of
 from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import EffectSet
-from beardyn_core.errors import InputError
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.integrate.step_choice import steps_of_scene
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.tier import TIER_NAMES, contradictions
+from beardyn_core.scene.tier import TIER_NAMES, TIERS, contradictions
+
+log = logging.getLogger("beardyn")
 
 Noun = TypeVar("Noun", covariant=True)
 Keys = TypeVar("Keys", bound=FileModel)
@@ -145,7 +149,24 @@ class _Reading:
         self._check_contradictions()
         if self.problems:
             raise InputError(list(dict.fromkeys(self.problems)))
+        keys = self._resolve_steps(keys)
         return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
+
+    def _resolve_steps(self, keys: SceneKeys) -> SceneKeys:
+        """Write down the time step that ``auto`` comes to."""
+        if keys.numerics.steps_per_sample != "auto":
+            return keys
+        usual = keys.with_steps(TIERS[keys.tier].steps_per_sample)
+        try:
+            choice = steps_of_scene(usual.noun(""), 1e3 * keys.numerics.vibration_up_to_kHz)
+        except ValidityError as error:
+            self._complain(
+                ("numerics", "steps_per_sample"),
+                [f"auto finds no equilibrium under the largest load to judge by ({error}); give a number"],
+            )
+            raise InputError(self.problems) from None
+        log.info("steps per sample: %d, for %s", choice.steps_per_sample, choice.reason)
+        return keys.with_steps(choice.steps_per_sample)
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = located(place, self.origins)

@@ -151,12 +151,19 @@ class NumericsKeys(FileModel):
     """Discretisation of the run."""
 
     laminae: Annotated[Count, Field(ge=1, le=100)] = 6
-    steps_per_sample: Annotated[Count, Field(ge=1, le=64)] = Field(
-        4, description="time steps per waveform sample of 1/25600 s; 1 in tier lumped, 2 in quasistatic"
+    steps_per_sample: Annotated[Count, Field(ge=1, le=64)] | Literal["auto"] = Field(
+        4,
+        description="time steps per waveform sample of 1/25600 s; 1 in tier lumped, 2 in quasistatic; auto: "
+        "as many as load, speed and effects need",
+    )
+    vibration_up_to_kHz: Annotated[NonNegative, Field(le=12.8)] = Field(
+        10.0,
+        description="what auto keeps within 1.5 dB in third octaves; 0 when only force and torque matter",
     )
 
     def noun(self) -> Numerics:
-        """The numerics."""
+        """The numerics; ``auto`` must have been resolved."""
+        assert self.steps_per_sample != "auto"
         return Numerics(self.laminae, self.steps_per_sample)
 
 
@@ -213,6 +220,11 @@ class SceneKeys(FileModel):
                     f"sensors[{index}].name is {name!r}, given twice; each sensor needs its own name"
                 )
         return self
+
+    def with_steps(self, steps_per_sample: int) -> Self:
+        """The same scene with a time step of its own."""
+        numerics = self.numerics.model_copy(update={"steps_per_sample": steps_per_sample})
+        return self.model_copy(update={"numerics": numerics})
 
     def noun(self, source_text: str) -> Scene:
         """The scene, SI; references must have been resolved."""

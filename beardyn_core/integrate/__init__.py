@@ -14,5 +14,6 @@ lumped             explicit steps of the lumped tier
 quasistatic        explicit steps of the quasistatic tier
 tiers              what each tier computes with
 status             status bits and the sentence of each
+step_choice        the coarsest step that is converged
 ================== ==========================================
 """

@@ -6,6 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, cos_sin, magnitude, sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.pocket_film import pocket_loads
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 
@@ -153,10 +154,27 @@ def touch_wall(
 ) -> Any:
     """One spring-damper with friction; force, arm, lost part of the force, slip, elastic energy.
 
-    ``shape`` is the roller's axis and its radius at the wall, for the film if there is one.
+    ``shape`` is the roller's axis and its radius at the wall, for the film if there is one. A wall that no
+    roller of the block reaches costs its slip only.
     """
-    inside = at_least(depth, 0.0)
     slip = wall_slip(centre, arm, motion)
+    if _is_reached(depth, film):
+        return _press_wall(arm, slip, direction, depth, cage, shape, film)
+    zero = 0.0 * depth  # a NaN stays one
+    return (zero, zero, zero), arm, (zero, zero, zero), slip, zero
+
+
+@inline
+def _is_reached(depth: Any, film: Any) -> Any:
+    """Whether the wall acts on any lane; a film acts at a distance."""
+    if film is None:
+        return any_positive(depth)
+    return True
+
+
+@inline
+def _press_wall(arm: Any, slip: Any, direction: Any, depth: Any, cage: Any, shape: Any, film: Any) -> Any:
+    inside = at_least(depth, 0.0)
     rate = dot(slip, direction)
     spring = cage.stiffness * inside
     damping = where_greater(depth, 0.0, cage.damping + 0.0 * depth, 0.0 * depth)

@@ -22,7 +22,8 @@ from beardyn_core.kernels.defect import (
 )
 from beardyn_core.kernels.film import log2_film_thickness
 from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
-from beardyn_core.kernels.lane_math import at_least, ninth_root, sqrt, where_greater
+from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.stage_timer import mark_result
 from beardyn_core.kernels.traction import friction_rate
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
@@ -30,6 +31,7 @@ from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAM
 from beardyn_core.model.stages import CONTACT, FILM, TRACTION
 
 _SMALLEST_APPROACH = 1e-15
+_LOADS = 0  # the work space has one page
 
 
 @inline
@@ -188,15 +190,25 @@ def lamina_sums(
     ring: Any,
     laminae: Any,
     patches: Any,
+    work: Any,
+    reach: Any,
     effects: Any,
 ) -> Any:
     """Sums over the laminae of one raceway contact.
 
+    Parameters
+    ----------
+    work : float64 array, shape [1, 2 x lamina, lane]
+        Work space for the loads of the springs, [N].
+    reach : float
+        No lamina is farther from the centre of mass, [m].
+
     Returns
     -------
-    tuple of 12 lane values
+    tuple of 12 lane values and a bool
         Elastic force with x^0, x^1, x^2; tangent stiffness likewise; friction over slip likewise;
-        elastic energy; elastic force times the slope of the gap over the azimuth in ring and roller.
+        elastic energy; elastic force times the slope of the gap over the azimuth in ring and roller;
+        whether any roller of the block may touch. Where none does, all sums are exactly zero.
 
     References
     ----------
@@ -204,7 +216,7 @@ def lamina_sums(
     """
     surface, roller_surface, damage = patches
     near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
-    return _sums_near_or_far(lanes, near, line, slip, log2_speed, ring, laminae, damage, effects)
+    return _sums_near_or_far(lanes, near, line, slip, log2_speed, ring, laminae, damage, work, reach, effects)
 
 
 @inline
@@ -217,21 +229,62 @@ def _sums_near_or_far(
     ring: Any,
     laminae: Any,
     damage: Any,
+    work: Any,
+    reach: Any,
     effects: Any,
 ) -> Any:
     """Far from every patch a damaged contact is a sound one and costs no more."""
     if damage is None:
-        return spring_sums(lanes, line, slip, log2_speed, ring, laminae, None, effects)
+        return _sums_of_sound(lanes, line, slip, log2_speed, ring, laminae, work, reach, effects)
     if near:
-        return spring_sums(lanes, line, slip, log2_speed, ring, laminae, damage, effects)
-    return spring_sums(lanes, line, slip, log2_speed, ring, laminae, None, effects)
+        return spring_sums(lanes, line, slip, log2_speed, ring, laminae, damage, work, effects)
+    return _sums_of_sound(lanes, line, slip, log2_speed, ring, laminae, work, reach, effects)
+
+
+@inline
+def _sums_of_sound(
+    lanes: Any,
+    line: Any,
+    slip: Any,
+    log2_speed: Any,
+    ring: Any,
+    laminae: Any,
+    work: Any,
+    reach: Any,
+    effects: Any,
+) -> Any:
+    """Sums of a sound contact: a block of rollers of which none touches costs one bound."""
+    if may_touch(lanes, line[5], reach):
+        return spring_sums(lanes, line, slip, log2_speed, ring, laminae, None, work, effects)
+    zero = lanes.constant(0.0)
+    nothing = (zero, zero, zero)
+    return nothing, nothing, nothing, zero, (zero, zero), False
+
+
+@inline
+def may_touch(lanes: Any, approach: Any, reach: Any) -> Any:
+    """Whether the approach of any lane may be positive within a reach of the middle; a NaN may be, too."""
+    slope = magnitude(approach[1]) + reach * (magnitude(approach[2]) + reach * magnitude(approach[3]))
+    zero = lanes.constant(0.0)
+    return any_positive(where_greater(zero, approach[0] + reach * slope, zero, 1.0))
 
 
 @inline
 def spring_sums(
-    lanes: Any, line: Any, slip: Any, log2_speed: Any, ring: Any, laminae: Any, damage: Any, effects: Any
+    lanes: Any,
+    line: Any,
+    slip: Any,
+    log2_speed: Any,
+    ring: Any,
+    laminae: Any,
+    damage: Any,
+    work: Any,
+    effects: Any,
 ) -> Any:
-    """Sums of `lamina_sums` over the springs of one contact; `damage` is ``None`` far from every patch."""
+    """Sums of `lamina_sums` over the springs of one contact; `damage` is ``None`` far from every patch.
+
+    Two passes, normal forces and then friction: short loops keep several laminae in flight.
+    """
     approach = line[5]
     rate, slip_around, slip_along = slip
     zero = lanes.constant(0.0)
@@ -253,23 +306,26 @@ def spring_sums(
         lean = add_lean(lanes, lean, share * (0.9 * tangent * touching), k, count, damage, effects.coupling)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
         elastic = 0.9 * tangent * touching
-        load = tangent * push
-        around = slip_around[0] + x * slip_around[1]
-        along = slip_along[0] + x * slip_along[1]
-        mark_result(effects.timers, CONTACT, load)
-        log2_film = log2_film_thickness(load, log2_speed, k, ring, laminae, effects.film)
-        mark_result(effects.timers, FILM, log2_film)
-        friction = friction_rate(
-            load, around * around + along * along, log2_film, log2_speed, k, ring, laminae, effects
-        )
-        mark_result(effects.timers, TRACTION, friction)
-        elastic, tangent, friction = share * elastic, share * tangent, share * friction
+        lanes.store(work, _LOADS, k, tangent * push)
+        elastic, tangent = share * elastic, share * tangent
         force_0 = force_0 + elastic
         force_1 = force_1 + elastic * x
         force_2 = force_2 + elastic * (x * x)
         stiffness_0 = stiffness_0 + tangent
         stiffness_1 = stiffness_1 + tangent * x
         stiffness_2 = stiffness_2 + tangent * (x * x)
+    for k in range(springs):
+        x = laminae[LAMINA_PLACE, k]
+        load = lanes.load(work, _LOADS, k)
+        around = slip_around[0] + x * slip_around[1]
+        along = slip_along[0] + x * slip_along[1]
+        square = around * around + along * along
+        mark_result(effects.timers, CONTACT, square)
+        log2_film = log2_film_thickness(load, log2_speed, k, ring, laminae, effects.film)
+        mark_result(effects.timers, FILM, log2_film)
+        friction = friction_rate(load, square, log2_film, log2_speed, k, ring, laminae, effects)
+        mark_result(effects.timers, TRACTION, friction)
+        friction = share_of(lanes, k, damage, effects.coupling) * friction
         friction_0 = friction_0 + friction
         friction_1 = friction_1 + friction * x
         friction_2 = friction_2 + friction * (x * x)
@@ -279,7 +335,16 @@ def spring_sums(
         (friction_0, friction_1, friction_2),
         energy,
         lean,
+        True,
     )
+
+
+@inline
+def share_of(lanes: Any, k: Any, damage: Any, coupling: Any) -> Any:
+    """Share of its lamina of a spring, [-]."""
+    if coupling is None:
+        return spring_damage(lanes, k, damage)[0]
+    return 1.0
 
 
 @inline

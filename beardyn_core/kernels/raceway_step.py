@@ -17,7 +17,7 @@ from beardyn_core.kernels.film import film_output, log2_entrainment
 from beardyn_core.kernels.lane_math import at_least, at_most, sqrt
 from beardyn_core.kernels.orbit import entrainment_speed
 from beardyn_core.kernels.raceway import generator_line, lamina_sums, line_wrench, power, sliding, weighted
-from beardyn_core.kernels.solve import add_line
+from beardyn_core.kernels.solve import add_line, add_line_everywhere
 from beardyn_core.kernels.traction import traction_capacity
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, subtract
 from beardyn_core.kernels.waviness import add_leaning, leaning_wrench, wave_gap, wavy_line
@@ -37,7 +37,13 @@ def raceway_contact(
     faults: Any,
     p: Any,
 ) -> Any:
-    """Everything one raceway contact needs before the solve: line, slip, sums, speed part of the film."""
+    """Everything one raceway contact needs before the solve.
+
+    Returns
+    -------
+    tuple
+        Line, slip, sums, speed part of the film, centre, and whether any roller of the block may touch.
+    """
     place, axis, velocity, omega, orbit_rate = body
     centre = subtract(place, view[0])
     surface, roller_surface, damage, waves, roller_waves = faults
@@ -49,11 +55,15 @@ def raceway_contact(
     speed = entrainment_speed(line, centre, velocity, omega, view[2], view[3], orbit_rate)
     log2_speed = log2_entrainment(speed, p.effects.film)
     patches = (surface, roller_surface, damage)
-    sums = lamina_sums(lanes, block, line, slip, log2_speed, azimuths, ring, p.laminae, patches, p.effects)
+    reach = p.roller.half_length + abs(p.roller.mass_offset)
+    sums = lamina_sums(
+        lanes, block, line, slip, log2_speed, azimuths, ring, p.laminae, patches, p.lamina_loads, reach,
+        p.effects,
+    )  # fmt: skip
     leaning = leaning_wrench(
         lanes, place, axis, sums[4], sums[0][0], (ring_climb, roller_climb), damage, waves, roller_waves
     )
-    return line, slip, (sums[0], sums[1], sums[2], sums[3], leaning), log2_speed, centre
+    return line, slip, (sums[0], sums[1], sums[2], sums[3], leaning), log2_speed, centre, sums[5]
 
 
 @inline
@@ -73,19 +83,21 @@ def normal_sums(sums: Any, rate: Any, damping: Any) -> Any:
 @inline
 def raceway_matrix(matrix: Any, contact: Any, step: Any, damping: Any) -> Any:
     """Add the implicit part of one raceway contact to the roller's matrix."""
-    line, _slip, sums, _log2_speed, _centre = contact
+    if not contact[5]:
+        return matrix
+    line, sums = contact[0], contact[2]
     time = step * implicit_time(step, damping)
-    stiff = (time * sums[1][0], time * sums[1][1], time * sums[1][2])
     rough = (step * sums[2][0], step * sums[2][1], step * sums[2][2])
-    matrix = add_line(matrix, line[2], line[0], line[1], stiff)
-    matrix = add_line(matrix, line[3], line[0], line[1], rough)
-    return add_line(matrix, line[4], line[0], line[1], rough)
+    # friction resists in the tangent plane: in every direction less along the normal
+    stiff = (time * sums[1][0] - rough[0], time * sums[1][1] - rough[1], time * sums[1][2] - rough[2])
+    matrix = add_line_everywhere(matrix, line[0], line[1], rough)
+    return add_line(matrix, line[2], line[0], line[1], stiff)
 
 
 @inline
 def raceway_wrench(contact: Any, damping: Any) -> Any:
     """Force and moment on the roller from the velocities at the beginning of the step."""
-    line, slip, sums, _log2_speed, _centre = contact
+    line, slip, sums = contact[0], contact[1], contact[2]
     force, moment = line_wrench(
         line, normal_sums(sums, slip[0], damping), weighted(sums[2], slip[1]), weighted(sums[2], slip[2])
     )
@@ -117,7 +129,7 @@ def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
     slid, damped, numerical : lane value
         Dissipated by sliding, by contact damping, and by the time step, over the step, [J].
     """
-    line, slip, sums, _log2_speed, _centre = contact
+    line, slip, sums = contact[0], contact[1], contact[2]
     d_rate = affine_change(line, line[2], change)
     d_around = affine_change(line, line[3], change)
     d_along = affine_change(line, line[4], change)
@@ -167,11 +179,8 @@ def finish_raceway(
     p: Any,
 ) -> Any:
     """Settle one raceway contact after the solve: reaction, output, audit; returns its wrench."""
-    line, slip, lamina, log2_speed, centre = contact
-    force, moment, normal, friction, slid, damped, numerical = settled_wrench(
-        contact, change, p.step, p.effects.damping
-    )
-    react(lanes, sums, ring, mask, centre, force, moment, cosine, sine)
+    line, slip, log2_speed = contact[0], contact[1], contact[3]
+    force, moment, normal, friction = _settle(lanes, sums, ring, contact, change, mask, cosine, sine, p)
     # a grazing contact has hardly any force to divide by
     pressure_centre = normal[1] / at_least(normal[0], 1e-3)
     pressure_centre = at_most(at_least(pressure_centre, -p.roller.half_length), p.roller.half_length)
@@ -183,7 +192,31 @@ def finish_raceway(
     watch_chatter(lanes, rollers, block, ring, friction, capacity)
     deepest = at_least(lanes.load(rollers, block, PENETRATION), line[5][0])
     lanes.store(rollers, block, PENETRATION, deepest)
+    return force, moment
+
+
+@inline
+def _settle(
+    lanes: Any,
+    sums: Any,
+    ring: Any,
+    contact: Any,
+    change: Any,
+    mask: Any,
+    cosine: Any,
+    sine: Any,
+    p: Any,
+) -> Any:
+    """Wrench, normal force and friction after the solve, with reaction and audit; zeros without touch."""
+    if not contact[5]:
+        zero = lanes.constant(0.0)
+        nothing = (zero, zero, zero)
+        return nothing, nothing, nothing, zero
+    force, moment, normal, friction, slid, damped, numerical = settled_wrench(
+        contact, change, p.step, p.effects.damping
+    )
+    react(lanes, sums, ring, mask, contact[4], force, moment, cosine, sine)
     account_loss(lanes, sums, mask, LOSS_SLIDING, slid, p.effects.audit)
     account_loss(lanes, sums, mask, LOSS_DAMPING, damped, p.effects.audit)
-    account(lanes, sums, mask, numerical, lamina[3], p.effects.audit)
-    return force, moment
+    account(lanes, sums, mask, numerical, contact[2][3], p.effects.audit)
+    return force, moment, normal, friction

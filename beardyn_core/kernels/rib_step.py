@@ -8,7 +8,7 @@ from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account, account_loss, implicit_time, output_contact, react
 from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.rib import rib_contact
-from beardyn_core.kernels.solve import add_couple, add_point
+from beardyn_core.kernels.solve import add_couple, add_point, add_point_everywhere
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.layout import CONE, LOSS_DAMPING, LOSS_RIB, RIB
 
@@ -25,16 +25,14 @@ def rib_before(body: Any, view: Any, zero: Any, rib: Any, damping: Any) -> Any:
 
 
 @inline
-def rib_matrix(matrix: Any, contact: Any, ring_axis: Any, step: Any, rib: Any, damping: Any) -> Any:
+def rib_matrix(matrix: Any, contact: Any, step: Any, rib: Any, damping: Any) -> Any:
     """Add the implicit part of the rib contact."""
     if rib is None:
         return matrix
     normal, arm, _load, tangent, friction, _elastic, _energy, _slip, drilling, _spin, _film = contact[1]
-    across = cross(ring_axis, normal)
-    across = scale(1.0 / sqrt(dot(across, across)), across)
-    matrix = add_point(matrix, normal, arm, step * implicit_time(step, damping) * tangent)
-    matrix = add_point(matrix, across, arm, step * friction)
-    matrix = add_point(matrix, cross(normal, across), arm, step * friction)
+    rough = step * friction
+    matrix = add_point_everywhere(matrix, arm, rough)
+    matrix = add_point(matrix, normal, arm, step * implicit_time(step, damping) * tangent - rough)
     return _resist_spin(matrix, normal, step * drilling, rib.drilling)
 
 

@@ -111,8 +111,8 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
     matrix = rolling_matrix(matrix, cup_rolling, step, effects.rolling)
     matrix = rolling_matrix(matrix, cone_rolling, step, effects.rolling)
     matrix = drag_matrix(matrix, drag, step, effects.drag)
-    matrix = rib_matrix(matrix, rib, cone_view[1], step, effects.rib, effects.damping)
-    matrix = small_rib_matrix(matrix, small_rib, cone_view[1], step, effects.small_rib)
+    matrix = rib_matrix(matrix, rib, step, effects.rib, effects.damping)
+    matrix = small_rib_matrix(matrix, small_rib, step, effects.small_rib)
 
     cup_force, cup_moment = raceway_wrench(cup, effects.damping)
     cone_force, cone_moment = raceway_wrench(cone, effects.damping)

@@ -7,7 +7,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, sqrt, where_greater
 from beardyn_core.kernels.rib_step import settle_point
-from beardyn_core.kernels.solve import add_point
+from beardyn_core.kernels.solve import add_point, add_point_everywhere
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.layout import LOSS_SMALL_RIB
 
@@ -66,16 +66,14 @@ def small_rib_before(body: Any, view: Any, zero: Any, rib: Any) -> Any:
 
 
 @inline
-def small_rib_matrix(matrix: Any, contact: Any, ring_axis: Any, step: Any, rib: Any) -> Any:
+def small_rib_matrix(matrix: Any, contact: Any, step: Any, rib: Any) -> Any:
     """Add the implicit part of the small-rib contact."""
     if rib is None:
         return matrix
     normal, arm, tangent, friction = contact[1][0], contact[1][1], contact[1][3], contact[1][4]
-    across = cross(ring_axis, normal)
-    across = scale(1.0 / sqrt(dot(across, across)), across)
-    matrix = add_point(matrix, normal, arm, step * (0.25 * step + rib.damping.time_constant) * tangent)
-    matrix = add_point(matrix, across, arm, step * friction)
-    return add_point(matrix, cross(normal, across), arm, step * friction)
+    rough = step * friction
+    stiff = step * (0.25 * step + rib.damping.time_constant) * tangent
+    return add_point(add_point_everywhere(matrix, arm, rough), normal, arm, stiff - rough)
 
 
 @inline

@@ -72,6 +72,44 @@ def add_point(matrix: Any, direction: Any, arm: Any, weight: Any) -> Any:
 
 
 @inline
+def add_line_everywhere(matrix: Any, arm: Any, arm_slope: Any, weights: Any) -> Any:
+    """Add contacts along a line that resist the velocity in every direction; arguments as in `add_line`.
+
+    The sum of `add_line` over three orthogonal directions: with r = arm + x arm_slope the force block is
+    w 1, the mixed one w [r], the rotary one w (r.r 1 - r r).
+    """
+    k0, k1, k2 = weights
+    a, s = arm, arm_slope
+    u = (k0 * a[0] + k1 * s[0], k0 * a[1] + k1 * s[1], k0 * a[2] + k1 * s[2])
+    v = (k1 * a[0] + k2 * s[0], k1 * a[1] + k2 * s[1], k1 * a[2] + k2 * s[2])
+    return _add_everywhere(matrix, k0, u, a, v, s)
+
+
+@inline
+def add_point_everywhere(matrix: Any, arm: Any, weight: Any) -> Any:
+    """Add one contact that resists the velocity in every direction; arguments as in `add_line`."""
+    u = (weight * arm[0], weight * arm[1], weight * arm[2])
+    nothing = (0.0, 0.0, 0.0)
+    return _add_everywhere(matrix, weight, u, arm, nothing, nothing)
+
+
+@inline
+def _add_everywhere(m: Any, weight: Any, u: Any, a: Any, v: Any, s: Any) -> Any:
+    xx = u[0] * a[0] + v[0] * s[0]
+    yy = u[1] * a[1] + v[1] * s[1]
+    zz = u[2] * a[2] + v[2] * s[2]
+    return (
+        m[0] + weight,
+        m[1], m[2] + weight,
+        m[3], m[4], m[5] + weight,
+        m[6], m[7] - u[2], m[8] + u[1], m[9] + (yy + zz),
+        m[10] + u[2], m[11], m[12] - u[0], m[13] - (u[1] * a[0] + v[1] * s[0]), m[14] + (xx + zz),
+        m[15] - u[1], m[16] + u[0], m[17], m[18] - (u[2] * a[0] + v[2] * s[0]),
+        m[19] - (u[2] * a[1] + v[2] * s[1]), m[20] + (xx + yy),
+    )  # fmt: skip
+
+
+@inline
 def add_couple(matrix: Any, direction: Any, weight: Any) -> Any:
     """Add a rotary damper about one direction; `weight` is its coefficient times the step."""
     m = matrix

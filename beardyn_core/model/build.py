@@ -93,6 +93,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         ),
         cone=RacewayParams(math.sin(cone_angle), math.cos(cone_angle), -1.0, 0.0),
         laminae=laminae,
+        lamina_loads=np.zeros((1, 2 * laminae.shape[1], arrangement.width)),
         rollers=roller_constants(arrangement, roller_oversize(scene)),
         mounting=mounting_params(bearing, scene.mounting, preload),
         effects=EffectParams(

@@ -113,6 +113,7 @@ class Parameters(NamedTuple):
     cup: RacewayParams
     cone: RacewayParams
     laminae: Any  # [row of the table, lamina]
+    lamina_loads: Any  # [1, 2 x lamina, lane], work space
     rollers: Any  # [block, ROLLER_CONSTANTS, lane]
     mounting: MountingParams
     effects: EffectParams

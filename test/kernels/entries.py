@@ -32,7 +32,13 @@ from beardyn_core.kernels.rib_gap import rib_gap
 from beardyn_core.kernels.rib_step import rib_wrench
 from beardyn_core.kernels.saturation import arctangent_over, asinh_over, decay_over
 from beardyn_core.kernels.small_rib import add_small_rib, small_rib_contact
-from beardyn_core.kernels.solve import add_line, add_point, solve
+from beardyn_core.kernels.solve import (
+    add_line,
+    add_line_everywhere,
+    add_point,
+    add_point_everywhere,
+    solve,
+)
 from beardyn_core.kernels.traction import friction_rate
 from beardyn_core.kernels.vectors import subtract
 
@@ -85,8 +91,9 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         slip = sliding(line, centre, velocity, omega, ring_velocity, ring_omega)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
         sums = lamina_sums(
-            lanes, 0, line, slip, log2_speed, (zero, zero), ring, p.laminae, (None, None, None), p.effects
-        )
+            lanes, 0, line, slip, log2_speed, (zero, zero), ring, p.laminae, (None, None, None),
+            p.lamina_loads, 1.0, p.effects,
+        )  # fmt: skip
         level = ((zero, zero, zero), (zero, zero, zero))
         sums = (sums[0], sums[1], sums[2], sums[3], level)
         force, moment = raceway_wrench((line, slip, sums, log2_speed, centre), p.effects.damping)
@@ -222,7 +229,7 @@ def solves(lanes: Any, systems: Any, out: Any) -> None:
 
 @entry
 def contact_matrices(lanes: Any, cases: Any, out: Any) -> None:
-    """A line and a point contact added to a zero matrix.
+    """A line and a point contact added to a zero matrix, in one direction and then in every direction.
 
     Inputs: direction, arm, arm slope, three weights; outputs: 21 entries each.
     """
@@ -241,6 +248,11 @@ def contact_matrices(lanes: Any, cases: Any, out: Any) -> None:
         for i in range(7):
             store_vector(lanes, out, case, 3 * i, (line[3 * i], line[3 * i + 1], line[3 * i + 2]))
             store_vector(lanes, out, case, 21 + 3 * i, (point[3 * i], point[3 * i + 1], point[3 * i + 2]))
+        line = add_line_everywhere(empty, arm, slope, weights)
+        point = add_point_everywhere(empty, arm, weights[0])
+        for i in range(7):
+            store_vector(lanes, out, case, 42 + 3 * i, (line[3 * i], line[3 * i + 1], line[3 * i + 2]))
+            store_vector(lanes, out, case, 63 + 3 * i, (point[3 * i], point[3 * i + 1], point[3 * i + 2]))
 
 
 @entry

@@ -55,10 +55,20 @@ def test_solution_satisfies_its_equations(seed: int, scale: float) -> None:
     assert np.all(residual <= 1e-12 * (np.abs(matrix) @ np.abs(x) + np.abs(right)).max())
 
 
+def outer_products(directions: Any, arm: Float, slope: Float, places: Any, weights: Any) -> Float:
+    """Sum over contacts and directions of the resistance of each."""
+    matrix = np.zeros((6, 6))
+    for x, weight in zip(places, weights, strict=True):
+        for direction in directions:
+            row = np.concatenate([direction, np.cross(arm + x * slope, direction)])
+            matrix += weight * np.outer(row, row)
+    return matrix
+
+
 def test_contact_matrices_are_sums_of_outer_products_over_laminae(lanes: Any) -> None:
     rng = np.random.default_rng(2)
     places = np.linspace(-0.025, 0.025, 7)
-    cases, lines, points = [], [], []
+    cases, lines, points, all_lines, all_points = [], [], [], [], []
     for _ in range(50):
         direction = rng.normal(size=3)
         direction /= np.linalg.norm(direction)
@@ -66,13 +76,11 @@ def test_contact_matrices_are_sums_of_outer_products_over_laminae(lanes: Any) ->
         resistance = rng.uniform(0.0, 10.0, len(places))
         weights = [float(np.sum(resistance * places**power)) for power in range(3)]
         cases.append(np.concatenate([direction, arm, slope, weights]))
-        line = np.zeros((6, 6))
-        for x, weight in zip(places, resistance, strict=True):
-            row = np.concatenate([direction, np.cross(arm + x * slope, direction)])
-            line += weight * np.outer(row, row)
-        lines.append(line[LOWER])
-        row = np.concatenate([direction, np.cross(arm, direction)])
-        points.append((weights[0] * np.outer(row, row))[LOWER])
-    found = through(lanes, contact_matrices, np.array(cases), 42)
-    np.testing.assert_allclose(found[:, :21], lines, rtol=1e-10, atol=1e-12)
-    np.testing.assert_allclose(found[:, 21:], points, rtol=1e-10, atol=1e-12)
+        lines.append(outer_products([direction], arm, slope, places, resistance)[LOWER])
+        all_lines.append(outer_products(np.eye(3), arm, slope, places, resistance)[LOWER])
+        points.append(outer_products([direction], arm, slope, [0.0], weights[:1])[LOWER])
+        all_points.append(outer_products(np.eye(3), arm, slope, [0.0], weights[:1])[LOWER])
+    found = through(lanes, contact_matrices, np.array(cases), 84)
+    for index, expected in enumerate((lines, points, all_lines, all_points)):
+        part = found[:, 21 * index : 21 * index + 21]
+        np.testing.assert_allclose(part, expected, rtol=1e-10, atol=1e-12)

@@ -1,0 +1,59 @@
+"""A step allocates nothing: the kernel's heap use does not grow with the number of steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from numba import config, njit
+from numba.core.runtime import _nrt_python as runtime
+from numba.core.runtime import rtsys
+
+from test.kernels.rig import Rig, standard_scene
+
+pytestmark = pytest.mark.skipif(bool(config.DISABLE_JIT), reason="counts allocations of compiled code")
+
+
+@pytest.fixture(autouse=True)
+def _counted() -> Iterator[None]:
+    was_on = runtime.memsys_stats_enabled()
+    runtime.memsys_enable_stats()
+    yield
+    if not was_on:
+        runtime.memsys_disable_stats()
+
+
+def allocations() -> int:
+    stats = rtsys.get_allocation_stats()
+    return int(stats.alloc + stats.mi_alloc)
+
+
+def of_run(rig: Rig, steps: int) -> int:
+    before = allocations()
+    rig.run(steps)
+    return allocations() - before
+
+
+def test_a_step_allocates_nothing() -> None:
+    """Handing an array to compiled code counts as one allocation each call, whatever it does with it."""
+    rig = Rig.at_equilibrium(standard_scene())
+    few, many = of_run(rig, 8), of_run(rig, 256)
+    assert 0 < few == many
+
+
+def test_the_count_sees_an_allocation_in_compiled_code() -> None:
+    """Otherwise the test above could not fail."""
+
+    @njit
+    def grows(count: int) -> float:
+        total = 0.0
+        for i in range(count):
+            total += [float(i), total][0]
+        return total
+
+    grows(1)
+    before = allocations()
+    grows(10)
+    middle = allocations()
+    grows(100)
+    assert allocations() - middle > middle - before
