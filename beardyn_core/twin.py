@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -224,11 +224,11 @@ class Twin:
             self.scene.bearing.large_end_radius,
             self._parameters.effects.rib,
         )
+        audit = self._energy_audit()
+        temperature = None if self._warmth is None else self._warm_up(loads)
         block = self._observer.observe(
-            self._index, self._signals, loads, rollers, bodies, int(status), self._energy_audit(), wall
+            self._index, self._signals, loads, rollers, bodies, int(status), audit, wall, temperature
         )
-        if self._warmth is not None:
-            block = replace(block, temperature=self._warm_up(loads))
         self._index += 1
         if is_fatal(status):
             moment = f"at {block.end_ns * 1e-9:.2f} s of simulated time"
