@@ -99,8 +99,10 @@ def quick_ninth_root(a: Value) -> Value:
     z4 = z2 * z2
     root = a * (z4 * z4)
     e = 1.0 - root * z
-    high = 0.781068861 + e * (0.765045923 + e * (0.864974945 + e * 0.840168018))
-    return root * (0.999999855 + e * (0.888889154 + e * (0.839573897 + e * (0.808432702 + e * high))))
+    e2 = e * e
+    low = (0.999999855 + e * 0.888889154) + e2 * (0.839573897 + e * 0.808432702)
+    high = (0.781068861 + e * 0.765045923) + e2 * (0.864974945 + e * 0.840168018)
+    return root * (low + (e2 * e2) * high)
 
 
 def _emit_exponent(builder: Any, a: Any) -> Any:

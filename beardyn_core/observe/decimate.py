@@ -41,9 +41,7 @@ class Decimator:
         Input samples by which the stream comes later than it is pushed.
     """
 
-    def __init__(
-        self, factor: int, channels: int, initial: Float | None = None, held_back: int = 0
-    ) -> None:
+    def __init__(self, factor: int, channels: int, initial: Float | None = None, held_back: int = 0) -> None:
         if not 1 <= factor <= LARGEST_FACTOR:
             raise ValueError(f"factor is {factor}; allowed is 1 to {LARGEST_FACTOR}")
         self.factor = factor

@@ -162,7 +162,9 @@ def _centre(rollers: Any, bodies: Any, t: Any, block: Any, lane: Any, directions
 def _poses(rollers, bodies, count, mass_offset, cage_place, out):
     for t in range(bodies.shape[0]):
         for body in range(BODIES):
-            _ring_pose(bodies[t, body], (2.0 * body - 5.0) * cage_place if body >= CAGE_BODY else 0.0, out[t, body])
+            _ring_pose(
+                bodies[t, body], (2.0 * body - 5.0) * cage_place if body >= CAGE_BODY else 0.0, out[t, body]
+            )
         for row in range(2):
             for k in range(count):
                 block, lane = _place(rollers, count, row, k)

@@ -118,7 +118,13 @@ class LoadBuffer:
         load = parts[0] if len(parts) == 1 else _joined(parts)
         rows = np.empty((steps + 1, 10))
         _interpolate(
-            load.time_ns, load.wrench, load.shaft_speed, load.bogie, start_ns, (end_ns - start_ns) / steps, rows
+            load.time_ns,
+            load.wrench,
+            load.shaft_speed,
+            load.bogie,
+            start_ns,
+            (end_ns - start_ns) / steps,
+            rows,
         )
         return rows
 
