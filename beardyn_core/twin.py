@@ -97,6 +97,7 @@ class Twin:
         self._index = 0
         heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
         self._warmth = cold_start(scene) if heated else None
+        self._audited = scene.effects.audit is not None and "audit" not in scene.missing_effects
 
     @property
     def roller_count(self) -> int:
@@ -295,7 +296,7 @@ class Twin:
 
     def _energy_audit(self) -> EnergyAudit | None:
         """Balance from the start of the run to the start of the block just computed."""
-        if self.scene.effects.audit is None or "audit" in self.scene.missing_effects:
+        if not self._audited:
             return None
         if self._first_audit is None:
             self._first_audit = self._audit.copy()

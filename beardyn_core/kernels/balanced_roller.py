@@ -12,11 +12,19 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
 from beardyn_core.kernels.exchange import implicit_time
-from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt
+from beardyn_core.kernels.lane_math import (
+    at_least,
+    at_most,
+    magnitude,
+    quick_ninth_root,
+    sqrt,
+    where_greater,
+)
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.raceway import contact_spring, generator_line
 from beardyn_core.kernels.vectors import add, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import wave_gap, wavy_line
-from beardyn_core.model.contact_parameters import LAMINA_PLACE
+from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 _SMALLEST_APPROACH = 1e-15
 # A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
@@ -41,8 +49,8 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
     Returns
     -------
-    approach : tuple of 4 lane values
-        Factors of the powers of the abscissa, as from `generator_line`, [m].
+    approach : tuple of 2 lane values
+        Affine in the abscissa, [m].
     by_tilt : tuple of 2 lane values
         Change of the approach with tilt, affine in the abscissa, [m/rad].
     lever : tuple of 2 lane values
@@ -51,12 +59,9 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
     sine, cosine = axis[0], axis[1]
     radial, axial = place[0] + radius * cosine, place[1] - radius * sine
     along_r, along_a = sine + roller.taper * cosine, cosine - roller.taper * sine
-    zero = 0.0 * radial
     approach = (
         cup.cosine * radial - cup.sine * (axial - roller.apex) - cup.gap,
         cup.cosine * along_r - cup.sine * along_a,
-        zero,
-        zero,
     )
     across = cup.cosine * cosine + cup.sine * sine
     along = cup.cosine * sine - cup.sine * cosine
@@ -66,8 +71,19 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
 
 @inline
-def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, patches: Any) -> Any:
+def lamina_springs(
+    lanes: Any, block: Any, approach: Any, bend: Any, azimuths: Any, laminae: Any, reach: Any, patches: Any
+) -> Any:
     """Elastic force with x^0 and x^1, and tangent stiffness with x^0, x^1 and x^2, over the laminae.
+
+    Parameters
+    ----------
+    approach : tuple of 2 lane values
+        Factors of x^0 and x^1 in the approach, [m].
+    bend : tuple of 2 lane values or None
+        Factors of x^2 and x^3.
+    reach : float
+        Half length of the roller, [m].
 
     References
     ----------
@@ -75,28 +91,78 @@ def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae
     """
     surface, roller_surface, damage = patches
     near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
-    return _near_or_far(lanes, near, approach, laminae, damage)
+    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
 
 
 @inline
-def _near_or_far(lanes: Any, near: Any, approach: Any, laminae: Any, damage: Any) -> Any:
+def _near_or_far(
+    lanes: Any, near: Any, approach: Any, bend: Any, laminae: Any, reach: Any, damage: Any
+) -> Any:
     if damage is None:
-        return _spring_moments(lanes, approach, laminae, None)
+        return _sound_moments(lanes, approach, bend, laminae, reach)
     if near:
-        return _spring_moments(lanes, approach, laminae, damage)
-    return _spring_moments(lanes, approach, laminae, None)
+        return _damaged_moments(lanes, approach, bend, laminae, damage)
+    return _sound_moments(lanes, approach, bend, laminae, reach)
 
 
 @inline
-def _spring_moments(lanes: Any, approach: Any, laminae: Any, damage: Any) -> Any:
+def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: Any) -> Any:
     zero = lanes.constant(0.0)
     force_0, force_1 = zero, zero
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    # where no roller of the block is in contact this look is all
+    if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
+        for k in range(laminae.shape[1]):
+            x = laminae[LAMINA_PLACE, k]
+            depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
+            touching = at_least(depth, _SMALLEST_APPROACH)
+            tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
+            tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+            force = tangent * touching
+            force_0 = force_0 + force
+            force_1 = force_1 + x * force
+            stiffness_0 = stiffness_0 + tangent
+            stiffness_1 = stiffness_1 + x * tangent
+            stiffness_2 = stiffness_2 + (x * x) * tangent
+    steeper = 10.0 / 9.0
+    return (force_0, force_1), (steeper * stiffness_0, steeper * stiffness_1, steeper * stiffness_2)
+
+
+@inline
+def _bend(bend: Any, x: Any) -> Any:
+    """Part of the approach that is not affine in the abscissa, [m]."""
+    if bend is None:
+        return 0.0
+    return (x * x) * (bend[0] + x * bend[1])
+
+
+@inline
+def _most_bend(bend: Any, reach: Any) -> Any:
+    """Bound of `_bend` along the roller, [m]."""
+    if bend is None:
+        return 0.0
+    return (reach * reach) * (magnitude(bend[0]) + reach * magnitude(bend[1]))
+
+
+@inline
+def _all_factors(approach: Any, bend: Any) -> Any:
+    if bend is None:
+        zero = 0.0 * approach[0]
+        return approach[0], approach[1], zero, zero
+    return approach[0], approach[1], bend[0], bend[1]
+
+
+@inline
+def _damaged_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, damage: Any) -> Any:
+    zero = lanes.constant(0.0)
+    force_0, force_1 = zero, zero
+    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    factors = _all_factors(approach, bend)
     springs = spring_count(laminae, damage, None)
     laminae = spring_table(laminae, damage)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        share, depth, tangent, _energy = contact_spring(lanes, approach, k, laminae, damage, None)
+        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
         tangent = share * tangent
         force = 0.9 * tangent * at_least(depth, 0.0)
         force_0 = force_0 + force
@@ -246,9 +312,9 @@ def balance(
     cup_approach, cup_tilt, lever = cup_line(place, axis, radius, base.cup, roller)
     cup_wave = wave_gap(lanes, block, azimuths[0], faults.cup_waves)[0]
     cup_wave = cup_wave + wave_gap(lanes, block, -azimuths[2], faults.roller_waves)[0]
-    cup_approach = (cup_approach[0] - cup_wave, cup_approach[1], cup_approach[2], cup_approach[3])
+    cup_approach = (cup_approach[0] - cup_wave, cup_approach[1])
     cup = lamina_springs(
-        lanes, block, cup_approach, (azimuths[0], -azimuths[2]), base.laminae,
+        lanes, block, cup_approach, None, (azimuths[0], -azimuths[2]), base.laminae, roller.half_length,
         (faults.cup, faults.roller, faults.cup_damage),
     )  # fmt: skip
     motion = (views[2], views[3])
@@ -259,7 +325,8 @@ def balance(
     cone_wave = cone_wave + wave_gap(lanes, block, _PI - azimuths[2], faults.roller_waves)[0]
     line = wavy_line(line, cone_wave)
     cone = lamina_springs(
-        lanes, block, line[5], (azimuths[1], _PI - azimuths[2]), base.laminae,
+        lanes, block, (line[5][0], line[5][1]), (line[5][2], line[5][3]),
+        (azimuths[1], _PI - azimuths[2]), base.laminae, roller.half_length,
         (faults.cone, faults.roller, faults.cone_damage),
     )  # fmt: skip
     cone_force = damped(cone, cone_rate(line, centre, motion), effects.damping)

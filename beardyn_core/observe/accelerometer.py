@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.jit import entry
-from beardyn_core.kernels.lane_math import at_least, cos_sin, log2
+from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, log2
 from beardyn_core.scene.sensor import Accelerometer
 
 Float = NDArray[np.float64]
@@ -155,7 +157,14 @@ def reading(
     float64 array, shape [sample, 3]
         [m/s^2].
     """
-    noise = stream.at(first_sample, len(signal))
-    noise *= sensor.noise_density * np.sqrt(0.5 * rate)
-    noise += signal
-    return np.clip(noise, -sensor.range, sensor.range, out=noise)
+    out = stream.at(first_sample, len(signal))
+    _add_noise(signal, sensor.noise_density * math.sqrt(0.5 * rate), sensor.range, out)
+    return out
+
+
+@entry
+def _add_noise(signal, deviation, largest, out):
+    """Turn noise of deviation 1 into the reading, in place."""
+    for i in range(out.shape[0]):
+        for j in range(out.shape[1]):
+            out[i, j] = at_most(at_least(signal[i, j] + deviation * out[i, j], -largest), largest)

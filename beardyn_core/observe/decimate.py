@@ -18,10 +18,11 @@ LARGEST_FACTOR = 64
 
 
 @cache
-def _half_kernel(factor: int) -> Float:
-    """Taps from the first to the middle one of the symmetric kernel, sum over all taps 1."""
-    kernel = firwin(2 * DELAY * factor + 1, 1.0 / factor, window=("kaiser", _KAISER_BETA))
-    return np.ascontiguousarray(kernel[: DELAY * factor + 1])
+def _kernel(factor: int) -> Float:
+    """Taps of the symmetric kernel, their sum 1."""
+    if factor == 1:
+        return np.ones(1)
+    return np.ascontiguousarray(firwin(2 * DELAY * factor + 1, 1.0 / factor, window=("kaiser", _KAISER_BETA)))
 
 
 class Decimator:
@@ -46,8 +47,8 @@ class Decimator:
             raise ValueError(f"factor is {factor}; allowed is 1 to {LARGEST_FACTOR}")
         self.factor = factor
         self.channels = channels
-        self._half = _half_kernel(factor) if factor > 1 else np.ones(1)
-        self._kept = 2 * (len(self._half) - 1) + held_back
+        self._kernel = _kernel(factor)
+        self._kept = len(self._kernel) - 1 + held_back
         # the stream from the oldest sample that is still needed on; its beginning is the state
         self._stretch = np.zeros((channels, self._kept))
         if initial is not None:
@@ -56,7 +57,7 @@ class Decimator:
     @property
     def delay_samples(self) -> int:
         """Input samples by which output m lags: it belongs to input m x factor - delay_samples."""
-        return self._kept - (len(self._half) - 1)
+        return self._kept - (len(self._kernel) - 1) // 2
 
     @property
     def state(self) -> Float:
@@ -90,26 +91,28 @@ class Decimator:
             longer = np.empty((self.channels, self._kept + len(block)))
             longer[:, : self._kept] = self._stretch[:, : self._kept]
             self._stretch = longer
+        if self.factor == 1:
+            whole = np.concatenate((self._stretch[:, : self._kept].T, block))
+            self._stretch[:, : self._kept] = whole[len(block) :].T
+            return whole[: len(block)]
         out = np.empty((len(block) // self.factor, self.channels))
-        _filter(self._stretch, self._kept, np.ascontiguousarray(block), self._half, self.factor, out)
+        _filter(self._stretch, self._kept, np.ascontiguousarray(block), self._kernel, self.factor, out)
         return out
 
 
 # reassoc lets the sum over taps run in vector lanes; its order depends on the kernel only, so blocks
 # of any length give the same bits
 @partial(entry, flags=("reassoc", "contract", "nsz"))
-def _filter(stretch, kept, block, half, factor, out):
-    middle = len(half) - 1
+def _filter(stretch, kept, block, kernel, factor, out):
     for channel in range(stretch.shape[0]):
         signal = stretch[channel]
         for i in range(len(block)):
             signal[kept + i] = block[i, channel]
         for m in range(len(out)):
-            first = signal[m * factor : m * factor + middle]
-            last = signal[m * factor + middle + 1 : m * factor + 2 * middle + 1]
+            window = signal[m * factor : m * factor + len(kernel)]
             total = 0.0
-            for k in range(middle):
-                total += half[k] * (first[k] + last[middle - 1 - k])
-            out[m, channel] = total + half[middle] * signal[m * factor + middle]
+            for k in range(len(kernel)):
+                total += kernel[k] * window[k]
+            out[m, channel] = total
         for i in range(kept):
             signal[i] = signal[len(block) + i]
