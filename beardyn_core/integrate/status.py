@@ -197,7 +197,7 @@ def _from_axis(rollers: Any, block: Any, lane: Any) -> Any:
 
 @inline
 def _beyond_face(rollers: Any, block: Any, lane: Any, face: Any) -> Any:
-    """How far the rib contact is beyond the edges of the rib's face; the cone's place is not looked at, [m]."""
+    """How far the rib contact is beyond the edges of the rib's face, the cone's place neglected, [m]."""
     sphere_place, normal_radial, normal_axial, low, high = face
     along = sphere_place * rollers[block, AXIS, lane]
     around = sphere_place * rollers[block, AXIS + 1, lane]

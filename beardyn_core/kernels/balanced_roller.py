@@ -21,9 +21,9 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
 )
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.kernels.raceway import contact_spring, generator_line
-from beardyn_core.kernels.vectors import add, cross, dot, scale, subtract, turn_in
-from beardyn_core.kernels.waviness import wave_gap, wavy_line
+from beardyn_core.kernels.raceway import contact_spring
+from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
+from beardyn_core.kernels.waviness import wave_gap
 from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 _SMALLEST_APPROACH = 1e-15
@@ -68,6 +68,58 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
     by_tilt = (-radius * along, across - roller.taper * along)
     lever = (axial * cup.cosine + radial * cup.sine, along_a * cup.cosine + along_r * cup.sine)
     return approach, by_tilt, lever
+
+
+@inline
+def short_direction(across: Any) -> Any:
+    """Unit vector of a vector that is nearly radial, and one over its length.
+
+    A series in the squared lean q from the radial direction; the error is 0.3 q^3, below 1e-12 for
+    displacements of a hundredth of the radius.
+    """
+    inverse = 1.0 / across[0]
+    lean = (across[1] * across[1] + across[2] * across[2]) * (inverse * inverse)
+    inverse = inverse * (1.0 - lean * (0.5 - lean * 0.375))
+    return scale(inverse, across), inverse
+
+
+@inline
+def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any, roller: Any) -> Any:
+    """Contact line on the cone: `kernels.raceway.generator_line` for a roller without skew of its own.
+
+    One pass of the closed form, and series in place of roots: the direction of the force is good to first
+    order in the displacement of the cone, the gap to second order, 0.1 nm at 0.1 mm.
+
+    Returns
+    -------
+    arm, arm_slope, normal : vector
+    approach : tuple of 4 lane values
+        As from `generator_line`.
+    """
+    from_apex = add_scaled(centre, -roller.apex, ring_axis)
+    outward, inverse = short_direction(add_scaled(from_apex, -dot(from_apex, ring_axis), ring_axis))
+    normal = scale(raceway.side, add_scaled(scale(raceway.cosine, outward), -raceway.sine, ring_axis))
+    lean = dot(normal, axis)
+    square = lean * lean
+    edge = scale(1.0 + square * (0.5 + square * (0.375 + square * 0.3125)), add_scaled(normal, -lean, axis))
+    arm = scale(radius, edge)
+    point = add(from_apex, arm)
+    along = dot(point, ring_axis)
+    across = add_scaled(point, -along, ring_axis)
+    outward = short_direction(across)[0]
+    around = cross(ring_axis, outward)
+    skew = dot(axis, around)
+    walk = skew * inverse
+    arm_slope = add_scaled(add_scaled(axis, roller.taper, edge), raceway.side * radius * walk, around)
+    side_cosine, side_sine = raceway.side * raceway.cosine, raceway.side * raceway.sine
+    curve = 0.5 * side_cosine * walk * skew
+    approach = (
+        side_cosine * dot(across, outward) - side_sine * along - raceway.gap,
+        side_cosine * dot(arm_slope, outward) - side_sine * dot(arm_slope, ring_axis),
+        curve,
+        -curve * dot(axis, outward) * inverse,
+    )
+    return arm, arm_slope, add_scaled(scale(side_cosine, outward), -side_sine, ring_axis), approach
 
 
 @inline
@@ -212,9 +264,9 @@ def rib_spring(centre: Any, axis: Any, ring_axis: Any, motion: Any, rib: Any) ->
     place = add(centre, sphere)
     along = dot(place, ring_axis)
     across = subtract(place, scale(along, ring_axis))
-    distance = sqrt(dot(across, across))
-    normal = add(scale(rib.normal_axial, ring_axis), scale(rib.normal_radial / distance, across))
-    depth = along * rib.normal_axial + distance * rib.normal_radial + rib.sphere_radius - rib.distance
+    outward = short_direction(across)[0]
+    normal = add(scale(rib.normal_axial, ring_axis), scale(rib.normal_radial, outward))
+    depth = dot(place, normal) + rib.sphere_radius - rib.distance
     touching = at_least(depth, 0.0)
     tangent = 1.5 * rib.stiffness * sqrt(touching)
     rate = -dot(add(motion[0], cross(motion[1], place)), normal)
@@ -320,12 +372,11 @@ def balance(
     motion = (views[2], views[3])
     centre = subtract((place[0], zero, place[1]), views[0])
     full_axis = (axis[0], zero, axis[1])
-    line = generator_line(centre, full_axis, views[1], azimuths[3], base.cone, roller)
+    line = cone_line(centre, full_axis, views[1], radius, base.cone, roller)
     cone_wave = wave_gap(lanes, block, azimuths[1], faults.cone_waves)[0]
     cone_wave = cone_wave + wave_gap(lanes, block, _PI - azimuths[2], faults.roller_waves)[0]
-    line = wavy_line(line, cone_wave)
     cone = lamina_springs(
-        lanes, block, (line[5][0], line[5][1]), (line[5][2], line[5][3]),
+        lanes, block, (line[3][0] - cone_wave, line[3][1]), (line[3][2], line[3][3]),
         (azimuths[1], _PI - azimuths[2]), base.laminae, roller.half_length,
         (faults.cone, faults.roller, faults.cone_damage),
     )  # fmt: skip
