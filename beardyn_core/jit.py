@@ -22,7 +22,7 @@ FASTMATH = ("nsz", "arcp", "contract", "afn")
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": set(FASTMATH)}
 
 _CORE = Path(__file__).resolve().parent
-_COMPILED_ROOMS = (".", "kernels", "integrate", "model", "observe", "rail")
+_COMPILED_ROOMS = (".", "kernels", "integrate", "model", "observe", "rail", "scene")
 
 
 def source_hash() -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -105,6 +105,7 @@ class Twin:
         self.stages = StageClock()
         heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
         self._warmth = cold_start(scene) if heated else None
+        self._audited = scene.effects.audit is not None and "audit" not in scene.missing_effects
 
     @property
     def roller_count(self) -> int:
@@ -236,12 +237,12 @@ class Twin:
             self.scene.bearing.large_end_radius,
             self._parameters.effects.rib,
         )
+        audit = self._energy_audit()
+        temperature = None if self._warmth is None else self._warm_up(loads)
         block = self._observer.observe(
-            self._index, self._signals, loads, rollers, bodies, int(status), self._energy_audit(), wall
+            self._index, self._signals, loads, rollers, bodies, int(status), audit, wall, temperature
         )
         self.stages.lap(OBSERVE)
-        if self._warmth is not None:
-            block = replace(block, temperature=self._warm_up(loads))
         self._index += 1
         self.stages.lap(REST)
         if is_fatal(status):
@@ -305,7 +306,7 @@ class Twin:
 
     def _energy_audit(self) -> EnergyAudit | None:
         """Balance from the start of the run to the start of the block just computed."""
-        if self.scene.effects.audit is None or "audit" in self.scene.missing_effects:
+        if not self._audited:
             return None
         if self._first_audit is None:
             self._first_audit = self._audit.copy()

@@ -6,18 +6,22 @@ import math
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.bodies import drift_bodies, kick_cone
+from beardyn_core.kernels.bodies import LOAD_BOGIE, LOAD_SPEED
 from beardyn_core.kernels.box import kick_box
-from beardyn_core.kernels.kinematic_rollers import collect_rows, rib_torque, turn_cages, turned
+from beardyn_core.kernels.kinematic_rollers import rib_torque, turned
 from beardyn_core.model.layout import (
+    ANGULAR,
     CAGE_BODY,
     CONE_BODY,
     CUP_BODY,
+    LINEAR,
     PENETRATION,
+    POSITION,
     RATE,
     SIGNAL_ACCELERATION,
     SIGNAL_FORCE,
     SIGNAL_TORQUE,
+    TILT,
     TURN,
 )
 
@@ -43,7 +47,12 @@ def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
         Of shaft and cages, [rad/s].
     """
     direction = turned(direction, p.step * bodies[CAGE_BODY, RATE])
-    drift_bodies(bodies, p.step)
+    for body in range(CAGE_BODY):
+        for i in range(3):
+            bodies[body, POSITION + i] += p.step * bodies[body, LINEAR + i]
+            bodies[body, TILT + i] += p.step * bodies[body, ANGULAR + i]
+    for body in range(CONE_BODY, CAGE_BODY + 2):
+        bodies[body, TURN] += p.step * bodies[body, RATE]
     turn = bodies[CAGE_BODY, TURN]
     turns = (turn, bodies[CONE_BODY, TURN], p.kinematic.spin_ratio * turn)
     return direction, turns, (bodies[CONE_BODY, RATE], bodies[CAGE_BODY, RATE])
@@ -52,35 +61,96 @@ def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
 @inline
 def finish_step(
     bodies: Any,
-    sums: Any,
+    wrench: Any,
+    rib_load: Any,
     wrenches: Any,
     box: Any,
     load_before: Any,
     load: Any,
     signal: Any,
     energy: Any,
-    direction: Any,
     p: Any,
 ) -> None:
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
     Parameters
     ----------
+    wrench : tuple of 6 floats
+        Of the rollers on the cup. Massless rollers pass on what they get: the cone feels the opposite of
+        it, and the weight of what rolls.
+    rib_load : float
+        Sum over all rollers, [N].
+    wrenches, box : float64 arrays, shape [4, 6] and [12]
+        Work space.
     load_before, load : float64 array, shape [10]
         Load row at the beginning and at the end of the step.
     signal : float64 array, shape [SIGNAL_CHANNELS]
         Written.
+    energy : float64 array, shape [ENERGY_TERMS]
+        Not kept by these tiers; a coupled box adds to it.
     """
     base, k = p.base, p.kinematic
-    rib = collect_rows(sums, wrenches, direction, base.cup.cosine, base.cup.sine, k.rolling_weight)
+    signal[SIGNAL_TORQUE] = rib_torque(rib_load, bodies[CONE_BODY, RATE], k, base.effects.rib)
     for i in range(6):
-        signal[SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
+        signal[SIGNAL_FORCE + i] = wrench[i]
+    _kick_box(bodies, wrenches, box, load_before, load, signal, energy, base.mounting.coupling, p)
+    _kick_journal(bodies, wrench, load, k.rolling_weight, p.step, p.motion)
+    bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
+    for body in range(CAGE_BODY, CAGE_BODY + 2):
+        bodies[body, RATE] = k.cage_ratio * load[LOAD_SPEED]
+
+
+@inline
+def _kick_box(
+    bodies: Any,
+    wrenches: Any,
+    box: Any,
+    load_before: Any,
+    load: Any,
+    signal: Any,
+    energy: Any,
+    coupling: Any,
+    p: Any,
+) -> None:
+    """Accelerate the axlebox under the wrench in the signals, and write its acceleration there."""
+    if coupling is None:
+        _kick_free_box(bodies, load_before, load, signal, p.step, p.base.mounting, p.motion)
+        return
+    for i in range(6):
+        wrenches[CUP_BODY, i] = signal[SIGNAL_FORCE + i]
     kick_box(
-        bodies, wrenches[CUP_BODY], load, load_before, energy, box, p.step, base.mounting,
-        base.effects.gravity, base.mounting.coupling,
+        bodies, wrenches[CUP_BODY], load, load_before, energy, box, p.step, p.base.mounting,
+        p.base.effects.gravity, coupling,
     )  # fmt: skip
     for i in range(6):
         signal[SIGNAL_ACCELERATION + i] = box[i]
-    signal[SIGNAL_TORQUE] = rib_torque(rib, bodies[CONE_BODY, RATE], k, base.effects.rib)
-    kick_cone(bodies, wrenches[CONE_BODY], load, energy, p.step, base.mounting)
-    turn_cages(bodies, k)
+
+
+@inline
+def _kick_free_box(
+    bodies: Any, load_before: Any, load: Any, signal: Any, step: Any, mounting: Any, motion: Any
+) -> None:
+    for i in range(3):
+        bogie = load[LOAD_BOGIE + i]
+        bogie_speed = (bogie - load_before[LOAD_BOGIE + i]) * motion.rate
+        stretch = bodies[CUP_BODY, POSITION + i] - bogie
+        speed = bodies[CUP_BODY, LINEAR + i]
+        spring = mounting.stiffness[i] * stretch + mounting.damping[i] * (speed - bogie_speed)
+        linear = motion.box_push[i] * (signal[SIGNAL_FORCE + i] + (motion.steady[i] - spring))
+        bodies[CUP_BODY, LINEAR + i] = speed + step * linear
+        signal[SIGNAL_ACCELERATION + i] = linear
+        rate = bodies[CUP_BODY, ANGULAR + i]
+        hold = mounting.stiffness[3 + i] * bodies[CUP_BODY, TILT + i] + mounting.damping[3 + i] * rate
+        angular = motion.box_push[3 + i] * (signal[SIGNAL_FORCE + 3 + i] + (motion.steady[3 + i] - hold))
+        bodies[CUP_BODY, ANGULAR + i] = rate + step * angular
+        signal[SIGNAL_ACCELERATION + 3 + i] = angular
+
+
+@inline
+def _kick_journal(bodies: Any, wrench: Any, load: Any, weight: Any, step: Any, motion: Any) -> None:
+    push, turn = step * motion.journal_push, step * motion.journal_turn
+    bodies[CONE_BODY, LINEAR] += push * (load[0] - wrench[0])
+    bodies[CONE_BODY, LINEAR + 1] += push * (load[1] - wrench[1])
+    bodies[CONE_BODY, LINEAR + 2] += push * (load[2] - wrench[2] - weight)
+    bodies[CONE_BODY, ANGULAR] += turn * (load[3] - wrench[3])
+    bodies[CONE_BODY, ANGULAR + 2] += turn * (load[5] - wrench[5])

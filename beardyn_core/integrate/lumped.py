@@ -11,19 +11,15 @@ from beardyn_core.integrate.kinematic_step import begin_block, begin_step, finis
 from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.jit import entry
-from beardyn_core.kernels.kinematic_rollers import (
-    relative_cone,
-)
-from beardyn_core.kernels.spring_roller import load_rollers
-from beardyn_core.model.layout import (
-    POCKET_ANGLE,
-)
+from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
+from beardyn_core.kernels.spring_roller import load_rollers, sum_rollers
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
     LumpedParameters,
     faults_or_none,
     kinematic_params,
     pocket_directions,
+    ring_motion_params,
     row_sides,
 )
 from beardyn_core.scene.scene import Scene
@@ -38,8 +34,9 @@ def lumped_parameters(scene: Scene, base: Parameters) -> LumpedParameters:
         step=base.step,
         base=base,
         kinematic=kinematic_params(scene),
+        motion=ring_motion_params(base),
         spring=spring_params(scene.bearing, scene.numerics.laminae),
-        pockets=pocket_directions(base, POCKET_ANGLE),
+        pockets=pocket_directions(base),
         sides=row_sides(base),
         faults=faults_or_none(base),
     )
@@ -78,8 +75,10 @@ def advance_lumped(
         direction, turns, speeds = begin_step(bodies, direction, p)
         shown = (step + 1) % stride == 0
         load_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, shown, p)
+        totals, rib = sum_rollers(sums, speeds, p)
+        wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
         finish_step(
-            bodies, sums, wrenches, box, loads[step], loads[step + 1], signals[step], energy, direction, p
+            bodies, wrench, rib, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
         )
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers

@@ -8,12 +8,14 @@ from beardyn_core.integrate.kinematic_step import begin_block, begin_step, finis
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
 from beardyn_core.kernels.kinematic_rollers import (
+    LOAD_AXIAL,
     LOAD_COSINE,
     LOAD_SINE,
-    LOAD_SUM,
     MOMENT_COSINE,
     MOMENT_SINE,
     RIB_SUM,
+    cup_wrench,
+    lane_total,
     relative_cone,
     show_contacts,
     show_roller,
@@ -22,7 +24,6 @@ from beardyn_core.kernels.lane_math import at_least
 from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
-    MASK,
     OVERSIZE,
     PENETRATION,
     POCKET_ANGLE,
@@ -30,9 +31,15 @@ from beardyn_core.model.layout import (
 )
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
+    COUNTED,
+    COUNTED_COSINE,
+    COUNTED_SINE,
+    POCKET_COSINE,
+    POCKET_SINE,
     QuasistaticParameters,
     kinematic_params,
     pocket_directions,
+    ring_motion_params,
     row_sides,
 )
 from beardyn_core.scene.scene import Scene
@@ -46,7 +53,8 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> QuasistaticParamet
         step=base.step,
         base=base,
         kinematic=kinematic_params(scene),
-        pockets=pocket_directions(base, POCKET_ANGLE),
+        motion=ring_motion_params(base),
+        pockets=pocket_directions(base),
         sides=row_sides(base),
     )
 
@@ -92,7 +100,10 @@ def balance_rollers(
     load_cosine, load_sine, load_sum = zero, zero, zero
     moment_cosine, moment_sine, rib_sum = zero, zero, zero
     for block in range(rollers.shape[0]):
-        pocket_cosine, pocket_sine = lanes.load(p.pockets, block, 0), lanes.load(p.pockets, block, 1)
+        pocket_cosine, pocket_sine = (
+            lanes.load(p.pockets, block, POCKET_COSINE),
+            lanes.load(p.pockets, block, POCKET_SINE),
+        )
         cosine = pocket_cosine * direction[0] - pocket_sine * direction[1]
         sine = pocket_sine * direction[0] + pocket_cosine * direction[1]
         angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
@@ -115,14 +126,16 @@ def balance_rollers(
         lanes.store(rollers, block, AXIS + 2, axis[1])
         deepest = at_least(lanes.load(rollers, block, PENETRATION), deepest)
         lanes.store(rollers, block, PENETRATION, deepest)
-        mask = lanes.load(p.base.rollers, block, MASK)
-        load, moment = mask * cup[0], mask * (lever[0] * cup[0] + lever[1] * cup[1])
-        load_cosine = load_cosine + load * pocket_cosine
-        load_sine = load_sine + load * pocket_sine
-        load_sum = load_sum + load
-        moment_cosine = moment_cosine + moment * pocket_cosine
-        moment_sine = moment_sine + moment * pocket_sine
-        rib_sum = rib_sum + mask * rib
+        counted = lanes.load(p.pockets, block, COUNTED)
+        counted_cosine = lanes.load(p.pockets, block, COUNTED_COSINE)
+        counted_sine = lanes.load(p.pockets, block, COUNTED_SINE)
+        moment = lever[0] * cup[0] + lever[1] * cup[1]
+        load_cosine = load_cosine + cup[0] * counted_cosine
+        load_sine = load_sine + cup[0] * counted_sine
+        load_sum = load_sum + cup[0] * counted
+        moment_cosine = moment_cosine + moment * counted_cosine
+        moment_sine = moment_sine + moment * counted_sine
+        rib_sum = rib_sum + counted * rib
         if shown:
             centres = (
                 cup[1] / at_least(cup[0], _SMALLEST_LOAD),
@@ -132,9 +145,9 @@ def balance_rollers(
             show_contacts(lanes, rollers, block, axis, (cup[0], cone[0], rib), centres, speeds, p)
     lanes.store(sums, 0, LOAD_COSINE, load_cosine)
     lanes.store(sums, 0, LOAD_SINE, load_sine)
-    lanes.store(sums, 0, LOAD_SUM, load_sum)
-    lanes.store(sums, 0, MOMENT_COSINE, moment_cosine)
-    lanes.store(sums, 0, MOMENT_SINE, moment_sine)
+    lanes.store(sums, 0, LOAD_AXIAL, side * load_sum)
+    lanes.store(sums, 0, MOMENT_COSINE, side * moment_cosine)
+    lanes.store(sums, 0, MOMENT_SINE, side * moment_sine)
     lanes.store(sums, 0, RIB_SUM, rib_sum)
 
 
@@ -171,8 +184,17 @@ def advance_quasistatic(
         direction, turns, speeds = begin_step(bodies, direction, p)
         shown = (step + 1) % stride == 0
         balance_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, shown, p)
+        totals = (
+            lane_total(sums, LOAD_COSINE),
+            lane_total(sums, LOAD_SINE),
+            lane_total(sums, LOAD_AXIAL),
+            lane_total(sums, MOMENT_COSINE),
+            lane_total(sums, MOMENT_SINE),
+        )
+        wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
+        rib = lane_total(sums, RIB_SUM)
         finish_step(
-            bodies, sums, wrenches, box, loads[step], loads[step + 1], signals[step], energy, direction, p
+            bodies, wrench, rib, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
         )
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers

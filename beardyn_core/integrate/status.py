@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from enum import IntFlag
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.integrate.state import State
+from beardyn_core.jit import entry, inline
+from beardyn_core.kernels.vectors import cross, dot
 from beardyn_core.model.guide_parameters import RibParams
 from beardyn_core.model.layout import (
     AXIAL,
@@ -50,6 +54,19 @@ class Status(IntFlag):
     FILM_RANGE = 16
     RIB_EDGE = 32
 
+
+# what compiled code can see of them
+_NOT_FINITE, _PENETRATION, _CHATTER, _OFF_RIB, _FILM_RANGE, _RIB_EDGE = (
+    int(each)
+    for each in (
+        Status.NOT_FINITE,
+        Status.PENETRATION,
+        Status.CHATTER,
+        Status.OFF_RIB,
+        Status.FILM_RANGE,
+        Status.RIB_EDGE,
+    )
+)
 
 SENTENCES = {
     Status.NOT_FINITE: "a number became NaN or infinite: use a smaller time step "
@@ -94,57 +111,6 @@ def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
     return np.array(index)
 
 
-def _output(state: State, kind: int, first: int, count: int) -> NDArray[np.float64]:
-    """Fields of one contact's output, shape [block, field, lane]."""
-    start = CONTACT_OUTPUT + kind * OUTPUT_FIELDS + first
-    return state.rollers[:, start : start + count]
-
-
-def is_off_rib(state: State, large_end_radius: float) -> bool:
-    """Whether a loaded rib contact lies outside the roller's large end.
-
-    Parameters
-    ----------
-    state : State
-    large_end_radius : float
-        [m].
-    """
-    load = np.linalg.norm(_output(state, RIB, OUTPUT_FORCE, 3), axis=1)
-    arm, axis = _output(state, RIB, OUTPUT_ARM, 3), state.rollers[:, AXIS : AXIS + 3]
-    from_axis = np.linalg.norm(np.cross(arm, axis, axis=1), axis=1)
-    return bool(np.any((load > SMALLEST_JUDGED_LOAD) & (from_axis > large_end_radius)))
-
-
-def is_on_rib_edge(state: State, rib: RibParams | None) -> bool:
-    """Whether a loaded rib contact lies on an edge of the rib face.
-
-    Parameters
-    ----------
-    state : State
-    rib : RibParams or None
-    """
-    if rib is None or rib.window is None:
-        return False
-    load = np.linalg.norm(_output(state, RIB, OUTPUT_FORCE, 3), axis=1)
-    axis = state.rollers[:, AXIS : AXIS + 3]
-    radial = np.hypot(state.rollers[:, RADIUS] + rib.sphere_place * axis[:, 0], rib.sphere_place * axis[:, 1])
-    axial = state.rollers[:, AXIAL] + rib.sphere_place * axis[:, 2]
-    height = radial * rib.normal_axial - axial * rib.normal_radial
-    edge = rib.window.rounding
-    beyond = np.maximum(rib.window.low - edge - height, height - rib.window.high - edge)
-    return bool(np.any((load > SMALLEST_JUDGED_LOAD) & (beyond > EDGE_MARGIN)))
-
-
-def is_film_out_of_range(state: State) -> bool:
-    """Whether a loaded raceway film is too thick for the elastohydrodynamic formula."""
-    for kind in (CUP, CONE):
-        load = np.linalg.norm(_output(state, kind, OUTPUT_FORCE, 3), axis=1)
-        film = _output(state, kind, OUTPUT_FILM, 1)[:, 0]
-        if np.any((load > SMALLEST_JUDGED_LOAD) & (film > LARGEST_FILM)):
-            return True
-    return False
-
-
 def assess(state: State, step_count: int, large_end_radius: float, rib: RibParams | None = None) -> Status:
     """Status after a block.
 
@@ -162,18 +128,80 @@ def assess(state: State, step_count: int, large_end_radius: float, rib: RibParam
     -------
     Status
     """
-    status = Status.FINE
-    finite = np.isfinite(state.rollers[:, :ROLLER_STATES]).all() and np.isfinite(state.bodies).all()
-    if not finite:
-        return Status.NOT_FINITE
-    if state.rollers[:, PENETRATION].max() > LARGEST_PENETRATION:
-        status |= Status.PENETRATION
-    if chatter_index(state, step_count).max() > LARGEST_CHATTER_INDEX:
-        status |= Status.CHATTER
-    if is_off_rib(state, large_end_radius):
-        status |= Status.OFF_RIB
-    if is_on_rib_edge(state, rib):
-        status |= Status.RIB_EDGE
-    if is_film_out_of_range(state):
-        status |= Status.FILM_RANGE
-    return status
+    face = (0.0, 0.0, 0.0, -math.inf, math.inf)  # without a window no place is beyond it
+    if rib is not None and rib.window is not None:
+        low, high = rib.window.low - rib.window.rounding, rib.window.high + rib.window.rounding
+        face = (rib.sphere_place, rib.normal_radial, rib.normal_axial, low, high)
+    return Status(int(_judge(state.rollers, state.bodies, float(step_count), large_end_radius, face)))
+
+
+@entry
+def _judge(rollers, bodies, step_count, large_end_radius, face):
+    """Bits of the status; rollers [block, ROLLER_FIELDS, lane]."""
+    flags = 0
+    for block in range(rollers.shape[0]):
+        for field in range(ROLLER_STATES):
+            for lane in range(rollers.shape[2]):
+                if not math.isfinite(rollers[block, field, lane]):
+                    return _NOT_FINITE
+    for body in range(bodies.shape[0]):
+        for field in range(bodies.shape[1]):
+            if not math.isfinite(bodies[body, field]):
+                return _NOT_FINITE
+    for block in range(rollers.shape[0]):
+        for lane in range(rollers.shape[2]):
+            if rollers[block, PENETRATION, lane] > LARGEST_PENETRATION:
+                flags |= _PENETRATION
+            if _chatters(rollers, block, lane, step_count):
+                flags |= _CHATTER
+            if _contact_load(rollers, block, RIB, lane) > SMALLEST_JUDGED_LOAD:
+                if _from_axis(rollers, block, lane) > large_end_radius:
+                    flags |= _OFF_RIB
+                if _beyond_face(rollers, block, lane, face) > EDGE_MARGIN:
+                    flags |= _RIB_EDGE
+            for kind in (CUP, CONE):
+                film = rollers[block, CONTACT_OUTPUT + kind * OUTPUT_FIELDS + OUTPUT_FILM, lane]
+                if film > LARGEST_FILM and _contact_load(rollers, block, kind, lane) > SMALLEST_JUDGED_LOAD:
+                    flags |= _FILM_RANGE
+    return flags
+
+
+@inline
+def _chatters(rollers: Any, block: Any, lane: Any, step_count: Any) -> Any:
+    """Whether the chatter index of a roller is too large on cup or cone; see `chatter_index`."""
+    found = False
+    for ring in range(2):
+        first = CHATTER + ring * CHATTER_FIELDS
+        rms = math.sqrt(rollers[block, first + CHATTER_SQUARES, lane] / step_count)
+        capacity = rollers[block, first + CHATTER_LOAD, lane] / step_count
+        found = found or rms / max(capacity, CHATTER_LOAD_FLOOR) > LARGEST_CHATTER_INDEX
+    return found
+
+
+@inline
+def _contact_load(rollers: Any, block: Any, kind: Any, lane: Any) -> Any:
+    first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS + OUTPUT_FORCE
+    x, y, z = rollers[block, first, lane], rollers[block, first + 1, lane], rollers[block, first + 2, lane]
+    return math.sqrt(x * x + y * y + z * z)
+
+
+@inline
+def _from_axis(rollers: Any, block: Any, lane: Any) -> Any:
+    """Distance of the rib contact from the roller's axis, [m]."""
+    first = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_ARM
+    arm = (rollers[block, first, lane], rollers[block, first + 1, lane], rollers[block, first + 2, lane])
+    axis = (rollers[block, AXIS, lane], rollers[block, AXIS + 1, lane], rollers[block, AXIS + 2, lane])
+    across = cross(arm, axis)
+    return math.sqrt(dot(across, across))
+
+
+@inline
+def _beyond_face(rollers: Any, block: Any, lane: Any, face: Any) -> Any:
+    """How far the rib contact is beyond the edges of the rib's face, the cone's place neglected, [m]."""
+    sphere_place, normal_radial, normal_axial, low, high = face
+    along = sphere_place * rollers[block, AXIS, lane]
+    around = sphere_place * rollers[block, AXIS + 1, lane]
+    radial = math.hypot(rollers[block, RADIUS, lane] + along, around)
+    axial = rollers[block, AXIAL, lane] + sphere_place * rollers[block, AXIS + 2, lane]
+    height = radial * normal_axial - axial * normal_radial
+    return max(low - height, height - high)

@@ -12,11 +12,19 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
 from beardyn_core.kernels.exchange import implicit_time
-from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt
-from beardyn_core.kernels.raceway import contact_spring, generator_line
-from beardyn_core.kernels.vectors import add, cross, dot, scale, subtract, turn_in
-from beardyn_core.kernels.waviness import wave_gap, wavy_line
-from beardyn_core.model.contact_parameters import LAMINA_PLACE
+from beardyn_core.kernels.lane_math import (
+    at_least,
+    at_most,
+    magnitude,
+    quick_ninth_root,
+    sqrt,
+    where_greater,
+)
+from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.raceway import contact_spring
+from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
+from beardyn_core.kernels.waviness import wave_gap
+from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 _SMALLEST_APPROACH = 1e-15
 # A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
@@ -41,8 +49,8 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
     Returns
     -------
-    approach : tuple of 4 lane values
-        Factors of the powers of the abscissa, as from `generator_line`, [m].
+    approach : tuple of 2 lane values
+        Affine in the abscissa, [m].
     by_tilt : tuple of 2 lane values
         Change of the approach with tilt, affine in the abscissa, [m/rad].
     lever : tuple of 2 lane values
@@ -51,12 +59,9 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
     sine, cosine = axis[0], axis[1]
     radial, axial = place[0] + radius * cosine, place[1] - radius * sine
     along_r, along_a = sine + roller.taper * cosine, cosine - roller.taper * sine
-    zero = 0.0 * radial
     approach = (
         cup.cosine * radial - cup.sine * (axial - roller.apex) - cup.gap,
         cup.cosine * along_r - cup.sine * along_a,
-        zero,
-        zero,
     )
     across = cup.cosine * cosine + cup.sine * sine
     along = cup.cosine * sine - cup.sine * cosine
@@ -66,8 +71,71 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
 
 @inline
-def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae: Any, patches: Any) -> Any:
+def short_direction(across: Any) -> Any:
+    """Unit vector of a vector that is nearly radial, and one over its length.
+
+    A series in the squared lean q from the radial direction; the error is 0.3 q^3, below 1e-12 for
+    displacements of a hundredth of the radius.
+    """
+    inverse = 1.0 / across[0]
+    lean = (across[1] * across[1] + across[2] * across[2]) * (inverse * inverse)
+    inverse = inverse * (1.0 - lean * (0.5 - lean * 0.375))
+    return scale(inverse, across), inverse
+
+
+@inline
+def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any, roller: Any) -> Any:
+    """Contact line on the cone: `kernels.raceway.generator_line` for a roller without skew of its own.
+
+    One pass of the closed form, and series in place of roots: the direction of the force is good to first
+    order in the displacement of the cone, the gap to second order, 0.1 nm at 0.1 mm.
+
+    Returns
+    -------
+    arm, arm_slope, normal : vector
+    approach : tuple of 4 lane values
+        As from `generator_line`.
+    """
+    from_apex = add_scaled(centre, -roller.apex, ring_axis)
+    outward, inverse = short_direction(add_scaled(from_apex, -dot(from_apex, ring_axis), ring_axis))
+    normal = scale(raceway.side, add_scaled(scale(raceway.cosine, outward), -raceway.sine, ring_axis))
+    lean = dot(normal, axis)
+    square = lean * lean
+    edge = scale(1.0 + square * (0.5 + square * (0.375 + square * 0.3125)), add_scaled(normal, -lean, axis))
+    arm = scale(radius, edge)
+    point = add(from_apex, arm)
+    along = dot(point, ring_axis)
+    across = add_scaled(point, -along, ring_axis)
+    outward = short_direction(across)[0]
+    around = cross(ring_axis, outward)
+    skew = dot(axis, around)
+    walk = skew * inverse
+    arm_slope = add_scaled(add_scaled(axis, roller.taper, edge), raceway.side * radius * walk, around)
+    side_cosine, side_sine = raceway.side * raceway.cosine, raceway.side * raceway.sine
+    curve = 0.5 * side_cosine * walk * skew
+    approach = (
+        side_cosine * dot(across, outward) - side_sine * along - raceway.gap,
+        side_cosine * dot(arm_slope, outward) - side_sine * dot(arm_slope, ring_axis),
+        curve,
+        -curve * dot(axis, outward) * inverse,
+    )
+    return arm, arm_slope, add_scaled(scale(side_cosine, outward), -side_sine, ring_axis), approach
+
+
+@inline
+def lamina_springs(
+    lanes: Any, block: Any, approach: Any, bend: Any, azimuths: Any, laminae: Any, reach: Any, patches: Any
+) -> Any:
     """Elastic force with x^0 and x^1, and tangent stiffness with x^0, x^1 and x^2, over the laminae.
+
+    Parameters
+    ----------
+    approach : tuple of 2 lane values
+        Factors of x^0 and x^1 in the approach, [m].
+    bend : tuple of 2 lane values or None
+        Factors of x^2 and x^3.
+    reach : float
+        Half length of the roller, [m].
 
     References
     ----------
@@ -75,28 +143,78 @@ def lamina_springs(lanes: Any, block: Any, approach: Any, azimuths: Any, laminae
     """
     surface, roller_surface, damage = patches
     near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
-    return _near_or_far(lanes, near, approach, laminae, damage)
+    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
 
 
 @inline
-def _near_or_far(lanes: Any, near: Any, approach: Any, laminae: Any, damage: Any) -> Any:
+def _near_or_far(
+    lanes: Any, near: Any, approach: Any, bend: Any, laminae: Any, reach: Any, damage: Any
+) -> Any:
     if damage is None:
-        return _spring_moments(lanes, approach, laminae, None)
+        return _sound_moments(lanes, approach, bend, laminae, reach)
     if near:
-        return _spring_moments(lanes, approach, laminae, damage)
-    return _spring_moments(lanes, approach, laminae, None)
+        return _damaged_moments(lanes, approach, bend, laminae, damage)
+    return _sound_moments(lanes, approach, bend, laminae, reach)
 
 
 @inline
-def _spring_moments(lanes: Any, approach: Any, laminae: Any, damage: Any) -> Any:
+def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: Any) -> Any:
     zero = lanes.constant(0.0)
     force_0, force_1 = zero, zero
     stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    # where no roller of the block is in contact this look is all
+    if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
+        for k in range(laminae.shape[1]):
+            x = laminae[LAMINA_PLACE, k]
+            depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
+            touching = at_least(depth, _SMALLEST_APPROACH)
+            tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
+            tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+            force = tangent * touching
+            force_0 = force_0 + force
+            force_1 = force_1 + x * force
+            stiffness_0 = stiffness_0 + tangent
+            stiffness_1 = stiffness_1 + x * tangent
+            stiffness_2 = stiffness_2 + (x * x) * tangent
+    steeper = 10.0 / 9.0
+    return (force_0, force_1), (steeper * stiffness_0, steeper * stiffness_1, steeper * stiffness_2)
+
+
+@inline
+def _bend(bend: Any, x: Any) -> Any:
+    """Part of the approach that is not affine in the abscissa, [m]."""
+    if bend is None:
+        return 0.0
+    return (x * x) * (bend[0] + x * bend[1])
+
+
+@inline
+def _most_bend(bend: Any, reach: Any) -> Any:
+    """Bound of `_bend` along the roller, [m]."""
+    if bend is None:
+        return 0.0
+    return (reach * reach) * (magnitude(bend[0]) + reach * magnitude(bend[1]))
+
+
+@inline
+def _all_factors(approach: Any, bend: Any) -> Any:
+    if bend is None:
+        zero = 0.0 * approach[0]
+        return approach[0], approach[1], zero, zero
+    return approach[0], approach[1], bend[0], bend[1]
+
+
+@inline
+def _damaged_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, damage: Any) -> Any:
+    zero = lanes.constant(0.0)
+    force_0, force_1 = zero, zero
+    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    factors = _all_factors(approach, bend)
     springs = spring_count(laminae, damage, None)
     laminae = spring_table(laminae, damage)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        share, depth, tangent, _energy = contact_spring(lanes, approach, k, laminae, damage, None)
+        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
         tangent = share * tangent
         force = 0.9 * tangent * at_least(depth, 0.0)
         force_0 = force_0 + force
@@ -146,9 +264,9 @@ def rib_spring(centre: Any, axis: Any, ring_axis: Any, motion: Any, rib: Any) ->
     place = add(centre, sphere)
     along = dot(place, ring_axis)
     across = subtract(place, scale(along, ring_axis))
-    distance = sqrt(dot(across, across))
-    normal = add(scale(rib.normal_axial, ring_axis), scale(rib.normal_radial / distance, across))
-    depth = along * rib.normal_axial + distance * rib.normal_radial + rib.sphere_radius - rib.distance
+    outward = short_direction(across)[0]
+    normal = add(scale(rib.normal_axial, ring_axis), scale(rib.normal_radial, outward))
+    depth = dot(place, normal) + rib.sphere_radius - rib.distance
     touching = at_least(depth, 0.0)
     tangent = 1.5 * rib.stiffness * sqrt(touching)
     rate = -dot(add(motion[0], cross(motion[1], place)), normal)
@@ -246,20 +364,20 @@ def balance(
     cup_approach, cup_tilt, lever = cup_line(place, axis, radius, base.cup, roller)
     cup_wave = wave_gap(lanes, block, azimuths[0], faults.cup_waves)[0]
     cup_wave = cup_wave + wave_gap(lanes, block, -azimuths[2], faults.roller_waves)[0]
-    cup_approach = (cup_approach[0] - cup_wave, cup_approach[1], cup_approach[2], cup_approach[3])
+    cup_approach = (cup_approach[0] - cup_wave, cup_approach[1])
     cup = lamina_springs(
-        lanes, block, cup_approach, (azimuths[0], -azimuths[2]), base.laminae,
+        lanes, block, cup_approach, None, (azimuths[0], -azimuths[2]), base.laminae, roller.half_length,
         (faults.cup, faults.roller, faults.cup_damage),
     )  # fmt: skip
     motion = (views[2], views[3])
     centre = subtract((place[0], zero, place[1]), views[0])
     full_axis = (axis[0], zero, axis[1])
-    line = generator_line(centre, full_axis, views[1], azimuths[3], base.cone, roller)
+    line = cone_line(centre, full_axis, views[1], radius, base.cone, roller)
     cone_wave = wave_gap(lanes, block, azimuths[1], faults.cone_waves)[0]
     cone_wave = cone_wave + wave_gap(lanes, block, _PI - azimuths[2], faults.roller_waves)[0]
-    line = wavy_line(line, cone_wave)
     cone = lamina_springs(
-        lanes, block, line[5], (azimuths[1], _PI - azimuths[2]), base.laminae,
+        lanes, block, (line[3][0] - cone_wave, line[3][1]), (line[3][2], line[3][3]),
+        (azimuths[1], _PI - azimuths[2]), base.laminae, roller.half_length,
         (faults.cone, faults.roller, faults.cone_damage),
     )  # fmt: skip
     cone_force = damped(cone, cone_rate(line, centre, motion), effects.damping)

@@ -17,7 +17,6 @@ from beardyn_core.model.layout import (
     ANGULAR,
     AXIAL,
     AXIS,
-    CAGE_BODY,
     CONE,
     CONE_BODY,
     CUP,
@@ -26,7 +25,6 @@ from beardyn_core.model.layout import (
     MOMENTUM,
     POSITION,
     RADIUS,
-    RATE,
     REACTION,
     RIB,
     SPIN,
@@ -34,15 +32,8 @@ from beardyn_core.model.layout import (
     VELOCITY,
 )
 
-# Sums of a row's cup forces along the cup's normal, in its ring frame at cage angle 0.
-LOAD_COSINE, LOAD_SINE, LOAD_SUM, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(REACTION, REACTION + 6)
-
-
-@inline
-def turn_cages(bodies: Any, kinematic: Any) -> None:
-    """Give both cages the speed of pure rolling."""
-    for body in range(CAGE_BODY, CAGE_BODY + 2):
-        bodies[body, RATE] = kinematic.cage_ratio * bodies[CONE_BODY, RATE]
+# Sums of the cup forces along the cup's normal, in the cages' frame; axial force and moments times the side.
+LOAD_COSINE, LOAD_SINE, LOAD_AXIAL, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(REACTION, REACTION + 6)
 
 
 @inline
@@ -76,52 +67,39 @@ def turned(direction: Any, angle: Any) -> Any:
 
 
 @inline
-def collect_rows(sums: Any, wrenches: Any, direction: Any, cosine: Any, sine: Any, weight: Any) -> Any:
-    """World wrenches of the rollers on cup and cone from the row sums; returns the sum of the rib loads.
+def lane_total(sums: Any, field: Any) -> Any:
+    """Sum of a field over the lanes."""
+    half = sums.shape[3] // 2
+    inner, outer = 0.0, 0.0
+    for lane in range(half):
+        inner += sums[0, 0, field, lane]
+        outer += sums[0, 0, field, half + lane]
+    return inner + outer
 
-    Massless rollers pass on what they get: the cone feels the opposite of the cup, and the weight.
+
+@inline
+def cup_wrench(totals: Any, direction: Any, cosine: Any, sine: Any) -> Any:
+    """World force and moment of the rollers on the cup; no moment about the axis.
 
     Parameters
     ----------
-    sums : float64 array, shape [1, 1, SUM_FIELDS, lane]
-    wrenches : float64 array, shape [4, 6]
-        Written: cup and cone.
+    totals : tuple of 5 floats
+        Sums of the rollers' loads along the cup's normal in the cages' frame: load times cosine and sine,
+        load times side, moment times side, cosine and sine.
     direction : tuple of 2 floats
         Cosine and sine of the cage angle.
     cosine, sine : float
         Of the cup angle.
-    weight : float
-        Of rollers and cages, [N].
     """
-    inner, outer = row_sums(sums, 0), row_sums(sums, 1)
-    load_c, load_s = inner[0] + outer[0], inner[1] + outer[1]
-    moment_c, moment_s = outer[3] - inner[3], outer[4] - inner[4]
-    wrenches[CUP_BODY, X] = cosine * (load_s * direction[0] + load_c * direction[1])
-    wrenches[CUP_BODY, Y] = -sine * (outer[2] - inner[2])
-    wrenches[CUP_BODY, Z] = cosine * (load_c * direction[0] - load_s * direction[1])
-    wrenches[CUP_BODY, 3 + X] = moment_c * direction[0] - moment_s * direction[1]
-    wrenches[CUP_BODY, 3 + Y] = 0.0
-    wrenches[CUP_BODY, 3 + Z] = -(moment_s * direction[0] + moment_c * direction[1])
-    for i in range(6):
-        wrenches[CONE_BODY, i] = -wrenches[CUP_BODY, i]
-    wrenches[CONE_BODY, Z] -= weight
-    return inner[5] + outer[5]
-
-
-@inline
-def row_sums(sums: Any, row: Any) -> Any:
-    """Sums over the lanes of one row."""
-    width = sums.shape[3]
-    half = width // 2
-    a, b, c, d, e, f = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for lane in range(row * half, (row + 1) * half):
-        a += sums[0, 0, LOAD_COSINE, lane]
-        b += sums[0, 0, LOAD_SINE, lane]
-        c += sums[0, 0, LOAD_SUM, lane]
-        d += sums[0, 0, MOMENT_COSINE, lane]
-        e += sums[0, 0, MOMENT_SINE, lane]
-        f += sums[0, 0, RIB_SUM, lane]
-    return a, b, c, d, e, f
+    load_c, load_s, load_a, moment_c, moment_s = totals
+    return (
+        cosine * (load_s * direction[0] + load_c * direction[1]),
+        -sine * load_a,
+        cosine * (load_c * direction[0] - load_s * direction[1]),
+        moment_c * direction[0] - moment_s * direction[1],
+        0.0,
+        -(moment_s * direction[0] + moment_c * direction[1]),
+    )
 
 
 @inline

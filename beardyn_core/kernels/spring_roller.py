@@ -7,18 +7,27 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
 from beardyn_core.kernels.kinematic_rollers import (
+    LOAD_AXIAL,
     LOAD_COSINE,
     LOAD_SINE,
-    LOAD_SUM,
     MOMENT_COSINE,
     MOMENT_SINE,
     RIB_SUM,
+    lane_total,
     show_contacts,
     show_roller,
 )
 from beardyn_core.kernels.lane_math import at_least, quick_ninth_root, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.waviness import wave_gap
-from beardyn_core.model.layout import MASK, OVERSIZE, PENETRATION, POCKET_ANGLE
+from beardyn_core.model.layout import OVERSIZE, PENETRATION, POCKET_ANGLE
+from beardyn_core.model.tier_parameters import (
+    COUNTED,
+    COUNTED_COSINE,
+    COUNTED_SINE,
+    POCKET_COSINE,
+    POCKET_SINE,
+)
 
 _SMALLEST_APPROACH = 1e-12
 _TINY_GAP_SQUARED = 1e-24
@@ -187,39 +196,73 @@ def load_rollers(
     -----
     Half of the centrifugal load of the cup comes off the cone: the two contacts are as stiff as each other.
     """
-    k, spring = p.kinematic, p.spring
+    spring = p.spring
     approach_wave, rate_wave = approach_waves(lanes, motion, direction, p)
-    centrifugal = k.centrifugal * speeds[1] * speeds[1]
-    idle = spring.idle * centrifugal
+    idle = idle_load(speeds[1], p)
     zero = lanes.constant(0.0)
-    load_cosine, load_sine, load_sum, rib_sum = zero, zero, zero, zero
+    load_cosine, load_sine, load_sum = zero, zero, zero
     for block in range(rollers.shape[0]):
-        cosine, sine = lanes.load(p.pockets, block, 0), lanes.load(p.pockets, block, 1)
-        approach = approach_wave[0] * cosine + approach_wave[1] * sine + approach_wave[2]
+        cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
+        approach = approach_wave[0] * cosine + (approach_wave[1] * sine + approach_wave[2])
         # a thicker roller is pressed on both sides
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
-        rate = rate_wave[0] * cosine + rate_wave[1] * sine + rate_wave[2]
         angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
-        pressed = faulted_load(lanes, block, approach, rate, angle, turns, p.faults, p)
-        load = at_least(pressed + 0.5 * idle, idle)
-        rib = spring.rib_share * load + spring.rib_centrifugal * centrifugal
-        mask = lanes.load(p.base.rollers, block, MASK)
-        counted = mask * load
-        load_cosine = load_cosine + counted * cosine
-        load_sine = load_sine + counted * sine
-        load_sum = load_sum + counted
-        rib_sum = rib_sum + mask * rib
-        deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
-        lanes.store(rollers, block, PENETRATION, deepest)
+        load = lanes.constant(idle)
+        # most rollers outside the load zone cost no more than this look
+        if any_positive(approach):
+            rate = rate_wave[0] * cosine + (rate_wave[1] * sine + rate_wave[2])
+            pressed = faulted_load(lanes, block, approach, rate, angle, turns, p.faults, p)
+            load = at_least(pressed + 0.5 * idle, idle)
+            deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
+            lanes.store(rollers, block, PENETRATION, deepest)
+        load_cosine = load_cosine + load * lanes.load(p.pockets, block, COUNTED_COSINE)
+        load_sine = load_sine + load * lanes.load(p.pockets, block, COUNTED_SINE)
+        load_sum = load_sum + load * lanes.load(p.pockets, block, COUNTED)
         if shown:
             cone = spring.cone_share * (load - idle)
-            axis = (k.axis_radial + zero, k.axis_axial + zero)
-            place = (k.radius + zero, k.axial + zero)
-            show_roller(lanes, rollers, block, place, axis, (turns[0], speeds[1]), angle, p)
-            show_contacts(lanes, rollers, block, axis, (load, cone, rib), (zero, zero), speeds, p)
+            rib = spring.rib_share * load + spring.rib_centrifugal * centrifugal_force(speeds[1], p)
+            show_spring(lanes, rollers, block, (load, cone, rib), (turns[0], speeds[1]), speeds, angle, p)
     lanes.store(sums, 0, LOAD_COSINE, load_cosine)
     lanes.store(sums, 0, LOAD_SINE, load_sine)
-    lanes.store(sums, 0, LOAD_SUM, load_sum)
-    lanes.store(sums, 0, MOMENT_COSINE, spring.lever * load_cosine)
-    lanes.store(sums, 0, MOMENT_SINE, spring.lever * load_sine)
-    lanes.store(sums, 0, RIB_SUM, rib_sum)
+    lanes.store(sums, 0, LOAD_AXIAL, lanes.load(p.sides, 0, 0) * load_sum)
+    lanes.store(sums, 0, MOMENT_COSINE, lanes.load(p.sides, 0, 0) * load_cosine)
+    lanes.store(sums, 0, MOMENT_SINE, lanes.load(p.sides, 0, 0) * load_sine)
+    lanes.store(sums, 0, RIB_SUM, load_sum)
+
+
+@inline
+def centrifugal_force(cage_speed: Any, p: Any) -> Any:
+    """Of a roller, [N]."""
+    return p.kinematic.centrifugal * cage_speed * cage_speed
+
+
+@inline
+def idle_load(cage_speed: Any, p: Any) -> Any:
+    """Cup load of a roller that the cone does not press, [N]."""
+    return p.spring.idle * centrifugal_force(cage_speed, p)
+
+
+@inline
+def sum_rollers(sums: Any, speeds: Any, p: Any) -> Any:
+    """Totals as `cup_wrench` takes them, and the sum of the rib loads, from what `load_rollers` stored."""
+    spring = p.spring
+    totals = (
+        lane_total(sums, LOAD_COSINE),
+        lane_total(sums, LOAD_SINE),
+        lane_total(sums, LOAD_AXIAL),
+        spring.lever * lane_total(sums, MOMENT_COSINE),
+        spring.lever * lane_total(sums, MOMENT_SINE),
+    )
+    centrifugal = p.kinematic.rolling_count * centrifugal_force(speeds[1], p)
+    return totals, spring.rib_share * lane_total(sums, RIB_SUM) + spring.rib_centrifugal * centrifugal
+
+
+@inline
+def show_spring(
+    lanes: Any, rollers: Any, block: Any, loads: Any, turn: Any, speeds: Any, angle: Any, p: Any
+) -> None:
+    """Write a block of rollers and their contacts as the full tier keeps them; see `show_roller`."""
+    zero, k = lanes.constant(0.0), p.kinematic
+    axis = (k.axis_radial + zero, k.axis_axial + zero)
+    show_roller(lanes, rollers, block, (k.radius + zero, k.axial + zero), axis, turn, angle, p)
+    show_contacts(lanes, rollers, block, axis, loads, (zero, zero), speeds, p)

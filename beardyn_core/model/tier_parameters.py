@@ -10,6 +10,7 @@ import numpy as np
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
 from beardyn_core.model.fault_parameters import FaultParams
+from beardyn_core.model.layout import MASK, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.scene.scene import Scene
 
@@ -29,6 +30,17 @@ class KinematicParams(NamedTuple):
     cone_radius: float
     rib_slip: float  # sliding speed of the rib over w [m]
     rolling_weight: float  # of all rollers and cages [N]
+    rolling_count: float  # rollers of both rows
+
+
+class RingMotionParams(NamedTuple):
+    """Axlebox and journal as the tiers without roller dynamics move them; order x, y, z, about x, y, z."""
+
+    steady: Any  # [6], force on the box that does not change: preload and weight
+    box_push: Any  # [6], acceleration of the box by a force, 0 when it is held [1/kg], [1/(kg m^2)]
+    journal_push: float  # [1/kg]
+    journal_turn: float  # 0 when the journal does not tilt [1/(kg m^2)]
+    rate: float  # steps in a second [1/s]
 
 
 class SpringParams(NamedTuple):
@@ -51,8 +63,9 @@ class LumpedParameters(NamedTuple):
     step: float  # [s]
     base: Parameters
     kinematic: KinematicParams
+    motion: RingMotionParams
     spring: SpringParams
-    pockets: Any  # [block, 2, lane]: cosine and sine of the pocket angle
+    pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
     faults: FaultParams | None
 
@@ -63,7 +76,8 @@ class QuasistaticParameters(NamedTuple):
     step: float  # [s]
     base: Parameters
     kinematic: KinematicParams
-    pockets: Any  # [block, 2, lane]: cosine and sine of the pocket angle
+    motion: RingMotionParams
+    pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
 
 
@@ -91,13 +105,34 @@ def kinematic_params(scene: Scene) -> KinematicParams:
         cone_radius=distance * math.sin(bearing.cone_angle),
         rib_slip=roller_cone_spin(bearing, 1.0) * bearing.rib_contact_height,
         rolling_weight=fall * (2 * bearing.roller_count * bearing.roller_mass + cages),
+        rolling_count=2.0 * bearing.roller_count,
     )
 
 
-def pocket_directions(base: Parameters, pocket_angle: int) -> Any:
-    """Cosine and sine of the pocket angles, shape [block, 2, lane]."""
-    angle = base.rollers[:, pocket_angle]
-    return np.ascontiguousarray(np.stack([np.cos(angle), np.sin(angle)], axis=1))
+def ring_motion_params(base: Parameters) -> RingMotionParams:
+    """Motion of axlebox and journal."""
+    mounting, gravity = base.mounting, base.effects.gravity
+    steady = mounting.preload.copy()
+    steady[2] -= mounting.box_mass * (gravity.acceleration if gravity else 0.0)
+    inertia = np.concatenate([np.full(3, mounting.box_mass), mounting.box_inertia])
+    return RingMotionParams(
+        steady=steady,
+        box_push=mounting.cup_moves / inertia,
+        journal_push=1.0 / mounting.journal_mass,
+        journal_turn=mounting.journal_tilts / mounting.journal_inertia,
+        rate=1.0 / base.step,
+    )
+
+
+# of `pocket_directions`
+POCKET_COSINE, POCKET_SINE, COUNTED, COUNTED_COSINE, COUNTED_SINE = range(5)
+
+
+def pocket_directions(base: Parameters) -> Any:
+    """Cosine and sine of the pocket angles; the mask of the rollers, alone and times these."""
+    angle, mask = base.rollers[:, POCKET_ANGLE], base.rollers[:, MASK]
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.ascontiguousarray(np.stack([cosine, sine, mask, mask * cosine, mask * sine], axis=1))
 
 
 def row_sides(base: Parameters) -> Any:

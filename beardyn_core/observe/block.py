@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,9 +50,45 @@ class EnergyAudit:
         return abs(missing) / max(self.dissipated, SMALLEST_LOSS)
 
 
+class Later:
+    """A member of a block that is worked out at the first look; a function without arguments does it.
+
+    The function must own what it reads: it may be called after the next blocks, and from any thread.
+    """
+
+    def __init__(self, function: Callable[[], Float]) -> None:
+        self.function = function
+
+
+def later(function: Callable[[], Float]) -> Float:
+    """A `Later`, to hand to `Block` in place of an array."""
+    return cast(Any, Later(function))
+
+
+class _Worked:
+    """Descriptor of a block's member that may be a `Later`."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __get__(self, block: Any, _owner: type) -> Any:
+        if block is None:
+            return self
+        found = block.__dict__[self._name]
+        if isinstance(found, Later):
+            # two threads may both come here: they work out the same
+            found = block.__dict__[self._name] = found.function()
+        return found
+
+    def __set__(self, block: Any, given: Any) -> None:
+        block.__dict__[self._name] = given
+
+
 @dataclass(frozen=True)
 class Block:
     """One block of simulated time, world axes, SI.
+
+    `body_pose`, `body_twist` and `contacts` are worked out when somebody looks at them.
 
     Parameters
     ----------
@@ -125,3 +163,7 @@ class Block:
     audit: EnergyAudit | None
     wall_s: float
     temperature: Float | None = None
+
+
+for _name in ("body_pose", "body_twist", "contacts"):
+    setattr(Block, _name, _Worked(_name))

@@ -18,10 +18,11 @@ LARGEST_FACTOR = 64
 
 
 @cache
-def _half_kernel(factor: int) -> Float:
-    """Taps from the first to the middle one of the symmetric kernel, sum over all taps 1."""
-    kernel = low_pass(2 * DELAY * factor + 1, 1.0 / factor, _KAISER_BETA)
-    return np.ascontiguousarray(kernel[: DELAY * factor + 1])
+def _kernel(factor: int) -> Float:
+    """Taps of the symmetric kernel, their sum 1."""
+    if factor == 1:
+        return np.ones(1)
+    return np.ascontiguousarray(low_pass(2 * DELAY * factor + 1, 1.0 / factor, _KAISER_BETA))
 
 
 class Decimator:
@@ -37,33 +38,38 @@ class Decimator:
     channels : int
     initial : array, shape [channel], optional
         What the stream held before its first sample; 0 by default.
+    held_back : int, optional
+        Input samples by which the stream comes later than it is pushed.
     """
 
-    def __init__(self, factor: int, channels: int, initial: Float | None = None) -> None:
+    def __init__(self, factor: int, channels: int, initial: Float | None = None, held_back: int = 0) -> None:
         if not 1 <= factor <= LARGEST_FACTOR:
             raise ValueError(f"factor is {factor}; allowed is 1 to {LARGEST_FACTOR}")
         self.factor = factor
         self.channels = channels
-        self._half = _half_kernel(factor) if factor > 1 else np.ones(1)
-        self._past = np.zeros((channels, 2 * (len(self._half) - 1)))
+        self._kernel = _kernel(factor)
+        self._kept = len(self._kernel) - 1 + held_back
+        # the stream from the oldest sample that is still needed on; its beginning is the state
+        self._stretch = np.zeros((channels, self._kept))
         if initial is not None:
-            self._past += np.asarray(initial, dtype=np.float64)[:, None]
+            self._stretch += np.asarray(initial, dtype=np.float64)[:, None]
 
     @property
     def delay_samples(self) -> int:
         """Input samples by which output m lags: it belongs to input m x factor - delay_samples."""
-        return len(self._half) - 1
+        return self._kept - (len(self._kernel) - 1) // 2
 
     @property
     def state(self) -> Float:
         """Copy of all that the future depends on, shape [channel, past]."""
-        return self._past.copy()
+        return self._stretch[:, : self._kept].copy()
 
     def restore(self, state: Float) -> None:
         """Go back to a `state`."""
-        if state.shape != self._past.shape:
-            raise ValueError(f"state has shape {state.shape}; this decimator's is {self._past.shape}")
-        self._past[:] = state
+        shape = (self.channels, self._kept)
+        if state.shape != shape:
+            raise ValueError(f"state has shape {state.shape}; this decimator's is {shape}")
+        self._stretch[:, : self._kept] = state
 
     def push(self, block: Float) -> Float:
         """Consume a block and return what comes out.
@@ -81,27 +87,32 @@ class Decimator:
             raise ValueError(
                 f"block has shape {block.shape}; it must be [multiple of {self.factor}, {self.channels}]"
             )
+        if self._stretch.shape[1] < self._kept + len(block):
+            longer = np.empty((self.channels, self._kept + len(block)))
+            longer[:, : self._kept] = self._stretch[:, : self._kept]
+            self._stretch = longer
         if self.factor == 1:
-            return block.copy()
-        stretch = np.concatenate((self._past, block.T), axis=1)
-        self._past[:] = stretch[:, stretch.shape[1] - self._past.shape[1] :]
-        return _filter(stretch, self._half, self.factor)
+            whole = np.concatenate((self._stretch[:, : self._kept].T, block))
+            self._stretch[:, : self._kept] = whole[len(block) :].T
+            return whole[: len(block)]
+        out = np.empty((len(block) // self.factor, self.channels))
+        _filter(self._stretch, self._kept, np.ascontiguousarray(block), self._kernel, self.factor, out)
+        return out
 
 
 # reassoc lets the sum over taps run in vector lanes; its order depends on the kernel only, so blocks
 # of any length give the same bits
 @partial(entry, flags=("reassoc", "contract", "nsz"))
-def _filter(stretch, half, factor):
-    middle = len(half) - 1
-    count = (stretch.shape[1] - 2 * middle) // factor
-    out = np.empty((count, stretch.shape[0]))
+def _filter(stretch, kept, block, kernel, factor, out):
     for channel in range(stretch.shape[0]):
         signal = stretch[channel]
-        for m in range(count):
-            first = signal[m * factor : m * factor + middle]
-            last = signal[m * factor + middle + 1 : m * factor + 2 * middle + 1]
+        for i in range(len(block)):
+            signal[kept + i] = block[i, channel]
+        for m in range(len(out)):
+            window = signal[m * factor : m * factor + len(kernel)]
             total = 0.0
-            for k in range(middle):
-                total += half[k] * (first[k] + last[middle - 1 - k])
-            out[m, channel] = total + half[middle] * signal[m * factor + middle]
-    return out
+            for k in range(len(kernel)):
+                total += kernel[k] * window[k]
+            out[m, channel] = total
+        for i in range(kept):
+            signal[i] = signal[len(block) + i]

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.model.arrangement import Arrangement
+from beardyn_core.jit import entry, inline
+from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale
 from beardyn_core.model.contact_parameters import RollerParams
 from beardyn_core.model.layout import (
     ANGLE,
@@ -13,6 +17,7 @@ from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
     CAGE_BODY,
+    CONE_BODY,
     CONTACT_OUTPUT,
     CUP_BODY,
     LINEAR,
@@ -32,153 +37,252 @@ from beardyn_core.model.layout import (
 )
 
 Float = NDArray[np.float64]
-SIDE = np.array([-1.0, 1.0])
-_Y = np.array([0.0, 1.0, 0.0])
+
+BODIES = 4
+KINDS = 4
+# Columns of an instant; the angles and then the speeds of all rollers follow.
+INSTANT_LOAD, INSTANT_SHAFT, INSTANT_CAGES, INSTANT_ROLLERS = 0, 6, 8, 12
 
 
-class RollerViews:
-    """Roller states of several instants in world axes; leading shape [time, row, roller].
+class Snapshots:
+    """Bodies and contacts at some instants, worked out when they are asked for.
 
     Parameters
     ----------
     rollers : float64 array, shape [time, block, ROLLER_FIELDS, lane]
     bodies : float64 array, shape [time, 4, BODY_STATES]
-    arrangement : Arrangement
+        Nobody changes them any more.
+    count : int
+        Rollers of a row.
     roller : RollerParams
+    cage_place : float
+        Axial place of a cage's centre of mass from the middle plane, [m].
     """
 
-    def __init__(self, rollers: Float, bodies: Float, arrangement: Arrangement, roller: RollerParams) -> None:
-        self._fields = arrangement.to_rollers(np.moveaxis(rollers, 2, 0))
-        self._bodies = bodies
-        self._roller = roller
-        angle = self._fields[ANGLE]
-        zero = np.zeros_like(angle)
-        self._outward = np.stack([np.sin(angle), zero, np.cos(angle)], axis=-1)
-        self._ahead = np.stack([np.cos(angle), zero, -np.sin(angle)], axis=-1)
-        self._side = np.broadcast_to(SIDE[:, None], angle.shape)[..., None]
-
-    def _vector(self, first: int) -> Float:
-        r, t, a = self._fields[first], self._fields[first + 1], self._fields[first + 2]
-        return self._outward * r[..., None] + self._ahead * t[..., None] + _Y * self._side * a[..., None]
-
-    def _axial_vector(self, first: int) -> Float:
-        r, t, a = self._fields[first], self._fields[first + 1], self._fields[first + 2]
-        across = self._outward * r[..., None] + self._ahead * t[..., None]
-        return self._side * across + _Y * a[..., None]
-
-    @property
-    def orbit_angle(self) -> Float:
-        """Azimuth of each roller, [rad]."""
-        return self._fields[ANGLE]
-
-    @property
-    def orbit_speed(self) -> Float:
-        """Orbit speed of each roller, [rad/s]."""
-        return self._fields[VELOCITY + 1] / self._fields[RADIUS]
-
-    @property
-    def axis(self) -> Float:
-        """Roller axis towards the large end."""
-        return self._vector(AXIS)
-
-    @property
-    def centre(self) -> Float:
-        """Centre of mass, [m]."""
-        place = self._outward * self._fields[RADIUS][..., None]
-        place = place + _Y * self._side * self._fields[AXIAL][..., None]
-        return place + self._bodies[:, CUP_BODY, None, None, POSITION : POSITION + 3]
+    def __init__(
+        self, rollers: Float, bodies: Float, count: int, roller: RollerParams, cage_place: float
+    ) -> None:
+        self._rollers, self._bodies, self._count = rollers, bodies, count
+        self._roller, self._cage_place = roller, cage_place
 
     def pose(self) -> Float:
-        """Mid-length and quaternion x, y, z, w: body x along the axis, z facing the cup at zero spin."""
-        along = self.axis
-        facing = self._outward - along * np.sum(self._outward * along, axis=-1, keepdims=True)
-        facing /= np.linalg.norm(facing, axis=-1, keepdims=True)
-        frame = np.stack([along, np.cross(facing, along), facing], axis=-1)
-        half = 0.5 * (self._side[..., 0] * self._fields[SPIN])
-        zero = np.zeros_like(half)
-        turned = np.stack([np.sin(half), zero, zero, np.cos(half)], axis=-1)
-        middle = self.centre - self._roller.mass_offset * along
-        return np.concatenate([middle, quaternion_product(quaternion_of(frame), turned)], axis=-1)
+        """Place and quaternion x, y, z, w of cup, cone, cages and rollers, shape [time, body, 7].
+
+        A roller's place is its mid-length, its body axis x along its axis, z facing the cup at zero spin.
+        """
+        out = np.empty((len(self._bodies), BODIES + 2 * self._count, 7))
+        _poses(self._rollers, self._bodies, self._count, self._roller.mass_offset, self._cage_place, out)
+        return out
 
     def twist(self) -> Float:
-        """Velocity of the centre of mass and angular velocity, [m/s], [rad/s]."""
-        momentum, axis = self._axial_vector(MOMENTUM), self._side * self.axis
-        along = np.sum(momentum * axis, axis=-1, keepdims=True)
-        extra = along * (1.0 / self._roller.axial_inertia - 1.0 / self._roller.transverse_inertia)
-        omega = momentum / self._roller.transverse_inertia + extra * axis
-        return np.concatenate([self._vector(VELOCITY), omega], axis=-1)
+        """Velocity of the centre of mass and angular velocity, [m/s], [rad/s], shape [time, body, 6]."""
+        out = np.empty((len(self._bodies), BODIES + 2 * self._count, 6))
+        axial, transverse = self._roller.axial_inertia, self._roller.transverse_inertia
+        _twists(self._rollers, self._bodies, self._count, axial, transverse, out)
+        return out
 
     def contacts(self) -> Float:
         """`CONTACT_FIELDS` of each of the four contacts, shape [time, row, roller, kind, 8]."""
-        kinds = []
-        centre = self.centre
-        for kind in range(4):
-            first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS
-            force = self._vector(first + OUTPUT_FORCE)
-            point = centre + self._vector(first + OUTPUT_ARM)
-            scalars = np.stack(
-                [self._fields[first + OUTPUT_SLIP], self._fields[first + OUTPUT_FILM]], axis=-1
+        out = np.empty((len(self._bodies), 2, self._count, KINDS, 8))
+        _contacts(self._rollers, self._bodies, self._count, out)
+        return out
+
+
+@entry
+def write_instants(rollers: Any, bodies: Any, loads: Any, stride: Any, count: Any, out: Any) -> None:
+    """What the trends need of some instants.
+
+    Parameters
+    ----------
+    rollers : float64 array, shape [time, block, ROLLER_FIELDS, lane]
+    bodies : float64 array, shape [time, 4, BODY_STATES]
+    loads : float64 array, shape [row, column]
+        Load of instant t in row ``(t + 1) * stride``.
+    stride, count : int
+        Rows from instant to instant; rollers of a row of the bearing.
+    out : float64 array, shape [time, INSTANT_ROLLERS + 4 * count]
+        Written.
+    """
+    for t in range(bodies.shape[0]):
+        for i in range(6):
+            out[t, INSTANT_LOAD + i] = loads[(t + 1) * stride, i]
+        out[t, INSTANT_SHAFT] = bodies[t, CONE_BODY, TURN]
+        out[t, INSTANT_SHAFT + 1] = bodies[t, CONE_BODY, RATE]
+        for row in range(2):
+            out[t, INSTANT_CAGES + row] = bodies[t, CAGE_BODY + row, TURN]
+            out[t, INSTANT_CAGES + 2 + row] = bodies[t, CAGE_BODY + row, RATE]
+            for k in range(count):
+                block, lane = _place(rollers, count, row, k)
+                at = INSTANT_ROLLERS + row * count + k
+                out[t, at] = rollers[t, block, ANGLE, lane]
+                orbit = rollers[t, block, VELOCITY + 1, lane] / rollers[t, block, RADIUS, lane]
+                out[t, at + 2 * count] = orbit
+
+
+@inline
+def _place(rollers: Any, count: Any, row: Any, k: Any) -> Any:
+    """Block and lane of a roller; see `model.arrangement`."""
+    half = rollers.shape[3] // 2
+    if half == 0:
+        return row * count + k, 0
+    return k // half, k % half + row * half
+
+
+@inline
+def _directions(rollers: Any, t: Any, block: Any, lane: Any, row: Any) -> Any:
+    """Radial and tangential unit vectors at a roller, and the side of its row."""
+    angle = rollers[t, block, ANGLE, lane]
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return (sine, 0.0, cosine), (cosine, 0.0, -sine), 2.0 * row - 1.0
+
+
+@inline
+def _polar(rollers: Any, t: Any, block: Any, lane: Any, first: Any, directions: Any) -> Any:
+    """World vector from three components in the orbit frame."""
+    outward, ahead, side = directions
+    across = add(
+        scale(rollers[t, block, first, lane], outward), scale(rollers[t, block, first + 1, lane], ahead)
+    )
+    return across[0], side * rollers[t, block, first + 2, lane], across[2]
+
+
+@inline
+def _centre(rollers: Any, bodies: Any, t: Any, block: Any, lane: Any, directions: Any) -> Any:
+    """Centre of mass in the world, [m]."""
+    outward, _ahead, side = directions
+    radius = rollers[t, block, RADIUS, lane]
+    return (
+        radius * outward[0] + bodies[t, CUP_BODY, POSITION],
+        side * rollers[t, block, AXIAL, lane] + bodies[t, CUP_BODY, POSITION + 1],
+        radius * outward[2] + bodies[t, CUP_BODY, POSITION + 2],
+    )
+
+
+@entry
+def _poses(rollers, bodies, count, mass_offset, cage_place, out):
+    for t in range(bodies.shape[0]):
+        for body in range(BODIES):
+            _ring_pose(
+                bodies[t, body], (2.0 * body - 5.0) * cage_place if body >= CAGE_BODY else 0.0, out[t, body]
             )
-            kinds.append(np.concatenate([point, force, scalars], axis=-1))
-        contacts = np.stack(kinds, axis=-2)
-        touching = np.any(contacts[..., 3:6] != 0.0, axis=-1, keepdims=True)
-        return np.where(touching, contacts, 0.0)
+        for row in range(2):
+            for k in range(count):
+                block, lane = _place(rollers, count, row, k)
+                directions = _directions(rollers, t, block, lane, row)
+                outward = directions[0]
+                along = _polar(rollers, t, block, lane, AXIS, directions)
+                facing = add_scaled(outward, -dot(outward, along), along)
+                facing = scale(1.0 / math.sqrt(dot(facing, facing)), facing)
+                half = 0.5 * directions[2] * rollers[t, block, SPIN, lane]
+                turn = quaternion_product(
+                    quaternion_of(along, cross(facing, along), facing),
+                    (math.sin(half), 0.0, 0.0, math.cos(half)),
+                )
+                centre = _centre(rollers, bodies, t, block, lane, directions)
+                middle = add_scaled(centre, -mass_offset, along)
+                _write_pose(out[t, BODIES + row * count + k], middle, turn)
 
 
-def ring_pose(bodies: Float, cage_place: float) -> Float:
-    """Place and quaternion of cup, cone and cages, shape [time, 4, 7]."""
-    place = bodies[..., POSITION : POSITION + 3].copy()
-    place[:, CAGE_BODY:, 1] += SIDE * cage_place
-    tilt = bodies[..., TILT : TILT + 3]
-    angle = np.linalg.norm(tilt, axis=-1, keepdims=True)
+@inline
+def _ring_pose(body: Any, lift: Any, out: Any) -> None:
+    tilt = (body[TILT], body[TILT + 1], body[TILT + 2])
+    angle = math.sqrt(dot(tilt, tilt))
     # sin(a/2)/a, finite at zero
-    tilted = np.concatenate([0.5 * np.sinc(angle / (2.0 * np.pi)) * tilt, np.cos(0.5 * angle)], axis=-1)
-    half = 0.5 * bodies[..., TURN]
-    zero = np.zeros_like(half)
-    turned = np.stack([zero, np.sin(half), zero, np.cos(half)], axis=-1)
-    return np.concatenate([place, quaternion_product(tilted, turned)], axis=-1)
+    share = math.sin(0.5 * angle) / angle if angle > 0.0 else 0.5
+    tilted = (share * tilt[0], share * tilt[1], share * tilt[2], math.cos(0.5 * angle))
+    half = 0.5 * body[TURN]
+    turn = quaternion_product(tilted, (0.0, math.sin(half), 0.0, math.cos(half)))
+    _write_pose(out, (body[POSITION], body[POSITION + 1] + lift, body[POSITION + 2]), turn)
 
 
-def ring_twist(bodies: Float) -> Float:
-    """Velocity and angular velocity of cup, cone and cages, shape [time, 4, 6]."""
-    omega = bodies[..., ANGULAR : ANGULAR + 3] + _Y * bodies[..., RATE, None]
-    return np.concatenate([bodies[..., LINEAR : LINEAR + 3], omega], axis=-1)
+@inline
+def _write_pose(out: Any, place: Any, turn: Any) -> None:
+    for i in range(3):
+        out[i] = place[i]
+    for i in range(4):
+        out[3 + i] = turn[i]
 
 
-def quaternion_product(a: Float, b: Float) -> Float:
+@entry
+def _twists(rollers, bodies, count, axial_inertia, transverse_inertia, out):
+    for t in range(bodies.shape[0]):
+        for body in range(BODIES):
+            for i in range(3):
+                out[t, body, i] = bodies[t, body, LINEAR + i]
+                out[t, body, 3 + i] = bodies[t, body, ANGULAR + i]
+            out[t, body, 4] += bodies[t, body, RATE]
+        for row in range(2):
+            for k in range(count):
+                block, lane = _place(rollers, count, row, k)
+                directions = _directions(rollers, t, block, lane, row)
+                side = directions[2]
+                # angular momentum is an axial vector: a mirrored row turns the other way
+                momentum = scale(side, _polar(rollers, t, block, lane, MOMENTUM, directions))
+                axis = scale(side, _polar(rollers, t, block, lane, AXIS, directions))
+                extra = dot(momentum, axis) * (1.0 / axial_inertia - 1.0 / transverse_inertia)
+                omega = add_scaled(scale(1.0 / transverse_inertia, momentum), extra, axis)
+                velocity = _polar(rollers, t, block, lane, VELOCITY, directions)
+                for i in range(3):
+                    out[t, BODIES + row * count + k, i] = velocity[i]
+                    out[t, BODIES + row * count + k, 3 + i] = omega[i]
+
+
+@entry
+def _contacts(rollers, bodies, count, out):
+    for t in range(bodies.shape[0]):
+        for row in range(2):
+            for k in range(count):
+                block, lane = _place(rollers, count, row, k)
+                directions = _directions(rollers, t, block, lane, row)
+                centre = _centre(rollers, bodies, t, block, lane, directions)
+                for kind in range(KINDS):
+                    first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS
+                    force = _polar(rollers, t, block, lane, first + OUTPUT_FORCE, directions)
+                    here = out[t, row, k, kind]
+                    here[:] = 0.0
+                    if force[0] != 0.0 or force[1] != 0.0 or force[2] != 0.0:
+                        point = add(centre, _polar(rollers, t, block, lane, first + OUTPUT_ARM, directions))
+                        for i in range(3):
+                            here[i], here[3 + i] = point[i], force[i]
+                        here[6] = rollers[t, block, first + OUTPUT_SLIP, lane]
+                        here[7] = rollers[t, block, first + OUTPUT_FILM, lane]
+
+
+@inline
+def quaternion_product(a: Any, b: Any) -> Any:
     """Product of quaternions x, y, z, w: the turn `b` followed by `a`."""
-    vector = a[..., 3:] * b[..., :3] + b[..., 3:] * a[..., :3] + np.cross(a[..., :3], b[..., :3])
-    scalar = a[..., 3:] * b[..., 3:] - np.sum(a[..., :3] * b[..., :3], axis=-1, keepdims=True)
-    return np.concatenate([vector, scalar], axis=-1)
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (
+        aw * bx + bw * ax + (ay * bz - az * by),
+        aw * by + bw * ay + (az * bx - ax * bz),
+        aw * bz + bw * az + (ax * by - ay * bx),
+        aw * bw - (ax * bx + ay * by + az * bz),
+    )
 
 
-def quaternion_of(frame: Float) -> Float:
-    """Quaternion x, y, z, w of rotation matrices ``[..., 3, 3]`` whose columns are the turned axes.
+@inline
+def quaternion_of(x: Any, y: Any, z: Any) -> Any:
+    """Quaternion x, y, z, w of a rotation given by the turned axes.
 
     References
     ----------
     Shepperd (1978): divide by the largest of the four components.
     """
-    m = np.moveaxis(frame, (-2, -1), (0, 1))
-    squares = np.stack(
-        [
-            1.0 + m[0, 0] - m[1, 1] - m[2, 2],
-            1.0 - m[0, 0] + m[1, 1] - m[2, 2],
-            1.0 - m[0, 0] - m[1, 1] + m[2, 2],
-            1.0 + m[0, 0] + m[1, 1] + m[2, 2],
-        ]
+    squares = (1.0 + x[0] - y[1] - z[2], 1.0 - x[0] + y[1] - z[2], 1.0 - x[0] - y[1] + z[2])
+    trace = 1.0 + x[0] + y[1] + z[2]
+    xy, xz, yz = y[0] + x[1], z[0] + x[2], z[1] + y[2]
+    wx, wy, wz = y[2] - z[1], z[0] - x[2], x[1] - y[0]
+    largest = max(squares[0], squares[1], squares[2], trace)
+    if largest == squares[0]:
+        found = (squares[0], xy, xz, wx)
+    elif largest == squares[1]:
+        found = (xy, squares[1], yz, wy)
+    elif largest == squares[2]:
+        found = (xz, yz, squares[2], wz)
+    else:
+        found = (wx, wy, wz, trace)
+    shrink = 1.0 / math.sqrt(
+        found[0] * found[0] + found[1] * found[1] + found[2] * found[2] + found[3] * found[3]
     )
-    xy, xz, yz = m[0, 1] + m[1, 0], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1]
-    wx, wy, wz = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]
-    rows = np.array(
-        [
-            [squares[0], xy, xz, wx],
-            [xy, squares[1], yz, wy],
-            [xz, yz, squares[2], wz],
-            [wx, wy, wz, squares[3]],
-        ]
-    )
-    best = np.argmax(squares, axis=0)
-    chosen = np.take_along_axis(rows, best[None, None], axis=0)[0]
-    chosen = np.moveaxis(chosen, 0, -1)
-    return chosen / np.linalg.norm(chosen, axis=-1, keepdims=True)
+    return shrink * found[0], shrink * found[1], shrink * found[2], shrink * found[3]

@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from beardyn_core.observe.accelerometer import GRAVITY, reading, specific_force, white_noise
+from beardyn_core.observe.accelerometer import (
+    GRAVITY,
+    NoiseStream,
+    reading,
+    specific_force,
+    white_noise,
+)
 from beardyn_core.scene.sensor import Accelerometer
 
 NOTHING = np.zeros((1, 3))
@@ -42,6 +48,29 @@ def test_noise_is_the_same_for_any_cut_into_blocks():
     assert np.array_equal(np.concatenate(parts), whole)
 
 
+def test_noise_is_that_of_the_textbook_formulas():
+    """Philox by NumPy, Box and Muller with its logarithm and circular functions."""
+    key = np.random.SeedSequence([0x61636365, 7, 3]).generate_state(2, np.uint64)
+    raw = np.random.Philox(key=key, counter=500).random_raw(4 * 20_000).reshape(-1, 4)
+    uniform = ((raw >> np.uint64(11)).astype(np.float64) + 1.0) * 2.0**-53
+    radius, turn = np.sqrt(-2.0 * np.log(uniform[:, :2])), 2.0 * np.pi * uniform[:, 2:]
+    expected = np.column_stack((radius * np.cos(turn), radius[:, 0] * np.sin(turn[:, 0])))
+    np.testing.assert_allclose(white_noise(7, 3, 500, 20_000), expected, rtol=0.0, atol=1e-7)
+
+
+def test_specific_force_is_that_of_vector_products():
+    random = np.random.default_rng(5)
+    motion, position = random.normal(size=(4, 50, 3)), (0.1, -0.2, 0.3)
+    acceleration, omega, change, tilt = motion
+    tilt = 1e-3 * tilt
+    arm = np.asarray(position) + np.cross(tilt, np.asarray(position))
+    force = acceleration + np.cross(change, arm) + np.cross(omega, np.cross(omega, arm))
+    force[:, 2] += GRAVITY
+    expected = force - np.cross(tilt, force)
+    found = specific_force(position, acceleration, omega, change, tilt)
+    np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-13)
+
+
 def test_noise_is_standard_normal_and_independent_between_axes_sensors_and_seeds():
     noise = white_noise(7, 0, 0, 200_000)
     assert np.abs(noise.mean(axis=0)).max() < 4 / np.sqrt(2e5)
@@ -54,7 +83,7 @@ def test_noise_is_standard_normal_and_independent_between_axes_sensors_and_seeds
 
 def test_noise_density_is_one_sided_and_the_range_clips():
     sensor = Accelerometer(noise_density=0.02, range=50.0)
-    still = reading(sensor, np.zeros((100_000, 3)), 25_600.0, 1, 0, 0)
+    still = reading(sensor, np.zeros((100_000, 3)), 25_600.0, NoiseStream(1, 0), 0)
     assert still.std() == pytest.approx(0.02 * np.sqrt(12_800), rel=0.01)
-    loud = reading(sensor, np.array([[1e3, -1e3, 0.0]]), 25_600.0, 1, 0, 0)
+    loud = reading(sensor, np.array([[1e3, -1e3, 0.0]]), 25_600.0, NoiseStream(1, 0), 0)
     assert loud[0, :2].tolist() == [50.0, -50.0]

@@ -92,3 +92,14 @@ def test_wrong_shapes_and_factors_are_refused():
         Decimator(65, 2)
     with pytest.raises(ValueError, match="state has shape"):
         Decimator(4, 2).restore(np.zeros((3, 3)))
+
+
+@pytest.mark.parametrize("factor", [1, 4])
+def test_a_stream_can_be_held_back(factor):
+    stream = np.random.default_rng(3).normal(size=(factor * 100, 2))
+    late = Decimator(factor, 2, initial=np.array([3.0, 4.0]), held_back=3)
+    plain = Decimator(factor, 2, initial=np.array([3.0, 4.0]))
+    shifted = np.concatenate([np.tile([3.0, 4.0], (3, 1)), stream])[: len(stream)]
+    parts = [late.push(part) for part in np.split(stream, [factor, 4 * factor, 50 * factor])]
+    assert np.array_equal(np.concatenate(parts), plain.push(shifted))
+    assert late.delay_samples == plain.delay_samples + 3

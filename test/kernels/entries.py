@@ -20,6 +20,7 @@ from beardyn_core.kernels.lane_math import (
     log2,
     magnitude,
     ninth_root,
+    quick_ninth_root,
     sqrt,
     where_greater,
     wrap,
@@ -44,7 +45,7 @@ from beardyn_core.kernels.vectors import subtract
 
 MATH_NAMES = (
     "ninth_root", "log2", "exp2", "wrap", "cos", "sin", "sqrt", "magnitude", "floor", "at_least", "at_most",
-    "where_greater", "negated", "quotient",
+    "where_greater", "negated", "quotient", "quick_ninth_root",
 )  # fmt: skip
 
 
@@ -69,6 +70,7 @@ def lane_math(lanes: Any, values: Any, out: Any, bound: Any) -> None:
         lanes.store(out, case, 11, where_greater(a, bound, 1.0 + 0.0 * a, 0.0 * a))
         lanes.store(out, case, 12, -a)
         lanes.store(out, case, 13, 1.0 / a)
+        lanes.store(out, case, 14, quick_ninth_root(a))
 
 
 RACEWAY_INPUTS = 22  # centre, axis, ring axis, velocity, omega, ring velocity, ring omega, oversize

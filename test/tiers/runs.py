@@ -64,9 +64,9 @@ def means(name: str, tier: str, duration: float = 0.6) -> Means:
 
 
 @cache
-def static_mean(name: str, phases: int = 12) -> tuple[Float, float]:
-    """Displacement and largest cup load of the static solution under the rollers' share of the first load,
-    means over the pitch of the rollers."""
+def static_mean(name: str, phases: int = 12) -> tuple[Float, float, float]:
+    """Displacement, largest cup load and sum of the rib loads of the static solution under the rollers' share
+    of the first load, means over the pitch of the rollers."""
     scene = scene_of(name, "full")
     first = load_history(scene.operation, scene.mounting, 0.1, scene.seed)
     bearing = scene.bearing
@@ -86,6 +86,7 @@ def static_mean(name: str, phases: int = 12) -> tuple[Float, float]:
     return (
         np.mean([each.displacement for each in found], axis=0),
         float(np.mean([each.cup_load.max() for each in found])),
+        float(np.mean([each.rib_load.sum() for each in found])),
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +22,8 @@ from beardyn_core.twin import Twin
 from test.kernels.rig import started
 from test.stability.test_determinism import assert_same, wandering_load
 from test.tiers.runs import FAST, blocks_of, scene_of
+
+LATER = ("body_pose", "body_twist", "contacts")
 
 
 def moving(tier: str) -> Scene:
@@ -65,11 +69,47 @@ def test_a_block_has_the_channels_of_the_full_tier(tier: str) -> None:
     assert not fast.contacts[..., 3, :].any()
     assert fast.audit is None
     assert np.any(fast.contacts[-1, ..., :3, 3:6])
-    loaded = np.linalg.norm(fast.contacts[-1, ..., 0, 3:6], axis=-1) > 500.0
-    film_fast, film_full = fast.contacts[-1, ..., 0, 7][loaded], full.contacts[-1, ..., 0, 7][loaded]
-    # rollers of the full tier speed up and slow down about pure rolling
-    np.testing.assert_allclose(np.median(film_fast / film_full), 1.0, rtol=0.03)
-    np.testing.assert_allclose(film_fast, film_full, rtol=0.15)
+
+
+@pytest.mark.parametrize("tier", FAST)
+@pytest.mark.parametrize("name", ["static_80kN", "cup_spall"])
+def test_films_differ_from_the_full_tier_by_the_loads_alone(name: str, tier: str) -> None:
+    """A roller of the full tier orbits up to 1 % off pure rolling, so its film is up to 0.7 % off.
+
+    Where a fast tier gives a roller another load at an instant, a lightly loaded one of the lumped tier up to
+    half as much again, the film follows with the load exponent of the formula.
+    """
+    full, fast = (blocks_of(scene_of(name, each), 0.1)[-1] for each in ("full", tier))
+    film_params = Twin(scene_of(name, tier))._parameters.effects.film
+    assert film_params is not None
+    for kind in (0, 1):
+        load, load_full = (np.linalg.norm(b.contacts[..., kind, 3:6], axis=-1) for b in (fast, full))
+        both = (load > 500.0) & (load_full > 500.0)
+        assert both.sum() > 30
+        film, film_full = fast.contacts[..., kind, 7][both], full.contacts[..., kind, 7][both]
+        by_load = (load[both] / load_full[both]) ** film_params.load_exponent
+        np.testing.assert_allclose(film, film_full * by_load, rtol=0.01)
+        assert film.mean() == pytest.approx(film_full.mean(), rel=0.01)
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_a_block_looked_at_late_says_what_it_said_at_once(tier: str) -> None:
+    """Poses, twists and contacts are worked out at the first look: blocks later, and from several threads."""
+    scene = moving(tier)
+    at_once, late = started(scene, wandering_load()), started(scene, wandering_load())
+    expected = []
+    for _ in range(4):
+        block = at_once.advance()
+        expected.append([getattr(block, name).copy() for name in LATER])
+    kept = [late.advance() for _ in range(4)]
+    with ThreadPoolExecutor(4) as pool:
+        for block, arrays in zip(kept, expected, strict=True):
+            for name, array in zip(LATER, arrays, strict=True):
+                found = list(pool.map(lambda _, b=block, n=name: getattr(b, n), range(4)))
+                for each in found:
+                    np.testing.assert_array_equal(each, array)
+    again = pickle.loads(pickle.dumps(late.advance()))
+    np.testing.assert_array_equal(again.contacts, at_once.advance().contacts)
 
 
 @pytest.mark.parametrize("tier", FAST)
@@ -101,7 +141,7 @@ def test_the_full_tier_misses_nothing() -> None:
 @pytest.mark.parametrize("tier", TIER_NAMES)
 def test_a_tier_brings_its_own_step_and_a_resolved_scene_keeps_it(tier: str) -> None:
     scene = load_scene("static_80kN", tier=tier)
-    assert scene.numerics.steps_per_sample == {"lumped": 1, "quasistatic": 2, "full": 4}[tier]
+    assert scene.numerics.steps_per_sample == {"lumped": 1, "quasistatic": 1, "full": 4}[tier]
     assert scene_from_text(scene.source_text).numerics == scene.numerics
     assert scene_from_text(scene.source_text).tier == tier
 
