@@ -8,7 +8,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, LOAD_SPEED
 from beardyn_core.kernels.box import kick_box
-from beardyn_core.kernels.kinematic_rollers import rib_torque, turned
+from beardyn_core.kernels.kinematic_rollers import turned
 from beardyn_core.model.layout import (
     ANGULAR,
     CAGE_BODY,
@@ -63,6 +63,7 @@ def finish_step(
     bodies: Any,
     wrench: Any,
     rib_load: Any,
+    losses: Any,
     wrenches: Any,
     box: Any,
     load_before: Any,
@@ -80,6 +81,8 @@ def finish_step(
         it, and the weight of what rolls.
     rib_load : float
         Sum over all rollers, [N].
+    losses : tuple of 2 floats
+        From `held_losses`.
     wrenches, box : float64 arrays, shape [4, 6] and [12]
         Work space.
     load_before, load : float64 array, shape [10]
@@ -90,7 +93,7 @@ def finish_step(
         Not kept by these tiers; a coupled box adds to it.
     """
     base, k = p.base, p.kinematic
-    signal[SIGNAL_TORQUE] = rib_torque(rib_load, bodies[CONE_BODY, RATE], k, base.effects.rib)
+    signal[SIGNAL_TORQUE] = -(losses[0] + losses[1] * rib_load)
     for i in range(6):
         signal[SIGNAL_FORCE + i] = wrench[i]
     _kick_box(bodies, wrenches, box, load_before, load, signal, energy, base.mounting.coupling, p)

@@ -12,6 +12,7 @@ from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.jit import entry
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
+from beardyn_core.kernels.kinematic_torque import held_losses
 from beardyn_core.kernels.spring_roller import load_rollers, sum_rollers
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
@@ -71,14 +72,17 @@ def advance_lumped(
     steps = signals.shape[0]
     stride = steps // roller_trend.shape[0]
     direction = begin_block(rollers, bodies)
+    losses = (0.0, 0.0)
     for step in range(steps):
         direction, turns, speeds = begin_step(bodies, direction, p)
-        shown = (step + 1) % stride == 0
-        load_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, shown, p)
+        due, shown = step % stride == 0, (step + 1) % stride == 0
+        load_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p)
         totals, rib = sum_rollers(sums, speeds, p)
         wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
+        if due:
+            losses = held_losses(sums, speeds, rib, p)
         finish_step(
-            bodies, wrench, rib, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
+            bodies, wrench, rib, losses, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
         )
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers

@@ -14,12 +14,15 @@ from beardyn_core.kernels.kinematic_rollers import (
     MOMENT_COSINE,
     MOMENT_SINE,
     RIB_SUM,
+    TORQUE_RIB,
+    TORQUE_ROLLING,
     cup_wrench,
     lane_total,
     relative_cone,
     show_contacts,
     show_roller,
 )
+from beardyn_core.kernels.kinematic_torque import held_losses, rolling_torque, sliding_torque
 from beardyn_core.kernels.lane_math import at_least
 from beardyn_core.model.layout import (
     AXIAL,
@@ -68,6 +71,7 @@ def balance_rollers(
     direction: Any,
     turns: Any,
     speeds: Any,
+    due: Any,
     shown: Any,
     p: Any,
 ) -> None:
@@ -88,6 +92,8 @@ def balance_rollers(
         Angle of cages, cone, and rollers in their pockets, [rad].
     speeds : tuple of 2 floats
         Of shaft and cages, [rad/s].
+    due : bool
+        Whether to work out the torque of the contacts.
     shown : bool
         Whether to write what a block of channels shows.
     p : QuasistaticParameters
@@ -99,6 +105,7 @@ def balance_rollers(
     zero = lanes.constant(0.0)
     load_cosine, load_sine, load_sum = zero, zero, zero
     moment_cosine, moment_sine, rib_sum = zero, zero, zero
+    rolling, sliding = zero, zero
     for block in range(rollers.shape[0]):
         pocket_cosine, pocket_sine = (
             lanes.load(p.pockets, block, POCKET_COSINE),
@@ -136,6 +143,10 @@ def balance_rollers(
         moment_cosine = moment_cosine + moment * counted_cosine
         moment_sine = moment_sine + moment * counted_sine
         rib_sum = rib_sum + counted * rib
+        if due:
+            forces = (cup[0], cone[0], rib)
+            rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
+            sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
         if shown:
             centres = (
                 cup[1] / at_least(cup[0], _SMALLEST_LOAD),
@@ -149,6 +160,8 @@ def balance_rollers(
     lanes.store(sums, 0, MOMENT_COSINE, side * moment_cosine)
     lanes.store(sums, 0, MOMENT_SINE, side * moment_sine)
     lanes.store(sums, 0, RIB_SUM, rib_sum)
+    lanes.store(sums, 0, TORQUE_ROLLING, rolling)
+    lanes.store(sums, 0, TORQUE_RIB, sliding)
 
 
 @entry
@@ -180,10 +193,13 @@ def advance_quasistatic(
     steps = signals.shape[0]
     stride = steps // roller_trend.shape[0]
     direction = begin_block(rollers, bodies)
+    losses = (0.0, 0.0)
     for step in range(steps):
         direction, turns, speeds = begin_step(bodies, direction, p)
-        shown = (step + 1) % stride == 0
-        balance_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, shown, p)
+        due, shown = step % stride == 0, (step + 1) % stride == 0
+        balance_rollers(
+            lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p
+        )
         totals = (
             lane_total(sums, LOAD_COSINE),
             lane_total(sums, LOAD_SINE),
@@ -193,8 +209,10 @@ def advance_quasistatic(
         )
         wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
         rib = lane_total(sums, RIB_SUM)
+        if due:
+            losses = held_losses(sums, speeds, rib, p)
         finish_step(
-            bodies, wrench, rib, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
+            bodies, wrench, rib, losses, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
         )
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers

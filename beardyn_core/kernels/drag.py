@@ -35,9 +35,14 @@ def drag_before(body: Any, view: Any, drag: Any) -> Any:
         return nothing, nothing, nothing, nothing, axis, centre
     flow = subtract(velocity, add(view[2], cross(view[3], centre)))
     spin = dot(subtract(omega, view[3]), axis)
+    return drag.orbit * magnitude(flow[1]), flow[1], churning_rate(spin, drag), spin, axis, centre
+
+
+@inline
+def churning_rate(spin: Any, drag: Any) -> Any:
+    """Couple of the medium on a roller's ends and mantle over its spin, [N m s/rad]."""
     fast = magnitude(spin) + _SMALLEST_SPIN
-    churning = drag.disc * sqrt(fast) + drag.cylinder * exp2(drag.cylinder_exponent * log2(fast))
-    return drag.orbit * magnitude(flow[1]), flow[1], churning, spin, axis, centre
+    return drag.disc * sqrt(fast) + drag.cylinder * exp2(drag.cylinder_exponent * log2(fast))
 
 
 @inline

@@ -34,6 +34,7 @@ from beardyn_core.model.layout import (
 
 # Sums of the cup forces along the cup's normal, in the cages' frame; axial force and moments times the side.
 LOAD_COSINE, LOAD_SINE, LOAD_AXIAL, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(REACTION, REACTION + 6)
+TORQUE_ROLLING, TORQUE_RIB = REACTION + 6, REACTION + 7
 
 
 @inline
@@ -100,19 +101,6 @@ def cup_wrench(totals: Any, direction: Any, cosine: Any, sine: Any) -> Any:
         0.0,
         -(moment_s * direction[0] + moment_c * direction[1]),
     )
-
-
-@inline
-def rib_torque(rib_load: Any, speed: Any, kinematic: Any, rib: Any) -> Any:
-    """Torque on the shaft of ribs that slide at kinematic speed: lost power over shaft speed, [N m].
-
-    Coulomb friction of the rib effect; the tiers without roller dynamics know no other loss.
-    """
-    if rib is None:
-        return 0.0
-    slip = kinematic.rib_slip * speed
-    sliding = math.sqrt(slip * slip + rib.regularisation * rib.regularisation)
-    return -rib.friction * rib_load * kinematic.rib_slip * slip / sliding
 
 
 @inline

@@ -13,10 +13,13 @@ from beardyn_core.kernels.kinematic_rollers import (
     MOMENT_COSINE,
     MOMENT_SINE,
     RIB_SUM,
+    TORQUE_RIB,
+    TORQUE_ROLLING,
     lane_total,
     show_contacts,
     show_roller,
 )
+from beardyn_core.kernels.kinematic_torque import rolling_torque, sliding_torque
 from beardyn_core.kernels.lane_math import at_least, quick_ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.waviness import wave_gap
@@ -168,6 +171,7 @@ def load_rollers(
     direction: Any,
     turns: Any,
     speeds: Any,
+    due: Any,
     shown: Any,
     p: Any,
 ) -> None:
@@ -188,6 +192,8 @@ def load_rollers(
         Angle of cages, cone, and rollers in their pockets, [rad].
     speeds : tuple of 2 floats
         Of shaft and cages, [rad/s].
+    due : bool
+        Whether to work out the torque of the contacts.
     shown : bool
         Whether to write what a block of channels shows.
     p : LumpedParameters
@@ -196,11 +202,12 @@ def load_rollers(
     -----
     Half of the centrifugal load of the cup comes off the cone: the two contacts are as stiff as each other.
     """
-    spring = p.spring
+    spring, effects = p.spring, p.base.effects
     approach_wave, rate_wave = approach_waves(lanes, motion, direction, p)
     idle = idle_load(speeds[1], p)
     zero = lanes.constant(0.0)
     load_cosine, load_sine, load_sum = zero, zero, zero
+    rolling, sliding = zero, zero
     for block in range(rollers.shape[0]):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
         approach = approach_wave[0] * cosine + (approach_wave[1] * sine + approach_wave[2])
@@ -218,16 +225,23 @@ def load_rollers(
         load_cosine = load_cosine + load * lanes.load(p.pockets, block, COUNTED_COSINE)
         load_sine = load_sine + load * lanes.load(p.pockets, block, COUNTED_SINE)
         load_sum = load_sum + load * lanes.load(p.pockets, block, COUNTED)
-        if shown:
+        if due or shown:
             cone = spring.cone_share * (load - idle)
             rib = spring.rib_share * load + spring.rib_centrifugal * centrifugal_force(speeds[1], p)
-            show_spring(lanes, rollers, block, (load, cone, rib), (turns[0], speeds[1]), speeds, angle, p)
+            loads, counted = (load, cone, rib), lanes.load(p.pockets, block, COUNTED)
+            if due:
+                rolling = rolling + counted * rolling_torque(loads, speeds, p.kinematic, effects.rolling)
+                sliding = sliding + counted * sliding_torque(rib, speeds, p, effects.rib)
+            if shown:
+                show_spring(lanes, rollers, block, loads, (turns[0], speeds[1]), speeds, angle, p)
     lanes.store(sums, 0, LOAD_COSINE, load_cosine)
     lanes.store(sums, 0, LOAD_SINE, load_sine)
     lanes.store(sums, 0, LOAD_AXIAL, lanes.load(p.sides, 0, 0) * load_sum)
     lanes.store(sums, 0, MOMENT_COSINE, lanes.load(p.sides, 0, 0) * load_cosine)
     lanes.store(sums, 0, MOMENT_SINE, lanes.load(p.sides, 0, 0) * load_sine)
     lanes.store(sums, 0, RIB_SUM, load_sum)
+    lanes.store(sums, 0, TORQUE_ROLLING, rolling)
+    lanes.store(sums, 0, TORQUE_RIB, sliding)
 
 
 @inline

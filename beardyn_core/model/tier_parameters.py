@@ -29,6 +29,9 @@ class KinematicParams(NamedTuple):
     cup_radius: float  # contacts from the bearing axis [m]
     cone_radius: float
     rib_slip: float  # sliding speed of the rib over w [m]
+    rib_spin: float  # rotation of a roller against the cone over w
+    rolling_on_cup: float  # rotation of a roller against the cup over w, of either sign
+    rolling_on_cone: float
     rolling_weight: float  # of all rollers and cages [N]
     rolling_count: float  # rollers of both rows
 
@@ -104,6 +107,9 @@ def kinematic_params(scene: Scene) -> KinematicParams:
         cup_radius=distance * math.sin(bearing.cup_angle),
         cone_radius=distance * math.sin(bearing.cone_angle),
         rib_slip=roller_cone_spin(bearing, 1.0) * bearing.rib_contact_height,
+        rib_spin=roller_cone_spin(bearing, 1.0),
+        rolling_on_cup=distance * math.sin(bearing.cone_angle) / bearing.roller_diameter,
+        rolling_on_cone=distance * math.sin(bearing.cup_angle) / bearing.roller_diameter,
         rolling_weight=fall * (2 * bearing.roller_count * bearing.roller_mass + cages),
         rolling_count=2.0 * bearing.roller_count,
     )

@@ -35,7 +35,19 @@ class TierNoun:
     absent: tuple[str, ...]
 
 
-_FAST = frozenset({"contact_damping", "film", "rib", "gravity", "faults", "waviness"})
+_FAST = frozenset(
+    {
+        "contact_damping",
+        "film",
+        "rib",
+        "rolling_resistance",
+        "drag",
+        "seal",
+        "gravity",
+        "faults",
+        "waviness",
+    }
+)
 _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
 
 TIERS = {
