@@ -10,6 +10,8 @@ from pydantic import TypeAdapter, ValidationError
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.choice.free import Free
+from beardyn_core.config.automatic import AUTO, REFERENCE, Explanation, choice_for, resolved, take_auto
 from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
 from beardyn_core.config.effects_file import EffectsKeys, overlay
@@ -75,6 +77,50 @@ def load_scene(
     return _Reading(read_file(path), str(path), path.parent).scene(given)
 
 
+def explain_scene(
+    name: str | Path,
+    *,
+    effects: str | None = None,
+    tier: str | None = None,
+    accuracy_percent: float | None = None,
+    quantities: list[str] | None = None,
+) -> Explanation:
+    """Why a scene is computed as it is, and what would be chosen for it; arguments as of `load_scene`.
+
+    Parameters
+    ----------
+    name : str or Path
+    effects, tier : str, optional
+    accuracy_percent : float, optional
+        Instead of the scene's.
+    quantities : list of str, optional
+        Instead of the scene's.
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
+    path = find("scenes", str(name))
+    overrides: dict[Place, Any] = {
+        ("effects",): effects,
+        ("tier",): tier,
+        ("accuracy_percent",): accuracy_percent,
+        ("quantities",): quantities,
+    }
+    given = {place: value for place, value in overrides.items() if value is not None}
+    reference = load_effects(REFERENCE)
+    keys, free = _Reading(read_file(path), str(path), path.parent).keys(given)
+    current = choice_for(keys, free, reference)
+    if free.anything:
+        return Explanation(resolved(keys, current), current, None)
+    every = _Reading(read_file(path), str(path), path.parent)
+    every.data.pop("tier", None)
+    every.data.pop("numerics", None)
+    automatic = choice_for(*every.keys({**given, ("effects",): AUTO, ("tier",): AUTO}), reference)
+    return Explanation(keys.noun(""), current, automatic)
+
+
 def scene_from_text(text: str, label: str = "scene") -> Scene:
     """Scene of a YAML text, such as the one recorded with a run; see `load_scene`."""
     return _Reading(read_mapping(text, label), label, Path()).scene({})
@@ -125,11 +171,19 @@ class _Reading:
         self.problems: list[str] = []
 
     def scene(self, overrides: dict[Place, Any]) -> Scene:
+        keys, free = self.keys(overrides)
+        if free.anything:
+            return resolved(keys, choice_for(keys, free, load_effects(REFERENCE)))
+        return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
+
+    def keys(self, overrides: dict[Place, Any]) -> tuple[SceneKeys, Free]:
+        """The validated scene, and what of it may be chosen."""
         for place, value in overrides.items():
             self._override(place, value)
         self._inline(self.data, "bearing", "bearings", ())
         self._inline(self.data, "lubricant", "lubricants", ())
         self.data.setdefault("effects", "standard")
+        free = take_auto(self.data)
         self._inline_effects()
         operation = self.data.get("operation")
         if isinstance(operation, dict):
@@ -143,7 +197,7 @@ class _Reading:
         self._check_contradictions()
         if self.problems:
             raise InputError(list(dict.fromkeys(self.problems)))
-        return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
+        return keys, free
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = located(place, self.origins)
