@@ -17,7 +17,7 @@ from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.free import Free
 from beardyn_core.choice.rule import Alternative, Decision, Rule, percent, tolerance
-from beardyn_core.effects import EffectSet
+from beardyn_core.effects import Audit, EffectSet
 from beardyn_core.errors import ValidityError
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
@@ -205,10 +205,9 @@ def _stages(
             if count < TIERS[name].smallest_laminae:
                 continue
             lamina = numerics.laminae(evidence, count)
-            if name == "lumped":
-                verdict = tier.lumped(evidence, count)
-            else:
-                verdict = (tier.full if name == "full" else tier.quasistatic)(evidence)
+            verdict = tier.verdict(evidence, name, count)
+            if verdict is None:
+                continue
             total = tuple(
                 verdict.influence.get(quantity, 0.0) + lamina.influence.get(quantity, 0.0) for quantity in asked
             )
@@ -317,6 +316,8 @@ def _told(
     """The choice with its reasons, shares and expected errors."""
     members = {name: value for option in taken for name, value in option.members.items()}
     effects = replace(scene.effects, **members)
+    if effects.thermal is not None:
+        effects = replace(effects, audit=effects.audit or Audit())
     if free.steps:
         step = numerics.steps(evidence, effects, stage.tier, stage.laminae)
     else:

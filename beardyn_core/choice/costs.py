@@ -12,6 +12,7 @@ COST_FILE = Path(__file__).with_name("costs.json")
 
 # An effect that is there costs something, whatever the scatter of the measurement says.
 _LEAST_SHARE = 0.001
+_START_SHARE = 1.0e-5
 _REFERENCE_LAMINAE = 6
 WAVEFORM_RATE = 25_600.0
 # effects computed for every lamina: their cost grows with the count
@@ -52,7 +53,8 @@ class Costs:
     def base(self, tier: str, laminae: int) -> float:
         """Step of a tier with the effects that always are, without those that a choice adds."""
         if tier == "lumped":
-            return self.ratios["tier lumped"]
+            # the spring is fitted once; the count matters to nothing but the start
+            return self.ratios["tier lumped"] + _START_SHARE * laminae
         more = laminae - _REFERENCE_LAMINAE
         if tier == "quasistatic":
             six, twenty = self.ratios["tier quasistatic"], self.ratios["tier quasistatic, laminae 20"]

@@ -83,6 +83,12 @@ class Evidence:
         return tuple(defect for defect in self.scene.defects if isinstance(defect, Patch))
 
     @property
+    def patch_shares(self) -> tuple[float, ...]:
+        """Part of the contact length that each patch takes, at most 1."""
+        length = self.scene.bearing.effective_length
+        return tuple(min(patch.length / length, 1.0) for patch in self.patches)
+
+    @property
     def worn_pockets(self) -> tuple[WornPocket, ...]:
         """Worn pockets."""
         return tuple(defect for defect in self.scene.defects if isinstance(defect, WornPocket))
@@ -96,6 +102,12 @@ class Evidence:
     def torque(self) -> float:
         """Of the reference under the typical load, [N m]."""
         return self.losses.total
+
+    @property
+    def torque_of_rigid_cup(self) -> float:
+        """Of the reference with a cup that does not bend, [N m]."""
+        rigid = self.statics.at(self.loads.typical)
+        return self.torque if rigid is None else Losses(self.scene, self.loads.typical, rigid).total
 
     def torque_share(self, torque: float) -> float:
         """Torque over that of the reference; 0 with the shaft at rest."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
-from beardyn_core.choice.rule import Alternative, Rule, percent
+from beardyn_core.choice.rule import FRICTION_DB, Alternative, Rule, percent
 from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCage
 
 _FAST = frozenset({"lumped", "quasistatic"})
@@ -39,7 +39,7 @@ def rib(evidence: Evidence) -> Rule:
         )
     ]
     if fuller:
-        influence = {"torque": evidence.torque_share(full - dry)}
+        influence = {"torque": evidence.torque_share(full - dry), "vibration": FRICTION_DB}
         found.append(Alternative({"rib": _plain(effect)}, said, influence, basic, word="dry"))
     return Rule("rib", tuple(found))
 
@@ -79,7 +79,8 @@ def small_rib(evidence: Evidence) -> Rule:
 
 def cage(evidence: Evidence) -> Rule:
     """Dynamic when rollers slip, a pocket is worn or a vibration is asked for; else at its kinematic speed."""
-    effects, losses = evidence.scene.effects, evidence.losses
+    scene, losses = evidence.scene, evidence.losses
+    effects = scene.effects
     effect = effects.cage
     if effect is None:
         return Rule("cage", (Alternative({"cage": None}, "not in the reference", word="off"),))
@@ -110,7 +111,13 @@ def cage(evidence: Evidence) -> Rule:
         spin = basic + costs.ratios["+ cage rotating"] - 1.0
         found.append(alternative("rotating", RotatingCage(), spin, {"torque": pocket, "vibration": knock}, _FULL))
         prescribed = basic + costs.ratios["+ cage kinematic"] - 1.0
-        loss = {"torque": pocket, "vibration": knock, "cage_speed": MOST_SLIP if worn else slip}
+        # at a prescribed speed the cage takes over part of the force that rolling needs from the raceways
+        taken = 0.25 * drive.needed * scene.bearing.pitch_diameter
+        loss = {
+            "torque": pocket + evidence.torque_share(taken),
+            "vibration": knock,
+            "cage_speed": MOST_SLIP if worn else slip,
+        }
         found.append(alternative("kinematic", KinematicCage(), prescribed, loss, _FULL))
     found.append(
         alternative(
@@ -133,5 +140,4 @@ def _excitation(evidence: Evidence) -> float:
     """Force that shakes the axlebox besides the cage: what a fault takes from a roller, [N]."""
     if not evidence.patches:
         return 0.0
-    share = max(min(patch.length / evidence.scene.bearing.effective_length, 1.0) for patch in evidence.patches)
-    return share * evidence.typical.largest_roller_load
+    return max(evidence.patch_shares) * evidence.typical.largest_roller_load

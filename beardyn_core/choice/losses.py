@@ -241,6 +241,21 @@ class Losses:
         torque = 2.0 * min(needed, available) * slip * self._entrainment[1] / self.speed
         return Drive(needed, available, slip, torque)
 
+    def held(self, slip: float) -> float:
+        """Torque lost by loaded rollers that something holds at a slip, by the reference's friction, [N m]."""
+        effects = self.scene.effects
+        loads = np.minimum(self.static.cone_load, self.static.cup_load)
+        loaded = loads[self.static.cone_load > 0.0]
+        if self.speed == 0.0 or effects.traction is None or not loaded.size:
+            return 0.0
+        if isinstance(effects.traction, LoadSharingTraction):
+            force = float(self._shared_force(effects.traction, effects.film, loaded, np.array([slip]))[0])
+        else:
+            drive = self.drive(effects.traction, effects.film)
+            speed = slip * self._entrainment[1]
+            force = drive.available * speed / math.hypot(speed, effects.traction.regularisation_speed)
+        return 2.0 * force * slip * self._entrainment[1] / self.speed
+
     def _slip(
         self, traction: Traction | None, film: LineFilm | None, loads: Float, needed: float
     ) -> tuple[float, float]:
@@ -275,6 +290,16 @@ class Losses:
     ) -> tuple[float, float]:
         """Sum of asperity and film friction over the rollers, solved for the slip."""
         slips = np.geomspace(1.0e-7, _DEEP_SLIP, 400)
+        force = self._shared_force(law, film, loads, slips)
+        available = float(force.max())
+        if needed >= available:
+            return available, _DEEP_SLIP
+        return available, float(np.interp(needed, np.maximum.accumulate(force), slips))
+
+    def _shared_force(
+        self, law: LoadSharingTraction, film: LineFilm | None, loads: Float, slips: Float
+    ) -> Float:
+        """Friction of all rollers over the slip, [N]."""
         parameter = self.film_parameter(film)
         asperities = math.exp(-1.8 * parameter**1.2) if parameter > 0.0 else 1.0
         dry = law.boundary_friction * 2.0 / math.pi * np.arctan(law.boundary_slope * slips)
@@ -282,10 +307,7 @@ class Losses:
         for load in loads:
             wet = np.minimum(self._film_friction(law, float(load), slips), dry) if film is not None else dry
             force += load * (wet + (dry - wet) * asperities)
-        available = float(force.max())
-        if needed >= available:
-            return available, _DEEP_SLIP
-        return available, float(np.interp(needed, np.maximum.accumulate(force), slips))
+        return force
 
     def _film_friction(self, law: LoadSharingTraction, load: float, slips: Float) -> Float:
         """Traction coefficient of the film over the slip.

@@ -38,7 +38,7 @@ def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
     """Convergence of the static load distribution, of the tilt spring, and of what patches take away."""
     change = evidence.difference({"laminae": count}, {"laminae": _REFERENCE_LAMINAE}, heavy=True)
     # n springs at the laminae's middles have (1 - 1/n^2) of the line's tilt stiffness
-    tilt = 1.0 / count**2
+    tilt = max(1.0 / count**2 - 1.0 / _REFERENCE_LAMINAE**2, 0.0)
     # a mode that moves by half of that takes its level out of its band by as much
     shift = decibels(1.0 + 0.5 * tilt / _BAND)
     influence = {**change.influence(), "vibration": shift + decibels(change.stiffness)}

@@ -100,7 +100,10 @@ class Statics:
         if exact is None:
             return None
         bearing = self.scene.bearing
-        spring = spring_params(bearing, laminae)
+        try:
+            spring = spring_params(bearing, laminae)
+        except np.linalg.LinAlgError:  # laminae that a profile keeps out of contact
+            return None
         azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
         sine, cosine = np.sin(bearing.cup_angle), np.cos(bearing.cup_angle)
         normals = [

@@ -32,6 +32,13 @@ class TierVerdict:
     influence: Influence
 
 
+def verdict(evidence: Evidence, name: str, laminae: int) -> TierVerdict | None:
+    """What a tier leaves out; ``None`` where it cannot run the scene."""
+    if name == "lumped":
+        return lumped(evidence, laminae)
+    return quasistatic(evidence) if name == "quasistatic" else full(evidence)
+
+
 def full(_evidence: Evidence) -> TierVerdict:
     """All bodies move by themselves: the reference."""
     return TierVerdict("full", "every body has its own equations of motion", {})
@@ -43,14 +50,16 @@ def quasistatic(evidence: Evidence) -> TierVerdict:
     return TierVerdict("quasistatic", said, {"deflection": _QUASISTATIC_SHARE, **influence})
 
 
-def lumped(evidence: Evidence, laminae: int) -> TierVerdict:
-    """One spring a roller: compared with the exact equilibrium."""
+def lumped(evidence: Evidence, laminae: int) -> TierVerdict | None:
+    """One spring a roller: compared with the exact equilibrium; ``None`` where no spring fits."""
     influence, said = _without_roller_inertia(evidence)
     deflection = roller_load = 0.0
     for case in evidence.loads.cases:
         spring, exact = evidence.statics.lumped(case, laminae), evidence.statics.at(case)
-        if spring is None or exact is None:
+        if exact is None:
             continue
+        if spring is None:
+            return None
         straight = float((exact.displacement @ exact.displacement) ** 0.5)
         deflection = max(deflection, abs(spring[0] / max(straight, 1.0e-9) - 1.0))
         roller_load = max(roller_load, abs(spring[1] / max(exact.largest_roller_load, 1.0e-3) - 1.0))

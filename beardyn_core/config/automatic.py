@@ -76,6 +76,9 @@ def choice_for(keys: SceneKeys, free: Free, reference: EffectSet) -> Choice:
     from beardyn_core.choice.choose import choose  # brings the compiler along
 
     scene = keys.noun("")
+    if free.anything:
+        # what is written down is wanted so, and not an error
+        return choose(scene, free)
     return choose(replace(scene, effects=_judged_by(scene.effects, reference)), free, scene.effects)
 
 

@@ -46,6 +46,8 @@ def load_scene(
     duration: float | None = None,
     laminae: int | None = None,
     seed: int | None = None,
+    accuracy_percent: float | None = None,
+    quantities: list[str] | None = None,
 ) -> Scene:
     """Scene of a shipped name or of a file.
 
@@ -54,11 +56,13 @@ def load_scene(
     name : str or Path
         A shipped scene, or the path of a YAML file.
     effects : str, optional
-        Preset or file instead of the scene's effects.
+        Preset or file instead of the scene's effects, or ``auto``.
     tier : str, optional
     duration : float, optional
         [s].
     laminae, seed : int, optional
+    accuracy_percent, quantities : float, list of str, optional
+        What is asked for, when something is ``auto``.
 
     Raises
     ------
@@ -72,6 +76,8 @@ def load_scene(
         ("duration_s",): duration,
         ("numerics", "laminae"): laminae,
         ("seed",): seed,
+        ("accuracy_percent",): accuracy_percent,
+        ("quantities",): quantities,
     }
     given = {place: value for place, value in overrides.items() if value is not None}
     return _Reading(read_file(path), str(path), path.parent).scene(given)
