@@ -8,6 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.effects.catalogue import catalogue
+
 COST_FILE = Path(__file__).with_name("costs.json")
 
 # An effect that is there costs something, whatever the scatter of the measurement says.
@@ -15,6 +17,8 @@ _LEAST_SHARE = 0.001
 _START_SHARE = 1.0e-5
 _REFERENCE_LAMINAE = 6
 WAVEFORM_RATE = 25_600.0
+# middle of each cost class of the catalogue
+_CLASS_SHARES = {"none": 0.001, "low": 0.015, "medium": 0.09, "high": 0.2}
 # effects computed for every lamina: their cost grows with the count
 _PER_LAMINA = frozenset({"traction", "lamina_coupling"})
 
@@ -38,17 +42,29 @@ class Costs:
     machine: str
     date: str
 
-    def without(self, effect: str) -> float:
-        """Step of the standard set less one of its effects."""
-        return self.ratios[f"- {effect}"]
-
     def extra(self, change: str) -> float:
-        """What a change adds to the standard step, at least nearly nothing."""
-        return max(self.ratios[f"+ {change}"] - 1.0, _LEAST_SHARE)
+        """What a change adds to the standard step, at least nearly nothing.
+
+        A change that has not been measured costs what the class of its effect in the catalogue says.
+        """
+        measured = self.ratios.get(f"+ {change}")
+        if measured is None:
+            return _CLASS_SHARES[_class_of(change.split()[0])]
+        return max(measured - 1.0, _LEAST_SHARE)
 
     def saved(self, effect: str) -> float:
         """What an effect of the standard set adds to the step without it."""
-        return max(1.0 - self.without(effect), _LEAST_SHARE)
+        measured = self.ratios.get(f"- {effect}")
+        if measured is None:
+            return _CLASS_SHARES[_class_of(effect)]
+        return max(1.0 - measured, _LEAST_SHARE)
+
+    def instead(self, effect: str, change: str) -> float:
+        """What another kind of an effect of the standard set adds to the step without that effect."""
+        measured = self.ratios.get(f"+ {change}")
+        if measured is None:
+            return 0.5 * self.saved(effect)
+        return max(measured - 1.0 + self.saved(effect), _LEAST_SHARE)
 
     def base(self, tier: str, laminae: int) -> float:
         """Step of a tier with the effects that always are, without those that a choice adds."""
@@ -73,6 +89,13 @@ class Costs:
     def seconds(self, step: float, steps_per_sample: int) -> float:
         """Wall time of a simulated second on that machine, from the relative cost of a step."""
         return step * self.standard_step * WAVEFORM_RATE * steps_per_sample
+
+
+def _class_of(effect: str) -> str:
+    """Cost class of an effect, the lowest of its kinds."""
+    order = tuple(_CLASS_SHARES)
+    found = [entry.about.cost for entry in catalogue() if entry.member == effect]
+    return min(found, key=order.index, default="low")
 
 
 @cache

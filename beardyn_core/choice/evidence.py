@@ -1,4 +1,4 @@
-"""What the rules judge by: the scene with the reference's effects, its loads, equilibria, losses and costs."""
+"""What the rules judge by: the reference scene with its loads, equilibria, losses and costs."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.circumstances import Circumstances, circumstances
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.losses import Losses
@@ -109,6 +110,14 @@ class Evidence:
         rigid = self.statics.at(self.loads.typical)
         return self.torque if rigid is None else Losses(self.scene, self.loads.typical, rigid).total
 
+    def slipping(self, orbit: float) -> dict[str, float]:
+        """What an error of the orbit speed makes wrong: centrifugal force is part of the roller loads."""
+        bearing = self.scene.bearing
+        turning = cage_speed(bearing, self.loads.typical.speed)
+        force = bearing.roller_mass * 0.5 * bearing.pitch_diameter * turning**2
+        share = 2.0 * orbit * force / max(self.typical.largest_roller_load, 1.0e-3)
+        return {"cage_speed": orbit, "roller_load": share, "deflection": share}
+
     def torque_share(self, torque: float) -> float:
         """Torque over that of the reference; 0 with the shaft at rest."""
         return abs(torque) / self.torque if self.torque > 0.0 else 0.0
@@ -133,8 +142,10 @@ class Evidence:
         reduced = box * journal / (box + journal)
         return math.sqrt(self.stiffness / reduced) / (2.0 * math.pi)
 
-    def difference(self, first: dict[str, object], second: dict[str, object], heavy: bool = False) -> Difference:
-        """Largest difference over the load cases of two ways to solve them; `heavy` looks at one case only."""
+    def difference(
+        self, first: dict[str, object], second: dict[str, object], heavy: bool = False
+    ) -> Difference:
+        """Largest difference over the load cases of two ways to solve them; `heavy`: of the heaviest."""
         cases = self.loads.cases
         if heavy:
             cases = (max(cases, key=lambda case: case.size),)

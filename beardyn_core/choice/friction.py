@@ -7,7 +7,14 @@ import numpy as np
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.losses import Drive
 from beardyn_core.choice.rule import FRICTION_DB, Alternative, Rule, percent
-from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction, MixedTraction, Thermal, Traction
+from beardyn_core.effects import (
+    CoulombTraction,
+    LineFilm,
+    LoadSharingTraction,
+    MixedTraction,
+    Thermal,
+    Traction,
+)
 from beardyn_core.model.heat import thermal_network
 
 _FAST = frozenset({"lumped", "quasistatic"})
@@ -26,8 +33,8 @@ def traction(evidence: Evidence) -> Rule:
     reference = losses.drive(effects.traction, effects.film)
     parameter = losses.film_parameter(effects.film)
     said = (
-        f"the rollers use {percent(reference.used)} of the traction there is, at a film of {parameter:.2f} times "
-        "the roughness"
+        f"the rollers use {percent(reference.used)} of the traction there is, at a film of "
+        f"{parameter:.2f} times the roughness"
         if reference.needed > 0.0
         else "nothing has to be driven"
     )
@@ -40,7 +47,9 @@ def traction(evidence: Evidence) -> Rule:
         return Alternative(
             {"traction": law, "film": film},
             f"{said}; by this law {percent(drive.used)}" if law is not effects.traction else said,
-            {} if law is effects.traction and film is effects.film else _other_law(evidence, drive, reference, law),
+            {}
+            if law is effects.traction and film is effects.film
+            else _other_law(evidence, drive, reference, law),
             cost,
             _FULL,
             word,
@@ -49,25 +58,30 @@ def traction(evidence: Evidence) -> Rule:
     found = []
     mixed_cost = costs.saved("traction")
     if effects.traction is not None:
-        thermal = film_cost = 0.0
+        thermal = 0.0
         if effects.film is not None and (effects.film.thermal != "none" or effects.film.isoviscous):
             thermal = costs.extra("film thermal, isoviscous")
         law_cost = mixed_cost
         if isinstance(effects.traction, LoadSharingTraction):
             law_cost += costs.extra("traction load_sharing")
         found.append(
-            alternative(_word(effects.traction, effects.film), effects.traction, effects.film, law_cost + thermal + film_cost)
+            alternative(
+                _word(effects.traction, effects.film),
+                effects.traction,
+                effects.film,
+                law_cost + thermal,
+            )
         )
         if effects.film is not None and isinstance(effects.traction, LoadSharingTraction):
             plain = LineFilm()
             found.append(alternative("mixed, film", MixedTraction(), plain, mixed_cost))
-        dry = max(costs.ratios["+ traction coulomb, no film"] - costs.without("traction"), 0.001)
+        dry = costs.instead("traction", "traction coulomb, no film")
         found.append(alternative("coulomb, no film", CoulombTraction(), None, dry))
     found.append(
         Alternative(
             {"traction": None, "film": None},
             f"the tier's rollers roll without slip; {said}",
-            _apart(evidence, Drive(0.0, 1.0, 0.0, 0.0), reference),
+            _without_slip(evidence, reference),
             0.0,
             # nothing else drives the rollers of the full tier
             _FAST if effects.traction is not None else _FAST | _FULL,
@@ -90,21 +104,32 @@ def _word(law: Traction, film: LineFilm | None) -> str:
 def _other_law(evidence: Evidence, drive: Drive, reference: Drive, law: Traction) -> dict[str, float]:
     """Bound of what another law of friction changes where nothing skids.
 
-    Rib friction skews the rollers, and the raceways lose by their creep about what the rib loses, by an amount
-    that each law gives differently; the creep also moves the resonance of the axlebox inside its width.
+    Rib friction skews the rollers, and the raceways lose by their creep about what the rib loses, by an
+    amount that each law gives differently; the creep also moves the resonance of the axlebox a little.
     """
     found = _apart(evidence, drive, reference)
-    creep = evidence.torque_share(evidence.losses.rib(evidence.scene.effects.rib))
-    found["torque"] += (_DRY_CREEP if isinstance(law, CoulombTraction) else 1.0) * creep
+    found["torque"] += (_DRY_CREEP if isinstance(law, CoulombTraction) else 1.0) * _creep(evidence)
     found["vibration"] = FRICTION_DB
     return found
+
+
+def _without_slip(evidence: Evidence, reference: Drive) -> dict[str, float]:
+    """Bound of what pure rolling leaves out: what slips, and the creep of skewed rollers."""
+    found = _apart(evidence, Drive(0.0, 1.0, 0.0, 0.0), reference)
+    if evidence.scene.effects.traction is not None:
+        found["torque"] += _creep(evidence)
+    return found
+
+
+def _creep(evidence: Evidence) -> float:
+    return evidence.torque_share(evidence.losses.rib(evidence.scene.effects.rib))
 
 
 def _apart(evidence: Evidence, one: Drive, other: Drive) -> dict[str, float]:
     """A slipping roller orbits between the speeds of rolling on the one and on the other raceway."""
     return {
         "torque": evidence.torque_share(one.torque - other.torque),
-        "cage_speed": 0.5 * abs(one.slip - other.slip),
+        **evidence.slipping(0.5 * abs(one.slip - other.slip)),
     }
 
 
@@ -119,7 +144,7 @@ def rolling_resistance(evidence: Evidence) -> Rule:
     said = f"{losses.rolling:.3g} N m of a torque of about {evidence.torque:.3g} N m"
     influence = {
         "torque": evidence.torque_share(losses.rolling) + evidence.torque_share(drive.torque - less.torque),
-        "cage_speed": 0.5 * abs(drive.slip - less.slip),
+        **evidence.slipping(0.5 * abs(drive.slip - less.slip)),
     }
     return Rule(
         "rolling_resistance",
@@ -140,7 +165,7 @@ def drag(evidence: Evidence) -> Rule:
     said = f"{losses.drag:.3g} N m of a torque of about {evidence.torque:.3g} N m"
     influence = {
         "torque": evidence.torque_share(losses.drag) + evidence.torque_share(drive.torque - less.torque),
-        "cage_speed": 0.5 * abs(drive.slip - less.slip),
+        **evidence.slipping(0.5 * abs(drive.slip - less.slip)),
     }
     return Rule(
         "drag",
@@ -204,5 +229,3 @@ def _warming(evidence: Evidence, effect: Thermal) -> float:
 
 def _absent(name: str) -> Rule:
     return Rule(name, (Alternative({name: None}, "not in the reference", word="off"),))
-
-

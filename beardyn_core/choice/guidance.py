@@ -7,12 +7,15 @@ from dataclasses import replace
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
-from beardyn_core.choice.rule import FRICTION_DB, Alternative, Rule, percent
+from beardyn_core.choice.rule import FRICTION_DB, Alternative, Influence, Rule, percent
 from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCage
 
 _FAST = frozenset({"lumped", "quasistatic"})
 _FULL = frozenset({"full"})
 _GRAVITY = 9.81
+# Part of the traction from which on a lightly loaded roller may let go.
+_NEARLY_ALL = 0.5
+MOST_SLIP = 1.0
 
 
 def rib(evidence: Evidence) -> Rule:
@@ -25,7 +28,8 @@ def rib(evidence: Evidence) -> Rule:
     said = f"the raceways press the rollers against it with {percent(share)} of their load"
     fuller = effect.lubrication is not None or effect.roller_end or effect.drilling
     if fuller:
-        said += f"; lubricated it takes {full:.3g} N m, dry {dry:.3g} N m of a torque of {evidence.torque:.3g} N m"
+        said += f"; lubricated it takes {full:.3g} N m, dry {dry:.3g} N m "
+        said += f"of a torque of {evidence.torque:.3g} N m"
     costs = evidence.costs
     basic = costs.saved("rib")
     more = 0.0
@@ -35,7 +39,12 @@ def rib(evidence: Evidence) -> Rule:
         more += costs.extra("rib roller_end, drilling")
     found = [
         Alternative(
-            {"rib": effect}, said, {}, basic + more, _FULL if fuller else _FAST | _FULL, "lubricated" if fuller else "on"
+            {"rib": effect},
+            said,
+            {},
+            basic + more,
+            _FULL if fuller else _FAST | _FULL,
+            "lubricated" if fuller else "on",
         )
     ]
     if fuller:
@@ -59,15 +68,16 @@ def small_rib(evidence: Evidence) -> Rule:
     influence: dict[str, float] = {}
     if loads.reverses:
         said = (
-            f"the axial force goes from {loads.axial_low / 1e3:.3g} to {loads.axial_high / 1e3:.3g} kN and takes "
-            "the rollers of one row after the other off the large rib"
+            f"the axial force goes from {loads.axial_low / 1e3:.3g} to {loads.axial_high / 1e3:.3g} kN "
+            "and takes the rollers of one row after the other off the large rib"
         )
         influence = {"vibration": MOST_DB, "roller_load": 0.01}
-    elif outward < 1.0:
-        said = f"the centrifugal force holds idle rollers at the large rib with {outward:.2g} times their weight only"
-        influence = {"vibration": decibels(1.0 + 1.0 / max(outward, 0.1))}
     else:
-        said = f"the centrifugal force holds idle rollers at the large rib with {outward:.2g} times their weight"
+        if outward < 1.0:
+            influence = {"vibration": decibels(1.0 + 1.0 / max(outward, 0.1))}
+        said = (
+            f"the centrifugal force holds idle rollers at the large rib with {outward:.2g} times their weight"
+        )
     return Rule(
         "small_rib",
         (
@@ -78,7 +88,7 @@ def small_rib(evidence: Evidence) -> Rule:
 
 
 def cage(evidence: Evidence) -> Rule:
-    """Dynamic when rollers slip, a pocket is worn or a vibration is asked for; else at its kinematic speed."""
+    """Dynamic when rollers slip, a pocket is worn or a vibration is asked for; else kinematic."""
     scene, losses = evidence.scene, evidence.losses
     effects = scene.effects
     effect = effects.cage
@@ -86,7 +96,8 @@ def cage(evidence: Evidence) -> Rule:
         return Rule("cage", (Alternative({"cage": None}, "not in the reference", word="off"),))
     drive = losses.drive(effects.traction, effects.film)
     slip = 0.5 * drive.slip
-    said = f"the rollers slip by {percent(drive.slip)} of their rolling speed, using {percent(drive.used)} of the traction"
+    said = f"the rollers slip by {percent(drive.slip)} of their rolling speed"
+    said += f", using {percent(drive.used)} of the traction"
     worn = evidence.worn_pockets
     if worn:
         said += f"; a pocket is worn by {1e3 * max(defect.clearance for defect in worn):.2g} mm"
@@ -96,8 +107,14 @@ def cage(evidence: Evidence) -> Rule:
     knock = MOST_DB if worn else decibels(1.0 + losses.pocket_force / max(_excitation(evidence), 1.0))
     costs = evidence.costs
     basic = costs.saved("cage")
+    # where the raceways hardly drive the rollers, pockets decide at which speed they go
+    left = {"torque": pocket}
+    if drive.used > _NEARLY_ALL:
+        left = {"torque": pocket + evidence.torque_share(drive.torque), **evidence.slipping(0.5)}
 
-    def alternative(word: str, model: CageModel | None, cost: float, without: dict[str, float], tiers: frozenset[str]) -> Alternative:
+    def alternative(
+        word: str, model: CageModel | None, cost: float, without: Influence, tiers: frozenset[str]
+    ) -> Alternative:
         return Alternative({"cage": model}, said, without, max(cost, 0.001), tiers, word)
 
     whole = basic
@@ -106,28 +123,19 @@ def cage(evidence: Evidence) -> Rule:
     found = [alternative(_word(effect), effect, whole, {}, _FULL)]
     if isinstance(effect, Cage):
         if effect.lubrication is not None:
-            dry = {"torque": pocket}
-            found.append(alternative("six_dof, dry", replace(effect, lubrication=None), basic, dry, _FULL))
-        spin = basic + costs.ratios["+ cage rotating"] - 1.0
-        found.append(alternative("rotating", RotatingCage(), spin, {"torque": pocket, "vibration": knock}, _FULL))
-        prescribed = basic + costs.ratios["+ cage kinematic"] - 1.0
+            found.append(alternative("six_dof, dry", replace(effect, lubrication=None), basic, left, _FULL))
+        spin = costs.instead("cage", "cage rotating")
+        loss = {**left, "vibration": knock}
+        found.append(alternative("rotating", RotatingCage(), spin, loss, _FULL))
+        prescribed = costs.instead("cage", "cage kinematic")
         # at a prescribed speed the cage takes over part of the force that rolling needs from the raceways
-        taken = 0.25 * drive.needed * scene.bearing.pitch_diameter
-        loss = {
-            "torque": pocket + evidence.torque_share(taken),
-            "vibration": knock,
-            "cage_speed": MOST_SLIP if worn else slip,
-        }
+        taken = evidence.torque_share(0.25 * drive.needed * scene.bearing.pitch_diameter)
+        speed = {"cage_speed": MOST_SLIP if worn else max(slip, left.get("cage_speed", 0.0))}
+        loss = {**left, "torque": left["torque"] + taken, "vibration": knock, **speed}
         found.append(alternative("kinematic", KinematicCage(), prescribed, loss, _FULL))
-    found.append(
-        alternative(
-            "off", None, 0.001, {"torque": pocket, "vibration": knock, "cage_speed": MOST_SLIP if worn else slip}, _FAST
-        )
-    )
+    speed = {"cage_speed": MOST_SLIP if worn else max(slip, left.get("cage_speed", 0.0))}
+    found.append(alternative("off", None, 0.001, {**left, "vibration": knock, **speed}, _FAST))
     return Rule("cage", tuple(found))
-
-
-MOST_SLIP = 1.0
 
 
 def _word(effect: CageModel) -> str:

@@ -142,7 +142,9 @@ class Losses:
             lever = height
             if rib.drilling:
                 lever *= math.sqrt(1.0 + _SPIN_SHARE * (contact.semi_axes(float(load))[0] / height) ** 2)
-            friction = self.rib_friction(rib, float(load)) * slide / math.hypot(slide, rib.regularisation_speed)
+            friction = (
+                self.rib_friction(rib, float(load)) * slide / math.hypot(slide, rib.regularisation_speed)
+            )
             torque += friction * float(load) * lever * roller_cone_spin(bearing, 1.0)
         return torque
 
@@ -171,13 +173,16 @@ class Losses:
 
     @property
     def pocket(self) -> float:
-        """Torque of the pockets, [N m]: the cage pushes what no raceway drives, loaded rollers push the cage."""
+        """Torque of the pockets, [N m]: the cage pushes idle rollers, loaded ones push the cage."""
         cage = self.scene.effects.cage
         if cage is None or self.speed == 0.0:
             return 0.0
         friction = getattr(cage, "friction", 0.0)
-        return friction * self.pocket_force * roller_spin(self.scene.bearing, self.speed) * (
-            0.5 * self.scene.bearing.roller_diameter / self.speed
+        return (
+            friction
+            * self.pocket_force
+            * roller_spin(self.scene.bearing, self.speed)
+            * (0.5 * self.scene.bearing.roller_diameter / self.speed)
         )
 
     @property
@@ -241,21 +246,6 @@ class Losses:
         torque = 2.0 * min(needed, available) * slip * self._entrainment[1] / self.speed
         return Drive(needed, available, slip, torque)
 
-    def held(self, slip: float) -> float:
-        """Torque lost by loaded rollers that something holds at a slip, by the reference's friction, [N m]."""
-        effects = self.scene.effects
-        loads = np.minimum(self.static.cone_load, self.static.cup_load)
-        loaded = loads[self.static.cone_load > 0.0]
-        if self.speed == 0.0 or effects.traction is None or not loaded.size:
-            return 0.0
-        if isinstance(effects.traction, LoadSharingTraction):
-            force = float(self._shared_force(effects.traction, effects.film, loaded, np.array([slip]))[0])
-        else:
-            drive = self.drive(effects.traction, effects.film)
-            speed = slip * self._entrainment[1]
-            force = drive.available * speed / math.hypot(speed, effects.traction.regularisation_speed)
-        return 2.0 * force * slip * self._entrainment[1] / self.speed
-
     def _slip(
         self, traction: Traction | None, film: LineFilm | None, loads: Float, needed: float
     ) -> tuple[float, float]:
@@ -266,7 +256,9 @@ class Losses:
         if isinstance(traction, LoadSharingTraction):
             return self._shared(traction, film, loads, needed)
         if isinstance(traction, CoulombTraction) or film is None:
-            friction = traction.friction if isinstance(traction, CoulombTraction) else traction.boundary_friction
+            friction = (
+                traction.friction if isinstance(traction, CoulombTraction) else traction.boundary_friction
+            )
         else:
             friction = self._blended(traction, film)
         available = friction * total
@@ -321,7 +313,11 @@ class Losses:
         modulus = scene.bearing.material.contact_modulus
         pressure = math.sqrt(load / scene.bearing.effective_length * modulus / (2.0 * math.pi * radius))
         if law.film_traction != "aihara":
-            largest = law.limiting_shear if law.film_traction == "bair_winer" else 3.0 * law.eyring_stress / pressure
+            largest = (
+                law.limiting_shear
+                if law.film_traction == "bair_winer"
+                else 3.0 * law.eyring_stress / pressure
+            )
             return largest * (1.0 - np.exp(-slips / 1.0e-3))
         cp, mm_s = 1e3 * scene.lubricant.dynamic_viscosity(scene.temperature), 1e3 * speed
         kgf = pressure / 9.80665e6

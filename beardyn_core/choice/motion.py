@@ -36,14 +36,16 @@ def contact_damping(evidence: Evidence) -> Rule:
     scene = evidence.scene
     effect = scene.effects.contact_damping
     if effect is None:
-        return Rule("contact_damping", (Alternative({"contact_damping": None}, "not in the reference", word="off"),))
+        return Rule(
+            "contact_damping", (Alternative({"contact_damping": None}, "not in the reference", word="off"),)
+        )
     omega = 2.0 * math.pi * evidence.resonance
     contacts = 0.5 * omega * effect.time_constant
     box = scene.mounting.box_mass + scene.bearing.cup_mass
     others = 0.5 * scene.mounting.damping[2] / (box * omega)
     said = (
-        f"contacts damp the resonance of the axlebox at {evidence.resonance:.0f} Hz by {percent(contacts)} of the "
-        f"critical damping, the suspension by {percent(others)}"
+        f"contacts damp the axlebox at its {evidence.resonance:.0f} Hz by {percent(contacts)} of "
+        f"the critical damping, the suspension by {percent(others)}"
     )
     influence = {"vibration": decibels((contacts + others) / max(others, 1.0e-6))}
     return Rule(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,10 +13,13 @@ from beardyn_core.effects import EffectSet
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.tier import TIERS
 
+_FINE = 400
 LAMINAE = (2, 4, 6, 8, 12, 20, 40)
 _REFERENCE_LAMINAE = 40
 # Width of a third-octave band over its centre.
 _BAND = 0.2316
+# The flat band of the accelerometer.
+_HIGHEST_FREQUENCY = 10.0e3
 
 
 @dataclass(frozen=True)
@@ -37,22 +41,49 @@ class LaminaVerdict:
 def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
     """Convergence of the static load distribution, of the tilt spring, and of what patches take away."""
     change = evidence.difference({"laminae": count}, {"laminae": _REFERENCE_LAMINAE}, heavy=True)
-    # n springs at the laminae's middles have (1 - 1/n^2) of the line's tilt stiffness
-    tilt = max(1.0 / count**2 - 1.0 / _REFERENCE_LAMINAE**2, 0.0)
+    length = evidence.scene.bearing.effective_length
+    partial = [patch for patch in evidence.patches if patch.length < length]
+    tilt = max(abs(tilt_error(patch, length, count)) for patch in (None, *partial))
     # a mode that moves by half of that takes its level out of its band by as much
     shift = decibels(1.0 + 0.5 * tilt / _BAND)
     influence = {**change.influence(), "vibration": shift + decibels(change.stiffness)}
-    said = f"{percent(change.deflection)} of the deflection and {percent(tilt)} of the tilt stiffness are left out"
-    partial = [patch for patch in evidence.patches if patch.length < evidence.scene.bearing.effective_length]
+    said = (
+        f"{percent(change.deflection)} of the deflection is left out, {percent(tilt)} of the tilt stiffness"
+    )
     if partial:
-        lever = max(lever_error(patch, evidence.scene.bearing.effective_length, count) for patch in partial)
+        lever = max(lever_error(patch, length, count) for patch in partial)
         influence["vibration"] += decibels(1.0 + lever)
-        influence["roller_load"] += 0.5 * lever * max(
-            min(patch.length / evidence.scene.bearing.effective_length, 1.0) for patch in partial
-        )
-        said += f"; a patch of {1e3 * min(patch.length for patch in partial):.3g} mm tilts its roller {percent(lever)} wrong"
+        # over the patch the neighbours take what the line of springs gives wrongly
+        influence["roller_load"] += 0.5 * (tilt + lever)
+        shortest = 1e3 * min(patch.length for patch in partial)
+        said += f"; a patch of {shortest:.3g} mm tilts its roller {percent(lever)} wrong"
     influence["vibration"] = min(influence["vibration"], MOST_DB)
     return LaminaVerdict(count, said, influence)
+
+
+def _uncovered(patch: Patch | None, length: float, count: int) -> tuple[list[float], list[float]]:
+    """Middle of each lamina, and its length beside a patch, [m]."""
+    step = length / count
+    middles = [-0.5 * length + (index + 0.5) * step for index in range(count)]
+    if patch is None:
+        return middles, [step] * count
+    low, high = patch.offset - 0.5 * patch.length, patch.offset + 0.5 * patch.length
+    covered = [max(min(high, place + 0.5 * step) - max(low, place - 0.5 * step), 0.0) for place in middles]
+    return middles, [step - part for part in covered]
+
+
+def tilt_error(patch: Patch | None, length: float, count: int) -> float:
+    """Error of the tilt stiffness of the line that a patch leaves, relative to the reference's laminae, [-].
+
+    What is left of a lamina acts at the lamina's middle.
+    """
+
+    def second_moment(laminae: int) -> float:
+        middles, left = _uncovered(patch, length, laminae)
+        return sum(part * place**2 for place, part in zip(middles, left, strict=True))
+
+    fine = second_moment(_FINE)
+    return (second_moment(count) - second_moment(_REFERENCE_LAMINAE)) / fine if fine > 0.0 else 0.0
 
 
 def lever_error(patch: Patch, length: float, count: int) -> float:
@@ -82,21 +113,27 @@ class StepVerdict:
     reason: str
 
 
-def steps(evidence: Evidence, effects: EffectSet, tier: str, count: int) -> StepVerdict:
-    """Coarsest step that is converged: by the current stiffness where that is known, else the tier's own."""
+def steps(evidence: Evidence, effects: EffectSet, tier: str, vibration: bool) -> StepVerdict:
+    """Coarsest step that is converged: by the current stiffness where that is known, else the tier's own.
+
+    Friction decides; what else a choice may change is taken as in the reference.
+    """
     try:
         chooser: Any = importlib.import_module("beardyn_core.integrate.step_choice").choose_steps
     except ImportError:
         usual = TIERS[tier].steps_per_sample
         return StepVerdict(usual, f"the step of the tier, 1/{25600 * usual} s")
-    loads = evidence.loads
-    sizes = [case.size for case in loads.cases]
+    loads, scene = evidence.loads, evidence.scene
+    radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
     found = chooser(
-        evidence.scene.bearing,
-        (min(sizes), max(sizes)),
+        scene.bearing,
+        (min(radial), max(radial)),
         (abs(loads.typical.speed), loads.top_speed),
         effects,
         tier,
-        count,
+        axial=loads.axial_high,
+        end_play=scene.end_play,
+        mounting=scene.mounting,
+        band=_HIGHEST_FREQUENCY if vibration else 0.0,
     )
     return StepVerdict(found.steps_per_sample, found.reason)

@@ -95,7 +95,7 @@ class Statics:
         return float(springs[3, 3]), float(springs[5, 5])
 
     def lumped(self, case: LoadCase, laminae: int) -> tuple[float, float] | None:
-        """Deflection [m] and largest roller load [N] of the lumped tier's springs, starting at the exact pose."""
+        """Deflection [m] and largest roller load [N] of the springs of the lumped tier."""
         exact = self.at(case)
         if exact is None:
             return None
@@ -107,10 +107,12 @@ class Statics:
         azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
         sine, cosine = np.sin(bearing.cup_angle), np.cos(bearing.cup_angle)
         normals = [
-            np.stack([cosine * np.sin(azimuth), np.full(azimuth.size, -side * sine), cosine * np.cos(azimuth)], 1)
+            np.stack(
+                [cosine * np.sin(azimuth), np.full(azimuth.size, -side * sine), cosine * np.cos(azimuth)], 1
+            )
             for side in (-1.0, 1.0)
         ]
-        # the tilt of the exact solution is kept: it follows from the moment and changes little with the spring
+        # the tilt of the exact solution is kept: it follows from the moment and hardly from the spring
         tilting = [
             spring.lever * side * (np.cos(azimuth) * exact.tilt[0] - np.sin(azimuth) * exact.tilt[1])
             for side in (-1.0, 1.0)
@@ -123,7 +125,11 @@ class Statics:
         for _ in range(_ITERATIONS):
             approach = normal @ found + offset
             root = np.maximum(approach, _SMALLEST) ** (1.0 / 9.0)
-            pressed = np.maximum(approach, 0.0) * root * (root[:, None] ** np.arange(len(spring.series)) @ spring.series)
+            pressed = (
+                np.maximum(approach, 0.0)
+                * root
+                * (root[:, None] ** np.arange(len(spring.series)) @ spring.series)
+            )
             force = np.maximum(pressed + 0.5 * idle, idle)
             tangent = 10.0 / 9.0 * pressed / np.maximum(approach, _SMALLEST) * (pressed > 0.5 * idle)
             step = np.linalg.solve(

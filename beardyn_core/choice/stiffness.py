@@ -19,12 +19,17 @@ def ring_flexibility(evidence: Evidence) -> Rule:
     """On when the bent cup's load distribution or deflection differs from the rigid one's."""
     effect = evidence.scene.effects.ring_flexibility
     if effect is None:
-        return Rule("ring_flexibility", (Alternative({"ring_flexibility": None}, "not in the reference", word="off"),))
+        return Rule(
+            "ring_flexibility", (Alternative({"ring_flexibility": None}, "not in the reference", word="off"),)
+        )
     change = evidence.difference({"bending": False}, {"bending": True})
-    influence = {**change.influence(), "torque": evidence.torque_share(evidence.torque_of_rigid_cup - evidence.torque)}
+    influence = {
+        **change.influence(),
+        "torque": evidence.torque_share(evidence.torque_of_rigid_cup - evidence.torque),
+    }
     said = (
-        f"bending of the cup changes the deflection by {percent(change.deflection)} and the largest roller load "
-        f"by {percent(change.roller_load)}, the torque by {percent(influence['torque'])}"
+        f"bending of the cup changes the deflection by {percent(change.deflection)} and the largest roller "
+        f"load by {percent(change.roller_load)}, the torque by {percent(influence['torque'])}"
     )
     return Rule(
         "ring_flexibility",
@@ -39,12 +44,14 @@ def lamina_coupling(evidence: Evidence) -> Rule:
     """On when coupled laminae distribute the load otherwise than independent ones."""
     effect = evidence.scene.effects.lamina_coupling
     if effect is None:
-        return Rule("lamina_coupling", (Alternative({"lamina_coupling": None}, "not in the reference", word="off"),))
+        return Rule(
+            "lamina_coupling", (Alternative({"lamina_coupling": None}, "not in the reference", word="off"),)
+        )
     change = evidence.difference({"coupling": None}, {"coupling": effect}, heavy=True)
     influence = change.influence()
     said = (
-        f"coupled laminae change the deflection by {percent(change.deflection)} and the largest roller load by "
-        f"{percent(change.roller_load)}"
+        f"coupled laminae change the deflection by {percent(change.deflection)} and the largest roller load "
+        f"by {percent(change.roller_load)}"
     )
     partial = [share for share in evidence.patch_shares if share < 1.0]
     if partial:

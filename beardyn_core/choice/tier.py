@@ -12,7 +12,7 @@ from beardyn_core.choice.rule import Influence, percent
 
 # The flat band of the accelerometer.
 _HIGHEST_FREQUENCY = 10.0e3
-# One Newton step of the rollers in a time step, and the neglected turn of the normals: measured in test/tiers.
+# One Newton step of the rollers in a time step, and the neglected turn of the normals: see test/tiers.
 _QUASISTATIC_SHARE = 0.005
 
 
@@ -105,7 +105,8 @@ def fault_overshoot(evidence: Evidence, bounce: float) -> float:
     speed = raceway_speed(evidence.scene, evidence.loads.top_speed)
     radius = 0.5 * evidence.scene.bearing.roller_diameter
     edges = [
-        min(0.5 * patch.width, math.sqrt(2.0 * radius * max(patch.depth, 1.0e-9))) for patch in evidence.patches
+        min(0.5 * patch.width, math.sqrt(2.0 * radius * max(patch.depth, 1.0e-9)))
+        for patch in evidence.patches
     ]
     if speed == 0.0:
         return 0.0

@@ -8,7 +8,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from beardyn_core.choice.choose import Choice
+    from beardyn_core.choice.outcome import Choice
     from beardyn_core.config.automatic import Explanation
 
 DONE = 0
@@ -20,8 +20,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "explain",
         help="which effects a scene is computed with, why, and what each costs",
-        description="Say which tier, laminae, step and effects a scene is computed with, why, what each costs and "
-        "which error is expected. For a scene that fixes them, also what `effects: auto` would choose.",
+        description="Say which tier, laminae, step and effects a scene is computed with, why, what each "
+        "costs and which error is expected. For a scene that fixes them, also what `effects: auto` would be.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument(
@@ -33,7 +33,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         nargs="+",
         help="what is asked for: force, deflection, roller_load, torque, vibration, cage_speed",
     )
-    parser.add_argument("--effects", metavar="NAME", help="preset or file of effects, or auto (the scene's own)")
+    parser.add_argument(
+        "--effects", metavar="NAME", help="preset or file of effects, or auto (the scene's own)"
+    )
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
     parser.set_defaults(run=run)
@@ -83,7 +85,7 @@ def text(found: Explanation) -> str:
 
 
 def _lines(choice: Choice, title: str) -> list[str]:
-    from beardyn_core.choice.choose import error_text
+    from beardyn_core.choice.outcome import error_text
 
     asked = ", ".join(choice.quantities)
     errors = ", ".join(f"{name} {error_text(name, error)}" for name, error in choice.expected.items())
@@ -101,7 +103,8 @@ def _lines(choice: Choice, title: str) -> list[str]:
         reason = f"{decision.reason}{f' (error: {left_out})' if left_out else ''}"
         rows.append((decision.effect, decision.word, share, reason))
     lines = [
-        f"{title}: tier {choice.tier}, {choice.laminae} laminae, expected real-time factor {choice.real_time_factor:.2g}",
+        f"{title}: tier {choice.tier}, {choice.laminae} laminae, "
+        f"expected real-time factor {choice.real_time_factor:.2g}",
         f"asked for: {asked} within {100.0 * choice.accuracy:.3g} %, third-octave bands within 1.5 dB",
         f"expected errors: {errors}{verdict}",
         f"{'':20} {'':20} {'cost':>7}  why",

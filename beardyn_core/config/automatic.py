@@ -13,7 +13,7 @@ from beardyn_core.effects import Cage, CoulombTraction, EffectSet, KinematicCage
 from beardyn_core.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from beardyn_core.choice.choose import Choice
+    from beardyn_core.choice.outcome import Choice
 
 AUTO = "auto"
 REFERENCE = "full"
@@ -36,7 +36,9 @@ def take_auto(data: dict[str, Any]) -> Free:
     free_effects: frozenset[str] = frozenset()
     if all_free:
         written = set(effects) if isinstance(effects, dict) else set()
-        data["effects"] = {**effects, "preset": REFERENCE} if isinstance(effects, dict) else {"preset": REFERENCE}
+        data["effects"] = (
+            {**effects, "preset": REFERENCE} if isinstance(effects, dict) else {"preset": REFERENCE}
+        )
         free_effects = frozenset(name for name in EFFECTS if name not in written)
     free_tier = data.get("tier", AUTO if all_free else "full") == AUTO
     if free_tier:

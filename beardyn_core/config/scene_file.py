@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import Discriminator, Field, Tag, WithJsonSchema, model_validator
 from typing_extensions import Self
@@ -149,7 +149,9 @@ class SensorKeys(FileModel):
 
 def _or_auto(least: int, most: int) -> WithJsonSchema:
     """A count or `auto`, which is resolved before the scene is made."""
-    return WithJsonSchema({"anyOf": [{"type": "integer", "minimum": least, "maximum": most}, {"const": "auto"}]})
+    return WithJsonSchema(
+        {"anyOf": [{"type": "integer", "minimum": least, "maximum": most}, {"const": "auto"}]}
+    )
 
 
 class NumericsKeys(FileModel):
@@ -198,7 +200,8 @@ class SceneKeys(FileModel):
         None, description="of what is asked for, when something is auto; 5 when not given"
     )
     quantities: Annotated[tuple[Quantity, ...], Field(min_length=1)] = Field(
-        USUAL_QUANTITIES, description="what is asked of the run, when something is auto"  # type: ignore[arg-type]
+        cast(tuple[Quantity, ...], USUAL_QUANTITIES),
+        description="what is asked of the run, when something is auto",
     )
     operation: OperationKeys = Field(description="where load and speed come from")
     mounting: MountingKeys = MountingKeys()

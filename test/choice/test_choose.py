@@ -72,7 +72,16 @@ def test_a_smooth_run_has_what_its_torque_is_made_of() -> None:
     assert effects.lamina_coupling is None
     assert effects.rib is not None
     assert isinstance(effects.rib.lubrication, RibMixedFilm)
-    for name in ("rolling_resistance", "drag", "seal", "rib", "traction", "cage", "lamina_coupling", "gravity"):
+    for name in (
+        "rolling_resistance",
+        "drag",
+        "seal",
+        "rib",
+        "traction",
+        "cage",
+        "lamina_coupling",
+        "gravity",
+    ):
         assert has_number(told[name]), told[name]
     assert "N m of a torque of about" in told["rolling_resistance"]
 

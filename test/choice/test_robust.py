@@ -71,7 +71,10 @@ def test_a_choice_is_found_for_every_valid_scene(
         ({"tier": "automatic"}, ["tier is 'automatic'", "'auto'"]),
         ({"numerics": "automatic"}, ["numerics is 'automatic'", "'auto'"]),
         ({"numerics": {"laminae": "many"}}, ["numerics.laminae is 'many'", "whole number"]),
-        ({"effects": {"preset": "auto", "cage": {"friction": 2}}}, ["effects.cage.friction is 2", "at most 1"]),
+        (
+            {"effects": {"preset": "auto", "cage": {"friction": 2}}},
+            ["effects.cage.friction is 2", "at most 1"],
+        ),
         ({"effects": "automatic"}, ["there is no effects preset 'automatic'"]),
     ],
 )

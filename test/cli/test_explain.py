@@ -22,7 +22,10 @@ def test_explain_says_what_a_fixed_scene_has_and_what_auto_would_choose(
 
 
 def test_explain_json_has_reason_cost_and_error_of_every_effect(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["explain", "static_80kN", "--effects", "auto", "--quantities", "force", "torque", "--json"]) == DONE
+    assert (
+        main(["explain", "static_80kN", "--effects", "auto", "--quantities", "force", "torque", "--json"])
+        == DONE
+    )
     found = json.loads(capsys.readouterr().out)
     chosen = found["current"]
     assert found["automatic"] is None
