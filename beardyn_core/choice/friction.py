@@ -163,9 +163,12 @@ def drag(evidence: Evidence) -> Rule:
     drive = losses.drive(effects.traction, effects.film)
     less = losses.drive(effects.traction, effects.film, drag=False)
     said = f"{losses.drag:.3g} N m of a torque of about {evidence.torque:.3g} N m"
+    part = 1.0 - less.needed / drive.needed if drive.skids else 0.0
+    if part > 0.0:
+        said += f", {percent(part)} of what brakes rollers that hardly stick"
     influence = {
-        "torque": evidence.torque_share(losses.drag) + evidence.torque_share(drive.torque - less.torque),
-        **evidence.slipping(0.5 * abs(drive.slip - less.slip)),
+        "torque": evidence.torque_share(losses.drag) + evidence.torque_share(part * drive.torque),
+        **evidence.slipping(0.5 * max(abs(drive.slip - less.slip), part)),
     }
     return Rule(
         "drag",

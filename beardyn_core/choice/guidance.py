@@ -13,8 +13,6 @@ from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCa
 _FAST = frozenset({"lumped", "quasistatic"})
 _FULL = frozenset({"full"})
 _GRAVITY = 9.81
-# Part of the traction from which on a lightly loaded roller may let go.
-_NEARLY_ALL = 0.5
 MOST_SLIP = 1.0
 
 
@@ -49,6 +47,11 @@ def rib(evidence: Evidence) -> Rule:
     ]
     if fuller:
         influence = {"torque": evidence.torque_share(full - dry), "vibration": FRICTION_DB}
+        drive = losses.drive(evidence.scene.effects.traction, evidence.scene.effects.film)
+        if drive.skids:
+            # what the ribs brake more, seen at the raceways beside what these have to drive
+            brake = abs(full - dry) / (0.5 * evidence.scene.bearing.pitch_diameter)
+            influence |= evidence.slipping(0.5 * min(brake / drive.needed, 1.0))
         found.append(Alternative({"rib": _plain(effect)}, said, influence, basic, word="dry"))
     return Rule("rib", tuple(found))
 
@@ -109,7 +112,7 @@ def cage(evidence: Evidence) -> Rule:
     basic = costs.saved("cage")
     # where the raceways hardly drive the rollers, pockets decide at which speed they go
     left = {"torque": pocket}
-    if drive.used > _NEARLY_ALL:
+    if drive.skids:
         left = {"torque": pocket + evidence.torque_share(drive.torque), **evidence.slipping(0.5)}
 
     def alternative(

@@ -32,8 +32,8 @@ from beardyn_core.scene.scene import Scene
 Float = NDArray[np.float64]
 _SPIN_SHARE = 0.18
 _STANDARD_GRAVITY = 9.81
-# Traction of a film beyond its shear: a bracket of what laws of `sheared_film` reach at working pressures.
 _DEEP_SLIP = 1.0
+_NEARLY_ALL = 0.5
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,11 @@ class Drive:
     available: float
     slip: float
     torque: float
+
+    @property
+    def skids(self) -> bool:
+        """Whether so much of the traction is used that the lighter rollers may let go."""
+        return self.used > _NEARLY_ALL
 
     @property
     def used(self) -> float:
