@@ -63,6 +63,8 @@ class Drive:
     @property
     def used(self) -> float:
         """Needed over available traction."""
+        if self.needed == 0.0:
+            return 0.0
         return self.needed / self.available if self.available > 0.0 else math.inf
 
 
