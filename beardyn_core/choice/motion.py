@@ -22,6 +22,16 @@ def gravity(evidence: Evidence) -> Rule:
     share = weight / max(evidence.loads.typical.size, 1.0)
     said = f"rollers and cages weigh {weight:.3g} N, {percent(share)} of the load"
     influence = {"force": share, "deflection": share, "roller_load": share}
+    drive = evidence.losses.drive(scene.effects.traction, scene.effects.film)
+    if drive.skids:
+        # the way up and down brakes and drives rollers that hardly stick: mean amount along the orbit
+        rollers = effect.acceleration * _ROWS * bearing.roller_count * bearing.roller_mass * 2.0 / math.pi
+        part = min(rollers / drive.needed, 1.0)
+        said += f", and {percent(part)} of what brakes rollers that hardly stick"
+        moved = evidence.slipping(0.5 * part)
+        influence |= {"torque": evidence.torque_share(part * drive.torque), "cage_speed": moved["cage_speed"]}
+        influence["roller_load"] += moved["roller_load"]
+        influence["deflection"] += moved["deflection"]
     return Rule(
         "gravity",
         (
