@@ -343,6 +343,7 @@ class Twin:
             "laminae": scene.numerics.laminae,
             "step_s": self._parameters.step,
             "seed": scene.seed,
+            "chosen": list(scene.chosen),
             "versions": {name: _version(name) for name in ("beardyn", "numba", "numpy")},
         }
 

@@ -1,22 +1,29 @@
 """Cost of every effect: time per step of sets that differ from `standard` by one of them, and of `full`.
 
+Tiers and lamina counts are measured along. ``--write`` puts the ratios into the file that `effects: auto`
+reads, `beardyn_core/choice/costs.json`; with ``--only`` it replaces what was measured and keeps the rest.
+
 All sets take turns, block by block, so that a machine that slows down slows all of them; the ratios are
 medians over the turns. Sets also differ in how their code and data happen to lie in memory, up to 5 % either
 way and from run to run. Each set is compiled the first time (half a minute each). Run it on an idle machine:
-``python benchmarks/effect_costs.py [--turns N] [--only NAME ...] [--json FILE]``.
+``python benchmarks/effect_costs.py [--turns N] [--only NAME ...] [--json FILE] [--write]``.
 """
 
 from __future__ import annotations
 
 import argparse
+import datetime
 import json
 import platform
 import statistics
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
+from beardyn_core.choice.costs import COST_FILE
 from beardyn_core.config import load_effects, load_scene
 from beardyn_core.effects import (
     Cage,
@@ -42,6 +49,7 @@ from beardyn_core.effects import (
 )
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import TIERS
 from beardyn_core.twin import Twin
 
 SETTLING_TURNS = 3
@@ -91,7 +99,27 @@ def _wavy(scene: Scene) -> Scene:
     return replace(scene, waviness=load_scene("waviness").waviness)
 
 
-FAULTS: dict[str, Callable[[Scene], Scene]] = {"+ faults": _with_faults, "+ waviness": _wavy}
+def _with_laminae(count: int) -> Callable[[Scene], Scene]:
+    return lambda scene: replace(scene, numerics=replace(scene.numerics, laminae=count))
+
+
+def _in_tier(name: str, laminae: int = 6) -> Callable[[Scene], Scene]:
+    def changed(scene: Scene) -> Scene:
+        numerics = replace(scene.numerics, steps_per_sample=TIERS[name].steps_per_sample, laminae=laminae)
+        return replace(scene, tier=name, numerics=numerics)
+
+    return changed
+
+
+CHANGES: dict[str, Callable[[Scene], Scene]] = {
+    "+ faults": _with_faults,
+    "+ waviness": _wavy,
+    "laminae 2": _with_laminae(2),
+    "laminae 20": _with_laminae(20),
+    "tier lumped": _in_tier("lumped"),
+    "tier quasistatic": _in_tier("quasistatic"),
+    "tier quasistatic, laminae 20": _in_tier("quasistatic", 20),
+}
 
 
 def _ready(scene: Scene, turns: int) -> Twin:
@@ -103,18 +131,18 @@ def _ready(scene: Scene, turns: int) -> Twin:
 
 
 def _microseconds(twin: Twin) -> float:
-    """Wall time of a step in the next block, all channels included."""
-    began = time.perf_counter()
+    """Processor time of a step in the next block, all channels included: waiting for others is not in it."""
+    began = time.thread_time()
     twin.advance()
     steps = 512 * twin.scene.numerics.steps_per_sample
-    return 1e6 * (time.perf_counter() - began) / steps
+    return 1e6 * (time.thread_time() - began) / steps
 
 
 def measure(scene_name: str, turns: int, only: list[str]) -> list[dict[str, float | str]]:
     """Time per step of every set, and its ratio to `standard`."""
     base = load_scene(scene_name)
     scenes = {name: replace(base, effects=effects) for name, effects in _sets().items()}
-    scenes |= {name: change(replace(base, effects=STANDARD)) for name, change in FAULTS.items()}
+    scenes |= {name: change(replace(base, effects=STANDARD)) for name, change in CHANGES.items()}
     chosen = [name for name in scenes if not only or name == "standard" or any(o in name for o in only)]
     twins = {name: _ready(scenes[name], turns) for name in chosen}
     times: dict[str, list[float]] = {name: [] for name in chosen}
@@ -144,6 +172,7 @@ def main() -> None:
     parser.add_argument("--turns", type=int, default=30)
     parser.add_argument("--only", nargs="*", default=[], help="words in the names of the sets to measure")
     parser.add_argument("--json")
+    parser.add_argument("--write", action="store_true", help=f"update {COST_FILE.name} of the choice room")
     arguments = parser.parse_args()
     rows = measure(arguments.scene, arguments.turns, arguments.only)
     print(f"{platform.processor() or platform.machine()}, one core, {arguments.scene}")
@@ -157,6 +186,36 @@ def main() -> None:
     if arguments.json:
         with open(arguments.json, "w", encoding="utf-8") as file:
             json.dump(rows, file, indent=1)
+    if arguments.write:
+        write_costs(COST_FILE, arguments, rows)
+
+
+def write_costs(path: Path, arguments: argparse.Namespace, rows: list[dict[str, float | str]]) -> None:
+    """Update the shipped cost file with measured ratios."""
+    # the least of many turns: what others on the machine do only adds
+    measured = {str(row["set"]): round(float(row["least_ratio"]), 4) for row in rows}
+    known = json.loads(path.read_text(encoding="utf-8"))["ratios"] if path.exists() else {}
+    content = {
+        "about": "time of a step over that of the standard set, full tier, 6 laminae, channels included; "
+        "written by `python benchmarks/effect_costs.py --write`",
+        "machine": _machine(),
+        "date": datetime.date.today().isoformat(),
+        "versions": {name: version(name) for name in ("numba", "numpy")},
+        "scene": arguments.scene,
+        "turns": arguments.turns,
+        "standard_us_per_step": round(float(rows[0]["least_us_per_step"]), 2),
+        "ratios": known | measured,
+    }
+    path.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+
+
+def _machine() -> str:
+    names = (
+        line.split(":", 1)[1].strip()
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        if line.startswith("model name")
+    )
+    return next(names, platform.machine())
 
 
 if __name__ == "__main__":

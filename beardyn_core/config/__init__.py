@@ -14,6 +14,7 @@ effects_file   keys of an effects preset
 operation_file keys of an operation
 scene_file     keys of a scene
 problems       refusals to sentences with file, key, value, what is allowed
+automatic      `auto` to what has been chosen
 load           references resolved, nouns made
 schema         JSON schema for editors
 ============== ==========================================================
@@ -21,6 +22,7 @@ schema         JSON schema for editors
 
 from beardyn_core.config.folders import config_folder, shipped_names
 from beardyn_core.config.load import (
+    explain_scene,
     load_bearing,
     load_effects,
     load_lubricant,
@@ -33,6 +35,7 @@ from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
 __all__ = [
     "SCHEMA_KINDS",
     "config_folder",
+    "explain_scene",
     "json_schema",
     "load_bearing",
     "load_effects",

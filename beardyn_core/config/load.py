@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -11,6 +10,8 @@ from pydantic import TypeAdapter, ValidationError
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.choice.free import Free
+from beardyn_core.config.automatic import AUTO, REFERENCE, Explanation, choice_for, resolved, take_auto
 from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
 from beardyn_core.config.effects_file import EffectsKeys, overlay
@@ -25,14 +26,11 @@ from beardyn_core.config.units import stem_of
 from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import EffectSet
-from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.integrate.step_choice import steps_of_scene
+from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.tier import TIER_NAMES, TIERS, contradictions
-
-log = logging.getLogger("beardyn")
+from beardyn_core.scene.tier import TIER_NAMES, contradictions
 
 Noun = TypeVar("Noun", covariant=True)
 Keys = TypeVar("Keys", bound=FileModel)
@@ -50,6 +48,8 @@ def load_scene(
     duration: float | None = None,
     laminae: int | None = None,
     seed: int | None = None,
+    accuracy_percent: float | None = None,
+    quantities: list[str] | None = None,
 ) -> Scene:
     """Scene of a shipped name or of a file.
 
@@ -58,11 +58,13 @@ def load_scene(
     name : str or Path
         A shipped scene, or the path of a YAML file.
     effects : str, optional
-        Preset or file instead of the scene's effects.
+        Preset or file instead of the scene's effects, or ``auto``.
     tier : str, optional
     duration : float, optional
         [s].
     laminae, seed : int, optional
+    accuracy_percent, quantities : float, list of str, optional
+        What is asked for, when something is ``auto``.
 
     Raises
     ------
@@ -76,9 +78,55 @@ def load_scene(
         ("duration_s",): duration,
         ("numerics", "laminae"): laminae,
         ("seed",): seed,
+        ("accuracy_percent",): accuracy_percent,
+        ("quantities",): quantities,
     }
     given = {place: value for place, value in overrides.items() if value is not None}
     return _Reading(read_file(path), str(path), path.parent).scene(given)
+
+
+def explain_scene(
+    name: str | Path,
+    *,
+    effects: str | None = None,
+    tier: str | None = None,
+    accuracy_percent: float | None = None,
+    quantities: list[str] | None = None,
+) -> Explanation:
+    """Why a scene is computed as it is, and what would be chosen for it; arguments as of `load_scene`.
+
+    Parameters
+    ----------
+    name : str or Path
+    effects, tier : str, optional
+    accuracy_percent : float, optional
+        Instead of the scene's.
+    quantities : list of str, optional
+        Instead of the scene's.
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
+    path = find("scenes", str(name))
+    overrides: dict[Place, Any] = {
+        ("effects",): effects,
+        ("tier",): tier,
+        ("accuracy_percent",): accuracy_percent,
+        ("quantities",): quantities,
+    }
+    given = {place: value for place, value in overrides.items() if value is not None}
+    reference = load_effects(REFERENCE)
+    keys, free = _Reading(read_file(path), str(path), path.parent).keys(given)
+    current = choice_for(keys, free, reference)
+    if free.anything:
+        return Explanation(resolved(keys, current), current, None)
+    every = _Reading(read_file(path), str(path), path.parent)
+    every.data.pop("tier", None)
+    every.data.pop("numerics", None)
+    automatic = choice_for(*every.keys({**given, ("effects",): AUTO, ("tier",): AUTO}), reference)
+    return Explanation(keys.noun(""), current, automatic)
 
 
 def scene_from_text(text: str, label: str = "scene") -> Scene:
@@ -131,11 +179,19 @@ class _Reading:
         self.problems: list[str] = []
 
     def scene(self, overrides: dict[Place, Any]) -> Scene:
+        keys, free = self.keys(overrides)
+        if free.anything:
+            return resolved(keys, choice_for(keys, free, load_effects(REFERENCE)))
+        return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
+
+    def keys(self, overrides: dict[Place, Any]) -> tuple[SceneKeys, Free]:
+        """The validated scene, and what of it may be chosen."""
         for place, value in overrides.items():
             self._override(place, value)
         self._inline(self.data, "bearing", "bearings", ())
         self._inline(self.data, "lubricant", "lubricants", ())
         self.data.setdefault("effects", "standard")
+        free = take_auto(self.data)
         self._inline_effects()
         operation = self.data.get("operation")
         if isinstance(operation, dict):
@@ -149,24 +205,7 @@ class _Reading:
         self._check_contradictions()
         if self.problems:
             raise InputError(list(dict.fromkeys(self.problems)))
-        keys = self._resolve_steps(keys)
-        return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
-
-    def _resolve_steps(self, keys: SceneKeys) -> SceneKeys:
-        """Write down the time step that ``auto`` comes to."""
-        if keys.numerics.steps_per_sample != "auto":
-            return keys
-        usual = keys.with_steps(TIERS[keys.tier].steps_per_sample)
-        try:
-            choice = steps_of_scene(usual.noun(""), 1e3 * keys.numerics.vibration_up_to_kHz)
-        except ValidityError as error:
-            self._complain(
-                ("numerics", "steps_per_sample"),
-                [f"auto finds no equilibrium under the largest load to judge by ({error}); give a number"],
-            )
-            raise InputError(self.problems) from None
-        log.info("steps per sample: %d, for %s", choice.steps_per_sample, choice.reason)
-        return keys.with_steps(choice.steps_per_sample)
+        return keys, free
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = located(place, self.origins)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema, model_validator
 from typing_extensions import Self
 
 from beardyn_core.bearing.geometry import Bearing
@@ -31,7 +31,7 @@ from beardyn_core.config.lubricant_file import LubricantKeys
 from beardyn_core.config.operation_file import OperationKeys, scaled
 from beardyn_core.config.units import KN, MEGA, MM, UM, ZERO_CELSIUS
 from beardyn_core.scene.mounting import Mounting
-from beardyn_core.scene.scene import Numerics, Scene
+from beardyn_core.scene.scene import USUAL_QUANTITIES, Numerics, Scene
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.scene.tier import TIERS
 
@@ -147,24 +147,40 @@ class SensorKeys(FileModel):
         )
 
 
+def _or_auto(least: int, most: int) -> WithJsonSchema:
+    """A count or `auto`, which is resolved before the scene is made."""
+    return WithJsonSchema(
+        {"anyOf": [{"type": "integer", "minimum": least, "maximum": most}, {"const": "auto"}]}
+    )
+
+
+def _checked(least: int, most: int) -> BeforeValidator:
+    def check(value: Any) -> Any:
+        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+            raise problem(f"is {value!r}; allowed are whole numbers from {least} to {most}, and 'auto'")
+        return value
+
+    return BeforeValidator(check)
+
+
 class NumericsKeys(FileModel):
     """Discretisation of the run."""
 
-    laminae: Annotated[Count, Field(ge=1, le=100)] = 6
-    steps_per_sample: Annotated[Count, Field(ge=1, le=64)] | Literal["auto"] = Field(
-        4,
-        description="time steps per waveform sample of 1/25600 s; 1 in tier lumped, 2 in quasistatic; auto: "
-        "as many as load, speed and effects need",
-    )
-    vibration_up_to_kHz: Annotated[NonNegative, Field(le=12.8)] = Field(
-        10.0,
-        description="what auto keeps within 1.5 dB in third octaves; 0 when only force and torque matter",
+    laminae: Annotated[int, _checked(1, 100), _or_auto(1, 100)] = 6
+    steps_per_sample: Annotated[int, _checked(1, 64), _or_auto(1, 64)] = Field(
+        4, description="time steps per waveform sample of 1/25600 s; 1 in tier lumped, 2 in quasistatic"
     )
 
     def noun(self) -> Numerics:
-        """The numerics; ``auto`` must have been resolved."""
-        assert self.steps_per_sample != "auto"
+        """The numerics."""
         return Numerics(self.laminae, self.steps_per_sample)
+
+
+NumericsOrAuto = Annotated[
+    Annotated[Literal["auto"], Tag("<name>")] | Annotated[NumericsKeys, Tag("<inline>")],
+    Discriminator(lambda value: "<name>" if isinstance(value, str) else "<inline>"),
+]
+Quantity = Literal["force", "deflection", "roller_load", "torque", "vibration", "cage_speed"]
 
 
 class SceneKeys(FileModel):
@@ -180,14 +196,21 @@ class SceneKeys(FileModel):
     end_play_mm: Annotated[Number, Field(ge=-0.5, le=2.0)] | None = Field(
         None, description="total axial travel, negative for preload; the bearing's own when not given"
     )
-    tier: Literal["lumped", "quasistatic", "full"] = Field(
+    tier: Literal["lumped", "quasistatic", "full", "auto"] = Field(
         "full", description="which bodies move by their own equations of motion"
     )
     temperatures: TemperaturesKeys | None = Field(
         None, description="of the parts; with them end_play_mm is the one mounted at assembly_C"
     )
     effects: Reference[EffectsKeys] = Field(
-        "standard", description="a preset, a path, or which effects are on"
+        "standard", description="a preset, a path, which effects are on, or auto"
+    )
+    accuracy_percent: Annotated[Positive, Field(ge=0.1, le=50.0)] | None = Field(
+        None, description="of what is asked for, when something is auto; 5 when not given"
+    )
+    quantities: Annotated[tuple[Quantity, ...], Field(min_length=1)] = Field(
+        cast(tuple[Quantity, ...], USUAL_QUANTITIES),
+        description="what is asked of the run, when something is auto",
     )
     operation: OperationKeys = Field(description="where load and speed come from")
     mounting: MountingKeys = MountingKeys()
@@ -195,7 +218,7 @@ class SceneKeys(FileModel):
     waviness: tuple[WavinessKeys, ...] = ()
     roughness: RoughnessKeys = RoughnessKeys()
     sensors: Annotated[tuple[SensorKeys, ...], Field(min_length=1)] = (SensorKeys(),)
-    numerics: NumericsKeys = NumericsKeys()
+    numerics: NumericsOrAuto = NumericsKeys()
     duration_s: Annotated[Positive, Field(le=86400.0)] = 2.0
     seed: Annotated[Count, Field(ge=0, le=2**32 - 1)] = Field(
         1, description="of irregularity and sensor noise"
@@ -212,6 +235,13 @@ class SceneKeys(FileModel):
         return {**data, "numerics": {**numerics, "steps_per_sample": tier.steps_per_sample}}
 
     @model_validator(mode="after")
+    def _each_quantity_once(self) -> Self:
+        for index, name in enumerate(self.quantities):
+            if name in self.quantities[:index]:
+                raise problem(f"quantities[{index}] is {name!r}, given twice; name each quantity once")
+        return self
+
+    @model_validator(mode="after")
     def _names_of_sensors(self) -> Self:
         names = [sensor.name for sensor in self.sensors]
         for index, name in enumerate(names):
@@ -221,16 +251,12 @@ class SceneKeys(FileModel):
                 )
         return self
 
-    def with_steps(self, steps_per_sample: int) -> Self:
-        """The same scene with a time step of its own."""
-        numerics = self.numerics.model_copy(update={"steps_per_sample": steps_per_sample})
-        return self.model_copy(update={"numerics": numerics})
-
     def noun(self, source_text: str) -> Scene:
         """The scene, SI; references must have been resolved."""
         assert isinstance(self.bearing, BearingKeys)
         assert isinstance(self.lubricant, LubricantKeys)
         assert isinstance(self.effects, EffectsKeys)
+        assert isinstance(self.numerics, NumericsKeys)
         bearing = self.bearing.noun()
         given = self.roughness
         if given.raceway_um is not None:
@@ -257,4 +283,6 @@ class SceneKeys(FileModel):
             source_text=source_text,
             waviness=tuple(wave.noun() for wave in self.waviness),
             temperatures=None if self.temperatures is None else self.temperatures.noun(),
+            accuracy=None if self.accuracy_percent is None else 0.01 * self.accuracy_percent,
+            quantities=self.quantities,
         )

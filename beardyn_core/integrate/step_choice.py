@@ -37,10 +37,7 @@ from beardyn_core.effects import (
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX
 from beardyn_core.model.build import WAVEFORM_RATE
-from beardyn_core.rail.build import load_history
-from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.mounting import Mounting
-from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
 
 AUDIBLE_BAND = 10_000.0
@@ -60,8 +57,6 @@ _LARGEST_EXPECTED_INDEX = 0.85 * LARGEST_CHATTER_INDEX
 _LARGEST_EXPLICIT_TURN = 0.6  # [rad]
 _BARS = 4  # touches of a roller with both bars of its pocket
 _CREEP = 0.01  # slowest entrainment that is looked at [m/s]
-# A run longer than this is judged by its beginning, where its load comes from a random track [s].
-_LONGEST_LOOK = 30.0
 
 
 @dataclass(frozen=True)
@@ -143,38 +138,6 @@ def choose_steps(
     ]
     decisive = max(found, key=lambda choice: choice.steps_per_sample)
     return StepChoice(min(decisive.steps_per_sample, LARGEST_STEPS), decisive.reason)
-
-
-def steps_of_scene(scene: Scene, band: float = AUDIBLE_BAND) -> StepChoice:
-    """`choose_steps` for a scene's tier, effects and operation; loads fed live are taken as the nominal ones.
-
-    Parameters
-    ----------
-    scene : Scene
-        Its own time step does not matter.
-    band : float
-        [Hz].
-    """
-    if scene.tier != "full":
-        return _fast_tier(scene.tier)
-    look = min(scene.duration, _LONGEST_LOOK)
-    history = load_history(scene.operation, scene.mounting, look, scene.seed)
-    radial, axial, speeds = load_range(history)
-    return choose_steps(
-        scene.bearing, radial, speeds, scene.effects, scene.tier, scene.numerics.laminae,
-        axial=axial, end_play=scene.end_play, mounting=scene.mounting, band=band,
-    )  # fmt: skip
-
-
-def load_range(history: LoadHistory) -> tuple[tuple[float, float], float, tuple[float, float]]:
-    """Range of the radial load, largest axial load, [N], and range of the speed, [rad/s], of a history."""
-    radial = np.hypot(history.wrench[:, 0], history.wrench[:, 2])
-    speed = np.abs(history.shaft_speed)
-    return (
-        (float(radial.min()), float(radial.max())),
-        float(np.abs(history.wrench[:, 1]).max()),
-        (float(speed.min()), float(speed.max())),
-    )
 
 
 def _fast_tier(tier: str) -> StepChoice:

@@ -15,6 +15,10 @@ from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.scene.tier import missing_effects
 from beardyn_core.scene.waviness import Waviness
 
+# what a user can ask of a run; see `choice`
+QUANTITIES = ("force", "deflection", "roller_load", "torque", "vibration", "cage_speed")
+USUAL_QUANTITIES = QUANTITIES[:-1]
+
 # options of the rib that only the full tier has
 _FULL_RIB_OPTIONS = ("lubrication", "roller_end", "drilling")
 
@@ -66,6 +70,12 @@ class Scene:
     waviness : tuple of Waviness
     temperatures : PartTemperatures or None
         Of cup, cone and rollers where they differ; `end_play` already has what they do to it.
+    accuracy : float or None
+        Stated relative accuracy of the quantities, for what is chosen automatically, [-].
+    quantities : tuple of str
+        What is asked of the run, out of `QUANTITIES`.
+    chosen : tuple of str
+        What has been chosen automatically, each with its reason.
     """
 
     name: str
@@ -86,6 +96,9 @@ class Scene:
     source_text: str
     waviness: tuple[Waviness, ...] = ()
     temperatures: PartTemperatures | None = None
+    accuracy: float | None = None
+    quantities: tuple[str, ...] = USUAL_QUANTITIES
+    chosen: tuple[str, ...] = ()
 
     @property
     def effect_names(self) -> tuple[str, ...]:

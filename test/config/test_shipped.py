@@ -216,9 +216,7 @@ def test_readers_of_yaml_1_1_find_the_same_in_a_shipped_scene(name: str) -> None
 def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(
     keys: type[FileModel], noun: type[Any]
 ) -> None:
-    of_the_file = {"kind", "name", "purpose", "preset", "vibration_up_to_kHz"} - {
-        field.name for field in fields(noun)
-    }
+    of_the_file = {"kind", "name", "purpose", "preset"} - {field.name for field in fields(noun)}
     assert {stem_of(key) for key in keys.model_fields} - of_the_file == {field.name for field in fields(noun)}
     if keys is not effects_file.EffectsKeys:
         kind = keys.model_fields.get("kind")

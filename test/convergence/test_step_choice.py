@@ -12,7 +12,7 @@ from beardyn_core.config import load_bearing, load_effects, load_scene
 from beardyn_core.effects import CoulombTraction, EffectSet, LoadSharingTraction
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, Status, chatter_index, describe
-from beardyn_core.integrate.step_choice import bounce_frequency, choose_steps, load_range, steps_of_scene
+from beardyn_core.integrate.step_choice import bounce_frequency, choose_steps
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_TORQUE
 from beardyn_core.rail.build import load_history
@@ -82,15 +82,6 @@ def test_a_light_axlebox_and_a_stiff_cage_take_smaller_steps() -> None:
 def test_fast_tiers_keep_their_own_step() -> None:
     assert steps(tier="lumped") == 1
     assert steps(tier="quasistatic") == 2
-
-
-def test_range_of_a_history_is_what_the_run_meets() -> None:
-    scene = load_scene("cup_spall")
-    history = load_history(scene.operation, scene.mounting, 1.0, scene.seed)
-    radial, axial, speeds = load_range(history)
-    assert radial[1] == np.hypot(history.wrench[:, 0], history.wrench[:, 2]).max()
-    assert axial == np.abs(history.wrench[:, 1]).max()
-    assert 0.0 <= speeds[0] <= speeds[1] == np.abs(history.shaft_speed).max()
 
 
 def test_chatter_advises_the_automatic_step() -> None:
@@ -164,6 +155,13 @@ POINTS = {
 }
 
 
+def chosen(bearing: str, effects: str, force: tuple[float, float, float], speed: float, band: float) -> int:
+    load = float(np.hypot(force[0], force[2]))
+    return choose_steps(
+        load_bearing(bearing), (load, load), (speed, speed), load_effects(effects), axial=force[1], band=band
+    ).steps_per_sample
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("band", [0.0, 5e3, 1e4])
 @pytest.mark.parametrize("point", POINTS)
@@ -172,7 +170,7 @@ def test_chosen_step_is_converged(point: str, band: float) -> None:
 
     The system is chaotic: torque means of 6 s may differ by twice their standard error more than that.
     """
-    count = steps_of_scene(scene_of(*POINTS[point], 4), band).steps_per_sample
+    count = chosen(*POINTS[point], band)
     run, fine = steady(*POINTS[point], count), steady(*POINTS[point], 16)
     assert count < 16
     doubt = float(np.hypot(run.doubt, fine.doubt))

@@ -1,0 +1,253 @@
+"""The cheapest tier, effects and laminae of which the expected errors stay within the accuracy asked for.
+
+Every rule gives alternatives with a cost and with an influence on each quantity against the reference; what
+is left out adds up. Tier, laminae and alternatives are chosen together, by exact search, so that the choice
+can only become more expensive when the accuracy asked for becomes tighter.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from beardyn_core.choice import friction, guidance, motion, numerics, stiffness, tier
+from beardyn_core.choice.costs import measured_costs
+from beardyn_core.choice.evidence import Evidence
+from beardyn_core.choice.free import Free
+from beardyn_core.choice.outcome import Choice
+from beardyn_core.choice.rule import Alternative, Decision, Rule, tolerance
+from beardyn_core.choice.search import Stage, cheapest
+from beardyn_core.effects import Audit, EffectSet
+from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.step_choice import StepChoice
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import TIERS
+
+USUAL_ACCURACY = 0.05
+_DRIVING = 2  # of the rules: friction decides the step
+
+RULES: tuple[Callable[[Evidence], Rule], ...] = (
+    motion.contact_damping,
+    stiffness.lamina_coupling,
+    friction.traction,  # _DRIVING
+    friction.rolling_resistance,
+    friction.drag,
+    guidance.rib,
+    guidance.small_rib,
+    guidance.cage,
+    friction.seal,
+    stiffness.ring_flexibility,
+    motion.gravity,
+    friction.thermal,
+    motion.audit,
+)
+
+
+def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = None) -> Choice:
+    """Cheapest choice within the accuracy of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its effects are those of the reference; `accuracy` and `quantities` say what is asked for.
+    free : Free, optional
+        What may be chosen, everything when not given; the rest is kept as the scene has it.
+    given : EffectSet, optional
+        The effects that are kept where they are not free; those of the reference when not given.
+
+    Returns
+    -------
+    Choice
+        Where nothing is within the accuracy, the one that comes nearest.
+    """
+    free = free or Free()
+    given = given or scene.effects
+    asked = scene.quantities
+    accuracy = USUAL_ACCURACY if scene.accuracy is None else scene.accuracy
+    try:
+        evidence = Evidence(replace(scene, tier="full"))
+    except ValidityError as error:
+        return _unjudged(scene, free, given, accuracy, str(error))
+    looked_at = tuple(name for name in asked if name != "vibration" or evidence.moves)
+    limits = tuple(tolerance(name, accuracy) for name in looked_at)
+    rules = [rule(evidence) for rule in RULES]
+    best: tuple[tuple[float, ...], Stage, list[Alternative], StepChoice] | None = None
+    clock = _Clock(evidence, free, "vibration" in looked_at)
+    for stage in _stages(evidence, scene, free, given, looked_at):
+        offered = [_offered(rule, free, stage.tier, given) for rule in rules]
+        if any(not alternatives for alternatives in offered):
+            continue
+        driven = offered[_DRIVING]
+        for option in driven:
+            offered[_DRIVING] = [option]
+            step = clock.step(scene, stage.tier, option)
+            found = cheapest(offered, stage, looked_at, limits, evidence.costs)
+            # cost counts per simulated second; between equal costs the smaller error
+            key = (found[0], found[1] * step.steps_per_sample, found[2])
+            if best is None or key < best[0]:
+                best = (key, stage, found[3], step)
+    assert best is not None  # the full tier offers the reference of every rule
+    return _told(scene, evidence, free, best[1], best[2], best[3], rules, looked_at, accuracy)
+
+
+class _Clock:
+    """Time step for each tier and law of friction."""
+
+    def __init__(self, evidence: Evidence, free: Free, vibration: bool) -> None:
+        self._evidence, self._free, self._vibration = evidence, free, vibration
+        self._known: dict[tuple[str, Any], StepChoice] = {}
+
+    def step(self, scene: Scene, tier_name: str, option: Alternative) -> StepChoice:
+        """Step with a law of friction; the scene's own where it is not free."""
+        if not self._free.steps:
+            return StepChoice(scene.numerics.steps_per_sample, "written down in the scene")
+        key = (tier_name, option.members["traction"])
+        if key not in self._known:
+            effects = replace(scene.effects, **option.members, lamina_coupling=None)
+            self._known[key] = numerics.steps(self._evidence, effects, tier_name, self._vibration)
+        return self._known[key]
+
+
+def _stages(
+    evidence: Evidence, scene: Scene, free: Free, given: EffectSet, asked: tuple[str, ...]
+) -> list[Stage]:
+    found = []
+    counts = numerics.LAMINAE if free.laminae else (scene.numerics.laminae,)
+    names = tuple(TIERS) if free.tier else (scene.tier,)
+    for name in names:
+        if TIERS[name].needs_rib and given.rib is None:
+            continue
+        for count in counts:
+            if count < TIERS[name].smallest_laminae:
+                continue
+            lamina = numerics.laminae(evidence, count)
+            verdict = tier.verdict(evidence, name, count)
+            if verdict is None:
+                continue
+            total = tuple(
+                verdict.influence.get(quantity, 0.0) + lamina.influence.get(quantity, 0.0)
+                for quantity in asked
+            )
+            cost = evidence.costs.base(name, count)
+            found.append(Stage(name, count, cost, total, verdict.reason, lamina.reason))
+    return found
+
+
+def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[Alternative]:
+    """Alternatives of a rule in a tier; what is written down stays, whether or not the tier represents it."""
+    possible = [
+        option
+        for option in rule.alternatives
+        if tier_name in option.tiers and _represented(option, tier_name)
+    ]
+    members = rule.alternatives[0].members
+    if all(name in free.effects for name in members):
+        return possible
+    kept = {name: getattr(given, name) for name in members if name not in free.effects}
+    agreeing = [
+        option for option in possible if all(option.members[name] == value for name, value in kept.items())
+    ]
+    if agreeing:
+        return [replace(option, reason=f"written down in the scene; {option.reason}") for option in agreeing]
+    # the tier goes without it, or it is an option that no rule offers
+    nearest = possible[-1] if tier_name != "full" else rule.alternatives[0]
+    missing = f"written down in the scene, not in the tier {tier_name}; {nearest.reason}"
+    return [replace(nearest, members={**nearest.members, **kept}, reason=missing)]
+
+
+def _represented(option: Alternative, tier_name: str) -> bool:
+    represented = TIERS[tier_name].represented
+    if represented is None:
+        return True
+    return all(name in represented for name, value in option.members.items() if value is not None)
+
+
+def _told(
+    scene: Scene,
+    evidence: Evidence,
+    free: Free,
+    stage: Stage,
+    taken: list[Alternative],
+    step: StepChoice,
+    rules: list[Rule],
+    asked: tuple[str, ...],
+    accuracy: float,
+) -> Choice:
+    """The choice with its reasons, shares and expected errors."""
+    members = {name: value for option in taken for name, value in option.members.items()}
+    effects = replace(scene.effects, **members)
+    if effects.thermal is not None:
+        effects = replace(effects, audit=effects.audit or Audit())
+    costs = evidence.costs
+    parts = [
+        costs.scaled(rule.effect, option.cost, stage.laminae)
+        if stage.tier == "full"
+        else min(option.cost, 0.001)
+        for rule, option in zip(rules, taken, strict=True)
+    ]
+    total = stage.cost + sum(parts)
+    decisions = tuple(
+        Decision(
+            rule.effect,
+            option.word,
+            option.reason,
+            any(value is not None for value in option.members.values()),
+            part / total,
+            {name: option.influence.get(name, 0.0) for name in asked},
+        )
+        for rule, option, part in zip(rules, taken, parts, strict=True)
+    )
+    errors = {
+        name: stage.influence[index] + sum(decision.influence[name] for decision in decisions)
+        for index, name in enumerate(asked)
+    }
+    if "vibration" in scene.quantities and "vibration" not in asked:
+        errors["vibration"] = 0.0
+    within = all(error <= tolerance(name, accuracy) + 1.0e-12 for name, error in errors.items())
+    reason = stage.tier_reason if free.tier else f"written down in the scene; {stage.tier_reason}"
+    if not evidence.moves and "vibration" in scene.quantities:
+        reason += "; the cup is held, so there is no vibration of it to resolve"
+    return Choice(
+        tier=stage.tier,
+        effects=effects,
+        laminae=stage.laminae,
+        steps_per_sample=step.steps_per_sample,
+        accuracy=accuracy,
+        quantities=scene.quantities,
+        tier_reason=reason,
+        laminae_reason=stage.laminae_reason
+        if free.laminae
+        else f"written down in the scene; {stage.laminae_reason}",
+        steps_reason=step.reason,
+        decisions=decisions,
+        expected={name: errors[name] for name in scene.quantities},
+        step_cost=total,
+        seconds=costs.seconds(total, step.steps_per_sample),
+        within=within,
+    )
+
+
+def _unjudged(scene: Scene, free: Free, given: EffectSet, accuracy: float, why: str) -> Choice:
+    """Everything on, for want of an equilibrium to judge by."""
+    name = "full" if free.tier else scene.tier
+    usual = TIERS[name].steps_per_sample if free.steps else scene.numerics.steps_per_sample
+    total = measured_costs().ratios["full"]
+    effects = replace(given, **{member: getattr(scene.effects, member) for member in free.effects})
+    return Choice(
+        tier=name,
+        effects=effects,
+        laminae=scene.numerics.laminae,
+        steps_per_sample=usual,
+        accuracy=accuracy,
+        quantities=scene.quantities,
+        tier_reason=f"{why}, so nothing is left out",
+        laminae_reason="nothing is left out",
+        steps_reason="nothing is left out",
+        decisions=tuple(Decision(effect, "on", why, True, math.nan, {}) for effect in effects.names()),
+        expected=dict.fromkeys(scene.quantities, math.nan),
+        step_cost=total,
+        seconds=measured_costs().seconds(total, usual),
+        within=False,
+    )

@@ -1,0 +1,154 @@
+"""What a scene puts its bearing through: typical, lightest and heaviest load, and axial extremes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.errors import InputError
+from beardyn_core.rail.build import load_history
+from beardyn_core.rail.measured import read_measurement
+from beardyn_core.scene.operation import ConstantOperation, MeasuredOperation, SteppedOperation
+from beardyn_core.scene.scene import Scene
+
+Float = NDArray[np.float64]
+
+# A load that depends on chance is looked at this long.
+_LONGEST_LOOK = 1.0
+# Share of the time that may be lighter, or heavier, than the lightest and the heaviest case.
+_RARE = 0.02
+_AXIAL_SHARE = 0.02
+_SAME = 0.02
+
+
+@dataclass(frozen=True)
+class LoadCase:
+    """One load on the journal.
+
+    Parameters
+    ----------
+    name : str
+        ``typical``, ``lightest``, ``heaviest`` or ``axial``.
+    force, moment : tuple of 3 floats
+        [N], [N m].
+    speed : float
+        Of the shaft, [rad/s].
+    """
+
+    name: str
+    force: tuple[float, float, float]
+    moment: tuple[float, float, float]
+    speed: float
+
+    @property
+    def size(self) -> float:
+        """Of the force, [N]."""
+        return float(np.linalg.norm(self.force))
+
+
+@dataclass(frozen=True)
+class Circumstances:
+    """The load cases of a scene.
+
+    Parameters
+    ----------
+    cases : tuple of LoadCase
+        The typical one first; those that are nearly the same are left out.
+    lightest : float
+        Force of the lightest case, [N].
+    top_speed : float
+        Largest amount of the shaft speed, [rad/s].
+    changing : bool
+        Whether the load changes.
+    axial_low, axial_high : float
+        Smallest and largest axial force, [N].
+    """
+
+    cases: tuple[LoadCase, ...]
+    lightest: float
+    top_speed: float
+    changing: bool
+    axial_low: float
+    axial_high: float
+
+    @property
+    def typical(self) -> LoadCase:
+        """Median force."""
+        return self.cases[0]
+
+    @property
+    def reverses(self) -> bool:
+        """Whether the axial force changes its sign by more than a share of the typical force."""
+        notable = _AXIAL_SHARE * self.typical.size
+        return self.axial_low < -notable and self.axial_high > notable
+
+
+def circumstances(scene: Scene) -> Circumstances:
+    """Load cases of a scene's operation."""
+    wrench, speed = _samples(scene)
+    offset = np.asarray(scene.mounting.load_offset)
+    if offset.any():
+        wrench = wrench.copy()
+        wrench[:, 3:] += np.cross(offset, wrench[:, :3])
+    size = np.linalg.norm(wrench[:, :3], axis=1)
+    order = np.argsort(size, kind="stable")
+    last = len(order) - 1
+    # a mean over revolutions is asked for: the load that is there half of the time stands for it
+    picks = {
+        "typical": order[last // 2],
+        "lightest": order[round(_RARE * last)],
+        "heaviest": order[round((1.0 - _RARE) * last)],
+    }
+    axial = wrench[:, 1]
+    if np.ptp(axial) > _AXIAL_SHARE * max(size[picks["typical"]], 1.0):
+        picks |= {"axial": int(np.argmin(axial)), "axial, other way": int(np.argmax(axial))}
+    cases: list[LoadCase] = []
+    for name, index in picks.items():
+        x, y, z, mx, my, mz = wrench[index].tolist()
+        case = LoadCase(name, (x, y, z), (mx, my, mz), float(speed[index]))
+        if not any(_alike(case, other) for other in cases):
+            cases.append(case)
+    return Circumstances(
+        tuple(cases),
+        lightest=float(size[picks["lightest"]]),
+        top_speed=float(np.abs(speed).max()),
+        changing=bool(np.ptp(wrench, axis=0).max() > _SAME * max(float(size.max()), 1.0)),
+        axial_low=float(axial.min()),
+        axial_high=float(axial.max()),
+    )
+
+
+def _alike(one: LoadCase, other: LoadCase) -> bool:
+    apart = (
+        np.abs(np.subtract(one.force, other.force)).max()
+        + np.abs(np.subtract(one.moment, other.moment)).max() / 0.1
+    )
+    return bool(apart <= _SAME * max(one.size, other.size, 1.0))
+
+
+def _samples(scene: Scene) -> tuple[Float, Float]:
+    """Wrenches and shaft speeds, equally likely, shapes [sample, 6] and [sample]."""
+    operation, look = scene.operation, min(scene.duration, _LONGEST_LOOK)
+    if isinstance(operation, ConstantOperation):
+        return np.array([[*operation.force, *operation.moment]]), np.array([operation.speed])
+    if isinstance(operation, SteppedOperation):
+        steps = [step for step in operation.steps if step.time < scene.duration]
+        ends = [*(step.time for step in steps[1:]), scene.duration]
+        counts = [
+            max(1, round(1000 * (end - step.time) / scene.duration))
+            for step, end in zip(steps, ends, strict=True)
+        ]
+        levels = np.array([[*step.force, *step.moment, step.speed] for step in steps])
+        signals = np.repeat(levels, counts, axis=0)
+        return signals[:, :6], signals[:, 6]
+    if isinstance(operation, MeasuredOperation):
+        measured = read_measurement(operation.path)
+        within = measured.time <= scene.duration
+        return measured.wrench[within], measured.shaft_speed[within]
+    history = load_history(operation, scene.mounting, look, scene.seed)
+    begun = history.time_ns >= min(0.2, 0.5 * look) * 1e9  # the irregularity fades in
+    if not begun.any():
+        raise InputError(f"{scene.name}: duration is {scene.duration:g} s, too short to have a load")
+    return history.wrench[begun], history.shaft_speed[begun]

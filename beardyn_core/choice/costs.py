@@ -1,0 +1,110 @@
+"""What tiers, effects and laminae cost in the time step, from the shipped measurement."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from beardyn_core.effects.catalogue import catalogue
+
+COST_FILE = Path(__file__).with_name("costs.json")
+
+# An effect that is there costs something, whatever the scatter of the measurement says.
+_LEAST_SHARE = 0.001
+_START_SHARE = 1.0e-5
+_REFERENCE_LAMINAE = 6
+WAVEFORM_RATE = 25_600.0
+# middle of each cost class of the catalogue
+_CLASS_SHARES = {"none": 0.001, "low": 0.015, "medium": 0.09, "high": 0.2}
+# effects computed for every lamina: their cost grows with the count
+_PER_LAMINA = frozenset({"traction", "lamina_coupling"})
+
+
+@dataclass(frozen=True)
+class Costs:
+    """Costs relative to the step of the `standard` set in the full tier with 6 laminae.
+
+    Parameters
+    ----------
+    ratios : dict
+        Name of a measured set (`benchmarks/effect_costs.py`) -> its time over that of the standard step.
+    standard_step : float
+        Time of the standard step on the machine of the measurement, [s].
+    machine, date : str
+        Where and when it was measured.
+    """
+
+    ratios: dict[str, float]
+    standard_step: float
+    machine: str
+    date: str
+
+    def extra(self, change: str) -> float:
+        """What a change adds to the standard step, at least nearly nothing.
+
+        A change that has not been measured costs what the class of its effect in the catalogue says.
+        """
+        measured = self.ratios.get(f"+ {change}")
+        if measured is None:
+            return _CLASS_SHARES[_class_of(change.split()[0])]
+        return max(measured - 1.0, _LEAST_SHARE)
+
+    def saved(self, effect: str) -> float:
+        """What an effect of the standard set adds to the step without it."""
+        measured = self.ratios.get(f"- {effect}")
+        if measured is None:
+            return _CLASS_SHARES[_class_of(effect)]
+        return max(1.0 - measured, _LEAST_SHARE)
+
+    def instead(self, effect: str, change: str) -> float:
+        """What another kind of an effect of the standard set adds to the step without that effect."""
+        measured = self.ratios.get(f"+ {change}")
+        if measured is None:
+            return 0.5 * self.saved(effect)
+        return max(measured - 1.0 + self.saved(effect), _LEAST_SHARE)
+
+    def base(self, tier: str, laminae: int) -> float:
+        """Step of a tier with the effects that always are, without those that a choice adds."""
+        if tier == "lumped":
+            # the spring is fitted once; the count matters to nothing but the start
+            return self.ratios["tier lumped"] + _START_SHARE * laminae
+        more = laminae - _REFERENCE_LAMINAE
+        if tier == "quasistatic":
+            six, twenty = self.ratios["tier quasistatic"], self.ratios["tier quasistatic, laminae 20"]
+            return six + max(twenty - six, 0.0) / 14.0 * more
+        saved = sum(self.saved(name) for name in ("traction", "cage", "rib", "contact_damping", "gravity"))
+        saved += self.saved("audit")
+        # what every lamina costs without traction and film
+        share = 1.0 - self.saved("traction")
+        slope = max(self.ratios["laminae 20"] - self.ratios["laminae 2"], 0.0) / 18.0 * share
+        return max(1.0 - saved, 0.1) + slope * more
+
+    def scaled(self, effect: str, share: float, laminae: int) -> float:
+        """Cost of an effect measured at 6 laminae."""
+        return share * laminae / _REFERENCE_LAMINAE if effect in _PER_LAMINA else share
+
+    def seconds(self, step: float, steps_per_sample: int) -> float:
+        """Wall time of a simulated second on that machine, from the relative cost of a step."""
+        return step * self.standard_step * WAVEFORM_RATE * steps_per_sample
+
+
+def _class_of(effect: str) -> str:
+    """Cost class of an effect, the lowest of its kinds."""
+    order = tuple(_CLASS_SHARES)
+    found = [entry.about.cost for entry in catalogue() if entry.member == effect]
+    return min(found, key=order.index, default="low")
+
+
+@cache
+def measured_costs() -> Costs:
+    """The shipped measurement."""
+    content: dict[str, Any] = json.loads(COST_FILE.read_text(encoding="utf-8"))
+    return Costs(
+        ratios=content["ratios"],
+        standard_step=1e-6 * content["standard_us_per_step"],
+        machine=content["machine"],
+        date=content["date"],
+    )

@@ -1,0 +1,170 @@
+"""What the rules judge by: the reference scene with its loads, equilibria, losses and costs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.choice.circumstances import Circumstances, circumstances
+from beardyn_core.choice.costs import Costs, measured_costs
+from beardyn_core.choice.losses import Losses
+from beardyn_core.choice.statics import Statics
+from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.scene.defect import Patch, WornPocket
+from beardyn_core.scene.scene import Scene
+
+MOST_DB = 20.0
+
+
+@dataclass(frozen=True)
+class Difference:
+    """What two static solutions differ by.
+
+    Parameters
+    ----------
+    deflection, roller_load : float
+        Relative to the typical load's, [-].
+    stiffness : float
+        Stiffness along the load over that of the reference, [-].
+    """
+
+    deflection: float
+    roller_load: float
+    stiffness: float
+
+    def influence(self) -> dict[str, float]:
+        """As influence on the quantities; a spring of other stiffness answers by the ratio."""
+        return {
+            "deflection": self.deflection,
+            "roller_load": self.roller_load,
+            "vibration": decibels(self.stiffness),
+        }
+
+
+def decibels(ratio: float) -> float:
+    """Amount of a ratio of amplitudes, at most `MOST_DB`, [dB]."""
+    if not 0.0 < ratio < math.inf:
+        return MOST_DB
+    return min(abs(20.0 * math.log10(ratio)), MOST_DB)
+
+
+class Evidence:
+    """Facts about a scene, each worked out once when a rule first asks.
+
+    Parameters
+    ----------
+    scene : Scene
+        In the full tier with the reference's effects.
+
+    Raises
+    ------
+    ValidityError
+        When the typical load has no equilibrium: there is nothing to judge by.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.costs: Costs = measured_costs()
+        self.loads: Circumstances = circumstances(scene)
+        self.statics = Statics(scene)
+        typical = self.statics.at(self.loads.typical, bending=self.statics.flexible)
+        if typical is None:
+            raise ValidityError(f"{scene.name}: the typical load has no static equilibrium")
+        self.typical: StaticSolution = typical
+        self.losses = Losses(scene, self.loads.typical, typical)
+
+    @property
+    def patches(self) -> tuple[Patch, ...]:
+        """Patches on raceways and rollers."""
+        return tuple(defect for defect in self.scene.defects if isinstance(defect, Patch))
+
+    @property
+    def patch_shares(self) -> tuple[float, ...]:
+        """Part of the contact length that each patch takes, at most 1."""
+        length = self.scene.bearing.effective_length
+        return tuple(min(patch.length / length, 1.0) for patch in self.patches)
+
+    @property
+    def worn_pockets(self) -> tuple[WornPocket, ...]:
+        """Worn pockets."""
+        return tuple(defect for defect in self.scene.defects if isinstance(defect, WornPocket))
+
+    @property
+    def moves(self) -> bool:
+        """Whether the axlebox can move, so that there is a vibration."""
+        return self.scene.mounting.cup == "suspended"
+
+    @cached_property
+    def torque(self) -> float:
+        """Of the reference under the typical load, [N m]."""
+        return self.losses.total
+
+    @property
+    def torque_of_rigid_cup(self) -> float:
+        """Of the reference with a cup that does not bend, [N m]."""
+        rigid = self.statics.at(self.loads.typical)
+        return self.torque if rigid is None else Losses(self.scene, self.loads.typical, rigid).total
+
+    def slipping(self, orbit: float) -> dict[str, float]:
+        """What an error of the orbit speed makes wrong: centrifugal force is part of the roller loads."""
+        bearing = self.scene.bearing
+        turning = cage_speed(bearing, self.loads.typical.speed)
+        force = bearing.roller_mass * 0.5 * bearing.pitch_diameter * turning**2
+        share = 2.0 * orbit * force / max(self.typical.largest_roller_load, 1.0e-3)
+        return {"cage_speed": orbit, "roller_load": share, "deflection": share}
+
+    def torque_share(self, torque: float) -> float:
+        """Torque over that of the reference; 0 with the shaft at rest."""
+        return abs(torque) / self.torque if self.torque > 0.0 else 0.0
+
+    @cached_property
+    def stiffness(self) -> float:
+        """Of the bearing along the typical load, [N/m]."""
+        return max(self.along_load(self.typical), 1.0)
+
+    def along_load(self, static: StaticSolution) -> float:
+        """Stiffness along the typical load, [N/m]."""
+        force = np.asarray(self.loads.typical.force)
+        size = float(np.linalg.norm(force))
+        direction = force / size if size > 0.0 else np.array([0.0, 0.0, 1.0])
+        return float(direction @ static.stiffness_tilt_free @ direction)
+
+    @cached_property
+    def resonance(self) -> float:
+        """Of box with cup against journal on the bearing's stiffness, [Hz]."""
+        box = self.scene.mounting.box_mass + self.scene.bearing.cup_mass
+        journal = self.scene.mounting.journal_mass + self.scene.bearing.cone_mass
+        reduced = box * journal / (box + journal)
+        return math.sqrt(self.stiffness / reduced) / (2.0 * math.pi)
+
+    def difference(
+        self, first: dict[str, object], second: dict[str, object], heavy: bool = False
+    ) -> Difference:
+        """Largest difference over the load cases of two ways to solve them; `heavy`: of the heaviest."""
+        cases = self.loads.cases
+        if heavy:
+            cases = (max(cases, key=lambda case: case.size),)
+        deflection_scale = max(float(np.linalg.norm(self.typical.displacement)), 1.0e-9)
+        load_scale = max(self.typical.largest_roller_load, 1.0e-3)
+        found = Difference(0.0, 0.0, 1.0)
+        for case in cases:
+            one = self.statics.at(case, **first)  # type: ignore[arg-type]
+            two = self.statics.at(case, **second)  # type: ignore[arg-type]
+            if one is None or two is None:
+                continue
+            ratio = self.along_load(one) / max(self.along_load(two), 1.0)
+            farther = abs(math.log(max(ratio, 1.0e-9))) > abs(math.log(found.stiffness))
+            found = Difference(
+                max(
+                    found.deflection,
+                    float(np.linalg.norm(one.displacement - two.displacement)) / deflection_scale,
+                ),
+                max(found.roller_load, abs(one.largest_roller_load - two.largest_roller_load) / load_scale),
+                max(ratio, 1.0e-9) if farther else found.stiffness,
+            )
+        return found

@@ -1,0 +1,34 @@
+"""What of a scene may be chosen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from beardyn_core.effects import EffectSet
+
+EFFECTS = tuple(field.name for field in fields(EffectSet))
+
+
+@dataclass(frozen=True)
+class Free:
+    """What may be chosen; the rest stays as the scene has it.
+
+    Parameters
+    ----------
+    tier, laminae, steps : bool
+    effects : frozenset of str
+        Members of the effect set.
+    """
+
+    tier: bool = True
+    laminae: bool = True
+    steps: bool = True
+    effects: frozenset[str] = frozenset(EFFECTS)
+
+    @property
+    def anything(self) -> bool:
+        """Whether there is something to choose."""
+        return self.tier or self.laminae or self.steps or bool(self.effects)
+
+
+NOTHING = Free(tier=False, laminae=False, steps=False, effects=frozenset())

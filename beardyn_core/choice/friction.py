@@ -1,0 +1,234 @@
+"""Rules of what brakes and drives: traction with film, rolling resistance, drag, seals, warming."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from beardyn_core.choice.evidence import Evidence
+from beardyn_core.choice.losses import Drive
+from beardyn_core.choice.rule import FRICTION_DB, Alternative, Rule, percent
+from beardyn_core.effects import (
+    CoulombTraction,
+    LineFilm,
+    LoadSharingTraction,
+    MixedTraction,
+    Thermal,
+    Traction,
+)
+from beardyn_core.model.heat import thermal_network
+
+_FAST = frozenset({"lumped", "quasistatic"})
+_FULL = frozenset({"full"})
+# Runs shorter than this stay at the temperature the scene gives.
+_SHORT = 60.0
+# Torque goes about with this power of the viscosity, which falls with `temperature_coefficient`.
+_VISCOSITY_POWER = 0.66
+# Bound from runs with one law after the other, everything else alike, at 68 kN.
+_DRY_CREEP = 1.5
+
+
+def traction(evidence: Evidence) -> Rule:
+    """Which law of friction drives the rollers: all of them do while little of the traction is used."""
+    effects, losses = evidence.scene.effects, evidence.losses
+    reference = losses.drive(effects.traction, effects.film)
+    parameter = losses.film_parameter(effects.film)
+    said = (
+        f"the rollers use {percent(reference.used)} of the traction there is, at a film of "
+        f"{parameter:.2f} times the roughness"
+        if reference.needed > 0.0
+        else "nothing has to be driven"
+    )
+    if reference.slip >= 1.0:
+        said += ": they skid, and the law of friction decides the torque"
+    costs = evidence.costs
+
+    def alternative(word: str, law: Traction, film: LineFilm | None, cost: float) -> Alternative:
+        drive = losses.drive(law, film)
+        return Alternative(
+            {"traction": law, "film": film},
+            f"{said}; by this law {percent(drive.used)}" if law is not effects.traction else said,
+            {}
+            if law is effects.traction and film is effects.film
+            else _other_law(evidence, drive, reference, law),
+            cost,
+            _FULL,
+            word,
+        )
+
+    found = []
+    mixed_cost = costs.saved("traction")
+    if effects.traction is not None:
+        thermal = 0.0
+        if effects.film is not None and (effects.film.thermal != "none" or effects.film.isoviscous):
+            thermal = costs.extra("film thermal, isoviscous")
+        law_cost = mixed_cost
+        if isinstance(effects.traction, LoadSharingTraction):
+            law_cost += costs.extra("traction load_sharing")
+        found.append(
+            alternative(
+                _word(effects.traction, effects.film),
+                effects.traction,
+                effects.film,
+                law_cost + thermal,
+            )
+        )
+        if effects.film is not None and isinstance(effects.traction, LoadSharingTraction):
+            plain = LineFilm()
+            found.append(alternative("mixed, film", MixedTraction(), plain, mixed_cost))
+        dry = costs.instead("traction", "traction coulomb, no film")
+        found.append(alternative("coulomb, no film", CoulombTraction(), None, dry))
+    found.append(
+        Alternative(
+            {"traction": None, "film": None},
+            f"the tier's rollers roll without slip; {said}",
+            _without_slip(evidence, reference),
+            0.0,
+            # nothing else drives the rollers of the full tier
+            _FAST if effects.traction is not None else _FAST | _FULL,
+            "off",
+        )
+    )
+    return Rule("traction", tuple(found))
+
+
+def _word(law: Traction, film: LineFilm | None) -> str:
+    name = {
+        "CoulombTraction": "coulomb",
+        "MixedTraction": "mixed",
+        "ShearedFilmTraction": "sheared_film",
+        "LoadSharingTraction": "load_sharing",
+    }[type(law).__name__]
+    return f"{name}, {'film' if film is not None else 'no film'}"
+
+
+def _other_law(evidence: Evidence, drive: Drive, reference: Drive, law: Traction) -> dict[str, float]:
+    """Bound of what another law of friction changes where nothing skids.
+
+    Rib friction skews the rollers, and the raceways lose by their creep about what the rib loses, by an
+    amount that each law gives differently; the creep also moves the resonance of the axlebox a little.
+    """
+    found = _apart(evidence, drive, reference)
+    found["torque"] += (_DRY_CREEP if isinstance(law, CoulombTraction) else 1.0) * _creep(evidence)
+    found["vibration"] = FRICTION_DB
+    return found
+
+
+def _without_slip(evidence: Evidence, reference: Drive) -> dict[str, float]:
+    """Bound of what pure rolling leaves out: what slips, and the creep of skewed rollers."""
+    found = _apart(evidence, Drive(0.0, 1.0, 0.0, 0.0), reference)
+    if evidence.scene.effects.traction is not None:
+        found["torque"] += _creep(evidence)
+    return found
+
+
+def _creep(evidence: Evidence) -> float:
+    return evidence.torque_share(evidence.losses.rib(evidence.scene.effects.rib))
+
+
+def _apart(evidence: Evidence, one: Drive, other: Drive) -> dict[str, float]:
+    """A slipping roller orbits between the speeds of rolling on the one and on the other raceway."""
+    return {
+        "torque": evidence.torque_share(one.torque - other.torque),
+        **evidence.slipping(0.5 * abs(one.slip - other.slip)),
+    }
+
+
+def rolling_resistance(evidence: Evidence) -> Rule:
+    """On when rolling makes up a notable part of the torque."""
+    effects, losses = evidence.scene.effects, evidence.losses
+    effect = effects.rolling_resistance
+    if effect is None:
+        return _absent("rolling_resistance")
+    drive = losses.drive(effects.traction, effects.film)
+    less = losses.drive(effects.traction, effects.film, rolling=False)
+    said = f"{losses.rolling:.3g} N m of a torque of about {evidence.torque:.3g} N m"
+    influence = {
+        "torque": evidence.torque_share(losses.rolling) + evidence.torque_share(drive.torque - less.torque),
+        **evidence.slipping(0.5 * abs(drive.slip - less.slip)),
+    }
+    return Rule(
+        "rolling_resistance",
+        (
+            Alternative({"rolling_resistance": effect}, said, {}, evidence.costs.extra("rolling_resistance")),
+            Alternative({"rolling_resistance": None}, said, influence, word="off"),
+        ),
+    )
+
+
+def drag(evidence: Evidence) -> Rule:
+    """On when drag and churning make up a notable part of the torque, or brake rollers that slip."""
+    effects, losses = evidence.scene.effects, evidence.losses
+    if effects.drag is None:
+        return _absent("drag")
+    drive = losses.drive(effects.traction, effects.film)
+    less = losses.drive(effects.traction, effects.film, drag=False)
+    said = f"{losses.drag:.3g} N m of a torque of about {evidence.torque:.3g} N m"
+    part = 1.0 - less.needed / drive.needed if drive.skids else 0.0
+    if part > 0.0:
+        said += f", {percent(part)} of what brakes rollers that hardly stick"
+    influence = {
+        "torque": evidence.torque_share(losses.drag) + evidence.torque_share(part * drive.torque),
+        **evidence.slipping(0.5 * max(abs(drive.slip - less.slip), part)),
+    }
+    return Rule(
+        "drag",
+        (
+            Alternative({"drag": effects.drag}, said, {}, evidence.costs.extra("drag")),
+            Alternative({"drag": None}, said, influence, word="off"),
+        ),
+    )
+
+
+def seal(evidence: Evidence) -> Rule:
+    """On when the seals make up a notable part of the torque."""
+    effect, torque = evidence.scene.effects.seal, evidence.losses.seal
+    if effect is None:
+        return _absent("seal")
+    said = f"{torque:.3g} N m of a torque of about {evidence.torque:.3g} N m"
+    return Rule(
+        "seal",
+        (
+            Alternative({"seal": effect}, said, {}, evidence.costs.extra("seal")),
+            Alternative({"seal": None}, said, {"torque": evidence.torque_share(torque)}, word="off"),
+        ),
+    )
+
+
+def thermal(evidence: Evidence) -> Rule:
+    """On when a run is so long that its losses warm the oil."""
+    scene = evidence.scene
+    effect = scene.effects.thermal or Thermal()
+    drift = _warming(evidence, effect)
+    influence = {"torque": min(_VISCOSITY_POWER * scene.lubricant.temperature_coefficient * abs(drift), 1.0)}
+    if scene.duration < _SHORT and scene.effects.thermal is None:
+        said = f"in {scene.duration:g} s the oil warms by {drift:.2g} K"
+        return Rule("thermal", (Alternative({"thermal": None}, said, word="off"),))
+    said = f"in {scene.duration:g} s the oil drifts by about {drift:.2g} K"
+    return Rule(
+        "thermal",
+        (
+            Alternative(
+                {"thermal": effect},
+                f"{said}; the audit feeds it",
+                {},
+                evidence.costs.extra("thermal") + evidence.costs.saved("audit"),
+                _FULL,
+            ),
+            Alternative({"thermal": None}, said, influence, word="off"),
+        ),
+    )
+
+
+def _warming(evidence: Evidence, effect: Thermal) -> float:
+    """Drift of the temperature of bearing and box as one body by the end of the run, [K]."""
+    scene, speed = evidence.scene, abs(evidence.loads.typical.speed)
+    network = thermal_network(scene.bearing, effect, scene.mounting.box_mass, speed)
+    capacity, leaving = float(np.sum(network.capacity)), float(np.sum(network.to_ambient))
+    gain = evidence.torque * speed - leaving * (scene.temperature - effect.ambient)
+    if leaving <= 0.0:
+        return gain * scene.duration / capacity
+    return float(gain / leaving * -np.expm1(-scene.duration * leaving / capacity))
+
+
+def _absent(name: str) -> Rule:
+    return Rule(name, (Alternative({name: None}, "not in the reference", word="off"),))

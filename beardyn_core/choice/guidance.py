@@ -1,0 +1,154 @@
+"""Rules of what guides the rollers: rib, small rib, cage."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
+from beardyn_core.choice.rule import FRICTION_DB, Alternative, Influence, Rule, percent
+from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCage
+
+_FAST = frozenset({"lumped", "quasistatic"})
+_FULL = frozenset({"full"})
+_GRAVITY = 9.81
+MOST_SLIP = 1.0
+
+
+def rib(evidence: Evidence) -> Rule:
+    """Always on: the cone angles press every loaded roller against it; its film when the torque needs it."""
+    effect, losses = evidence.scene.effects.rib, evidence.losses
+    if effect is None:
+        return Rule("rib", (Alternative({"rib": None}, "not in the reference", word="off", tiers=_FULL),))
+    share = float(evidence.typical.rib_load.max()) / max(evidence.typical.largest_roller_load, 1.0e-3)
+    full, dry = losses.rib(effect), losses.rib(_plain(effect))
+    said = f"the raceways press the rollers against it with {percent(share)} of their load"
+    fuller = effect.lubrication is not None or effect.roller_end or effect.drilling
+    if fuller:
+        said += f"; lubricated it takes {full:.3g} N m, dry {dry:.3g} N m "
+        said += f"of a torque of {evidence.torque:.3g} N m"
+    costs = evidence.costs
+    basic = costs.saved("rib")
+    more = 0.0
+    if effect.lubrication is not None:
+        more += costs.extra("rib lubrication mixed")
+    if effect.roller_end or effect.drilling:
+        more += costs.extra("rib roller_end, drilling")
+    found = [
+        Alternative(
+            {"rib": effect},
+            said,
+            {},
+            basic + more,
+            _FULL if fuller else _FAST | _FULL,
+            "lubricated" if fuller else "on",
+        )
+    ]
+    if fuller:
+        influence = {"torque": evidence.torque_share(full - dry), "vibration": FRICTION_DB}
+        drive = losses.drive(evidence.scene.effects.traction, evidence.scene.effects.film)
+        if drive.skids:
+            # what the ribs brake more, seen at the raceways beside what these have to drive
+            brake = abs(full - dry) / (0.5 * evidence.scene.bearing.pitch_diameter)
+            influence |= evidence.slipping(0.5 * min(brake / drive.needed, 1.0))
+        found.append(Alternative({"rib": _plain(effect)}, said, influence, basic, word="dry"))
+    return Rule("rib", tuple(found))
+
+
+def _plain(effect: Rib) -> Rib:
+    return replace(effect, lubrication=None, roller_end=False, drilling=False)
+
+
+def small_rib(evidence: Evidence) -> Rule:
+    """On when something takes rollers off the large rib."""
+    scene, loads = evidence.scene, evidence.loads
+    effect = scene.effects.small_rib
+    if effect is None:
+        return Rule("small_rib", (Alternative({"small_rib": None}, "not in the reference", word="off"),))
+    orbit = cage_speed(scene.bearing, abs(loads.typical.speed))
+    outward = orbit**2 * 0.5 * scene.bearing.pitch_diameter * math.sin(scene.bearing.cup_angle) / _GRAVITY
+    influence: dict[str, float] = {}
+    if loads.reverses:
+        said = (
+            f"the axial force goes from {loads.axial_low / 1e3:.3g} to {loads.axial_high / 1e3:.3g} kN "
+            "and takes the rollers of one row after the other off the large rib"
+        )
+        influence = {"vibration": MOST_DB, "roller_load": 0.01}
+    else:
+        if outward < 1.0:
+            influence = {"vibration": decibels(1.0 + 1.0 / max(outward, 0.1))}
+        said = (
+            f"the centrifugal force holds idle rollers at the large rib with {outward:.2g} times their weight"
+        )
+    return Rule(
+        "small_rib",
+        (
+            Alternative({"small_rib": effect}, said, {}, evidence.costs.extra("small_rib"), _FULL),
+            Alternative({"small_rib": None}, said, influence, word="off"),
+        ),
+    )
+
+
+def cage(evidence: Evidence) -> Rule:
+    """Dynamic when rollers slip, a pocket is worn or a vibration is asked for; else kinematic."""
+    scene, losses = evidence.scene, evidence.losses
+    effects = scene.effects
+    effect = effects.cage
+    if effect is None:
+        return Rule("cage", (Alternative({"cage": None}, "not in the reference", word="off"),))
+    drive = losses.drive(effects.traction, effects.film)
+    slip = 0.5 * drive.slip
+    said = f"the rollers slip by {percent(drive.slip)} of their rolling speed"
+    said += f", using {percent(drive.used)} of the traction"
+    worn = evidence.worn_pockets
+    if worn:
+        said += f"; a pocket is worn by {1e3 * max(defect.clearance for defect in worn):.2g} mm"
+    if drive.needed == 0.0:
+        said = "nothing turns the cage"
+    pocket = evidence.torque_share(losses.pocket)
+    knock = MOST_DB if worn else decibels(1.0 + losses.pocket_force / max(_excitation(evidence), 1.0))
+    costs = evidence.costs
+    basic = costs.saved("cage")
+    # where the raceways hardly drive the rollers, pockets decide at which speed they go
+    left = {"torque": pocket}
+    if drive.skids:
+        left = {"torque": pocket + evidence.torque_share(drive.torque), **evidence.slipping(0.5)}
+
+    def alternative(
+        word: str, model: CageModel | None, cost: float, without: Influence, tiers: frozenset[str]
+    ) -> Alternative:
+        return Alternative({"cage": model}, said, without, max(cost, 0.001), tiers, word)
+
+    whole = basic
+    if isinstance(effect, Cage) and effect.lubrication is not None:
+        whole += costs.extra("cage lubrication")
+    found = [alternative(_word(effect), effect, whole, {}, _FULL)]
+    if isinstance(effect, Cage):
+        if effect.lubrication is not None:
+            found.append(alternative("six_dof, dry", replace(effect, lubrication=None), basic, left, _FULL))
+        spin = costs.instead("cage", "cage rotating")
+        loss = {**left, "vibration": knock}
+        found.append(alternative("rotating", RotatingCage(), spin, loss, _FULL))
+        prescribed = costs.instead("cage", "cage kinematic")
+        # at a prescribed speed the cage takes over part of the force that rolling needs from the raceways
+        taken = evidence.torque_share(0.25 * drive.needed * scene.bearing.pitch_diameter)
+        speed = {"cage_speed": MOST_SLIP if worn else max(slip, left.get("cage_speed", 0.0))}
+        loss = {**left, "torque": left["torque"] + taken, "vibration": knock, **speed}
+        found.append(alternative("kinematic", KinematicCage(), prescribed, loss, _FULL))
+    speed = {"cage_speed": MOST_SLIP if worn else max(slip, left.get("cage_speed", 0.0))}
+    found.append(alternative("off", None, 0.001, {**left, "vibration": knock, **speed}, _FAST))
+    return Rule("cage", tuple(found))
+
+
+def _word(effect: CageModel) -> str:
+    if isinstance(effect, Cage):
+        return "six_dof, lubricated" if effect.lubrication is not None else "six_dof"
+    return "rotating" if isinstance(effect, RotatingCage) else "kinematic"
+
+
+def _excitation(evidence: Evidence) -> float:
+    """Force that shakes the axlebox besides the cage: what a fault takes from a roller, [N]."""
+    if not evidence.patches:
+        return 0.0
+    return max(evidence.patch_shares) * evidence.typical.largest_roller_load

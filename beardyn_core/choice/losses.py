@@ -1,0 +1,338 @@
+"""Torque by source under a static load, and the slip of the raceways that drive the rollers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.contact_law import rib_contact
+from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
+from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
+from beardyn_core.bearing.rib_film import rib_film_thickness
+from beardyn_core.choice.circumstances import LoadCase
+from beardyn_core.effects import (
+    CoulombTraction,
+    LineFilm,
+    LoadSharingTraction,
+    MixedTraction,
+    Rib,
+    RibMixedFilm,
+    RollingResistance,
+    Traction,
+)
+from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.integrate.torque import entrainment_speeds, raceway_radius, running_torque
+from beardyn_core.model.lamina_table import equivalent_radius
+from beardyn_core.model.loss_params import SEALS, drag_params
+from beardyn_core.scene.scene import Scene
+
+Float = NDArray[np.float64]
+_SPIN_SHARE = 0.18
+_STANDARD_GRAVITY = 9.81
+_DEEP_SLIP = 1.0
+_NEARLY_ALL = 0.5
+
+
+@dataclass(frozen=True)
+class Drive:
+    """How raceway traction drives the rollers.
+
+    Parameters
+    ----------
+    needed, available : float
+        Tangential force over all loaded rollers, [N].
+    slip : float
+        Slip over entrainment speed at which the traction is what is needed; 1 where it never is.
+    torque : float
+        On the shaft, that the slip loses, [N m].
+    """
+
+    needed: float
+    available: float
+    slip: float
+    torque: float
+
+    @property
+    def skids(self) -> bool:
+        """Whether so much of the traction is used that the lighter rollers may let go."""
+        return self.used > _NEARLY_ALL
+
+    @property
+    def used(self) -> float:
+        """Needed over available traction."""
+        if self.needed == 0.0:
+            return 0.0
+        return self.needed / self.available if self.available > 0.0 else math.inf
+
+
+class Losses:
+    """Torque by source of a scene under one load, in pure rolling.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the reference's effects; another set is asked for by argument.
+    case : LoadCase
+    static : StaticSolution
+    """
+
+    def __init__(self, scene: Scene, case: LoadCase, static: StaticSolution) -> None:
+        self.scene, self.case, self.static = scene, case, static
+        self.speed = abs(case.speed)
+        bearing = scene.bearing
+        self._entrainment = entrainment_speeds(bearing, self.speed)
+        self._couples = np.zeros((2, *static.cup_load.shape))
+        self.rolling = 0.0
+        rolling = scene.effects.rolling_resistance
+        if rolling is not None and self.speed > 0.0:
+            self.rolling = self._roll(rolling)
+
+    def _roll(self, effect: RollingResistance) -> float:
+        """Torque of the rolling resistance, [N m]; keeps the couples."""
+        film = effect.kind != "hysteresis"
+        running = running_torque(
+            self.scene.bearing,
+            self.scene.lubricant,
+            self.scene.temperature,
+            self.static,
+            self.speed,
+            form=effect.kind if film else "aihara",
+            thermal=effect.thermal,
+            hysteresis=effect.hysteresis,
+        )
+        share = effect.supply if film else 0.0
+        self._couples = share * np.stack([running.cup_couple, running.cone_couple])
+        return share * running.rolling
+
+    @property
+    def drag(self) -> float:
+        """Torque of drag and churning, [N m]."""
+        push, churning = self._drag()
+        if self.speed == 0.0:
+            return 0.0
+        bearing = self.scene.bearing
+        count = 2 * bearing.roller_count
+        orbit = cage_speed(bearing, self.speed)
+        power = push * orbit * 0.5 * bearing.pitch_diameter + churning * roller_spin(bearing, self.speed)
+        return count * power / self.speed
+
+    def _drag(self) -> tuple[float, float]:
+        """Force on a roller's orbit and couple on its spin, [N], [N m]."""
+        law = drag_params(self.scene)
+        if law is None or self.speed == 0.0:
+            return 0.0, 0.0
+        bearing = self.scene.bearing
+        flow = cage_speed(bearing, self.speed) * 0.5 * bearing.pitch_diameter
+        spin = roller_spin(bearing, self.speed)
+        return law.orbit * flow**2, law.cylinder * spin**law.cylinder_exponent * spin + law.disc * spin**1.5
+
+    @property
+    def seal(self) -> float:
+        """Torque of both seals, [N m]."""
+        seal = self.scene.effects.seal
+        if seal is None or self.speed == 0.0:
+            return 0.0
+        return SEALS * (seal.torque + seal.speed_coefficient * self.speed)
+
+    def rib(self, rib: Rib | None) -> float:
+        """Torque of the sliding ribs with some options, [N m]."""
+        if rib is None or self.speed == 0.0:
+            return 0.0
+        bearing = self.scene.bearing
+        contact, height = rib_contact(bearing), bearing.rib_contact_height
+        slide = roller_cone_spin(bearing, self.speed) * height
+        torque = 0.0
+        for load in self.static.rib_load[self.static.rib_load > 0.0]:
+            lever = height
+            if rib.drilling:
+                lever *= math.sqrt(1.0 + _SPIN_SHARE * (contact.semi_axes(float(load))[0] / height) ** 2)
+            friction = (
+                self.rib_friction(rib, float(load)) * slide / math.hypot(slide, rib.regularisation_speed)
+            )
+            torque += friction * float(load) * lever * roller_cone_spin(bearing, 1.0)
+        return torque
+
+    def rib_friction(self, rib: Rib, load: float) -> float:
+        """Coefficient of friction of a rib contact, shared by film and asperities."""
+        if not isinstance(rib.lubrication, RibMixedFilm):
+            return rib.friction if rib.lubrication is None else rib.lubrication.boundary_friction
+        film = self.rib_parameter(rib.lubrication, load)
+        asperities = math.exp(-1.8 * film**1.2)
+        wet = rib.lubrication.film_friction
+        return wet + (rib.lubrication.boundary_friction - wet) * asperities
+
+    def rib_parameter(self, film: RibMixedFilm, load: float) -> float:
+        """Film over roughness at a rib contact, [-]."""
+        scene = self.scene
+        # roller end and rib pass the contact with the speed of the raceway they stand on
+        speed = max(self._entrainment[1], 1.0e-3)
+        thickness = rib_film_thickness(
+            scene.bearing,
+            load,
+            speed,
+            scene.lubricant.dynamic_viscosity(scene.temperature),
+            scene.lubricant.pressure_viscosity_at(scene.temperature),
+        )
+        return film.starvation * thickness / scene.bearing.rib_roughness
+
+    @property
+    def pocket(self) -> float:
+        """Torque of the pockets, [N m]: the cage pushes idle rollers, loaded ones push the cage."""
+        cage = self.scene.effects.cage
+        if cage is None or self.speed == 0.0:
+            return 0.0
+        friction = getattr(cage, "friction", 0.0)
+        return (
+            friction
+            * self.pocket_force
+            * roller_spin(self.scene.bearing, self.speed)
+            * (0.5 * self.scene.bearing.roller_diameter / self.speed)
+        )
+
+    @property
+    def pocket_force(self) -> float:
+        """Normal forces of all pockets, [N]."""
+        idle = int(np.count_nonzero(self.static.cone_load <= 0.0))
+        weight = _STANDARD_GRAVITY * self.scene.bearing.roller_mass * 2.0 / math.pi
+        return 2.0 * idle * (self._drag()[0] + weight)
+
+    @property
+    def total(self) -> float:
+        """Of all sources of the reference, [N m]."""
+        effects = self.scene.effects
+        slide = self.drive(effects.traction, effects.film).torque
+        return self.rolling + self.drag + self.seal + self.rib(effects.rib) + self.pocket + slide
+
+    def film_parameter(self, film: LineFilm | None) -> float:
+        """Film over roughness of the cone contact of the most loaded roller, [-]; 0 without a film."""
+        load = float(self.static.cone_load.max())
+        if film is None or self.speed == 0.0 or load <= 0.0:
+            return 0.0
+        scene, oil = self.scene, self.scene.lubricant
+        viscosity = oil.dynamic_viscosity(scene.temperature)
+        thickness = line_film(
+            load / scene.bearing.effective_length,
+            self._entrainment[1],
+            float(equivalent_radius(scene.bearing, np.zeros(1), "cone")[0]),
+            scene.bearing.material.contact_modulus,
+            viscosity,
+            oil.pressure_viscosity_at(scene.temperature),
+            film.formula,
+        )
+        factor = 1.0
+        if film.thermal != "none":
+            loading = thermal_loading(
+                viscosity, oil.temperature_coefficient, self._entrainment[1], oil.thermal_conductivity
+            )
+            factor = thermal_factor(loading, film.thermal)
+        return film.starvation * factor * thickness / scene.bearing.raceway_roughness
+
+    def drive(
+        self,
+        traction: Traction | None,
+        film: LineFilm | None,
+        *,
+        rolling: bool = True,
+        drag: bool = True,
+    ) -> Drive:
+        """Traction that the rollers need and what the law of friction gives."""
+        loaded = self.static.cone_load > 0.0
+        if self.speed == 0.0 or not loaded.any():
+            return Drive(0.0, 0.0, 0.0, 0.0)
+        needed = 0.0
+        if rolling:
+            needed += float(self._couples[:, loaded].sum()) / self.scene.bearing.roller_diameter
+        if drag:
+            needed += 2 * self.scene.bearing.roller_count * self._drag()[0]
+        needed += 0.5 * self.pocket_force
+        loads = np.minimum(self.static.cone_load, self.static.cup_load)[loaded]
+        available, slip = self._slip(traction, film, loads, needed)
+        torque = 2.0 * min(needed, available) * slip * self._entrainment[1] / self.speed
+        return Drive(needed, available, slip, torque)
+
+    def _slip(
+        self, traction: Traction | None, film: LineFilm | None, loads: Float, needed: float
+    ) -> tuple[float, float]:
+        """Available traction [N] and slip over entrainment speed at which the needed one is there."""
+        speed, total = self._entrainment[1], float(loads.sum())
+        if traction is None:
+            return 0.0, _DEEP_SLIP
+        if isinstance(traction, LoadSharingTraction):
+            return self._shared(traction, film, loads, needed)
+        if isinstance(traction, CoulombTraction) or film is None:
+            friction = (
+                traction.friction if isinstance(traction, CoulombTraction) else traction.boundary_friction
+            )
+        else:
+            friction = self._blended(traction, film)
+        available = friction * total
+        if needed >= available:
+            return available, _DEEP_SLIP
+        used = needed / available
+        slip = traction.regularisation_speed * used / math.sqrt(1.0 - used**2) / speed
+        return available, min(slip, _DEEP_SLIP)
+
+    def _blended(self, traction: object, film: LineFilm) -> float:
+        """Coefficient between boundary and full film, by the sixth power of the film parameter."""
+        assert not isinstance(traction, CoulombTraction | LoadSharingTraction)
+        boundary = getattr(traction, "boundary_friction", 0.1)
+        full = traction.full_film_friction if isinstance(traction, MixedTraction) else traction.limiting_shear  # type: ignore[attr-defined]
+        low, high = traction.boundary_film_parameter, traction.full_film_parameter  # type: ignore[attr-defined]
+        place = (self.film_parameter(film) - low) / max(high - low, 1.0e-9)
+        return float(full + (boundary - full) * (1.0 - min(max(place, 0.0), 1.0)) ** 6)
+
+    def _shared(
+        self, law: LoadSharingTraction, film: LineFilm | None, loads: Float, needed: float
+    ) -> tuple[float, float]:
+        """Sum of asperity and film friction over the rollers, solved for the slip."""
+        slips = np.geomspace(1.0e-7, _DEEP_SLIP, 400)
+        force = self._shared_force(law, film, loads, slips)
+        available = float(force.max())
+        if needed >= available:
+            return available, _DEEP_SLIP
+        return available, float(np.interp(needed, np.maximum.accumulate(force), slips))
+
+    def _shared_force(
+        self, law: LoadSharingTraction, film: LineFilm | None, loads: Float, slips: Float
+    ) -> Float:
+        """Friction of all rollers over the slip, [N]."""
+        parameter = self.film_parameter(film)
+        asperities = math.exp(-1.8 * parameter**1.2) if parameter > 0.0 else 1.0
+        dry = law.boundary_friction * 2.0 / math.pi * np.arctan(law.boundary_slope * slips)
+        force = np.zeros_like(slips)
+        for load in loads:
+            wet = np.minimum(self._film_friction(law, float(load), slips), dry) if film is not None else dry
+            force += load * (wet + (dry - wet) * asperities)
+        return force
+
+    def _film_friction(self, law: LoadSharingTraction, load: float, slips: Float) -> Float:
+        """Traction coefficient of the film over the slip.
+
+        References
+        ----------
+        Aihara (1987), as in `kernels.film_traction`; the other laws end near the limiting shear.
+        """
+        scene, speed = self.scene, self._entrainment[1]
+        radius = float(equivalent_radius(scene.bearing, np.zeros(1), "cone")[0])
+        modulus = scene.bearing.material.contact_modulus
+        pressure = math.sqrt(load / scene.bearing.effective_length * modulus / (2.0 * math.pi * radius))
+        if law.film_traction != "aihara":
+            largest = (
+                law.limiting_shear
+                if law.film_traction == "bair_winer"
+                else 3.0 * law.eyring_stress / pressure
+            )
+            return largest * (1.0 - np.exp(-slips / 1.0e-3))
+        cp, mm_s = 1e3 * scene.lubricant.dynamic_viscosity(scene.temperature), 1e3 * speed
+        kgf = pressure / 9.80665e6
+        slide = min(1.2448e7 * cp**-1.5 * mm_s**-0.75 * kgf**-1.5, law.largest_slide)
+        highest = 4.078e-2 * kgf**0.18 if kgf > 94.404 else 1.008e-4 * kgf**1.5
+        return highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
+
+
+def raceway_speed(scene: Scene, speed: float) -> float:
+    """Speed at which rollers pass a point of the cup, [m/s]."""
+    return cage_speed(scene.bearing, abs(speed)) * raceway_radius(scene.bearing, "cup")

@@ -1,0 +1,79 @@
+"""Rules of weight, damping and bookkeeping."""
+
+from __future__ import annotations
+
+import math
+
+from beardyn_core.choice.evidence import Evidence, decibels
+from beardyn_core.choice.rule import Alternative, Rule, percent
+
+_ROWS = 2
+_FULL = frozenset({"full"})
+
+
+def gravity(evidence: Evidence) -> Rule:
+    """On when rollers and cages weigh something against the load."""
+    scene = evidence.scene
+    effect = scene.effects.gravity
+    if effect is None:
+        return Rule("gravity", (Alternative({"gravity": None}, "not in the reference", word="off"),))
+    bearing = scene.bearing
+    weight = effect.acceleration * _ROWS * (bearing.roller_count * bearing.roller_mass + bearing.cage.mass)
+    share = weight / max(evidence.loads.typical.size, 1.0)
+    said = f"rollers and cages weigh {weight:.3g} N, {percent(share)} of the load"
+    influence = {"force": share, "deflection": share, "roller_load": share}
+    drive = evidence.losses.drive(scene.effects.traction, scene.effects.film)
+    if drive.skids:
+        # the way up and down brakes and drives rollers that hardly stick: mean amount along the orbit
+        rollers = effect.acceleration * _ROWS * bearing.roller_count * bearing.roller_mass * 2.0 / math.pi
+        part = min(rollers / drive.needed, 1.0)
+        said += f", and {percent(part)} of what brakes rollers that hardly stick"
+        moved = evidence.slipping(0.5 * part)
+        influence |= {"torque": evidence.torque_share(part * drive.torque), "cage_speed": moved["cage_speed"]}
+        influence["roller_load"] += moved["roller_load"]
+        influence["deflection"] += moved["deflection"]
+    return Rule(
+        "gravity",
+        (
+            Alternative({"gravity": effect}, said, {}, evidence.costs.saved("gravity")),
+            Alternative({"gravity": None}, said, influence, word="off"),
+        ),
+    )
+
+
+def contact_damping(evidence: Evidence) -> Rule:
+    """On when a vibration is asked for: it decides how high resonances stand."""
+    scene = evidence.scene
+    effect = scene.effects.contact_damping
+    if effect is None:
+        return Rule(
+            "contact_damping", (Alternative({"contact_damping": None}, "not in the reference", word="off"),)
+        )
+    omega = 2.0 * math.pi * evidence.resonance
+    contacts = 0.5 * omega * effect.time_constant
+    box = scene.mounting.box_mass + scene.bearing.cup_mass
+    others = 0.5 * scene.mounting.damping[2] / (box * omega)
+    said = (
+        f"contacts damp the axlebox at its {evidence.resonance:.0f} Hz by {percent(contacts)} of "
+        f"the critical damping, the suspension by {percent(others)}"
+    )
+    influence = {"vibration": decibels((contacts + others) / max(others, 1.0e-6))}
+    return Rule(
+        "contact_damping",
+        (
+            Alternative({"contact_damping": effect}, said, {}, evidence.costs.saved("contact_damping")),
+            Alternative({"contact_damping": None}, said, influence, word="off"),
+        ),
+    )
+
+
+def audit(evidence: Evidence) -> Rule:
+    """Off: it proves the energy balance and changes no quantity."""
+    effect = evidence.scene.effects.audit
+    said = "keeps the energy balance and changes no quantity"
+    if evidence.scene.effects.thermal is not None:
+        return Rule("audit", (Alternative({"audit": effect}, "feeds the thermal effect", tiers=_FULL),))
+    alternatives = [Alternative({"audit": None}, said, word="off")]
+    if effect is not None:
+        alternatives.insert(0, Alternative({"audit": effect}, said, {}, evidence.costs.saved("audit"), _FULL))
+    return Rule("audit", tuple(alternatives))

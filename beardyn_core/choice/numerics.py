@@ -1,0 +1,121 @@
+"""Lamina count and time step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
+from beardyn_core.choice.rule import Influence, percent
+from beardyn_core.effects import EffectSet
+from beardyn_core.integrate.step_choice import AUDIBLE_BAND, StepChoice, choose_steps
+from beardyn_core.scene.defect import Patch
+
+_FINE = 400
+LAMINAE = (2, 4, 6, 8, 12, 20, 40)
+_REFERENCE_LAMINAE = 40
+# Width of a third-octave band over its centre.
+_BAND = 0.2316
+
+
+@dataclass(frozen=True)
+class LaminaVerdict:
+    """What a lamina count makes of a scene.
+
+    Parameters
+    ----------
+    count : int
+    reason : str
+    influence : mapping
+    """
+
+    count: int
+    reason: str
+    influence: Influence
+
+
+def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
+    """Convergence of the static load distribution, of the tilt spring, and of what patches take away."""
+    change = evidence.difference({"laminae": count}, {"laminae": _REFERENCE_LAMINAE}, heavy=True)
+    length = evidence.scene.bearing.effective_length
+    partial = [patch for patch in evidence.patches if patch.length < length]
+    tilt = max(abs(tilt_error(patch, length, count)) for patch in (None, *partial))
+    # a mode that moves by half of that takes its level out of its band by as much
+    shift = decibels(1.0 + 0.5 * tilt / _BAND)
+    influence = {**change.influence(), "vibration": shift + decibels(change.stiffness)}
+    said = (
+        f"{percent(change.deflection)} of the deflection is left out, {percent(tilt)} of the tilt stiffness"
+    )
+    if partial:
+        lever = max(lever_error(patch, length, count) for patch in partial)
+        influence["vibration"] += decibels(1.0 + lever)
+        # over the patch the neighbours take what the line of springs gives wrongly
+        influence["roller_load"] += 0.5 * (tilt + lever)
+        shortest = 1e3 * min(patch.length for patch in partial)
+        said += f"; a patch of {shortest:.3g} mm tilts its roller {percent(lever)} wrong"
+    influence["vibration"] = min(influence["vibration"], MOST_DB)
+    return LaminaVerdict(count, said, influence)
+
+
+def _uncovered(patch: Patch | None, length: float, count: int) -> tuple[list[float], list[float]]:
+    """Middle of each lamina, and its length beside a patch, [m]."""
+    step = length / count
+    middles = [-0.5 * length + (index + 0.5) * step for index in range(count)]
+    if patch is None:
+        return middles, [step] * count
+    low, high = patch.offset - 0.5 * patch.length, patch.offset + 0.5 * patch.length
+    covered = [max(min(high, place + 0.5 * step) - max(low, place - 0.5 * step), 0.0) for place in middles]
+    return middles, [step - part for part in covered]
+
+
+def tilt_error(patch: Patch | None, length: float, count: int) -> float:
+    """Error of the tilt stiffness of the line that a patch leaves, relative to the reference's laminae, [-].
+
+    What is left of a lamina acts at the lamina's middle.
+    """
+
+    def second_moment(laminae: int) -> float:
+        middles, left = _uncovered(patch, length, laminae)
+        return sum(part * place**2 for place, part in zip(middles, left, strict=True))
+
+    fine = second_moment(_FINE)
+    return (second_moment(count) - second_moment(_REFERENCE_LAMINAE)) / fine if fine > 0.0 else 0.0
+
+
+def lever_error(patch: Patch, length: float, count: int) -> float:
+    """By how much the laminae misplace what a patch takes from a roller, over a quarter of its length, [-].
+
+    The covered share of a lamina acts at the lamina's middle.
+    """
+    step = length / count
+    low = max(patch.offset - 0.5 * patch.length, -0.5 * length)
+    high = min(patch.offset + 0.5 * patch.length, 0.5 * length)
+    if high <= low:
+        return 0.0
+    moment = covered = 0.0
+    for index in range(count):
+        left = -0.5 * length + index * step
+        share = max(min(high, left + step) - max(low, left), 0.0)
+        covered += share
+        moment += share * (left + 0.5 * step)
+    return abs(moment / covered - 0.5 * (low + high)) / (0.25 * length)
+
+
+def steps(evidence: Evidence, effects: EffectSet, tier: str, vibration: bool) -> StepChoice:
+    """Coarsest step that is converged, by the current stiffness.
+
+    Friction decides; what else a choice may change is taken as in the reference.
+    """
+    loads, scene = evidence.loads, evidence.scene
+    radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
+    return choose_steps(
+        scene.bearing,
+        (min(radial), max(radial)),
+        (abs(loads.typical.speed), loads.top_speed),
+        effects,
+        tier,
+        axial=loads.axial_high,
+        end_play=scene.end_play,
+        mounting=scene.mounting,
+        band=AUDIBLE_BAND if vibration else 0.0,
+    )

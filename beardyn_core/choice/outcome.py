@@ -1,0 +1,116 @@
+"""What has been chosen, with its reasons, cost and expected errors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from beardyn_core.choice.rule import Decision, percent
+from beardyn_core.effects import EffectSet
+from beardyn_core.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What a scene is computed with, and why.
+
+    Parameters
+    ----------
+    tier : str
+    effects : EffectSet
+    laminae, steps_per_sample : int
+    accuracy : float
+        Asked for, [-].
+    quantities : tuple of str
+        Asked for.
+    tier_reason, laminae_reason, steps_reason : str
+    decisions : tuple of Decision
+        One for each effect, in the order of the catalogue.
+    expected : mapping
+        Expected error of each asked quantity: a fraction, of vibration in dB.
+    step_cost : float
+        Of a step, in steps of the standard set.
+    seconds : float
+        Wall time of a simulated second on the machine of the cost file, [s].
+    within : bool
+        Whether the expected errors are within the accuracy.
+    """
+
+    tier: str
+    effects: EffectSet
+    laminae: int
+    steps_per_sample: int
+    accuracy: float
+    quantities: tuple[str, ...]
+    tier_reason: str
+    laminae_reason: str
+    steps_reason: str
+    decisions: tuple[Decision, ...]
+    expected: Mapping[str, float]
+    step_cost: float
+    seconds: float
+    within: bool
+
+    @property
+    def real_time_factor(self) -> float:
+        """Expected on the machine of the cost file."""
+        return 1.0 / self.seconds
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """A sentence for each choice."""
+        return (
+            f"tier {self.tier}: {self.tier_reason}",
+            f"laminae {self.laminae}: {self.laminae_reason}",
+            f"steps_per_sample {self.steps_per_sample}: {self.steps_reason}",
+            *(decision.sentence() for decision in self.decisions),
+        )
+
+    def applied(self, scene: Scene) -> Scene:
+        """The scene with this choice; bearing, load, faults, sensors and seed stay."""
+        kept = replace(scene.numerics, laminae=self.laminae, steps_per_sample=self.steps_per_sample)
+        return replace(scene, tier=self.tier, effects=self.effects, numerics=kept, chosen=self.reasons)
+
+    def to_json(self) -> dict[str, Any]:
+        """JSON-able content; JSON has no NaN."""
+        return {
+            "tier": self.tier,
+            "effects": list(self.effects.names()),
+            "laminae": self.laminae,
+            "steps_per_sample": self.steps_per_sample,
+            "accuracy_percent": 100.0 * self.accuracy,
+            "quantities": list(self.quantities),
+            "within_accuracy": self.within,
+            "expected_error": {name: _number(error) for name, error in self.expected.items()},
+            "expected_rtf": self.real_time_factor,
+            "step_cost": self.step_cost,
+            "reasons": {
+                "tier": self.tier_reason,
+                "laminae": self.laminae_reason,
+                "steps_per_sample": self.steps_reason,
+            },
+            "decisions": [
+                {
+                    "effect": decision.effect,
+                    "on": decision.on,
+                    "choice": decision.word,
+                    "reason": decision.reason,
+                    "cost_share": _number(decision.cost_share),
+                    "error": {name: _number(error) for name, error in decision.influence.items()},
+                }
+                for decision in self.decisions
+            ],
+        }
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def error_text(quantity: str, error: float) -> str:
+    """Expected error in words."""
+    if math.isnan(error):
+        return "unknown"
+    return f"{error:.2g} dB" if quantity == "vibration" else percent(error)

@@ -1,0 +1,98 @@
+"""The nouns of a choice: alternatives of an effect with what they cost and what they leave out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from beardyn_core.scene.scene import QUANTITIES
+
+# Third-octave bands within 1.5 dB, whatever the accuracy of the rest.
+VIBRATION_TOLERANCE_DB = 1.5
+# What another law of friction at raceways or ribs does to the bands beside the resonance of the axlebox, at
+# most: from runs with one law after the other, everything else alike, at 68 kN.
+FRICTION_DB = 2.1
+UNITS = {name: "dB" if name == "vibration" else "%" for name in QUANTITIES}
+
+Influence = Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """One way to have an effect, or to do without it.
+
+    Parameters
+    ----------
+    members : mapping
+        Member of the effect set -> its options or ``None``.
+    reason : str
+        A sentence with the number that speaks for or against it.
+    influence : mapping
+        Quantity -> what it makes wrong against the reference: a fraction, of vibration in dB.
+    cost : float
+        Added to the step, in steps of the standard set.
+    tiers : frozenset of str
+        Tiers that can have it.
+    word : str
+        What it is called, ``on`` and ``off`` mostly.
+    """
+
+    members: Mapping[str, Any]
+    reason: str
+    influence: Influence = field(default_factory=dict)
+    cost: float = 0.0
+    tiers: frozenset[str] = frozenset({"lumped", "quasistatic", "full"})
+    word: str = "on"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """All ways to have one effect; the first is that of the reference.
+
+    Parameters
+    ----------
+    effect : str
+        Its name in the catalogue.
+    alternatives : tuple of Alternative
+    """
+
+    effect: str
+    alternatives: tuple[Alternative, ...]
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What has been decided on an effect.
+
+    Parameters
+    ----------
+    effect, word, reason : str
+    on : bool
+    cost_share : float
+        Part of the step that it takes, [-].
+    influence : mapping
+        Expected error of each asked quantity by this decision: a fraction, of vibration in dB.
+    """
+
+    effect: str
+    word: str
+    reason: str
+    on: bool
+    cost_share: float
+    influence: Influence
+
+    def sentence(self) -> str:
+        """Effect, decision and reason."""
+        return f"{self.effect} {self.word}: {self.reason}"
+
+
+def tolerance(quantity: str, accuracy: float) -> float:
+    """What a quantity may be wrong by: a fraction, of vibration in dB."""
+    return VIBRATION_TOLERANCE_DB if quantity == "vibration" else accuracy
+
+
+def percent(value: float) -> str:
+    """Fraction in words, to two digits."""
+    share = 100.0 * value
+    return f"{share:.2g} %" if abs(share) < 99.5 else f"{share:.0f} %"

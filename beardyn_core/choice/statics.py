@@ -1,0 +1,146 @@
+"""Static solutions of the load cases, with and without what a rule asks about."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.choice.circumstances import LoadCase
+from beardyn_core.effects import LaminaCoupling
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.integrate.roller_spring import spring_params
+from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.model.box_coupling import moved
+from beardyn_core.model.fault_params import roller_oversize
+from beardyn_core.model.flexibility_params import flexibility_params
+from beardyn_core.scene.scene import Scene
+
+USUAL_LAMINAE = 6
+_ITERATIONS = 40
+_SMALLEST, _LONGEST = 1.0e-12, 2.0e-5  # [m]
+_SOFT = 1.0e3  # what holds a cone that touches nothing [N/m]
+
+
+class Statics:
+    """Equilibria of a scene's bearing, each solved once.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the reference's effects.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self._known: dict[tuple[object, ...], StaticSolution | None] = {}
+        flexibility = flexibility_params(scene.bearing, scene.effects)
+        self._bending = () if flexibility is None else tuple(flexibility.stiffness.tolist())
+
+    @property
+    def flexible(self) -> bool:
+        """Whether the reference's cup bends."""
+        return bool(self._bending)
+
+    def at(
+        self,
+        case: LoadCase,
+        *,
+        laminae: int = USUAL_LAMINAE,
+        coupling: LaminaCoupling | None = None,
+        bending: bool = False,
+        half_pitch: bool = False,
+    ) -> StaticSolution | None:
+        """Equilibrium under a load case, ``None`` where there is none."""
+        key = (case, laminae, coupling, bending, half_pitch)
+        if key not in self._known:
+            self._known[key] = self._solved(case, laminae, coupling, bending, half_pitch)
+        return self._known[key]
+
+    def _solved(
+        self,
+        case: LoadCase,
+        laminae: int,
+        coupling: LaminaCoupling | None,
+        bending: bool,
+        half_pitch: bool,
+    ) -> StaticSolution | None:
+        scene = self.scene
+        free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
+        moment = (case.moment[0], 0.0, case.moment[2]) if free else (0.0, 0.0, 0.0)
+        try:
+            return solve(
+                scene.bearing,
+                case.force,
+                moment,
+                end_play=scene.end_play,
+                tilt="free" if free else "locked",
+                laminae=laminae,
+                speed=case.speed,
+                roller_phase=np.pi / scene.bearing.roller_count if half_pitch else 0.0,
+                coupling=coupling,
+                oversize=roller_oversize(scene),
+                bending_stiffness=self._bending if bending else (),
+                tilt_stiffness=self._restraint(),
+            )
+        except (InputError, ValidityError):
+            return None
+
+    def _restraint(self) -> tuple[float, float]:
+        """Of the suspension against the tilt of the bearing about x and z, [N m/rad]."""
+        mounting = self.scene.mounting
+        if mounting.cup == "held" or mounting.journal_tilt == "free":
+            return (0.0, 0.0)
+        springs = moved([*mounting.stiffness, *mounting.rotational_stiffness], mounting.suspension_centre)
+        return float(springs[3, 3]), float(springs[5, 5])
+
+    def lumped(self, case: LoadCase, laminae: int) -> tuple[float, float] | None:
+        """Deflection [m] and largest roller load [N] of the springs of the lumped tier."""
+        exact = self.at(case)
+        if exact is None:
+            return None
+        bearing = self.scene.bearing
+        try:
+            spring = spring_params(bearing, laminae)
+        except np.linalg.LinAlgError:  # laminae that a profile keeps out of contact
+            return None
+        azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
+        sine, cosine = np.sin(bearing.cup_angle), np.cos(bearing.cup_angle)
+        normals = [
+            np.stack(
+                [cosine * np.sin(azimuth), np.full(azimuth.size, -side * sine), cosine * np.cos(azimuth)], 1
+            )
+            for side in (-1.0, 1.0)
+        ]
+        # the tilt of the exact solution is kept: it follows from the moment and hardly from the spring
+        tilting = [
+            spring.lever * side * (np.cos(azimuth) * exact.tilt[0] - np.sin(azimuth) * exact.tilt[1])
+            for side in (-1.0, 1.0)
+        ]
+        normal = np.concatenate(normals)
+        offset = np.concatenate(tilting) - 0.5 * self.scene.end_play * sine
+        found, load = exact.displacement.copy(), np.asarray(case.force)
+        idle = spring.idle * _centrifugal(bearing, case.speed)
+        force = np.zeros(len(normal))
+        for _ in range(_ITERATIONS):
+            approach = normal @ found + offset
+            root = np.maximum(approach, _SMALLEST) ** (1.0 / 9.0)
+            pressed = (
+                np.maximum(approach, 0.0)
+                * root
+                * (root[:, None] ** np.arange(len(spring.series)) @ spring.series)
+            )
+            force = np.maximum(pressed + 0.5 * idle, idle)
+            tangent = 10.0 / 9.0 * pressed / np.maximum(approach, _SMALLEST) * (pressed > 0.5 * idle)
+            step = np.linalg.solve(
+                (normal * tangent[:, None]).T @ normal + _SOFT * np.eye(3), load - force @ normal
+            )
+            found = found + step * min(1.0, _LONGEST / max(float(np.abs(step).max()), _SMALLEST))
+            if np.abs(step).max() < _SMALLEST:
+                break
+        return float(np.linalg.norm(found)), float(force.max())
+
+
+def _centrifugal(bearing: Bearing, speed: float) -> float:
+    """Of a roller in pure rolling, [N]."""
+    return bearing.roller_mass * 0.5 * bearing.pitch_diameter * cage_speed(bearing, speed) ** 2

@@ -1,0 +1,116 @@
+"""``beardyn explain``: which effects are on, why, and what each costs."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from beardyn_core.choice.outcome import Choice
+    from beardyn_core.config.automatic import Explanation
+
+DONE = 0
+_WIDTH = 110
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "explain",
+        help="which effects a scene is computed with, why, and what each costs",
+        description="Say which tier, laminae, step and effects a scene is computed with, why, what each "
+        "costs and which error is expected. For a scene that fixes them, also what `effects: auto` would be.",
+    )
+    parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
+    parser.add_argument(
+        "--accuracy", metavar="PERCENT", type=float, help="of what is asked for (the scene's own, else 5)"
+    )
+    parser.add_argument(
+        "--quantities",
+        metavar="NAME",
+        nargs="+",
+        help="what is asked for: force, deflection, roller_load, torque, vibration, cage_speed",
+    )
+    parser.add_argument(
+        "--effects", metavar="NAME", help="preset or file of effects, or auto (the scene's own)"
+    )
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto")
+    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from beardyn_core.config import explain_scene
+
+    found = explain_scene(
+        args.scene,
+        effects=args.effects,
+        tier=args.tier,
+        accuracy_percent=args.accuracy,
+        quantities=args.quantities,
+    )
+    print(json.dumps(json_object(found)) if args.json else text(found))
+    return DONE
+
+
+def json_object(found: Explanation) -> dict[str, Any]:
+    """What ``--json`` prints."""
+    from beardyn_core.choice.costs import measured_costs
+
+    costs = measured_costs()
+    return {
+        "scene": found.scene.name,
+        "current": found.current.to_json(),
+        "automatic": None if found.automatic is None else found.automatic.to_json(),
+        "costs": {"machine": costs.machine, "date": costs.date},
+    }
+
+
+def text(found: Explanation) -> str:
+    """Readable explanation."""
+    from beardyn_core.choice.costs import measured_costs
+
+    costs = measured_costs()
+    parts = [f"{found.scene.name}: {found.scene.purpose}"]
+    if found.automatic is None:
+        parts += ["", *_lines(found.current, "chosen")]
+    else:
+        parts += ["", *_lines(found.current, "as the scene has it")]
+        parts += ["", *_lines(found.automatic, "what `effects: auto` would choose")]
+    parts += ["", f"Cost shares and real-time factor as measured on {costs.machine}, {costs.date}."]
+    return "\n".join(parts)
+
+
+def _lines(choice: Choice, title: str) -> list[str]:
+    from beardyn_core.choice.outcome import error_text
+
+    asked = ", ".join(choice.quantities)
+    errors = ", ".join(f"{name} {error_text(name, error)}" for name, error in choice.expected.items())
+    verdict = "" if choice.within else "; more than asked for"
+    rows = [
+        ("tier", choice.tier, "", choice.tier_reason),
+        ("laminae", str(choice.laminae), "", choice.laminae_reason),
+        ("step", f"1/{25600 * choice.steps_per_sample} s", "", choice.steps_reason),
+    ]
+    for decision in choice.decisions:
+        share = f"{100.0 * decision.cost_share:.1f} %" if decision.on else ""
+        left_out = ", ".join(
+            f"{name} {error_text(name, error)}" for name, error in decision.influence.items() if error > 0.0
+        )
+        reason = f"{decision.reason}{f' (error: {left_out})' if left_out else ''}"
+        rows.append((decision.effect, decision.word, share, reason))
+    lines = [
+        f"{title}: tier {choice.tier}, {choice.laminae} laminae, "
+        f"expected real-time factor {choice.real_time_factor:.2g}",
+        f"asked for: {asked} within {100.0 * choice.accuracy:.3g} %, third-octave bands within 1.5 dB",
+        f"expected errors: {errors}{verdict}",
+        f"{'':20} {'':20} {'cost':>7}  why",
+    ]
+    for name, word, share, reason in rows:
+        first, *more = textwrap.wrap(reason, _WIDTH - 51) or [""]
+        lines.append(f"{name:20} {word:20} {share:>7}  {first}")
+        lines += [f"{'':51}{line}" for line in more]
+    return lines

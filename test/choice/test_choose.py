@@ -1,0 +1,262 @@
+"""What is chosen for scenes with different right answers, and that the reasons name the number."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from beardyn_core.choice.choose import choose
+from beardyn_core.config import config_folder, load_effects, load_scene, scene_from_text
+from beardyn_core.config.yaml_text import read_file
+from beardyn_core.effects import (
+    Cage,
+    CoulombTraction,
+    KinematicCage,
+    LoadSharingTraction,
+    RibMixedFilm,
+)
+from beardyn_core.scene.scene import Scene
+from test.choice.scenes import HELD, SPALL, constant, reasons, variant
+
+
+def has_number(sentence: str) -> bool:
+    return re.search(r"\d", sentence.split(": ", 1)[1]) is not None
+
+
+def test_the_mean_force_alone_leads_to_the_lumped_tier() -> None:
+    scene = variant(quantities=["force"], mounting=HELD)
+    assert scene.tier == "lumped"
+    assert scene.numerics.steps_per_sample == 1
+    assert scene.effects.traction is None
+    assert scene.effects.cage is None
+    assert scene.effects.gravity is None
+    assert "83.9 N" in reasons(scene)["gravity"]
+
+
+def test_force_and_deflection_in_a_rigid_housing_lead_to_the_lumped_tier() -> None:
+    scene = variant(
+        quantities=["force", "deflection"],
+        effects={"preset": "auto", "ring_flexibility": False},
+        mounting=HELD,
+    )
+    assert scene.tier == "lumped"
+    assert "one spring a roller misses the deflection by" in reasons(scene)["tier"]
+
+
+def test_deflection_in_a_thin_housing_needs_the_bending_of_the_cup() -> None:
+    scene = variant(quantities=["force", "deflection"], mounting=HELD)
+    assert scene.effects.ring_flexibility is not None
+    assert "ring_flexibility" not in scene.missing_effects
+    assert re.search(r"deflection by (19|20|21) %", reasons(scene)["ring_flexibility"])
+
+
+def test_an_eccentric_load_on_a_free_journal_needs_the_bending_of_the_cup() -> None:
+    scene = variant(
+        quantities=["deflection", "roller_load"],
+        mounting={"cup": "suspended", "journal_tilt": "free", "load_offset_mm": [0, 20, 0]},
+    )
+    assert scene.effects.ring_flexibility is not None
+    assert has_number(reasons(scene)["ring_flexibility"])
+
+
+def test_a_smooth_run_has_what_its_torque_is_made_of() -> None:
+    scene = load_scene("smooth_run", effects="auto", duration=2.0)
+    effects, told = scene.effects, reasons(scene)
+    assert scene.tier == "full"
+    assert effects.rolling_resistance is not None
+    assert effects.contact_damping is not None
+    assert effects.audit is None
+    assert effects.small_rib is None
+    assert effects.lamina_coupling is None
+    assert effects.rib is not None
+    assert isinstance(effects.rib.lubrication, RibMixedFilm)
+    for name in (
+        "rolling_resistance",
+        "drag",
+        "seal",
+        "rib",
+        "traction",
+        "cage",
+        "lamina_coupling",
+        "gravity",
+    ):
+        assert has_number(told[name]), told[name]
+    assert "N m of a torque of about" in told["rolling_resistance"]
+
+
+def test_the_vibration_of_a_spall_needs_every_roller_as_a_body() -> None:
+    scene = load_scene("cup_spall", effects="auto", duration=2.0)
+    assert scene.tier == "full"
+    assert scene.effects.contact_damping is not None
+    assert "Hz" in reasons(scene)["contact_damping"]
+
+
+def test_a_narrow_patch_needs_more_laminae_than_a_sound_bearing() -> None:
+    narrow = {**SPALL, "length_mm": 4, "offset_mm": 11}
+    sound, damaged = variant(), variant(defects=[narrow])
+    assert damaged.numerics.laminae > sound.numerics.laminae
+    assert "4 mm" in reasons(damaged)["laminae"]
+
+
+def test_rollers_that_skid_keep_the_law_of_friction_that_decides() -> None:
+    scene = variant(operation=constant([0, 0, 5]), quantities=["cage_speed"], mounting=HELD)
+    assert scene.tier == "full"
+    assert isinstance(scene.effects.traction, LoadSharingTraction)
+    assert scene.effects.film is not None
+    assert scene.effects.cage is not None
+    assert not isinstance(scene.effects.cage, KinematicCage)
+    assert "they skid" in reasons(scene)["traction"]
+    assert has_number(reasons(scene)["traction"])
+
+
+def test_a_loaded_bearing_has_a_known_cage_speed() -> None:
+    assert variant(quantities=["cage_speed"], mounting=HELD).tier == "lumped"
+
+
+def test_a_worn_pocket_keeps_the_whole_cage() -> None:
+    scene = load_scene("worn_pocket", effects="auto")
+    assert isinstance(scene.effects.cage, Cage)
+    assert "0.5 mm" in reasons(scene)["cage"]
+
+
+def test_an_axial_force_that_reverses_keeps_the_small_rib() -> None:
+    def run(axial: float) -> Scene:
+        steps = [
+            {"time_s": 0.0, "force_kN": [0, axial, 60], "speed_rpm": 1165},
+            {"time_s": 0.5, "force_kN": [0, 10, 60], "speed_rpm": 1165},
+        ]
+        return variant(operation={"kind": "stepped", "ramp_s": 0.1, "steps": steps}, end_play_mm=0.1)
+
+    reversing = run(-10)
+    assert reversing.effects.small_rib is not None
+    assert "-10 to 10 kN" in reasons(reversing)["small_rib"]
+    assert run(5).effects.small_rib is None
+
+
+def test_hot_oil_brings_the_asperities_together_so_that_a_light_load_does_not_skid() -> None:
+    warm, hot = (
+        variant(
+            operation=constant([0, 0, 5]), temperature_C=celsius, quantities=["cage_speed"], mounting=HELD
+        )
+        for celsius in (70.0, 130.0)
+    )
+    assert warm.tier == "full"
+    assert hot.tier == "lumped"
+    assert "at a film of 1.61 times the roughness" in reasons(warm)["traction"]
+    assert "at a film of 0.51 times the roughness" in reasons(hot)["traction"]
+
+
+def test_a_crowned_roller_that_no_spring_follows_leads_to_the_quasistatic_tier() -> None:
+    shipped = read_file(config_folder() / "bearings" / "HS130x230.yaml")
+    scene = variant(
+        bearing={**shipped, "profile": {"kind": "crowned", "drop_um": 20}},
+        effects={"preset": "auto", "ring_flexibility": False},
+        operation=constant([0, 15, 60], 600),
+        quantities=["deflection", "roller_load"],
+        accuracy_percent=3.0,
+        mounting=HELD,
+    )
+    assert scene.tier == "quasistatic"
+    assert scene.numerics.laminae > 6
+    assert has_number(reasons(scene)["laminae"])
+
+
+def test_dry_friction_that_is_written_down_stays() -> None:
+    dry = {"kind": "coulomb", "friction": 0.12, "regularisation_speed_m_per_s": 0.01}
+    scene = variant(effects={"preset": "auto", "traction": dry, "film": False})
+    assert scene.effects.traction == CoulombTraction(0.12, 0.01)
+    assert scene.effects.film is None
+    assert "written down" in reasons(scene)["traction"]
+
+
+def test_frictionless_contacts_have_a_seal_and_nothing_to_drive() -> None:
+    scene = variant(
+        effects={
+            "preset": "auto",
+            "traction": None,
+            "film": False,
+            "rolling_resistance": False,
+            "drag": False,
+            "rib": {"friction": 0},
+            "cage": {"friction": 0},
+        },
+        quantities=["torque"],
+        mounting=HELD,
+    )
+    assert scene.effects.seal is not None
+    assert scene.effects.traction is None
+
+
+def test_a_standing_shaft_has_no_torque_to_resolve() -> None:
+    scene = variant(operation=constant([0, 0, 60], 0), quantities=["torque", "force"], mounting=HELD)
+    assert scene.tier == "lumped"
+
+
+def test_an_hour_of_running_warms_the_oil() -> None:
+    scene = variant(duration_s=3600.0, quantities=["torque"], temperature_C=30)
+    assert scene.effects.thermal is not None
+    assert scene.effects.audit is not None
+    assert has_number(reasons(scene)["thermal"])
+
+
+def test_what_is_written_down_is_kept() -> None:
+    scene = variant(tier="full", numerics={"laminae": 7}, quantities=["force"])
+    assert scene.tier == "full"
+    assert scene.numerics.laminae == 7
+    assert "written down" in reasons(scene)["laminae"]
+
+
+def test_the_tier_alone_can_be_chosen() -> None:
+    scene = variant(effects="standard", tier="auto", quantities=["force"], mounting=HELD)
+    assert scene.tier == "lumped"
+    assert scene.effects == load_effects("standard")
+
+
+def test_a_held_cup_has_no_vibration_to_resolve() -> None:
+    scene = variant(quantities=["vibration"], mounting=HELD)
+    assert scene.tier == "lumped"
+    assert "held" in reasons(scene)["tier"]
+
+
+def test_the_recorded_scene_reads_back_as_it_was_chosen() -> None:
+    scene = load_scene("smooth_run", effects="auto", duration=1.0)
+    again = scene_from_text(scene.source_text)
+    assert again.effects == scene.effects
+    assert (again.tier, again.numerics) == (scene.tier, scene.numerics)
+    assert again.chosen == ()
+
+
+@pytest.mark.parametrize("name", ["smooth_run", "static_5kN"])
+@pytest.mark.parametrize("quantity", ["deflection", "torque", "vibration"])
+def test_a_tighter_accuracy_never_gives_a_cheaper_choice(name: str, quantity: str) -> None:
+    scene = load_scene(name, effects="full", duration=1.0)
+    costs = [
+        choose(replace(scene, accuracy=accuracy, quantities=(quantity,))).seconds
+        for accuracy in (0.2, 0.05, 0.02, 0.001)
+    ]
+    assert costs == sorted(costs)
+
+
+def test_one_percent_costs_more_than_ten() -> None:
+    coarse, fine = (variant(accuracy_percent=percent) for percent in (10.0, 1.0))
+    assert len(fine.effects.names()) > len(coarse.effects.names())
+    assert fine.effects.drag is not None
+    assert coarse.effects.drag is None
+
+
+def test_every_expected_error_is_within_what_was_asked_for() -> None:
+    scene = replace(load_scene("cup_spall", effects="full", duration=1.0), accuracy=0.05)
+    chosen = choose(scene)
+    assert chosen.within
+    assert max(error for name, error in chosen.expected.items() if name != "vibration") <= 0.05
+    assert chosen.expected["vibration"] <= 1.5
+
+
+def test_the_reference_itself_is_expected_to_have_no_error() -> None:
+    from beardyn_core.choice.free import NOTHING
+
+    scene = load_scene("smooth_run", effects="full", duration=1.0)
+    found = choose(replace(scene, numerics=replace(scene.numerics, laminae=40)), NOTHING)
+    assert found.expected == pytest.approx(dict.fromkeys(scene.quantities, 0.0), abs=2e-3)

@@ -1,0 +1,77 @@
+"""What was chosen meets the accuracy asked for in real runs, against the reference with every effect on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from beardyn_core.config import load_scene
+from beardyn_core.rail.build import load_history
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+
+BLOCKS_PER_SECOND = 50
+REFERENCE_LAMINAE = 20
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Means of a run after its start has settled; the largest roller load is the mean of each instant's."""
+
+    force: float
+    deflection: float
+    roller_load: float
+    torque: float
+    cage_speed: float
+
+
+def measured(scene: Scene, settled: float) -> Measured:
+    twin = Twin(scene)
+    twin.warm()
+    twin.start(load_history(scene.operation, scene.mounting, scene.duration, scene.seed))
+    kept = []
+    for _ in range(round(scene.duration * BLOCKS_PER_SECOND)):
+        block = twin.advance()
+        if block.start_ns * 1e-9 >= settled:
+            kept.append(block)
+    force = np.concatenate([block.force[:, :3] for block in kept]).mean(axis=0)
+    apart = np.concatenate([block.body_pose[:, 1, :3] - block.body_pose[:, 0, :3] for block in kept])
+    cup = np.concatenate([np.linalg.norm(block.contacts[:, :, :, 0, 3:6], axis=-1) for block in kept])
+    return Measured(
+        force=float(np.linalg.norm(force)),
+        deflection=float(np.linalg.norm(apart.mean(axis=0))),
+        roller_load=float(cup.max(axis=(1, 2)).mean()),
+        torque=float(np.concatenate([block.shaft_torque for block in kept]).mean()),
+        cage_speed=float(np.concatenate([block.cage_speed for block in kept]).mean()),
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "quantities", "percent", "duration", "settled"),
+    [
+        ("static_80kN", ["force", "deflection", "roller_load", "torque", "vibration"], 5.0, 0.6, 0.3),
+        ("static_80kN", ["force", "cage_speed"], 5.0, 0.6, 0.3),
+        ("static_5kN", ["force", "deflection", "roller_load", "torque", "cage_speed"], 5.0, 2.4, 1.8),
+        ("smooth_run", ["force", "deflection", "roller_load", "torque"], 5.0, 0.8, 0.4),
+        ("cup_spall", ["force", "deflection", "roller_load", "torque", "vibration"], 5.0, 0.8, 0.4),
+    ],
+)
+def test_the_choice_meets_the_accuracy_in_a_run(
+    name: str, quantities: list[str], percent: float, duration: float, settled: float
+) -> None:
+    chosen = load_scene(
+        name, effects="auto", duration=duration, accuracy_percent=percent, quantities=quantities
+    )
+    reference = load_scene(name, effects="full", duration=duration, laminae=REFERENCE_LAMINAE)
+    found, exact = measured(chosen, settled), measured(reference, settled)
+    print(f"\n{name}, {chosen.tier}, {chosen.numerics}, {chosen.effects.names()}")
+    errors = {
+        quantity: getattr(found, quantity) / getattr(exact, quantity) - 1.0
+        for quantity in quantities
+        if quantity != "vibration"
+    }
+    print({quantity: f"{100.0 * error:+.2f} %" for quantity, error in errors.items()})
+    assert max(map(abs, errors.values())) <= 0.01 * percent
