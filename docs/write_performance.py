@@ -17,6 +17,10 @@ runs that are compared take turns, block by block.
 
 """
 
+# More than this and something else was running.
+IDLE = 0.7
+BUSY = "**The machine was busy with other work: all times are too long, ratios within one table hold.**\n\n"
+
 GOALS = """## Goals
 
 The real-time factor (RTF) is simulated over wall time, all channels of a run included.
@@ -137,7 +141,8 @@ def page(result: dict[str, Any]) -> str:
     """The whole page."""
     tables = result["tables"]
     columns = ["", "floor", "goal", "measured", "reached"]
-    parts = [HEAD.format(**result["machine"]), GOALS]
+    busy = result["machine"]["load_average_before"] > IDLE
+    parts = [HEAD.format(**result["machine"]), BUSY if busy else "", GOALS]
     parts.append(markdown(columns, [list(row) for row in goal_rows(tables)]) + "\n")
     for name, text in TEXTS.items():
         if name not in tables:
