@@ -17,6 +17,10 @@ runs that are compared take turns, block by block.
 
 """
 
+# More than this and something else was running.
+IDLE = 0.7
+BUSY = "**The machine was busy with other work: all times are too long, ratios within one table hold.**\n\n"
+
 GOALS = """## Goals
 
 The real-time factor (RTF) is simulated over wall time, all channels of a run included.
@@ -45,8 +49,8 @@ raceway forces of the end of the step with their energy terms, *motion* drift an
 cup, cone and axlebox. A stage without work shows up to 1.5 %, what is left of its marks.
 
 The timers are an argument like every effect: without them they compile to nothing. With them a step that is
-not timed has about 240 branches more. That could not be told from none: the median of the ratio was 0.98, and
-code that lies elsewhere in memory makes 5 % either way.
+not timed has about 240 branches more. That could not be told from none: the medians of the ratio were 0.98
+and 1.00 in two runs, and code that lies elsewhere in memory makes 5 % either way.
 
 """,
     "laminae": """## Laminae
@@ -137,7 +141,8 @@ def page(result: dict[str, Any]) -> str:
     """The whole page."""
     tables = result["tables"]
     columns = ["", "floor", "goal", "measured", "reached"]
-    parts = [HEAD.format(**result["machine"]), GOALS]
+    busy = result["machine"]["load_average_before"] > IDLE
+    parts = [HEAD.format(**result["machine"]), BUSY if busy else "", GOALS]
     parts.append(markdown(columns, [list(row) for row in goal_rows(tables)]) + "\n")
     for name, text in TEXTS.items():
         if name not in tables:

@@ -76,3 +76,6 @@ def test_the_page_says_what_was_reached() -> None:
     assert "| full standard, 20 laminae | 20 | 0.5 | 18 | 3 |" in text
     assert "Of one run." in text
     assert "## Laminae" not in text  # what was not measured is not shown
+    assert "busy" not in text
+    result["machine"] = {**MACHINE, "load_average_before": 3.0}
+    assert "The machine was busy" in page(result)
