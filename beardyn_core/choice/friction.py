@@ -163,7 +163,7 @@ def drag(evidence: Evidence) -> Rule:
     drive = losses.drive(effects.traction, effects.film)
     less = losses.drive(effects.traction, effects.film, drag=False)
     said = f"{losses.drag:.3g} N m of a torque of about {evidence.torque:.3g} N m"
-    part = 1.0 - less.needed / drive.needed if drive.skids else 0.0
+    part = drive.share(drive.needed - less.needed) if drive.skids else 0.0
     if part > 0.0:
         said += f", {percent(part)} of what brakes rollers that hardly stick"
     influence = {

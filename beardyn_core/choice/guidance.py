@@ -51,7 +51,9 @@ def rib(evidence: Evidence) -> Rule:
         if drive.skids:
             # what the ribs brake more, seen at the raceways beside what these have to drive
             brake = abs(full - dry) / (0.5 * evidence.scene.bearing.pitch_diameter)
-            influence |= evidence.slipping(0.5 * min(brake / drive.needed, 1.0))
+            part = drive.share(brake)
+            influence["torque"] += evidence.torque_share(part * drive.torque)
+            influence |= evidence.slipping(0.5 * part)
         found.append(Alternative({"rib": _plain(effect)}, said, influence, basic, word="dry"))
     return Rule("rib", tuple(found))
 

@@ -55,6 +55,11 @@ class Drive:
     slip: float
     torque: float
 
+    def share(self, force: float) -> float:
+        """Part that a force on the rollers has in what drives them, at most 1."""
+        driving = min(self.needed, self.available)
+        return min(abs(force) / driving, 1.0) if driving > 0.0 else 1.0
+
     @property
     def skids(self) -> bool:
         """Whether so much of the traction is used that the lighter rollers may let go."""
@@ -203,8 +208,10 @@ class Losses:
     def total(self) -> float:
         """Of all sources of the reference, [N m]."""
         effects = self.scene.effects
-        slide = self.drive(effects.traction, effects.film).torque
-        return self.rolling + self.drag + self.seal + self.rib(effects.rib) + self.pocket + slide
+        drive = self.drive(effects.traction, effects.film)
+        # what the traction does not drive does not roll
+        rolling = self.rolling / max(drive.used, 1.0) if math.isfinite(drive.used) else 0.0
+        return rolling + self.drag + self.seal + self.rib(effects.rib) + self.pocket + drive.torque
 
     def film_parameter(self, film: LineFilm | None) -> float:
         """Film over roughness of the cone contact of the most loaded roller, [-]; 0 without a film."""

@@ -26,7 +26,7 @@ def gravity(evidence: Evidence) -> Rule:
     if drive.skids:
         # the way up and down brakes and drives rollers that hardly stick: mean amount along the orbit
         rollers = effect.acceleration * _ROWS * bearing.roller_count * bearing.roller_mass * 2.0 / math.pi
-        part = min(rollers / drive.needed, 1.0)
+        part = drive.share(rollers)
         said += f", and {percent(part)} of what brakes rollers that hardly stick"
         moved = evidence.slipping(0.5 * part)
         influence |= {"torque": evidence.torque_share(part * drive.torque), "cage_speed": moved["cage_speed"]}
