@@ -21,7 +21,7 @@ from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_rungs, expe
 from beardyn_core.study.ladder_picture import ladder_picture
 from beardyn_core.study.ladder_report import convergence, error_text, limits_of, machine, percent
 from beardyn_core.study.ladder_result import Ladder, RungResult
-from beardyn_core.study.ladder_rungs import REFERENCE_LAMINAE, REFERENCE_STEPS, rungs_of
+from beardyn_core.study.ladder_rungs import REFERENCE_LAMINAE, REFERENCE_STEPS, automatic, rungs_of
 from beardyn_core.study.measures import QUANTITIES, UNITS
 
 SCENES = ("smooth_run", "cup_spall", "wheel_flat")
@@ -77,6 +77,7 @@ def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
     """The ladder of a scene, with progress on standard error."""
     scene = load_scene(name)
     plan, rungs = plan_of(scene, duration), rungs_of(scene, quick=quick)
+    rungs = rungs.including(automatic(scene, ACCURACY, scene.quantities))
 
     def told(bar: tqdm) -> Callable[[str, float], None]:
         def progress(rung: str, done: float) -> None:

@@ -88,10 +88,7 @@ class Circumstances:
 def circumstances(scene: Scene) -> Circumstances:
     """Load cases of a scene's operation."""
     wrench, speed = _samples(scene)
-    offset = np.asarray(scene.mounting.load_offset)
-    if offset.any():
-        wrench = wrench.copy()
-        wrench[:, 3:] += np.cross(offset, wrench[:, :3])
+    wrench = scene.mounting.about_bearing_centre(wrench)
     size = np.linalg.norm(wrench[:, :3], axis=1)
     order = np.argsort(size, kind="stable")
     last = len(order) - 1

@@ -60,9 +60,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import load_scene
-    from beardyn_core.study.ladder import DEFAULT_ASKED, climb, compile_rungs, expected_wall, plan_of
+    from beardyn_core.study.ladder import climb, compile_rungs, expected_wall, plan_of
     from beardyn_core.study.ladder_report import json_object, table
-    from beardyn_core.study.ladder_rungs import rungs_of
+    from beardyn_core.study.ladder_rungs import automatic, rungs_of
 
     problems = option_problems(args)
     try:
@@ -73,11 +73,12 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(problems)
 
     plan = plan_of(scene, args.duration, args.settling)
-    rungs = rungs_of(scene, quick=args.quick, each_effect=args.each_effect)
-    accuracy = getattr(scene, "accuracy", None) or 0.01 * _USUAL_ACCURACY
+    accuracy = scene.accuracy or 0.01 * _USUAL_ACCURACY
     if args.accuracy is not None:
         accuracy = 0.01 * args.accuracy
-    asked = _names(args.quantities) if args.quantities else getattr(scene, "quantities", DEFAULT_ASKED)
+    asked = _names(args.quantities) if args.quantities else scene.quantities
+    rungs = rungs_of(scene, quick=args.quick, each_effect=args.each_effect)
+    rungs = rungs.including(automatic(scene, accuracy, asked))
     expected = expected_wall(rungs, plan)
     print(
         f"beardyn: {scene.name}, {len(rungs.rungs)} rungs and the reference, "

@@ -20,7 +20,7 @@ from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
-from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.scene import USUAL_QUANTITIES, Scene
 from beardyn_core.study.ladder_errors import errors
 from beardyn_core.study.ladder_result import Cost, Ladder, RungResult
 from beardyn_core.study.ladder_rungs import RungList, expected_cost
@@ -41,7 +41,6 @@ CHEAP = 1.5
 # the filters' delay: the trends of a run end this much before its last block does, rounded up, [s]
 _DELAY = 0.04
 _VARIED_END_PLAY, _VARIED_SPEED = 1.0e-9, 1.0e-4
-DEFAULT_ASKED = ("force", "deflection", "roller_load", "torque", "vibration")
 
 
 @dataclass(frozen=True)
@@ -242,7 +241,7 @@ def climb(
     plan: Plan,
     rungs: RungList,
     accuracy: float,
-    asked: tuple[str, ...] = DEFAULT_ASKED,
+    asked: tuple[str, ...] = USUAL_QUANTITIES,
     progress: Progress = lambda _name, _wall: None,
     runner: Runner | None = None,
 ) -> Ladder:

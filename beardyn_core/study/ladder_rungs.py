@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 
+from beardyn_core.choice.choose import choose
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.scene import QUANTITIES, Scene
 from beardyn_core.study.rung import Rung
 
 REFERENCE_LAMINAE, REFERENCE_STEPS = 40, 8
@@ -123,6 +124,22 @@ def rung_of(scene: Scene, effects_name: str, name: str = "") -> Rung:
     numerics = scene.numerics
     rung = _rung(scene.tier, effects_name, scene.effects, numerics.laminae, numerics.steps_per_sample)
     return replace(rung, name=name) if name else rung
+
+
+def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Rung:
+    """What `effects: auto` chooses for a scene, judged against every effect.
+
+    Parameters
+    ----------
+    scene : Scene
+    accuracy : float
+        Asked for, [-].
+    asked : tuple of str
+        Quantities that it is asked of.
+    """
+    quantities = tuple(name for name in QUANTITIES if name in asked)
+    given = replace(scene, effects=load_effects("full"), accuracy=accuracy, quantities=quantities)
+    return rung_of(choose(given).applied(given), "auto", name=f"auto {100.0 * accuracy:g} %")
 
 
 def _choices(rung: Rung) -> tuple[str, EffectSet, int, int]:

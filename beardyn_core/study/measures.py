@@ -13,6 +13,8 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.observe.diagnosis import MonitorSettings
 from beardyn_core.observe.features import envelope, order_spectrum, resample_by_angle
+from beardyn_core.scene.excitation import WheelPolygon
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.signals import Signals
 
@@ -52,8 +54,12 @@ class FaultLine:
 def fault_line_of(scene: Scene) -> FaultLine | None:
     """Line of the first defect of the bearing, else of the wheel; ``None`` for a healthy scene."""
     if not scene.defects:
-        wheel = getattr(scene.operation, "wheel_defects", ())
-        return FaultLine("wheel", float(getattr(wheel[0], "order", 1))) if wheel else None
+        wheel = scene.operation.wheel_defects if isinstance(scene.operation, QuarterVehicleOperation) else ()
+        return (
+            FaultLine("wheel", float(wheel[0].order if isinstance(wheel[0], WheelPolygon) else 1))
+            if wheel
+            else None
+        )
     frequencies = fault_frequencies(scene.bearing)
     defect = scene.defects[0]
     if defect.kind in ("diameter", "worn_pocket"):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.cli import main as command
+from beardyn_core.scene.scene import USUAL_QUANTITIES
 from beardyn_core.study import ladder
 from beardyn_core.study.ladder import Plan, Run
 from beardyn_core.study.measures import MEASURES, Outcome
@@ -85,7 +86,7 @@ def test_json_alone_on_standard_output(capsys: pytest.CaptureFixture[str], runs:
     assert command.main(["ladder", "static_80kN", "--quick", "--duration", "0.3", "--json"]) == command.DONE
     found = json.loads(capsys.readouterr().out)
     assert found["scene"] == "static_80kN"
-    assert found["asked"] == list(ladder.DEFAULT_ASKED)
+    assert found["asked"] == list(USUAL_QUANTITIES)
 
 
 def test_an_interrupt_keeps_the_rungs_done_so_far(
