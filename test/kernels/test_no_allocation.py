@@ -6,12 +6,15 @@ from collections.abc import Iterator
 
 import pytest
 from numba import config, njit
-from numba.core.runtime import _nrt_python as runtime
+from numba.core.runtime import _nrt_python as runtime  # type: ignore[attr-defined]
 from numba.core.runtime import rtsys
 
 from test.kernels.rig import Rig, standard_scene
 
-pytestmark = pytest.mark.skipif(bool(config.DISABLE_JIT), reason="counts allocations of compiled code")
+pytestmark = pytest.mark.skipif(
+    bool(config.DISABLE_JIT),  # type: ignore[attr-defined]
+    reason="counts allocations of compiled code",
+)
 
 
 @pytest.fixture(autouse=True)
