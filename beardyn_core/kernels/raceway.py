@@ -281,10 +281,7 @@ def spring_sums(
     work: Any,
     effects: Any,
 ) -> Any:
-    """Sums of `lamina_sums` over the springs of one contact; `damage` is ``None`` far from every patch.
-
-    Two passes, normal forces and then friction: short loops keep several laminae in flight.
-    """
+    """Sums of `lamina_sums` over the springs; two passes, as short loops keep several laminae in flight."""
     approach = line[5]
     rate, slip_around, slip_along = slip
     zero = lanes.constant(0.0)
