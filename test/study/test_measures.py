@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +11,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_scene
+from beardyn_core.scene.excitation import WheelFlat, WheelPolygon
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.study.ladder import window_edges
 from beardyn_core.study.ladder_errors import QuantityError, errors
 from beardyn_core.study.measures import (
@@ -133,9 +133,10 @@ def test_each_fault_has_its_line() -> None:
     assert fault_line_of(load_scene("oversize_roller")) == FaultLine("FTF", frequencies.ftf)
     healthy = load_scene("smooth_run")
     assert fault_line_of(healthy) is None
-    flat, polygon = SimpleNamespace(length=0.04), SimpleNamespace(order=3)
+    assert isinstance(healthy.operation, QuarterVehicleOperation)
+    flat, polygon = WheelFlat(length=0.04), WheelPolygon(order=3, amplitude=2e-5)
     for defects, order in (((flat,), 1.0), ((polygon, flat), 3.0), ((), None)):
-        operation: Any = SimpleNamespace(wheel_defects=defects)
+        operation = replace(healthy.operation, wheel_defects=defects)
         found = fault_line_of(replace(healthy, operation=operation))
         assert (None if found is None else found.order) == order
 
