@@ -65,6 +65,7 @@ def test_torque_of_the_fast_tiers_is_that_of_ribs_that_slide_in_pure_rolling(nam
     assert means(name, "full").torque < found < 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tier", FAST)
 def test_rolling_drag_and_seal_add_their_torque(tier: str) -> None:
     """The rolling resistance is that of the static solution, drag and seal the lost power over the speed.
