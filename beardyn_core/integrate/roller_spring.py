@@ -14,6 +14,8 @@ from beardyn_core.model.tier_parameters import SpringParams, lever_of_cup
 
 TERMS = 8
 _SAMPLES = 31
+# below this share of the largest load the fit is absolute: a crown leaves light contacts none at all
+_SMALLEST_SHARE = 1.0e-3
 _SMALLEST_APPROACH, _LARGEST_APPROACH = 2.0e-7, 4.0e-4
 
 
@@ -46,13 +48,14 @@ def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
     -----
     Two line contacts in series with the rib in the force triangle nearly follow Q = K D^(10/9); what is
     left, the profile at small loads and the point contact of the rib, is smooth in D^(1/9): the fit is good
-    to 1e-5 with straight rollers and to 4 % with a profile that takes ends of the roller out of contact.
+    to 1e-5 with straight rollers and, above a thousandth of the largest load, to 4 % with a profile that takes
+    ends of the roller out of contact, 12 % with too few laminae for it.
     """
     approach, load = load_of_approach(bearing, laminae)
     root = approach ** (1.0 / 9.0)
     powers = root[:, None] ** np.arange(TERMS)
-    scale = approach * root / load
-    terms = np.linalg.lstsq(powers * scale[:, None], np.ones(_SAMPLES), rcond=None)[0]
+    judged = np.maximum(load, _SMALLEST_SHARE * load.max())
+    terms = np.linalg.lstsq(powers * (approach * root / judged)[:, None], load / judged, rcond=None)[0]
     angles = bearing.cup_angle, bearing.cone_angle, bearing.rib_angle
     cone_share, rib_share = roller_forces(1.0, *angles)
     return SpringParams(

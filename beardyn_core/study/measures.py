@@ -55,11 +55,8 @@ def fault_line_of(scene: Scene) -> FaultLine | None:
     """Line of the first defect of the bearing, else of the wheel; ``None`` for a healthy scene."""
     if not scene.defects:
         wheel = scene.operation.wheel_defects if isinstance(scene.operation, QuarterVehicleOperation) else ()
-        return (
-            FaultLine("wheel", float(wheel[0].order if isinstance(wheel[0], WheelPolygon) else 1))
-            if wheel
-            else None
-        )
+        order = wheel[0].order if wheel and isinstance(wheel[0], WheelPolygon) else 1
+        return FaultLine("wheel", float(order)) if wheel else None
     frequencies = fault_frequencies(scene.bearing)
     defect = scene.defects[0]
     if defect.kind in ("diameter", "worn_pocket"):

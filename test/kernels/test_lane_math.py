@@ -22,16 +22,16 @@ def results(values: Any, lanes: Any, bound: float = 0.0) -> dict[str, Any]:
     return dict(zip(MATH_NAMES, out.T, strict=True))
 
 
-def test_ninth_root_is_good_to_2e_12_over_the_approaches_a_contact_can_have(lanes: Any) -> None:
+def test_ninth_root_is_good_to_1e_14_over_the_approaches_a_contact_can_have(lanes: Any) -> None:
     """From the smallest approach of the kernel, 1e-15 m, to a metre; longdouble power as reference."""
     approach = np.exp(np.random.default_rng(1).uniform(np.log(1e-15), 0.0, 100_000))
     exact = (approach.astype(np.longdouble) ** (np.longdouble(1) / 9)).astype(float)
-    assert np.abs(results(approach, lanes)["ninth_root"] / exact - 1.0).max() < 2e-12
+    assert np.abs(results(approach, lanes)["ninth_root"] / exact - 1.0).max() < 1e-14
 
 
-def test_ninth_root_is_good_to_2e_12_over_all_magnitudes(lanes: Any) -> None:
+def test_ninth_root_is_good_to_1e_14_over_all_magnitudes(lanes: Any) -> None:
     exact = (POSITIVE.astype(np.longdouble) ** (np.longdouble(1) / 9)).astype(float)
-    assert np.abs(results(POSITIVE, lanes)["ninth_root"] / exact - 1.0).max() < 2e-12
+    assert np.abs(results(POSITIVE, lanes)["ninth_root"] / exact - 1.0).max() < 1e-14
 
 
 def test_quick_ninth_root_is_good_to_2e_7_over_all_magnitudes(lanes: Any) -> None:

@@ -13,7 +13,9 @@ from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.torque import running_torque
 from beardyn_core.model.layout import CAGE_BODY, TURN
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.study import desk_run
 from beardyn_core.twin import Twin
 from test.tiers.runs import FAST, blocks_of, means, scene_of, static_mean
 
@@ -83,7 +85,8 @@ def test_rolling_drag_and_seal_add_their_torque(tier: str) -> None:
     for name in ("rolling_resistance", "drag", "seal"):
         alone = replace(nothing, **{name: getattr(effects, name)})
         found[name] = _torque(replace(base, effects=alone)) - _torque(replace(base, effects=nothing))
-    speed = float(blocks_of(base, 0.02)[0].shaft_speed.mean())
+    assert isinstance(base.operation, ConstantOperation)
+    speed = base.operation.speed
     force = np.array([0.0, 0.0, means("static_80kN", tier).force[2]])
     rolling = [
         running_torque(
@@ -101,9 +104,11 @@ def test_rolling_drag_and_seal_add_their_torque(tier: str) -> None:
         for phase in range(6)
     ]  # fmt: skip
     assert found["rolling_resistance"] == pytest.approx(-np.mean(rolling), rel=0.02)
-    # what the full tier loses there
-    assert found["drag"] == pytest.approx(-0.51, rel=0.03)
-    assert found["seal"] == pytest.approx(-0.722, rel=0.01)
+    budget = desk_run.run(replace(load_scene("static_80kN", effects="full"), duration=0.5)).budget
+    assert budget is not None
+    lost = {share.source: share.torque for share in budget.shares}
+    assert found["drag"] == pytest.approx(-lost["drag"], rel=0.03)
+    assert found["seal"] == pytest.approx(-lost["seal"], rel=0.01)
 
 
 def _torque(scene: Scene) -> float:

@@ -105,6 +105,18 @@ def test_spring_of_a_roller_is_its_equilibrium_between_the_rings(kind: str) -> N
     np.testing.assert_allclose(fitted[judged], load[judged], rtol=FIT[kind])
 
 
+@pytest.mark.parametrize("laminae", [1, 2, 4])
+def test_a_crown_that_few_laminae_hardly_see_still_has_a_spring(laminae: int) -> None:
+    """A single lamina has the mean drop: light loads find no contact at all, and the spring none either."""
+    bearing = scene_of("static_80kN", "lumped").bearing
+    bearing = replace(bearing, profile=replace(bearing.profile, kind="logarithmic", design_pressure=1.5e9))
+    approach, load = load_of_approach(bearing, laminae)
+    assert (load == 0.0).any()
+    root = approach ** (1.0 / 9.0)
+    fitted = approach * root * np.polyval(spring_params(bearing, laminae).series[::-1], root)
+    np.testing.assert_allclose(np.maximum(fitted, 0.0), load, rtol=0.13, atol=2e-3 * load.max())
+
+
 def test_without_profile_and_rib_compliance_two_line_contacts_are_in_series() -> None:
     """ISO/TS 16281: the spring of a roller between two raceways is 2^(10/9) softer than one contact."""
     bearing = scene_of("static_80kN", "lumped").bearing
