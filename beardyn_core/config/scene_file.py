@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated, Any, Literal, cast
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema, model_validator
+from pydantic import Discriminator, Field, Tag, WithJsonSchema, model_validator
 from typing_extensions import Self
 
 from beardyn_core.bearing.geometry import Bearing
@@ -154,21 +154,12 @@ def _or_auto(least: int, most: int) -> WithJsonSchema:
     )
 
 
-def _checked(least: int, most: int) -> BeforeValidator:
-    def check(value: Any) -> Any:
-        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-            raise problem(f"is {value!r}; allowed are whole numbers from {least} to {most}, and 'auto'")
-        return value
-
-    return BeforeValidator(check)
-
-
 class NumericsKeys(FileModel):
     """Discretisation of the run."""
 
-    laminae: Annotated[int, _checked(1, 100), _or_auto(1, 100)] = 6
-    steps_per_sample: Annotated[int, _checked(1, 64), _or_auto(1, 64)] = Field(
-        4, description="time steps per waveform sample of 1/25600 s; 1 in tier lumped, 2 in quasistatic"
+    laminae: Annotated[Count, Field(ge=1, le=100), _or_auto(1, 100)] = 6
+    steps_per_sample: Annotated[Count, Field(ge=1, le=64), _or_auto(1, 64)] = Field(
+        4, description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers"
     )
 
     def noun(self) -> Numerics:

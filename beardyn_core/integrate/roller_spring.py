@@ -48,8 +48,8 @@ def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
     -----
     Two line contacts in series with the rib in the force triangle nearly follow Q = K D^(10/9); what is
     left, the profile at small loads and the point contact of the rib, is smooth in D^(1/9): the fit is good
-    to 1e-5 with straight rollers and, above a thousandth of the largest load, to 4 % with a profile that takes
-    ends of the roller out of contact, 12 % with too few laminae for it.
+    to 1e-5 with straight rollers and, above a thousandth of the largest load, to 4 % with a profile that
+    takes ends of the roller out of contact, 12 % with too few laminae for it.
     """
     approach, load = load_of_approach(bearing, laminae)
     root = approach ** (1.0 / 9.0)

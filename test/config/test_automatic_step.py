@@ -51,6 +51,4 @@ def test_a_wrong_number_is_told_what_is_allowed(key: str, value: object) -> None
     with pytest.raises(InputError) as told:
         scene({key: value})
     (text,) = told.value.problems
-    assert f"numerics.{key}" in text
-    assert repr(value) in text
-    assert "'auto'" in text
+    assert f"numerics.{key} is {value!r}; it must be" in text
