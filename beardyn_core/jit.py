@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import hashlib
 import os
+import signal
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import numba
@@ -97,5 +100,28 @@ def when_compiling(say: Callable[[], None]) -> Iterator[list[str]]:
         What has been compiled: empty when all came from the cache.
     """
     watch = _CompilerWatch(say)
-    with event.install_listener("numba:compile", watch):
+    with _no_interrupt_lost(), event.install_listener("numba:compile", watch):
         yield watch.begun
+
+
+@contextmanager
+def _no_interrupt_lost() -> Iterator[None]:
+    """Ctrl-C in one of the compiler's callbacks is swallowed there: then it comes at the end instead."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.getsignal(signal.SIGINT)
+    pressed: list[int] = []
+
+    def remember(number: int, frame: FrameType | None) -> None:
+        pressed.append(number)
+        if callable(before):
+            before(number, frame)
+
+    signal.signal(signal.SIGINT, remember)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before if before is not None else signal.SIG_DFL)
+    if pressed and before is signal.default_int_handler:
+        raise KeyboardInterrupt

@@ -132,14 +132,30 @@ class Twin:
             Wall time it took, [s].
         """
         began = time.perf_counter()
-        static = _at_rest(self.roller_count, len(self._bending_stiffness))
-        state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
         with when_compiling(lambda: log.info(COMPILING)) as compiled:
-            self._run(state, np.zeros((TRENDS_PER_BLOCK + 1, 10)), self._signals[:TRENDS_PER_BLOCK].copy())
+            self._rehearse()
         took = time.perf_counter() - began
         if compiled:
             log.info("kernels ready after %.1f s", took)
         return took
+
+    def _rehearse(self) -> None:
+        """Go through what a block takes, at rest and with nothing kept."""
+        static = _at_rest(self.roller_count, len(self._bending_stiffness))
+        state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
+        steps = len(self._signals)
+        buffer = LoadBuffer()
+        buffer.append(LoadHistory(np.array([0, BLOCK_NS]), np.zeros((2, 6)), np.zeros(2), np.zeros((2, 3))))
+        loads = buffer.at_steps(0, BLOCK_NS, steps)
+        rollers, bodies = self._run(
+            state, loads[: TRENDS_PER_BLOCK + 1].copy(), self._signals[:TRENDS_PER_BLOCK].copy()
+        )
+        assess(state, steps, self.scene.bearing.large_end_radius, self._parameters.effects.rib)
+        signals = np.zeros_like(self._signals)
+        observer = Observer(self.scene, self._arrangement, self._parameters, signals[0])
+        observer.first_instant(state.rollers, state.bodies, loads[0, :6])
+        block = observer.observe(0, signals, loads, rollers, bodies, 0, None, 0.0, None)
+        _ = block.body_pose, block.body_twist, block.contacts  # worked out at the first look
 
     def start(self, load: LoadHistory) -> None:
         """Solve the static equilibrium under the first sample and begin at t = 0.

@@ -55,3 +55,26 @@ def test_ctrl_c_while_compiling_ends_the_command(repository: Path, tmp_path: Pat
         running.send_signal(signal.SIGINT)
         assert "interrupted" in running.stderr.read()
     assert running.returncode == 130
+
+
+FIRST_BLOCK = """
+from beardyn_core.config import load_scene
+from beardyn_core.jit import when_compiling
+from beardyn_core.rail.build import load_history
+from beardyn_core.twin import Twin
+scene = load_scene("static_80kN", tier="lumped")
+twin = Twin(scene)
+twin.warm()
+with when_compiling(lambda: None) as compiled:
+    twin.start(load_history(scene.operation, scene.mounting, 0.1, scene.seed))
+    for _ in range(2):
+        block = twin.advance()
+        block.body_pose, block.body_twist, block.contacts
+assert not compiled, compiled
+"""
+
+
+@pytest.mark.slow
+def test_a_warm_twin_compiles_nothing_in_its_first_blocks(repository: Path, tmp_path: Path) -> None:
+    environment = {**os.environ, "PYTHONPATH": str(repository), "BEARDYN_CACHE_DIR": str(tmp_path)}
+    subprocess.run([sys.executable, "-c", FIRST_BLOCK], env=environment, check=True)
