@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 from beardyn_core.errors import InputError, ValidityError
@@ -171,14 +173,20 @@ class _Nodes:
 
 
 class _Observer:
-    """Listens to the diagnostics of the graph."""
+    """Listens to the diagnostics of the graph, and to Ctrl-C.
+
+    An exception that a signal raises in a finalizer or a callback from C is swallowed there: what was
+    pressed is kept and told at the next look.
+    """
 
     def __init__(self, domain: int) -> None:
         self._domain = domain
+        self._interrupted = False
         self._latest: dict[str, Diagnostic] = {}
         self._heard_at = time.monotonic()
 
     def __enter__(self) -> _Observer:
+        self._before = signal.signal(signal.SIGINT, self._interrupt)
         os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
         import rclpy
         from rclpy.executors import SingleThreadedExecutor
@@ -199,6 +207,11 @@ class _Observer:
         self._executor.shutdown()
         self._node.destroy_node()
         self._context.try_shutdown()
+        signal.signal(signal.SIGINT, self._before)
+
+    def _interrupt(self, _number: int, _frame: FrameType | None) -> None:
+        self._interrupted = True
+        raise KeyboardInterrupt
 
     def _on_diagnostics(self, cdr: bytes) -> None:
         self._heard_at = time.monotonic()
@@ -231,6 +244,8 @@ class _Observer:
         self._heard_at = time.monotonic()
         while not condition():
             self._executor.spin_once(timeout_sec=SPIN_S)
+            if self._interrupted:
+                raise KeyboardInterrupt
             failure = nodes.failure(tolerate)
             if failure is not None:
                 raise failure
