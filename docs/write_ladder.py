@@ -78,8 +78,8 @@ windows of them. An error inside its band is *not resolved* and stands in bracke
 
 **Accuracy of {accuracy}** means: force, deflection, roller loads and torque within {accuracy} and
 third-octave bands within 1.5 dB. *yes*: all errors are within, with their whole bands; *no*: an error is
-beyond, with its whole band; *open*: a band crosses the limit. A rung is **efficient** (bold) when no cheaper one is as good, run-to-run band
-considered. The pictures show the worst of these errors in units of its limit.
+beyond, with its whole band; *open*: a band crosses the limit. A rung is **efficient** (bold) when no cheaper
+one is as good, run-to-run band considered. The pictures show the worst of these errors in units of its limit.
 """
 
 
