@@ -24,15 +24,15 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing, load_effects, load_scene
 from beardyn_core.integrate.status import chatter_index
-from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_TORQUE
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
+from beardyn_core.study.measures import NOMINAL_BANDS, third_octave_levels
 from beardyn_core.twin import Twin
 
 Float = NDArray[np.float64]
-THIRDS = 1e3 * 2.0 ** (np.arange(2, 11) / 3.0)
+THIRDS = NOMINAL_BANDS[-9:]
 SETTLING = 15
 
 
@@ -87,14 +87,8 @@ class Run:
 
 
 def third_octaves(signal: Float) -> Float:
-    """Levels of the bands around `THIRDS`, [dB]."""
-    window = np.hanning(4096)
-    parts = [signal[i : i + 4096] - signal.mean() for i in range(0, len(signal) - 4095, 2048)]
-    power = np.mean([np.abs(np.fft.rfft(window * part)) ** 2 for part in parts], axis=0)
-    frequency = np.fft.rfftfreq(4096, 1.0 / WAVEFORM_RATE)
-    edge = 2.0 ** (1.0 / 6.0)
-    sums = [power[(frequency >= c / edge) & (frequency < c * edge)].sum() for c in THIRDS]
-    return np.asarray(10.0 * np.log10(sums))
+    """Levels of the bands of `THIRDS`, [dB]."""
+    return third_octave_levels(signal[:, None])[-len(THIRDS) :]
 
 
 def steps(arguments: argparse.Namespace) -> list[dict[str, Any]]:

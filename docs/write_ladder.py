@@ -17,9 +17,18 @@ from tqdm import tqdm
 
 from beardyn_core.config import load_scene
 from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.scene.tier import TIERS
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_rungs, expected_wall, plan_of
 from beardyn_core.study.ladder_picture import ladder_picture
-from beardyn_core.study.ladder_report import convergence, error_text, limits_of, machine, percent
+from beardyn_core.study.ladder_report import (
+    choices,
+    convergence,
+    counted,
+    error_text,
+    limits_of,
+    machine,
+    percent,
+)
 from beardyn_core.study.ladder_result import Ladder, RungResult
 from beardyn_core.study.ladder_rungs import REFERENCE_LAMINAE, REFERENCE_STEPS, automatic, rungs_of
 from beardyn_core.study.measures import QUANTITIES, UNITS
@@ -27,7 +36,8 @@ from beardyn_core.study.measures import QUANTITIES, UNITS
 SCENES = ("smooth_run", "cup_spall", "wheel_flat")
 ACCURACY = 0.05
 COLOURS = 96
-USUAL_DETAIL = (("lumped", 6, 1), ("quasistatic", 6, 2), ("full", 6, 4))
+USUAL_DETAIL = tuple((tier.name, 6, tier.steps_per_sample) for tier in TIERS.values())
+USUAL_STEPS = TIERS["full"].steps_per_sample
 
 HEAD = """# What accuracy costs
 
@@ -67,9 +77,9 @@ twice, each begun a hair apart, and every error has a band: what the difference 
 windows of them. An error inside its band is *not resolved* and stands in brackets.
 
 **Accuracy of {accuracy}** means: force, deflection, roller loads and torque within {accuracy} and
-third-octave bands within 1.5 dB. *yes*: all errors and bands are within; *no*: an error is surely beyond;
-*open*: the band hides it. A rung is **efficient** (bold) when no cheaper one is as good, run-to-run band
-considered. The pictures show the worst of these errors in units of its limit.
+third-octave bands within 1.5 dB. *yes*: all errors are within, with their whole bands; *no*: an error is
+beyond, with its whole band; *open*: a band crosses the limit. A rung is **efficient** (bold) when no cheaper
+one is as good, run-to-run band considered. The pictures show the worst of these errors in units of its limit.
 """
 
 
@@ -96,13 +106,13 @@ def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
 def section(ladder: Ladder, picture: Path) -> list[str]:
     """One scene of the page."""
     windows = len(ladder.edges) - 1
-    turns = f"{ladder.revolutions} whole cage revolutions"
+    turns = counted(ladder.revolutions, "whole cage revolution")
     return [
         f"## {ladder.scene}",
         "",
         ladder.purpose,
         "",
-        f"Compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns} in {windows} windows. "
+        f"Compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns} in {counted(windows, 'window')}. "
         + ("No fault, so no fault line." if ladder.fault_line is None else _line_sentence(ladder)),
         "",
         f"![Accuracy against wall time of {ladder.scene}](pictures/{picture.name})",
@@ -143,18 +153,22 @@ def table(ladder: Ladder) -> list[str]:
 
 def lessons(ladder: Ladder) -> list[str]:
     """What the rows come to when one choice changes and the others stay."""
-    found = [_cheapest(ladder), f"Convergence: {convergence(ladder)}."]
+    found = [
+        _cheapest(ladder),
+        *(f"{text}." for text in choices(ladder)),
+        f"Convergence: {convergence(ladder)}.",
+    ]
     full = [row for row in ladder.rows if row.rung.tier == "full"]
-    usual = [row for row in full if _detail(row) == (6, 4)]
+    usual = [row for row in full if _detail(row) == (6, USUAL_STEPS)]
     usual.sort(key=lambda row: len(row.rung.effects.names()))
     for quantity in ("torque", "deflection"):
-        title = "Effects (full tier, 6 laminae x 4)"
+        title = f"Effects (full tier, 6 laminae x {USUAL_STEPS})"
         found += _along(usual, lambda row: row.rung.effects_name, title, quantity)
     every = [row for row in full if row.rung.effects_name == "full"]
     found += _along(
-        [row for row in every if row.rung.steps_per_sample == 4],
+        [row for row in every if row.rung.steps_per_sample == USUAL_STEPS],
         lambda row: f"{row.rung.laminae}",
-        "Laminae (full tier, every effect, x 4)",
+        f"Laminae (full tier, every effect, x {USUAL_STEPS})",
         "roller_load",
     )
     for quantity in ("torque", "vibration"):

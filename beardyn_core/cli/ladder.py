@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 DONE, INTERRUPTED = 0, 130
 _USUAL_ACCURACY = 5.0
 _LONGEST_S = 3600.0
+# [%], as in a scene file
+_FINEST_ACCURACY, _COARSEST_ACCURACY = 0.1, 50.0
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -42,7 +44,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--accuracy",
         metavar="PERCENT",
         type=float,
-        help="to judge the rungs by, %% (the scene's, or 5)",
+        help="to judge the rungs by, 0.1 to 50 %% (the scene's, or 5)",
     )
     parser.add_argument(
         "--quantities",
@@ -112,10 +114,14 @@ def option_problems(args: argparse.Namespace) -> list[str]:
         for name, value, most, unit in (
             ("--duration", args.duration, _LONGEST_S, "s"),
             ("--settling", args.settling, _LONGEST_S, "s"),
-            ("--accuracy", args.accuracy, 100.0, "percent"),
         )
         if value is not None and not 0.0 < value <= most
     ]
+    accuracy = args.accuracy
+    if accuracy is not None and not _FINEST_ACCURACY <= accuracy <= _COARSEST_ACCURACY:
+        problems.append(
+            f"--accuracy {accuracy:g}: allowed is {_FINEST_ACCURACY:g} to {_COARSEST_ACCURACY:g} percent"
+        )
     unknown = [name for name in _names(args.quantities) if name not in QUANTITIES] if args.quantities else []
     problems += [
         f"--quantities: {name!r} is not known; known are {', '.join(QUANTITIES)}" for name in unknown

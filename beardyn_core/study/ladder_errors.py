@@ -48,8 +48,8 @@ class Part:
         return abs(self.error) > self.band
 
     def verdict(self, limit: float) -> str:
-        """``yes`` within the limit, ``no`` surely beyond, ``open`` where the band hides it."""
-        if abs(self.error) <= limit and self.band <= limit:
+        """``yes`` surely within the limit, ``no`` surely beyond, ``open`` where the band crosses it."""
+        if abs(self.error) + self.band <= limit:
             return "yes"
         return "no" if abs(self.error) - self.band > limit else "open"
 

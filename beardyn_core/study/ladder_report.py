@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.study.ladder_errors import BAND_LIMIT_DB, Part, QuantityError
 from beardyn_core.study.ladder_result import Ladder, RungResult
+from beardyn_core.study.ladder_rungs import AUTO, OF_THE_SCENE
 from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS
+from beardyn_core.study.rung import Rung
 
 _BAND_ROW = "reference, and the band of a single run"
 _LEGEND = (
@@ -25,7 +27,8 @@ _LEGEND = (
     "wall: wall time per simulated second, median over blocks; RTF: its inverse",
     "errors: the worst component of each quantity, in % or dB; (in brackets): not resolved, within the "
     "run-to-run band",
-    "*: efficient, no cheaper rung is as good; open: the band hides whether the rung is good enough",
+    "*: efficient, no cheaper rung is as good; yes: good enough with the whole band; open: the band crosses "
+    "the limit",
 )
 
 
@@ -58,19 +61,20 @@ def _band_text(error: QuantityError | None) -> str:
 def heading(ladder: Ladder) -> list[str]:
     """What is compared with what."""
     count, windows = ladder.revolutions, len(ladder.edges) - 1
-    turns = _counted(count, "whole cage revolution") if count else "no whole cage revolution"
+    turns = counted(count, "whole cage revolution") if count else "no whole cage revolution"
     reference = ladder.reference
     return [
         f"{ladder.scene}: {ladder.purpose}",
         f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in "
-        f"{_counted(windows, 'window')} from {ladder.edges[0]:.2f} s on",
+        f"{counted(windows, 'window')} from {ladder.edges[0]:.2f} s on",
         f"reference: {_described(reference)}, {reference.runs} runs, {reference.cost.median:.1f} s for each "
         "simulated second",
         f"accuracy {percent(ladder.accuracy)}: {'; '.join(limits_of(ladder))}",
     ]
 
 
-def _counted(number: int, what: str) -> str:
+def counted(number: int, what: str) -> str:
+    """A number of things."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
@@ -111,7 +115,7 @@ def closing(ladder: Ladder) -> list[str]:
     else:
         undecided = [row.rung.name for row in ladder.rows if ladder.verdict(row) == "open"]
         found = "none" + (f"; open: {'; '.join(undecided)}" if undecided else "")
-    lines = [f"cheapest rung within {percent(ladder.accuracy)}: {found}"]
+    lines = [f"cheapest rung within {percent(ladder.accuracy)}: {found}", *choices(ladder)]
     lines += [
         f"{row.rung.name}: {row.status}"
         for row in (ladder.reference, *ladder.rows)
@@ -120,6 +124,34 @@ def closing(ladder: Ladder) -> list[str]:
     if ladder.interrupted:
         lines.append("interrupted: some rungs are missing")
     return lines
+
+
+def choices(ladder: Ladder) -> list[str]:
+    """What the rungs are computed with whose names do not say it."""
+    return [
+        f"{row.rung.name}: {row.rung.tier} tier, {row.rung.laminae} laminae x {row.rung.steps_per_sample}, "
+        f"effects: {_effects_text(ladder, row.rung)}"
+        for row in ladder.rows
+        if row.rung.effects_name in (AUTO, OF_THE_SCENE)
+    ]
+
+
+def _effects_text(ladder: Ladder, rung: Rung) -> str:
+    """Names of the effects, or what is left out of the reference's and what is otherwise than there."""
+    held, absent, other = _against_reference(ladder, rung)
+    if len(absent) > len(held):
+        text = ", ".join(held)
+    else:
+        text = "full" + (f" less {', '.join(absent)}" if absent else "")
+    return text + (f"; with other parameters than in full: {', '.join(other)}" if other else "")
+
+
+def _against_reference(ladder: Ladder, rung: Rung) -> tuple[list[str], list[str], list[str]]:
+    """Effects that a rung has, lacks of those of the reference, and has with other parameters."""
+    every, held = ladder.reference.rung.effects, list(rung.effects.names())
+    absent = [name for name in every.names() if name not in held]
+    other = [name for name in held if getattr(rung.effects, name) != getattr(every, name)]
+    return held, absent, other
 
 
 def table(ladder: Ladder) -> str:
@@ -177,10 +209,14 @@ def json_object(ladder: Ladder) -> dict[str, Any]:
 
 def _row(ladder: Ladder, row: RungResult) -> dict[str, Any]:
     rung, score = row.rung, ladder.score(row)
+    held, absent, other = _against_reference(ladder, rung)
     return {
         "name": rung.name,
         "tier": rung.tier,
         "effects": rung.effects_name,
+        "effect_names": held,
+        "less_than_reference": absent,
+        "other_than_reference": other,
         "effect_set": asdict(rung.effects),
         "laminae": rung.laminae,
         "steps_per_sample": rung.steps_per_sample,

@@ -8,9 +8,14 @@ from beardyn_core.choice.choose import choose
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.scene import QUANTITIES, Scene
+from beardyn_core.scene.tier import TIERS
 from beardyn_core.study.rung import Rung
 
 REFERENCE_LAMINAE, REFERENCE_STEPS = 40, 8
+# effects named by these are known by what they hold only
+AUTO, OF_THE_SCENE = "auto", "of the scene"
+# measured as a level in the spectrum of the vibration: what one asks of it, the choice has to hold there
+_CHOSEN_AS = {"fault_line": "vibration"}
 # wall time per simulated second on one core of a 2.5 GHz machine, for the progress bar and the order of runs
 _FAST_COST = {"lumped": (0.06, 0.002), "quasistatic": (0.06, 0.012)}
 _FULL_COST = (0.10, 0.025)
@@ -67,31 +72,51 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
     full, standard, dry = (load_effects(name) for name in ("full", "standard", "dry"))
     reference = replace(_rung("full", "full", full, REFERENCE_LAMINAE, REFERENCE_STEPS), name="reference")
     neighbour = _rung("full", "full", full, REFERENCE_LAMINAE // 2, REFERENCE_STEPS // 2)
-    fast: dict[str, tuple[tuple[int, int], ...]] = {"lumped": ((6, 1),), "quasistatic": ((6, 2),)}
+    lumped, balanced, usual = (TIERS[name].steps_per_sample for name in ("lumped", "quasistatic", "full"))
+    fast: dict[str, tuple[tuple[int, int], ...]] = {"lumped": ((6, lumped),), "quasistatic": ((6, balanced),)}
     steps: dict[str, tuple[EffectSet, tuple[tuple[int, int], ...]]] = {
-        "dry": (dry, ((6, 4),)),
-        "standard": (standard, ((6, 4),)),
-        "full": (full, ((6, 4),)),
+        "dry": (dry, ((6, usual),)),
+        "standard": (standard, ((6, usual),)),
+        "full": (full, ((6, usual),)),
     }
     if not quick:
         fast = {
-            "lumped": ((1, 1), (6, 1), (6, 4)),
-            "quasistatic": ((3, 1), (6, 1), (6, 2), (6, 4), (20, 2)),
+            "lumped": ((1, lumped), (6, lumped), (6, 4 * lumped)),
+            "quasistatic": (
+                (3, balanced),
+                (6, balanced),
+                (6, 2 * balanced),
+                (6, 4 * balanced),
+                (20, balanced),
+            ),
         }
         losses = {name: getattr(full, name) for name in ("rolling_resistance", "drag", "seal")}
         lossy = replace(standard, **losses)
         steps |= {
-            "standard": (standard, ((3, 4), (6, 2), (6, 4), (6, 8), (20, 4))),
-            "standard + losses": (lossy, ((6, 4),)),
+            "standard": (
+                standard,
+                ((3, usual), (6, usual // 2), (6, usual), (6, 2 * usual), (20, usual)),
+            ),
+            "standard + losses": (lossy, ((6, usual),)),
             "standard + losses + ring_flexibility": (
                 replace(lossy, ring_flexibility=full.ring_flexibility),
-                ((6, 4),),
+                ((6, usual),),
             ),
-            "full - lamina_coupling": (replace(full, lamina_coupling=None), ((6, 4),)),
-            "full": (full, ((3, 4), (6, 2), (6, 4), (6, 8), (6, 16), (10, 4))),
+            "full - lamina_coupling": (replace(full, lamina_coupling=None), ((6, usual),)),
+            "full": (
+                full,
+                (
+                    (3, usual),
+                    (6, usual // 2),
+                    (6, usual),
+                    (6, 2 * usual),
+                    (6, 4 * usual),
+                    (10, usual),
+                ),
+            ),
         }
     if each_effect:
-        steps |= {f"full - {name}": (less, ((6, 4),)) for name, less in _one_less(full)}
+        steps |= {f"full - {name}": (less, ((6, usual),)) for name, less in _one_less(full)}
     found = [
         _rung(tier, _FAST_EFFECTS, standard, laminae, count)
         for tier, choices in fast.items()
@@ -104,7 +129,7 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
     ]
     found.append(neighbour)
     known = {effects: name for name, (effects, _) in steps.items()}
-    own = rung_of(scene, known.get(scene.effects, "of the scene"))
+    own = rung_of(scene, known.get(scene.effects, OF_THE_SCENE))
     if _choices(own) not in [_choices(rung) for rung in found]:
         found.append(own)
     return RungList(reference, neighbour, tuple(sorted(found, key=expected_cost)))
@@ -135,11 +160,12 @@ def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Rung:
     accuracy : float
         Asked for, [-].
     asked : tuple of str
-        Quantities that it is asked of.
+        Quantities that it is asked of; a fault line is asked of the vibration.
     """
-    quantities = tuple(name for name in QUANTITIES if name in asked)
+    wanted = {_CHOSEN_AS.get(name, name) for name in asked}
+    quantities = tuple(name for name in QUANTITIES if name in wanted)
     given = replace(scene, effects=load_effects("full"), accuracy=accuracy, quantities=quantities)
-    return rung_of(choose(given).applied(given), "auto", name=f"auto {100.0 * accuracy:g} %")
+    return rung_of(choose(given).applied(given), AUTO, name=f"auto {100.0 * accuracy:g} %")
 
 
 def _choices(rung: Rung) -> tuple[str, EffectSet, int, int]:

@@ -11,9 +11,12 @@ import pytest
 
 from beardyn_core.cli import main as command
 from beardyn_core.scene.scene import USUAL_QUANTITIES
+from beardyn_core.scene.tier import TIERS
 from beardyn_core.study import ladder
 from beardyn_core.study.ladder import Plan, Run
 from beardyn_core.study.measures import MEASURES, Outcome
+
+FAST = tuple((name, TIERS[name].steps_per_sample) for name in ("lumped", "quasistatic"))
 
 
 def one_run(scene: Any, plan: Plan, on_block: Any) -> Run:
@@ -60,6 +63,17 @@ def test_every_mistake_is_told_at_once_and_nothing_is_written(
     assert not runs
 
 
+@pytest.mark.parametrize(("percent", "good"), [("0.09", False), ("0.1", True), ("50", True), ("51", False)])
+def test_the_accuracy_has_the_range_of_a_scene(
+    percent: str, good: bool, capsys: pytest.CaptureFixture[str], runs: list[Any]
+) -> None:
+    words = ["ladder", "static_80kN", "--quick", "--duration", "0.3", "--accuracy", percent]
+    assert command.main(words) == (command.DONE if good else command.BAD_INPUT)
+    told = f"--accuracy {percent}: allowed is 0.1 to 50 percent"
+    assert (told in capsys.readouterr().err) is not good
+    assert bool(runs) is good
+
+
 def test_an_output_that_is_a_file_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "taken"
     path.touch()
@@ -78,7 +92,8 @@ def test_table_json_and_picture(tmp_path: Path, capsys: pytest.CaptureFixture[st
     # (1/4^2 - 1/8^2) / (1 + 1/8^2) = 4.6 %, with 2 steps 23 %
     verdicts = {(row["tier"], row["steps_per_sample"]): row["verdict"] for row in found["rungs"]}
     # the automatic rung takes 2, for the cup is held and does not vibrate
-    assert verdicts == {("lumped", 1): "no", ("quasistatic", 2): "no", ("full", 2): "no", ("full", 4): "yes"}
+    assert verdicts == dict.fromkeys([*FAST, ("full", 2)], "no") | {("full", 4): "yes"}
+    assert "auto 10 %: full tier, " in told.out
     assert [row["name"] for row in found["rungs"] if row["name"].startswith("auto")] == ["auto 10 %"]
     assert (folder / "ladder.png").stat().st_size > 10_000
     assert {scene.tier for scene in runs} == {"lumped", "quasistatic", "full"}
@@ -107,4 +122,4 @@ def test_an_interrupt_keeps_the_rungs_done_so_far(
     found = json.loads((tmp_path / "out" / "ladder.json").read_text())
     assert found["interrupted"]
     done = {(row["tier"], row["steps_per_sample"]) for row in found["rungs"]}
-    assert done == {("lumped", 1), ("quasistatic", 2), ("full", 2)}
+    assert done == {*FAST, ("full", 2)}

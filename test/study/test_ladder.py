@@ -15,12 +15,13 @@ from PIL import Image
 from beardyn_core.config import load_effects, load_scene
 from beardyn_core.errors import ValidityError
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.tier import contradictions
+from beardyn_core.scene.tier import TIERS, contradictions
 from beardyn_core.study.ladder import REFERENCE_RUNS, Plan, Run, climb, plan_of, repeats_of, varied
+from beardyn_core.study.ladder_errors import Part
 from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
 from beardyn_core.study.ladder_report import json_object, table
 from beardyn_core.study.ladder_result import Ladder
-from beardyn_core.study.ladder_rungs import RungList, expected_cost, rung_of, rungs_of
+from beardyn_core.study.ladder_rungs import RungList, automatic, expected_cost, rung_of, rungs_of
 from beardyn_core.study.measures import MEASURES, QUANTITIES, Outcome
 from beardyn_core.study.rung import Rung
 from beardyn_core.twin import Twin
@@ -110,6 +111,71 @@ def test_what_is_good_enough_depends_on_the_accuracy_asked_for(plan: Plan) -> No
     assert score.value == pytest.approx(2.0, rel=0.1)
 
 
+@pytest.mark.parametrize(
+    ("error", "band", "verdict"),
+    [
+        (0.03, 0.01, "yes"),
+        (-0.03, 0.01, "yes"),
+        (0.045, 0.01, "open"),
+        (-0.055, 0.01, "open"),
+        (0.0, 0.06, "open"),
+        (0.065, 0.01, "no"),
+        (-0.065, 0.01, "no"),
+    ],
+)
+def test_a_band_that_crosses_the_limit_leaves_the_verdict_open(
+    error: float, band: float, verdict: str
+) -> None:
+    assert Part("mean", error, band).verdict(0.05) == verdict
+
+
+def test_only_a_rung_that_is_surely_within_is_the_cheapest_within(plan: Plan) -> None:
+    ladder = climbed(plan, FakeRuns())
+    middle = ladder.rows[1]
+    torque = middle.of("torque")
+    assert torque is not None
+    parts = tuple(replace(part, band=0.04) for part in torque.parts)
+    assert all(abs(part.error) < 0.05 and part.band < 0.05 for part in parts)
+    changed = tuple(replace(e, parts=parts) if e.quantity == "torque" else e for e in middle.errors)
+    rows = (ladder.rows[0], replace(middle, errors=changed), *ladder.rows[2:])
+    unsure = replace(ladder, rows=rows)
+    assert unsure.verdict(rows[1]) == "open"
+    assert unsure.cheapest is not None
+    assert unsure.cheapest.rung.name == "exact"
+
+
+def test_the_choices_of_the_automatic_rung_stand_below_the_table(plan: Plan) -> None:
+    """By what it holds when that is less, else by what it leaves out of the reference."""
+    every = load_effects("full")
+    rungs = replace(RUNGS, reference=replace(REFERENCE, effects_name="full", effects=every))
+    less = replace(every, drag=None, seal=None)
+    auto = Rung("auto 5 %", "full", "auto", less, 6, 7)
+    own = Rung("own", "full", "of the scene", replace(load_effects("dry"), gravity=None), 6, 8)
+    ladder = climb(plan, replace(rungs, rungs=(auto, own)), 0.05, ASKED, runner=FakeRuns())
+    text = table(ladder)
+    assert "auto 5 %: full tier, 6 laminae x 7, effects: full less drag, seal" in text
+    assert f"own: full tier, 6 laminae x 8, effects: {', '.join(own.effects.names())}" in text
+    found = json_object(ladder)["rungs"][0]
+    assert found["less_than_reference"] == ["drag", "seal"]
+    assert found["effect_names"] == list(less.names())
+
+
+def test_a_fault_line_is_asked_of_the_vibration() -> None:
+    scene = load_scene("cup_spall")
+    asked = automatic(scene, 0.05, ("fault_line",))
+    assert asked == automatic(scene, 0.05, ("vibration",))
+    # what would be chosen if nothing were asked
+    assert asked != automatic(scene, 0.05, ())
+
+
+def test_tiers_are_judged_with_the_steps_that_they_take_unasked() -> None:
+    for quick in (True, False):
+        found = {
+            (rung.tier, rung.steps_per_sample) for rung in rungs_of(load_scene("cup_spall"), quick).rungs
+        }
+        assert {(tier.name, tier.steps_per_sample) for tier in TIERS.values()} <= found
+
+
 def test_a_quantity_that_is_not_asked_for_does_not_count(plan: Plan) -> None:
     ladder = climb(plan, RUNGS, 0.01, ("force",), runner=FakeRuns())
     assert ladder.cheapest is not None
@@ -146,13 +212,14 @@ def test_every_error_and_band_is_in_the_json_and_the_table_names_all_quantities(
     assert fast["errors"]["torque"]["worst"]["error"] == pytest.approx(0.5, abs=0.01)
     assert len(fast["errors"]["vibration"]["parts"]) == 26
     assert set(fast["errors"]) == set(QUANTITIES)
-    for name in (
-        "fast",
-        "middle",
-        *QUANTITIES,
-        "5 whole cage revolutions" if ladder.revolutions == 5 else "",
-    ):
-        assert name in table(ladder)
+    text = table(ladder)
+    for name in ("fast", "middle", *QUANTITIES):
+        assert name in text
+    assert plan.revolutions == 4
+    assert ", 4 whole cage revolutions, in 4 windows from " in text
+    assert ", 1 whole cage revolution, in 1 window from " in table(
+        replace(ladder, revolutions=1, edges=ladder.edges[:2])
+    )
 
 
 def test_a_reference_that_is_not_converged_is_said_to_be_so(plan: Plan) -> None:
@@ -302,3 +369,20 @@ def test_the_reference_is_converged() -> None:
         assert error.worst is not None
         assert abs(error.worst.error) - error.worst.band < 0.02, quantity
         assert math.isfinite(error.worst.band)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "duration", "settling"), [("static_80kN", 0.5, 0.25), ("cup_spall", 0.7, 0.3)]
+)
+def test_the_automatic_choice_is_not_surely_beyond_the_accuracy(
+    name: str, duration: float, settling: float
+) -> None:
+    """What the accuracy asks for is judged against every effect, many laminae and a small step."""
+    plan = plan_of(load_scene(name), duration, settling)
+    rungs, scene = rungs_of(plan.scene, quick=True), plan.scene
+    auto = automatic(scene, 0.05, scene.quantities)
+    ladder = climb(plan, replace(rungs, rungs=(auto,)), 0.05, scene.quantities)
+    (row,) = ladder.rows
+    assert row.status == "complete"
+    assert ladder.verdict(row) != "no", table(ladder)
