@@ -168,7 +168,7 @@ def test_dry_friction_that_is_written_down_stays() -> None:
     scene = variant(effects={"preset": "auto", "traction": dry, "film": False})
     assert scene.effects.traction == CoulombTraction(0.12, 0.01)
     assert scene.effects.film is None
-    assert "written down" in reasons(scene)["traction"]
+    assert "as the scene has it" in reasons(scene)["traction"]
 
 
 def test_frictionless_contacts_have_a_seal_and_nothing_to_drive() -> None:
@@ -205,7 +205,7 @@ def test_what_is_written_down_is_kept() -> None:
     scene = variant(tier="full", numerics={"laminae": 7}, quantities=["force"])
     assert scene.tier == "full"
     assert scene.numerics.laminae == 7
-    assert "written down" in reasons(scene)["laminae"]
+    assert "as the scene has it" in reasons(scene)["laminae"]
 
 
 def test_the_tier_alone_can_be_chosen() -> None:
