@@ -15,13 +15,14 @@ from beardyn_core.bearing.rib_film import rib_film_thickness
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import (
     CoulombTraction,
+    KinematicCage,
     LineFilm,
     LoadSharingTraction,
     MixedTraction,
-    ShearedFilmTraction,
     Rib,
     RibMixedFilm,
     RollingResistance,
+    ShearedFilmTraction,
     Traction,
 )
 from beardyn_core.integrate.static import StaticSolution
@@ -188,8 +189,8 @@ class Losses:
     def pocket(self) -> float:
         """Torque of the pockets, [N m]: the cage pushes idle rollers, loaded ones push the cage."""
         cage = self.scene.effects.cage
-        if cage is None or self.speed == 0.0:
-            return 0.0
+        if cage is None or isinstance(cage, KinematicCage) or self.speed == 0.0:
+            return 0.0  # a kinematic cage has no pockets that rub
         return (
             cage.friction
             * self.pocket_force

@@ -214,6 +214,11 @@ def test_the_tier_alone_can_be_chosen() -> None:
     assert scene.effects == load_effects("standard")
 
 
+def test_a_step_that_nobody_gave_goes_with_a_free_tier() -> None:
+    scene = variant(effects="standard", tier="auto", quantities=["force"], mounting=HELD)
+    assert scene.numerics.steps_per_sample == 1
+
+
 def test_a_held_cup_has_no_vibration_to_resolve() -> None:
     scene = variant(quantities=["vibration"], mounting=HELD)
     assert scene.tier == "lumped"

@@ -34,6 +34,7 @@ def measured(scene: Scene, settled: float) -> Measured:
     kept = []
     for _ in range(round(scene.duration * BLOCKS_PER_SECOND)):
         block = twin.advance()
+        assert not block.status
         if block.start_ns * 1e-9 >= settled:
             kept.append(block)
     force = np.concatenate([block.force[:, :3] for block in kept]).mean(axis=0)
