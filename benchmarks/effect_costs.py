@@ -130,12 +130,12 @@ def _ready(scene: Scene, turns: int) -> Twin:
     return twin
 
 
-def _microseconds(twin: Twin) -> float:
-    """Processor time of a step in the next block, all channels included: waiting for others is not in it."""
-    began = time.thread_time()
-    twin.advance()
-    steps = 512 * twin.scene.numerics.steps_per_sample
-    return 1e6 * (time.thread_time() - began) / steps
+def _microseconds(twin: Twin) -> tuple[float, float]:
+    """Time of a step in the kernel, and of the rest of the next block, channels included."""
+    began = time.perf_counter()
+    kernel = twin.advance().wall_s
+    rest = time.perf_counter() - began - kernel
+    return 1e6 * kernel / (512 * twin.scene.numerics.steps_per_sample), 1e6 * rest
 
 
 def measure(scene_name: str, turns: int, only: list[str]) -> list[dict[str, float | str]]:
@@ -146,9 +146,12 @@ def measure(scene_name: str, turns: int, only: list[str]) -> list[dict[str, floa
     chosen = [name for name in scenes if not only or name == "standard" or any(o in name for o in only)]
     twins = {name: _ready(scenes[name], turns) for name in chosen}
     times: dict[str, list[float]] = {name: [] for name in chosen}
+    rests: dict[str, list[float]] = {name: [] for name in chosen}
     for turn in range(turns + SETTLING_TURNS):
         for name in chosen if turn % 2 else reversed(chosen):
-            times[name].append(_microseconds(twins[name]))
+            step, rest = _microseconds(twins[name])
+            times[name].append(step)
+            rests[name].append(rest)
     rows: list[dict[str, float | str]] = []
     for name in chosen:
         found, reference = times[name][SETTLING_TURNS:], times["standard"][SETTLING_TURNS:]
@@ -158,6 +161,7 @@ def measure(scene_name: str, turns: int, only: list[str]) -> list[dict[str, floa
                 "set": name,
                 "us_per_step": statistics.median(found),
                 "least_us_per_step": min(found),
+                "rest_us_per_block": min(rests[name][SETTLING_TURNS:]),
                 "ratio": ratio,
                 "least_ratio": min(found) / min(reference),
             }
@@ -194,17 +198,24 @@ def write_costs(path: Path, arguments: argparse.Namespace, rows: list[dict[str, 
     """Update the shipped cost file with measured ratios."""
     # the least of many turns: what others on the machine do only adds
     measured = {str(row["set"]): round(float(row["least_ratio"]), 4) for row in rows}
-    known = json.loads(path.read_text(encoding="utf-8"))["ratios"] if path.exists() else {}
+    before = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    tiers = {"standard": "full", "tier lumped": "lumped", "tier quasistatic": "quasistatic"}
+    rests = {
+        tiers[name]: round(float(row["rest_us_per_block"]), 1)
+        for row in rows
+        if (name := str(row["set"])) in tiers
+    }
     content = {
-        "about": "time of a step over that of the standard set, full tier, 6 laminae, channels included; "
-        "written by `python benchmarks/effect_costs.py --write`",
+        "about": "kernel time of a step over that of the standard set, full tier, 6 laminae; time of a block "
+        "outside of the kernel; written by `python benchmarks/effect_costs.py --write`",
         "machine": _machine(),
         "date": datetime.date.today().isoformat(),
         "versions": {name: version(name) for name in ("numba", "numpy")},
         "scene": arguments.scene,
         "turns": arguments.turns,
         "standard_us_per_step": round(float(rows[0]["least_us_per_step"]), 2),
-        "ratios": known | measured,
+        "rest_us_per_block": before.get("rest_us_per_block", {}) | rests,
+        "ratios": before.get("ratios", {}) | measured,
     }
     path.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 

@@ -82,10 +82,11 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
         driven = offered[_DRIVING]
         for option in driven:
             offered[_DRIVING] = [option]
-            step = clock.step(scene, stage.tier, option)
+            step = clock.step(scene, stage.tier, stage.laminae, option)
             found = cheapest(offered, stage, looked_at, limits, evidence.costs)
             # cost counts per simulated second; between equal costs the smaller error
-            key = (found[0], found[1] * step.steps_per_sample, found[2])
+            seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
+            key = (found[0], seconds, found[2])
             if best is None or key < best[0]:
                 best = (key, stage, found[3], step)
     assert best is not None  # the full tier offers the reference of every rule
@@ -93,20 +94,20 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
 
 
 class _Clock:
-    """Time step for each tier and law of friction."""
+    """Time step for each tier, lamina count and law of friction."""
 
     def __init__(self, evidence: Evidence, free: Free, vibration: bool) -> None:
         self._evidence, self._free, self._vibration = evidence, free, vibration
-        self._known: dict[tuple[str, Any], StepChoice] = {}
+        self._known: dict[tuple[str, int, Any], StepChoice] = {}
 
-    def step(self, scene: Scene, tier_name: str, option: Alternative) -> StepChoice:
+    def step(self, scene: Scene, tier_name: str, laminae: int, option: Alternative) -> StepChoice:
         """Step with a law of friction; the scene's own where it is not free."""
         if not self._free.steps:
-            return StepChoice(scene.numerics.steps_per_sample, "written down in the scene")
-        key = (tier_name, option.members["traction"])
+            return StepChoice(scene.numerics.steps_per_sample, "as the scene has it")
+        key = (tier_name, laminae, option.members["traction"])
         if key not in self._known:
             effects = replace(scene.effects, **option.members, lamina_coupling=None)
-            self._known[key] = numerics.steps(self._evidence, effects, tier_name, self._vibration)
+            self._known[key] = numerics.steps(self._evidence, effects, tier_name, laminae, self._vibration)
         return self._known[key]
 
 
@@ -150,10 +151,10 @@ def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[A
         option for option in possible if all(option.members[name] == value for name, value in kept.items())
     ]
     if agreeing:
-        return [replace(option, reason=f"written down in the scene; {option.reason}") for option in agreeing]
+        return [replace(option, reason=f"as the scene has it; {option.reason}") for option in agreeing]
     # the tier goes without it, or it is an option that no rule offers
     nearest = possible[-1] if tier_name != "full" else rule.alternatives[0]
-    missing = f"written down in the scene, not in the tier {tier_name}; {nearest.reason}"
+    missing = f"as the scene has it, not in the tier {tier_name}; {nearest.reason}"
     return [replace(nearest, members={**nearest.members, **kept}, reason=missing)]
 
 
@@ -206,7 +207,7 @@ def _told(
     if "vibration" in scene.quantities and "vibration" not in asked:
         errors["vibration"] = 0.0
     within = all(error <= tolerance(name, accuracy) + 1.0e-12 for name, error in errors.items())
-    reason = stage.tier_reason if free.tier else f"written down in the scene; {stage.tier_reason}"
+    reason = stage.tier_reason if free.tier else f"as the scene has it; {stage.tier_reason}"
     if not evidence.moves and "vibration" in scene.quantities:
         reason += "; the cup is held, so there is no vibration of it to resolve"
     return Choice(
@@ -219,12 +220,12 @@ def _told(
         tier_reason=reason,
         laminae_reason=stage.laminae_reason
         if free.laminae
-        else f"written down in the scene; {stage.laminae_reason}",
+        else f"as the scene has it; {stage.laminae_reason}",
         steps_reason=step.reason,
         decisions=decisions,
         expected={name: errors[name] for name in scene.quantities},
         step_cost=total,
-        seconds=costs.seconds(total, step.steps_per_sample),
+        seconds=costs.seconds(total, step.steps_per_sample, stage.tier),
         within=within,
     )
 
@@ -248,6 +249,6 @@ def _unjudged(scene: Scene, free: Free, given: EffectSet, accuracy: float, why: 
         decisions=tuple(Decision(effect, "on", why, True, math.nan, {}) for effect in effects.names()),
         expected=dict.fromkeys(scene.quantities, math.nan),
         step_cost=total,
-        seconds=measured_costs().seconds(total, usual),
+        seconds=measured_costs().seconds(total, usual, name),
         within=False,
     )

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.effects.catalogue import catalogue
+from beardyn_core.model.build import WAVEFORM_RATE
 
 COST_FILE = Path(__file__).with_name("costs.json")
 
@@ -16,7 +17,7 @@ COST_FILE = Path(__file__).with_name("costs.json")
 _LEAST_SHARE = 0.001
 _START_SHARE = 1.0e-5
 _REFERENCE_LAMINAE = 6
-WAVEFORM_RATE = 25_600.0
+_BLOCK_SAMPLES = 512
 # middle of each cost class of the catalogue
 _CLASS_SHARES = {"none": 0.001, "low": 0.015, "medium": 0.09, "high": 0.2}
 # effects computed for every lamina: their cost grows with the count
@@ -33,12 +34,15 @@ class Costs:
         Name of a measured set (`benchmarks/effect_costs.py`) -> its time over that of the standard step.
     standard_step : float
         Time of the standard step on the machine of the measurement, [s].
+    rest_of_block : dict
+        Tier -> time of a block of 512 samples outside of its steps, [s].
     machine, date : str
         Where and when it was measured.
     """
 
     ratios: dict[str, float]
     standard_step: float
+    rest_of_block: dict[str, float]
     machine: str
     date: str
 
@@ -86,9 +90,15 @@ class Costs:
         """Cost of an effect measured at 6 laminae."""
         return share * laminae / _REFERENCE_LAMINAE if effect in _PER_LAMINA else share
 
-    def seconds(self, step: float, steps_per_sample: int) -> float:
+    def seconds(self, step: float, steps_per_sample: int, tier: str) -> float:
         """Wall time of a simulated second on that machine, from the relative cost of a step."""
-        return step * self.standard_step * WAVEFORM_RATE * steps_per_sample
+        steps = step * self.standard_step * steps_per_sample
+        return WAVEFORM_RATE * (steps + self.rest_of_block[tier] / _BLOCK_SAMPLES)
+
+    def unmeasured(self, effect: str) -> str | None:
+        """Cost class of an effect of which no kind has been measured; ``None`` where one has."""
+        known = any(name.split(" ", 1)[1].split()[0] == effect for name in self.ratios if name[0] in "+-")
+        return None if known else _class_of(effect)
 
 
 def _class_of(effect: str) -> str:
@@ -105,6 +115,7 @@ def measured_costs() -> Costs:
     return Costs(
         ratios=content["ratios"],
         standard_step=1e-6 * content["standard_us_per_step"],
+        rest_of_block={tier: 1e-6 * rest for tier, rest in content["rest_us_per_block"].items()},
         machine=content["machine"],
         date=content["date"],
     )

@@ -20,6 +20,7 @@ from beardyn_core.model.heat import thermal_network
 _FAST = frozenset({"lumped", "quasistatic"})
 _FULL = frozenset({"full"})
 # Runs shorter than this stay at the temperature the scene gives.
+_SMALLEST_DRIFT = 0.01  # that is told [K]
 _SHORT = 60.0
 # Torque goes about with this power of the viscosity, which falls with `temperature_coefficient`.
 _VISCOSITY_POWER = 0.66
@@ -32,8 +33,9 @@ def traction(evidence: Evidence) -> Rule:
     effects, losses = evidence.scene.effects, evidence.losses
     reference = losses.drive(effects.traction, effects.film)
     parameter = losses.film_parameter(effects.film)
+    use = "would need" if reference.used > 1.0 else "use"
     said = (
-        f"the rollers use {percent(reference.used)} of the traction there is, at a film of "
+        f"the rollers {use} {percent(reference.used)} of the traction there is, at a film of "
         f"{parameter:.2f} times the roughness"
         if reference.needed > 0.0
         else "nothing has to be driven"
@@ -201,9 +203,9 @@ def thermal(evidence: Evidence) -> Rule:
     drift = _warming(evidence, effect)
     influence = {"torque": min(_VISCOSITY_POWER * scene.lubricant.temperature_coefficient * abs(drift), 1.0)}
     if scene.duration < _SHORT and scene.effects.thermal is None:
-        said = f"in {scene.duration:g} s the oil warms by {drift:.2g} K"
+        said = f"in {scene.duration:g} s {_drift_text(drift)}"
         return Rule("thermal", (Alternative({"thermal": None}, said, word="off"),))
-    said = f"in {scene.duration:g} s the oil drifts by about {drift:.2g} K"
+    said = f"in {scene.duration:g} s {_drift_text(drift)}"
     return Rule(
         "thermal",
         (
@@ -217,6 +219,12 @@ def thermal(evidence: Evidence) -> Rule:
             Alternative({"thermal": None}, said, influence, word="off"),
         ),
     )
+
+
+def _drift_text(drift: float) -> str:
+    if abs(drift) < _SMALLEST_DRIFT:
+        return f"the temperature of the oil changes by less than {_SMALLEST_DRIFT:g} K"
+    return f"the oil {'warms' if drift > 0.0 else 'cools'} by about {abs(drift):.2g} K"
 
 
 def _warming(evidence: Evidence, effect: Thermal) -> float:

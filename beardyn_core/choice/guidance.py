@@ -12,7 +12,7 @@ from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCa
 
 _FAST = frozenset({"lumped", "quasistatic"})
 _FULL = frozenset({"full"})
-_GRAVITY = 9.81
+_GRAVITY = 9.80665
 MOST_SLIP = 1.0
 
 

@@ -15,12 +15,14 @@ from beardyn_core.bearing.rib_film import rib_film_thickness
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import (
     CoulombTraction,
+    KinematicCage,
     LineFilm,
     LoadSharingTraction,
     MixedTraction,
     Rib,
     RibMixedFilm,
     RollingResistance,
+    ShearedFilmTraction,
     Traction,
 )
 from beardyn_core.integrate.static import StaticSolution
@@ -31,7 +33,7 @@ from beardyn_core.scene.scene import Scene
 
 Float = NDArray[np.float64]
 _SPIN_SHARE = 0.18
-_STANDARD_GRAVITY = 9.81
+_STANDARD_GRAVITY = 9.80665
 _DEEP_SLIP = 1.0
 _NEARLY_ALL = 0.5
 
@@ -187,11 +189,10 @@ class Losses:
     def pocket(self) -> float:
         """Torque of the pockets, [N m]: the cage pushes idle rollers, loaded ones push the cage."""
         cage = self.scene.effects.cage
-        if cage is None or self.speed == 0.0:
-            return 0.0
-        friction = getattr(cage, "friction", 0.0)
+        if cage is None or isinstance(cage, KinematicCage) or self.speed == 0.0:
+            return 0.0  # a kinematic cage has no pockets that rub
         return (
-            friction
+            cage.friction
             * self.pocket_force
             * roller_spin(self.scene.bearing, self.speed)
             * (0.5 * self.scene.bearing.roller_diameter / self.speed)
@@ -282,12 +283,11 @@ class Losses:
         slip = traction.regularisation_speed * used / math.sqrt(1.0 - used**2) / speed
         return available, min(slip, _DEEP_SLIP)
 
-    def _blended(self, traction: object, film: LineFilm) -> float:
+    def _blended(self, traction: MixedTraction | ShearedFilmTraction, film: LineFilm) -> float:
         """Coefficient between boundary and full film, by the sixth power of the film parameter."""
-        assert not isinstance(traction, CoulombTraction | LoadSharingTraction)
-        boundary = getattr(traction, "boundary_friction", 0.1)
-        full = traction.full_film_friction if isinstance(traction, MixedTraction) else traction.limiting_shear  # type: ignore[attr-defined]
-        low, high = traction.boundary_film_parameter, traction.full_film_parameter  # type: ignore[attr-defined]
+        boundary = traction.boundary_friction
+        full = traction.full_film_friction if isinstance(traction, MixedTraction) else traction.limiting_shear
+        low, high = traction.boundary_film_parameter, traction.full_film_parameter
         place = (self.film_parameter(film) - low) / max(high - low, 1.0e-9)
         return float(full + (boundary - full) * (1.0 - min(max(place, 0.0), 1.0)) ** 6)
 
@@ -334,7 +334,7 @@ class Losses:
             )
             return largest * (1.0 - np.exp(-slips / 1.0e-3))
         cp, mm_s = 1e3 * scene.lubricant.dynamic_viscosity(scene.temperature), 1e3 * speed
-        kgf = pressure / 9.80665e6
+        kgf = pressure / (1.0e6 * _STANDARD_GRAVITY)
         slide = min(1.2448e7 * cp**-1.5 * mm_s**-0.75 * kgf**-1.5, law.largest_slide)
         highest = 4.078e-2 * kgf**0.18 if kgf > 94.404 else 1.008e-4 * kgf**1.5
         return highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))

@@ -49,6 +49,15 @@ def contact_damping(evidence: Evidence) -> Rule:
         return Rule(
             "contact_damping", (Alternative({"contact_damping": None}, "not in the reference", word="off"),)
         )
+    if not evidence.moves:
+        said = "the cup is held, so that the axlebox has no resonance to damp"
+        return Rule(
+            "contact_damping",
+            (
+                Alternative({"contact_damping": effect}, said, {}, evidence.costs.saved("contact_damping")),
+                Alternative({"contact_damping": None}, said, word="off"),
+            ),
+        )
     omega = 2.0 * math.pi * evidence.resonance
     contacts = 0.5 * omega * effect.time_constant
     box = scene.mounting.box_mass + scene.bearing.cup_mass

@@ -101,7 +101,7 @@ def lever_error(patch: Patch, length: float, count: int) -> float:
     return abs(moment / covered - 0.5 * (low + high)) / (0.25 * length)
 
 
-def steps(evidence: Evidence, effects: EffectSet, tier: str, vibration: bool) -> StepChoice:
+def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibration: bool) -> StepChoice:
     """Coarsest step that is converged, by the current stiffness.
 
     Friction decides; what else a choice may change is taken as in the reference.
@@ -114,6 +114,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, vibration: bool) ->
         (abs(loads.typical.speed), loads.top_speed),
         effects,
         tier,
+        laminae,
         axial=loads.axial_high,
         end_play=scene.end_play,
         mounting=scene.mounting,

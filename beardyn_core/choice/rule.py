@@ -13,6 +13,7 @@ VIBRATION_TOLERANCE_DB = 1.5
 # What another law of friction at raceways or ribs does to the bands beside the resonance of the axlebox, at
 # most: from runs with one law after the other, everything else alike, at 68 kN.
 FRICTION_DB = 2.1
+_SMALLEST_PERCENT = 0.01
 UNITS = {name: "dB" if name == "vibration" else "%" for name in QUANTITIES}
 
 Influence = Mapping[str, float]
@@ -95,4 +96,6 @@ def tolerance(quantity: str, accuracy: float) -> float:
 def percent(value: float) -> str:
     """Fraction in words, to two digits."""
     share = 100.0 * value
+    if 0.0 < abs(share) < _SMALLEST_PERCENT:
+        return f"below {_SMALLEST_PERCENT:g} %"
     return f"{share:.2g} %" if abs(share) < 99.5 else f"{share:.0f} %"

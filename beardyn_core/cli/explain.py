@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import textwrap
 from typing import TYPE_CHECKING, Any
+
+from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.choice.outcome import Choice
@@ -29,9 +32,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument(
         "--quantities",
-        metavar="NAME",
-        nargs="+",
-        help="what is asked for: force, deflection, roller_load, torque, vibration, cage_speed",
+        metavar="NAMES",
+        help="what is asked for, commas between: force, deflection, roller_load, torque, vibration, "
+        "cage_speed",
     )
     parser.add_argument(
         "--effects", metavar="NAME", help="preset or file of effects, or auto (the scene's own)"
@@ -45,13 +48,17 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import explain_scene
 
-    found = explain_scene(
-        args.scene,
-        effects=args.effects,
-        tier=args.tier,
-        accuracy_percent=args.accuracy,
-        quantities=args.quantities,
-    )
+    try:
+        found = explain_scene(
+            args.scene,
+            effects=args.effects,
+            tier=args.tier,
+            accuracy_percent=args.accuracy,
+            quantities=None if args.quantities is None else args.quantities.split(","),
+        )
+    except InputError as error:
+        # the option is shorter than the key
+        raise InputError([p.replace("--accuracy_percent", "--accuracy") for p in error.problems]) from None
     print(json.dumps(json_object(found)) if args.json else text(found))
     return DONE
 
@@ -85,27 +92,37 @@ def text(found: Explanation) -> str:
 
 
 def _lines(choice: Choice, title: str) -> list[str]:
+    from beardyn_core.choice.costs import measured_costs
     from beardyn_core.choice.outcome import error_text
+    from beardyn_core.model.build import WAVEFORM_RATE
 
-    asked = ", ".join(choice.quantities)
+    taken = sum(decision.cost_share for decision in choice.decisions if decision.on)
+    means = [name for name in choice.quantities if name != "vibration"]
+    parts = [f"{', '.join(means)} within {100.0 * choice.accuracy:.3g} %"] if means else []
+    if "vibration" in choice.quantities:
+        parts.append("vibration in third-octave bands within 1.5 dB")
+    asked = "; ".join(parts)
     errors = ", ".join(f"{name} {error_text(name, error)}" for name, error in choice.expected.items())
     verdict = "" if choice.within else "; more than asked for"
     rows = [
-        ("tier", choice.tier, "", choice.tier_reason),
+        ("tier", choice.tier, _share(1.0 - taken), choice.tier_reason),
         ("laminae", str(choice.laminae), "", choice.laminae_reason),
-        ("step", f"1/{25600 * choice.steps_per_sample} s", "", choice.steps_reason),
+        ("step", f"1/{round(WAVEFORM_RATE) * choice.steps_per_sample} s", "", choice.steps_reason),
     ]
     for decision in choice.decisions:
-        share = f"{100.0 * decision.cost_share:.1f} %" if decision.on else ""
+        share = _share(decision.cost_share) if decision.on else ""
         left_out = ", ".join(
             f"{name} {error_text(name, error)}" for name, error in decision.influence.items() if error > 0.0
         )
         reason = f"{decision.reason}{f' (error: {left_out})' if left_out else ''}"
+        cost_class = measured_costs().unmeasured(decision.effect) if decision.on else None
+        if cost_class is not None:
+            reason += f" (cost not measured, class {cost_class})"
         rows.append((decision.effect, decision.word, share, reason))
     lines = [
         f"{title}: tier {choice.tier}, {choice.laminae} laminae, "
         f"expected real-time factor {choice.real_time_factor:.2g}",
-        f"asked for: {asked} within {100.0 * choice.accuracy:.3g} %, third-octave bands within 1.5 dB",
+        f"asked for: {asked}",
         f"expected errors: {errors}{verdict}",
         f"{'':20} {'':20} {'cost':>7}  why",
     ]
@@ -114,3 +131,7 @@ def _lines(choice: Choice, title: str) -> list[str]:
         lines.append(f"{name:20} {word:20} {share:>7}  {first}")
         lines += [f"{'':51}{line}" for line in more]
     return lines
+
+
+def _share(part: float) -> str:
+    return f"{100.0 * part:.1f} %" if math.isfinite(part) else ""

@@ -32,9 +32,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument("-o", "--output", metavar="run.mcap", type=Path, help="record the run to this file")
     parser.add_argument("--duration", metavar="S", type=float, help="simulated time, s (the scene's own)")
-    parser.add_argument("--effects", metavar="NAME", help="preset or file of effects (the scene's own)")
-    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full")
+    parser.add_argument("--effects", metavar="NAME", help="preset or file of effects, or auto")
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto")
     parser.add_argument("--laminae", metavar="N", type=int, help="laminae of each roller (the scene's own)")
+    parser.add_argument("--accuracy", metavar="PERCENT", type=float, help="that auto is chosen for")
+    parser.add_argument("--quantities", metavar="NAMES", help="that auto is chosen for, commas between")
     parser.add_argument("--seed", metavar="N", type=int, help="of irregularity and noise (the scene's own)")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
     parser.set_defaults(run=run)
@@ -53,9 +55,12 @@ def run(args: argparse.Namespace) -> int:
             duration=args.duration,
             laminae=args.laminae,
             seed=args.seed,
+            accuracy_percent=args.accuracy,
+            quantities=None if args.quantities is None else args.quantities.split(","),
         )
     except InputError as error:
-        raise InputError([*error.problems, *problems]) from None
+        named = [p.replace("--accuracy_percent", "--accuracy") for p in error.problems]
+        raise InputError([*named, *problems]) from None
     if problems:
         raise InputError(problems)
 

@@ -22,8 +22,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "starts at once. Without a scene: all shipped scenes, and each shipped set of effects in every tier.",
     )
     parser.add_argument("scene", nargs="*", metavar="SCENE", help="shipped scene or YAML file (see above)")
-    parser.add_argument("--effects", metavar="NAME", help="preset or file of effects (the scene's own)")
-    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full (the scene's own)")
+    parser.add_argument("--effects", metavar="NAME", help="preset or file of effects, or auto")
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto")
     parser.set_defaults(run=run)
 
 

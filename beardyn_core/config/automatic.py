@@ -48,7 +48,10 @@ def take_auto(data: dict[str, Any]) -> Free:
         numerics = dict.fromkeys(("laminae", "steps_per_sample"), AUTO)
     if not isinstance(numerics, dict):
         return replace(NOTHING, tier=free_tier, effects=free_effects)  # a mistake that is told later
-    usual = {"laminae": AUTO, "steps_per_sample": AUTO} if all_free else {}
+    # a step that nobody gave goes with the tier
+    usual = {"steps_per_sample": AUTO} if free_tier else {}
+    if all_free:
+        usual = {"laminae": AUTO, "steps_per_sample": AUTO}
     open_keys = {key for key, value in {**usual, **numerics}.items() if value == AUTO}
     data["numerics"] = {key: value for key, value in numerics.items() if key not in open_keys}
     return Free(free_tier, "laminae" in open_keys, "steps_per_sample" in open_keys, free_effects)

@@ -73,8 +73,8 @@ SENTENCES = {
     "(numerics.steps_per_sample) or check the load",
     Status.PENETRATION: f"a roller is pressed more than {LARGEST_PENETRATION * 1e6:.0f} um into a raceway, "
     "where the contact law does not hold: lower the load, or make the defects smaller",
-    Status.CHATTER: "a friction force flips from step to step, so torque and slip are not converged: let "
-    "numerics.steps_per_sample be auto, or raise it",
+    Status.CHATTER: "a friction force flips from step to step, so torque and slip are not converged: raise "
+    "numerics.steps_per_sample, or let it be auto where it is not",
     Status.OFF_RIB: "a roller presses on its rib beyond the edge of its large end: lower the axial load "
     "or the sphere ratio, or let the rim of the roller carry (effects: rib: roller_end)",
     Status.FILM_RANGE: f"a loaded film is thicker than {LARGEST_FILM * 1e6:.0f} um, where the "

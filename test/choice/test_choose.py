@@ -168,7 +168,7 @@ def test_dry_friction_that_is_written_down_stays() -> None:
     scene = variant(effects={"preset": "auto", "traction": dry, "film": False})
     assert scene.effects.traction == CoulombTraction(0.12, 0.01)
     assert scene.effects.film is None
-    assert "written down" in reasons(scene)["traction"]
+    assert "as the scene has it" in reasons(scene)["traction"]
 
 
 def test_frictionless_contacts_have_a_seal_and_nothing_to_drive() -> None:
@@ -205,13 +205,18 @@ def test_what_is_written_down_is_kept() -> None:
     scene = variant(tier="full", numerics={"laminae": 7}, quantities=["force"])
     assert scene.tier == "full"
     assert scene.numerics.laminae == 7
-    assert "written down" in reasons(scene)["laminae"]
+    assert "as the scene has it" in reasons(scene)["laminae"]
 
 
 def test_the_tier_alone_can_be_chosen() -> None:
     scene = variant(effects="standard", tier="auto", quantities=["force"], mounting=HELD)
     assert scene.tier == "lumped"
     assert scene.effects == load_effects("standard")
+
+
+def test_a_step_that_nobody_gave_goes_with_a_free_tier() -> None:
+    scene = variant(effects="standard", tier="auto", quantities=["force"], mounting=HELD)
+    assert scene.numerics.steps_per_sample == 1
 
 
 def test_a_held_cup_has_no_vibration_to_resolve() -> None:

@@ -25,15 +25,17 @@ class Measured:
     roller_load: float
     torque: float
     cage_speed: float
+    status: int  # every flag of the run
 
 
 def measured(scene: Scene, settled: float) -> Measured:
     twin = Twin(scene)
     twin.warm()
     twin.start(load_history(scene.operation, scene.mounting, scene.duration, scene.seed))
-    kept = []
+    kept, status = [], 0
     for _ in range(round(scene.duration * BLOCKS_PER_SECOND)):
         block = twin.advance()
+        status |= block.status
         if block.start_ns * 1e-9 >= settled:
             kept.append(block)
     force = np.concatenate([block.force[:, :3] for block in kept]).mean(axis=0)
@@ -45,6 +47,7 @@ def measured(scene: Scene, settled: float) -> Measured:
         roller_load=float(cup.max(axis=(1, 2)).mean()),
         torque=float(np.concatenate([block.shaft_torque for block in kept]).mean()),
         cage_speed=float(np.concatenate([block.cage_speed for block in kept]).mean()),
+        status=status,
     )
 
 
@@ -74,4 +77,5 @@ def test_the_choice_meets_the_accuracy_in_a_run(
         if quantity != "vibration"
     }
     print({quantity: f"{100.0 * error:+.2f} %" for quantity, error in errors.items()})
+    assert found.status == 0
     assert max(map(abs, errors.values())) <= 0.01 * percent

@@ -64,6 +64,10 @@ def test_steeper_dry_friction_takes_smaller_steps() -> None:
     assert found[3] > 5
 
 
+def test_few_laminae_take_smaller_steps() -> None:
+    assert [steps(laminae=count) for count in (2, 6, 12)] == [3, 2, 2]
+
+
 def test_load_sharing_without_a_film_is_steep_at_low_speed() -> None:
     dry = replace(STANDARD, traction=LoadSharingTraction(), film=None)
     slow = choose_steps(HS, LOADS, (1.0, 10.0), dry, band=0.0).steps_per_sample
