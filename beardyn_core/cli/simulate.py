@@ -158,7 +158,7 @@ def text(summary: RunSummary, recording: Path | None) -> str:
     first, last = summary.averaged
     ratios = ", ".join(f"{ratio:.4f} (row {row})" for row, ratio in enumerate(summary.cage_speed_ratio))
     over = (
-        f"{summary.cage_revolutions} whole cage revolutions"
+        f"{summary.cage_revolutions} whole cage revolution{'s' * (summary.cage_revolutions != 1)}"
         if summary.cage_revolutions
         else "no whole cage revolution"
     )
