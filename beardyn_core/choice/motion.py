@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from beardyn_core.choice.evidence import Evidence, decibels
+from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Alternative, Rule, percent
 
 _ROWS = 2
@@ -22,6 +22,10 @@ def gravity(evidence: Evidence) -> Rule:
     share = weight / max(evidence.loads.typical.size, 1.0)
     said = f"rollers and cages weigh {weight:.3g} N, {percent(share)} of the load"
     influence = {"force": share, "deflection": share, "roller_load": share}
+    if evidence.moves:
+        # where they lie decides what they hit: no estimate of a level is known, so the bound is taken
+        said += "; where idle rollers and cages rattle is theirs to decide"
+        influence["vibration"] = MOST_DB
     drive = evidence.losses.drive(scene.effects.traction, scene.effects.film)
     if drive.skids:
         # the way up and down brakes and drives rollers that hardly stick: mean amount along the orbit
