@@ -48,7 +48,7 @@ from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 Float = NDArray[np.float64]
 LANE_WIDTH = 8
 
-COMPILING = "compiling the kernels of these effects: once, up to half a minute"
+COMPILING = "compiling the kernels of these effects: once, about a minute"
 
 log = logging.getLogger("beardyn")
 

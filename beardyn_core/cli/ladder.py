@@ -31,7 +31,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="what accuracy costs: tiers, effects, laminae and steps against a converged reference",
         description="Run a scene over tiers, effects, laminae and steps, and compare each rung with a "
         "converged reference of the same scene: wall time per simulated second, and errors with their "
-        "run-to-run band. Takes some minutes, and half a minute more for every set of effects that is not "
+        "run-to-run band. Takes some minutes, and a minute more for every set of effects that is not "
         "compiled yet. Ctrl-C keeps the rungs done so far.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
