@@ -1,17 +1,20 @@
 """How kernels are compiled: flags, inlining, and a disk cache that sees every edit.
 
 numba's own cache looks only at the file of the entry point and would return stale code after an edit
-of a function it calls. Here the cache folder is named by a hash of all kernel sources instead.
+of a function it calls. Here the cache folder is named by a hash of all sources it may come from instead.
 """
 
 from __future__ import annotations
 
 import hashlib
+import inspect
 import os
+import re
 import signal
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -25,25 +28,65 @@ FASTMATH = ("nsz", "arcp", "contract", "afn")
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": set(FASTMATH)}
 
 _CORE = Path(__file__).resolve().parent
-_COMPILED_ROOMS = (".", "kernels", "integrate", "model", "observe", "rail", "scene")
+_IMPORT = re.compile(rb"^ *(?:from|import) +beardyn_core([.\w]*)", re.MULTILINE)
 
 
-def source_hash() -> str:
-    """Hash of all sources that compiled code may come from, and of numba's version."""
+@cache
+def source_hash(source: Path) -> str:
+    """Hash of all that the compiled code of a file may come from, and of numba's version.
+
+    That is the file itself, what it imports from this package, directly or not, and every file that
+    defines a named tuple, for kernels are compiled for the tuples they are called with.
+
+    Parameters
+    ----------
+    source : Path
+        File of an entry point.
+
+    Returns
+    -------
+    str
+    """
+    waiting = [source.resolve(), *(path for path in _sources() if b"NamedTuple" in _text(path))]
+    reached: set[Path] = set()
+    while waiting:
+        path = waiting.pop()
+        if path not in reached:
+            reached.add(path)
+            waiting += _imported(path)
     digest = hashlib.sha256(numba.__version__.encode())
-    for room in _COMPILED_ROOMS:
-        for path in sorted((_CORE / room).glob("*.py")):
-            digest.update(path.name.encode())
-            digest.update(path.read_bytes())
+    for path in sorted(reached):
+        digest.update(path.name.encode())
+        digest.update(_text(path))
     return digest.hexdigest()[:16]
 
 
-def cache_folder() -> Path:
-    """Folder of the compiled kernels: ``$BEARDYN_CACHE_DIR`` or the user's cache folder."""
+@cache
+def _sources() -> tuple[Path, ...]:
+    return tuple(sorted(_CORE.glob("*/*.py")))
+
+
+@cache
+def _text(path: Path) -> bytes:
+    return path.read_bytes()
+
+
+@cache
+def _imported(source: Path) -> tuple[Path, ...]:
+    """Files of this package that a file imports; all files of a room when it imports from the room."""
+    found: list[Path] = []
+    for match in _IMPORT.finditer(_text(source)):
+        place = _CORE.joinpath(*match.group(1).decode().split(".")[1:])
+        found += sorted(place.glob("*.py")) if place.is_dir() else [place.with_suffix(".py")]
+    return tuple(found)
+
+
+def cache_folder(source: Path) -> Path:
+    """Folder of the compiled kernels of a file: in ``$BEARDYN_CACHE_DIR`` or the user's cache folder."""
     root = os.environ.get("BEARDYN_CACHE_DIR")
     if root is None:
         root = os.path.join(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache")), "beardyn")
-    return Path(root) / "kernels" / source_hash()
+    return Path(root) / "kernels" / source_hash(source)
 
 
 def inline(function: Callable[..., Any]) -> Any:
@@ -65,8 +108,9 @@ def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH) -> A
     callable
         The compiled function.
     """
+    folder = cache_folder(Path(inspect.getfile(function)))
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
-    numba.config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
+    numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
     try:
         return numba.njit(cache=True, **{**OPTIONS, "fastmath": set(flags)})(function)
     finally:

@@ -1,0 +1,51 @@
+"""The folder of a compiled kernel follows every source the kernel may come from, and no other."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from beardyn_core import jit
+
+
+@pytest.fixture
+def hash_after(tmp_path, monkeypatch):
+    """Hash of an entry's file in a copy of the package, after a file of the copy is changed."""
+    core = tmp_path / "beardyn_core"
+    shutil.copytree(Path(jit.__file__).parent, core, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(jit, "_CORE", core)
+
+    def forget():
+        for remembered in (jit.source_hash, jit._sources, jit._text, jit._imported):
+            remembered.cache_clear()
+
+    def changed(entry: str, edited: str | None) -> str:
+        if edited is not None:
+            with (core / edited).open("a") as file:
+                file.write("# changed\n")
+        forget()
+        return jit.source_hash(core / entry)
+
+    yield changed
+    forget()
+
+
+@pytest.mark.parametrize(
+    "edited",
+    [
+        "integrate/imex.py",
+        "kernels/lane_math.py",  # imported by what it imports
+        "model/layout.py",
+        "model/tier_parameters.py",  # a named tuple it may be compiled for
+        "jit.py",
+    ],
+)
+def test_an_edit_that_the_kernel_may_come_from_changes_the_folder(hash_after, edited):
+    assert hash_after("integrate/imex.py", None) != hash_after("integrate/imex.py", edited)
+
+
+@pytest.mark.parametrize("edited", ["rail/vehicle.py", "twin.py", "observe/block.py", "integrate/lumped.py"])
+def test_an_edit_elsewhere_keeps_the_folder(hash_after, edited):
+    assert hash_after("integrate/imex.py", None) == hash_after("integrate/imex.py", edited)
