@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from beardyn_core.record.messages import Diagnostic
 from beardyn_ros.load_gate import RefusalReport
+from beardyn_ros.replay import Replay
 from beardyn_ros.run_state import (
     COMPILING,
     END_STATES,
@@ -78,10 +79,28 @@ def twin_diagnostic(
     if mode == "live":
         values += [("load_age", f"{report.load_age:.3f}"), ("lag", f"{report.lag_s:.3f}")]
     else:
-        values.append(("load_queue", str(report.load_waiting)))
+        values += [
+            ("load_queue", str(report.load_waiting)),
+            ("load_queue_time", f"{report.load_waiting_s:.3f}"),
+        ]
     values.append(("refused_messages", str(refused.count)))
     values += [(f"refused: {reason}", str(count)) for reason, count in refused.by_reason]
     return Diagnostic(name, level, sentence, tuple(values))
+
+
+def load_diagnostic(name: str, state: str, replay: Replay, lead: float, lost_messages: int) -> Diagnostic:
+    """State of the load node: where the stream stands in the scenario, how far ahead of the credit, [s]."""
+    values = (
+        ("state", state),
+        ("position", f"{replay.position_s:.4f}"),
+        ("sample", str(replay.next_sample)),
+        ("stamp", f"{replay.next_ns * 1e-9:.4f}"),
+        ("lead", f"{lead:.3f}"),
+        ("passages", str(len(replay.passages))),
+        ("loop", str(replay.loop).lower()),
+        ("lost_messages", str(lost_messages)),
+    )
+    return Diagnostic(name, WARN if lost_messages else OK, f"the load is {state}", values)
 
 
 def needs_attention(report: SessionReport) -> bool:

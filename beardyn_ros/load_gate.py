@@ -24,6 +24,9 @@ from beardyn_core.scene.load_buffer import (
     speed_jump,
 )
 
+# time, wrench, shaft speed and bogie of one sample
+SAMPLE_BYTES = 88
+
 
 @dataclass(frozen=True)
 class RefusalReport:
@@ -95,15 +98,20 @@ class LoadGate:
 
     Parameters
     ----------
-    capacity : int
-        Samples that may wait; more is an overflow, which ends the run.
+    longest_ns : int
+        Stretch of load that may wait, [ns]; more is an overflow, which ends the run.
+    most_bytes : int
+        Memory that it may take, whatever its sample rate.
     refusals : Refusals
     condition : threading.Condition
         Guards the queue and is notified of every change.
     """
 
-    def __init__(self, capacity: int, refusals: Refusals, condition: threading.Condition) -> None:
-        self.capacity = capacity
+    def __init__(
+        self, longest_ns: int, most_bytes: int, refusals: Refusals, condition: threading.Condition
+    ) -> None:
+        self.longest_ns = longest_ns
+        self.most_bytes = most_bytes
         self.refusals = refusals
         self.condition = condition
         self._begin(None)
@@ -192,14 +200,28 @@ class LoadGate:
         jump = speed_jump(run.time_ns, run.shaft_speed)
         if jump is not None:
             return "absurd", jump
-        if self._waiting + len(load) > self.capacity:
-            sentence = (
-                f"{self._waiting + len(load)} load samples are waiting, the queue holds {self.capacity}: the "
-                "sender does not keep to the credit on load/consumed, or load_queue is too small"
-            )
+        sentence = self._overflow(load)
+        if sentence is not None:
             self.failure = sentence
             self.condition.notify_all()
             return "overflow", sentence
+        return None
+
+    def _overflow(self, load: LoadHistory) -> str | None:
+        first_ns = int((self._parts[0] if self._parts else load).time_ns[0])
+        stretch_ns = int(load.time_ns[-1]) - first_ns
+        size = (self._waiting + len(load)) * SAMPLE_BYTES
+        cause = "the sender does not keep to the credit on load/consumed"
+        if self._parts and stretch_ns > self.longest_ns:
+            return (
+                f"{stretch_ns * 1e-9:.3f} s of load are waiting, the queue holds "
+                f"{self.longest_ns * 1e-9:g} s: {cause}, or load_queue is too small"
+            )
+        if size > self.most_bytes:
+            return (
+                f"{size / 1e6:.3g} MB of load are waiting, the queue holds {self.most_bytes / 1e6:g} MB: "
+                f"{cause}, or load_queue_size is too small for its sample rate"
+            )
         return None
 
     def take_through(self, end_ns: int) -> LoadHistory | None:
@@ -227,6 +249,14 @@ class LoadGate:
     def waiting(self) -> int:
         """Samples in the queue."""
         return self._waiting
+
+    @property
+    def waiting_s(self) -> float:
+        """Stretch of time that the waiting samples cover, [s]."""
+        with self.condition:
+            if not self._parts:
+                return 0.0
+            return float(self._parts[-1].time_ns[-1] - self._parts[0].time_ns[0]) * 1e-9
 
 
 def shifted(load: LoadHistory, by_ns: int) -> LoadHistory:
@@ -319,6 +349,11 @@ class LiveLoad:
                 self._speed = speed
             self.condition.notify_all()
         return None
+
+    def forgive(self) -> None:
+        """Count the age of what is held from now on: its source was silent on purpose."""
+        with self.condition:
+            self._arrival = dict.fromkeys(self._arrival, time.monotonic())
 
     def forget_order(self) -> None:
         """Accept any stamp next: the sender starts again."""

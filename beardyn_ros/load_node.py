@@ -4,6 +4,10 @@
 ``load/consumed`` than the horizon; an empty block ends the stream. `live`: one ``load/wrench`` and one
 ``load/shaft`` a sample, paced by the wall clock. A new run id on ``truth`` (a reset, or another twin)
 starts the replay again.
+
+Sample numbers and stamps go on whatever happens; a seek or a loop moves the position in the scenario,
+and ``load/truth`` says which stamp stands where. While the node is paused it says so there too, which
+keeps the twin from taking the silence for a loss.
 """
 
 from __future__ import annotations
@@ -11,21 +15,35 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Sequence
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rclpy.node import Node
+from std_srvs.srv import SetBool, Trigger
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.load_stream import LONGEST_NS, encode_load
-from beardyn_core.record.messages import TIME, decode, decode_string, header, make, serialize
+from beardyn_core.record.messages import (
+    TIME,
+    decode,
+    decode_string,
+    encode_diagnostics,
+    encode_string,
+    header,
+    make,
+    serialize,
+)
 from beardyn_core.record.topics import FRAME, TWIST, WRENCH, topic
 from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.diagnostics import diagnostic_name, load_diagnostic
 from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.replay import Replay
+from beardyn_ros.replay_clock import ReplayClock
 from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node
+from beardyn_ros.scenario import ENDED, PAUSED, PLAYING, Scenario, scene_scenario, truth_text
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
-HistoryLoader = Callable[[str, str, float], LoadHistory]
+ScenarioLoader = Callable[[str, str, float], Scenario]
 
 PUMP_PERIOD_S = 0.005
 LAST_WORDS_TIMEOUT_S = 5.0
@@ -33,6 +51,7 @@ ALONE_TIMEOUT_S = 3.0
 SETTLED_AFTER_S = 0.3  # a recorder may be found a moment later than the twin
 LOOK_PERIOD_S = 0.1
 IDLE_PERIOD_S = 0.2
+REPORT_PERIOD_S = 0.5
 
 PARAMETERS = (
     NodeParameter(
@@ -59,7 +78,25 @@ PARAMETERS = (
         "simulated seconds per wall second in live mode, 0 means 1, as in the twin",
         minimum=0.0,
         maximum=100.0,
+        live=True,
     ),
+    NodeParameter(
+        "position",
+        0.0,
+        "where in the scenario the replay begins; a change is a seek: stamps go on, the position moves with "
+        "a cross-fade",
+        "s",
+        minimum=0.0,
+        maximum=86_399.0,
+        live=True,
+    ),
+    NodeParameter(
+        "loop",
+        False,
+        "go on at the start of the scenario when it ends, with a cross-fade, until told otherwise",
+        live=True,
+    ),
+    NodeParameter("fade", 0.5, "cross-fade of a seek or a loop", "s", minimum=0.001, maximum=60.0),
     NodeParameter(
         "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
     ),
@@ -68,51 +105,81 @@ PARAMETERS = (
 
 
 class LoadNode(Node):
-    """Sends a `LoadHistory`.
+    """Sends a `Scenario`.
 
     Parameters
     ----------
-    load_history : callable or None
-        ``load_history(scene, csv, duration)``; ``None``: scenes of the config room.
+    load_scenario : callable or None
+        ``load_scenario(scene, csv, duration)``; ``None``: scenes of the config room.
     """
 
-    def __init__(self, load_history: HistoryLoader | None = None) -> None:
+    def __init__(self, load_scenario: ScenarioLoader | None = None) -> None:
         super().__init__("load", namespace="axlebox")
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
-        if self._values.block >= self._values.horizon:
+        values = self._values
+        if values.block >= values.horizon:
             raise InputError(
-                f"node load: block {self._values.block:g} s must be shorter than "
-                f"horizon {self._values.horizon:g} s"
+                f"node load: block {values.block:g} s must be shorter than horizon {values.horizon:g} s"
             )
-        loader = load_history or scene_history
-        self._history = loader(self._values.scene, self._values.csv, self._values.duration)
-        self._live = self._values.mode == "live"
+        loader = load_scenario or scene_scenario
+        self._scenario = loader(values.scene, values.csv, values.duration)
+        self._replay = Replay(self._scenario.history, values.loop, values.fade, values.position)
+        self._block_samples = max(int(np.ceil(values.block * 1e9 / self._replay.spacing_ns - 1e-6)), 1)
+        self._live = values.mode == "live"
+        self._live_clock = ReplayClock(self._pace)
+        self._paused = False
+        self._steps = 0
+        self._run_id = ""
         self._out = TopicPublishers(
-            self, "load/blocks", *(("load/wrench", "load/shaft") if self._live else ())
+            self,
+            "load/blocks",
+            "load/truth",
+            "/diagnostics",
+            *(("load/wrench", "load/shaft") if self._live else ()),
         )
+        self._restart()
         self._intake = RawIntake(self)
         self._intake.add(topic("load/consumed"), self._on_consumed, keep_all=False)
         self._intake.add(topic("truth"), self._on_truth)
-        self._run_id = ""
-        self._restart()
         self._announced = False
         self._listeners: tuple[int, ...] = ()
         self._listeners_since = time.monotonic()
         self._heard = False
         self._looked_at = 0.0
         self._alone_since = self._twinless_since = time.monotonic()
-        span = (self._history.time_ns[-1] - self._history.time_ns[0]) * 1e-9
-        self.get_logger().info(f"{len(self._history)} load samples over {span:.2f} s, waiting for a twin")
-        self._busy_period_s = 1.0 / self._values.live_rate if self._live else PUMP_PERIOD_S
+        self.get_logger().info(
+            f"{len(self._scenario.history)} load samples over {self._replay.length_s:.2f} s, "
+            "waiting for a twin"
+        )
+        self._busy_period_s = 1.0 / values.live_rate if self._live else PUMP_PERIOD_S
         self._timer = self.create_timer(IDLE_PERIOD_S, self._on_timer)
+        self.create_timer(REPORT_PERIOD_S, self._report)
+        self.create_service(SetBool, "load/pause", self._on_pause)
+        self.create_service(Trigger, "load/step", self._on_step)
+        self.create_service(Trigger, "load/reset", self._on_reset)
+        self.add_on_set_parameters_callback(self._refuse_change)
+        self.add_post_set_parameters_callback(self._on_parameters)
+
+    @property
+    def _pace(self) -> float:
+        return float(self._values.speed_factor) or 1.0
+
+    @property
+    def _state(self) -> str:
+        if self._ended:
+            return ENDED
+        return PAUSED if self._paused else PLAYING
 
     def _restart(self) -> None:
-        self._next = 0
+        self._replay.restart()
+        self._live_clock.restart()
+        self._unsent: tuple[LoadHistory, int] | None = None
         self._ended = False
-        self._credit_ns = int(self._history.time_ns[0])
-        self._live_begin: float | None = None
+        self._credit_ns = self._replay.next_ns
+        self._told: tuple[object, ...] = ()
+        self._tell_truth()
 
     def _on_consumed(self, cdr: bytes) -> None:
         stamp = decode(TIME, cdr)
@@ -120,17 +187,91 @@ class LoadNode(Node):
 
     def _on_truth(self, cdr: bytes) -> None:
         run_id = str(json.loads(decode_string(cdr)).get("run_id", ""))
-        if self._run_id and run_id != self._run_id:
+        known, self._run_id = self._run_id, run_id
+        if known and run_id != known:
             self.get_logger().info("a new run has begun, the replay starts again")
             self._restart()
-        self._run_id = run_id
+        self._tell_truth()
+
+    # --- services and parameters -------------------------------------------------------------------
+
+    def _on_pause(self, request: Any, response: Any) -> Any:
+        self._paused, self._steps = bool(request.data), 0
+        self._live_clock.pause(self._paused)
+        self._tell_truth()
+        self._on_timer()
+        response.success, response.message = True, self._state
+        return response
+
+    def _on_step(self, _request: Any, response: Any) -> Any:
+        problem = ""
+        if self._live:
+            problem = "a step is one block of load, which only lockstep has"
+        elif self._ended:
+            problem = "the stream has ended"
+        elif not self._paused:
+            problem = "the load is playing: call load/pause with true first"
+        else:
+            self._steps += 1
+            self._on_timer()
+        response.success = not problem
+        response.message = problem or f"one block of {self._values.block:g} s ordered"
+        return response
+
+    def _on_reset(self, _request: Any, response: Any) -> Any:
+        if self._ended:
+            response.success, response.message = False, "the stream has ended: call reset of the twin"
+        else:
+            self._replay.seek(0.0)
+            response.success, response.message = True, "the scenario starts again, stamps go on"
+        return response
+
+    def _refuse_change(self, changes: Sequence[Any]) -> Any:
+        from rcl_interfaces.msg import SetParametersResult
+
+        problem = ""
+        for change in changes:
+            if change.name == "position":
+                problem = problem or self._replay.problem_of_seek(change.value)
+            elif change.name == "loop":
+                problem = problem or self._replay.problem_of_loop(change.value)
+            if change.name in ("position", "loop") and self._ended:
+                problem = problem or "the stream has ended: only a reset of the twin starts another"
+        return SetParametersResult(successful=not problem, reason=problem)
+
+    def _on_parameters(self, changes: Sequence[Any]) -> None:
+        for change in changes:
+            if change.name == "position":
+                self._replay.seek(change.value)
+            elif change.name == "loop":
+                self._replay.loop = change.value
+                self._tell_truth()
+            elif change.name == "speed_factor":
+                self._live_clock.set_pace(self._pace)
+
+    # --- replay ------------------------------------------------------------------------------------
+
+    def _tell_truth(self) -> None:
+        """Publish the truth when it has changed: always before the load that it is about."""
+        now = (self._state, self._run_id, self._replay.loop, len(self._replay.passages))
+        if now != self._told:
+            text = truth_text(self._scenario, self._replay, self._state, self._run_id)
+            self._out.publish("load/truth", encode_string(text))
+            self._told = now
+
+    def _report(self) -> None:
+        name = diagnostic_name(self.get_namespace(), "load")
+        lead = (self._replay.next_ns - self._credit_ns) * 1e-9
+        status = load_diagnostic(name, self._state, self._replay, lead, self._out.lost_messages)
+        self._out.publish("/diagnostics", encode_diagnostics(self._credit_ns, FRAME, [status]))
 
     def _on_timer(self) -> None:
         (self._pump_live if self._live else self._pump)()
-        idle = not self._announced or (self._ended and not self._values.exit_when_done)
+        idle = not self._announced or self._paused or (self._ended and not self._values.exit_when_done)
         period_ns = round((IDLE_PERIOD_S if idle else self._busy_period_s) * 1e9)
         if self._timer.timer_period_ns != period_ns:
             self._timer.timer_period_ns = period_ns
+            self._timer.reset()
 
     def _twin_listens(self) -> bool:
         """Whether the twin gets what is sent; looked up at intervals, it costs more than a send."""
@@ -179,41 +320,47 @@ class LoadNode(Node):
     def _pump(self) -> None:
         if not (self._twin_listens() or self._ended):
             return
-        times = self._history.time_ns
-        horizon_ns = round(self._values.horizon * 1e9)
-        block_ns = round(self._values.block * 1e9)
-        while self._next < len(times):
-            first = self._next
-            last = max(int(np.searchsorted(times, times[first] + block_ns)), first + 1)
-            if times[last - 1] > self._credit_ns + horizon_ns:
-                break
-            if not self._out.publish("load/blocks", encode_load(self._history.part(first, last), first)):
+        latest_ns = self._credit_ns + round(self._values.horizon * 1e9)
+        while not self._ended and (not self._paused or self._steps):
+            if self._unsent is None:
+                first = self._replay.next_sample
+                self._unsent = self._replay.take(self._block_samples), first
+                self._tell_truth()
+            load, first = self._unsent
+            if len(load) == 0:
+                self._end_stream()
                 return
-            self._next = last
-        if self._next == len(times):
+            if load.time_ns[-1] > latest_ns or not self._out.publish("load/blocks", encode_load(load, first)):
+                return
+            self._unsent = None
+            self._steps = max(self._steps - 1, 0)
+        if self._ended:
             self._end_stream()
 
     def _pump_live(self) -> None:
         if not (self._twin_listens() or self._ended):
             return
-        if self._live_begin is None:
-            self._live_begin = time.monotonic()
-        pace = self._values.speed_factor or 1.0
-        times = self._history.time_ns
-        now_ns = times[0] + round((time.monotonic() - self._live_begin) * pace * 1e9)
-        index = int(np.searchsorted(times, now_ns, side="right")) - 1
-        if index >= self._next:
-            stamp, sample = int(times[index]), self._history.wrench[index]
-            self._out.publish("load/wrench", encode_wrench(sample, stamp))
-            self._out.publish("load/shaft", encode_shaft(float(self._history.shaft_speed[index]), stamp))
-            self._next = index + 1
-        if index == len(times) - 1:
-            self._end_stream()
+        self._live_clock.start()
+        if not self._ended:
+            due = (
+                int(self._live_clock.passed() * 1e9 / self._replay.spacing_ns) + 1 - self._replay.next_sample
+            )
+            due = max(due, 0)
+            load = self._replay.take(due)
+            self._tell_truth()
+            if len(load):
+                stamp = int(load.time_ns[-1])
+                self._out.publish("load/wrench", encode_wrench(load.wrench[-1], stamp))
+                self._out.publish("load/shaft", encode_shaft(float(load.shaft_speed[-1]), stamp))
+            if len(load) == due:
+                return
+        self._end_stream()
 
     def _end_stream(self) -> None:
         if not self._ended:
-            empty = self._history.part(0, 0)
-            self._ended = self._out.publish("load/blocks", encode_load(empty, len(self._history)))
+            empty = self._scenario.history.part(0, 0)
+            self._ended = self._out.publish("load/blocks", encode_load(empty, self._replay.next_sample))
+            self._tell_truth()
             self.get_logger().info("everything is replayed, the stream is ended")
         elif self._values.exit_when_done:
             # The twin still reads: leaving before it has everything would lose the tail.
@@ -242,34 +389,6 @@ def encode_shaft(speed: float, stamp_ns: int) -> bytes:
     return serialize(make(TWIST, header=header(stamp_ns, FRAME), twist=content))
 
 
-def scene_history(scene_name: str, csv: str, duration: float) -> LoadHistory:
-    """Load of a scene's operation, or of a CSV file.
-
-    Parameters
-    ----------
-    scene_name : str
-    csv : str
-        '' for the scene's operation.
-    duration : float
-        0 for the scene's own, or the whole CSV, [s].
-    """
-    from beardyn_core.config import load_scene
-    from beardyn_core.rail.build import load_history
-    from beardyn_core.rail.measured import read_measurement
-    from beardyn_core.scene.operation import MeasuredOperation
-
-    scene = load_scene(scene_name)
-    operation = scene.operation
-    length = duration or scene.duration
-    if csv:
-        path = Path(csv)
-        operation = MeasuredOperation(path)
-        if not duration:
-            time_s = read_measurement(path).time
-            length = float(time_s[-1] - time_s[0])
-    return load_history(operation, scene.mounting, length, scene.seed)
-
-
-def main(argv: Sequence[str], load_history: HistoryLoader | None = None) -> int:
+def main(argv: Sequence[str], load_scenario: ScenarioLoader | None = None) -> int:
     """Run the node until everything is replayed."""
-    return run_node(lambda: LoadNode(load_history), argv)
+    return run_node(lambda: LoadNode(load_scenario), argv)

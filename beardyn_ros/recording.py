@@ -90,7 +90,7 @@ class RunFile:
     def add(self, entry: Topic, cdr: bytes) -> None:
         """Append one message; live load stands at the last simulated time seen, its header as it came."""
         stamp = 0 if entry.type in UNSTAMPED else header_stamp(cdr)
-        if entry.name in LIVE_LOAD:
+        if entry.name in LIVE_LOAD or entry.name == "load/truth":
             stamp = self._simulated_ns
         elif entry.name in SIMULATED:
             self._simulated_ns = max(self._simulated_ns, stamp)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -35,6 +36,21 @@ class Rig:
     description: RunDescription
 
 
+def scene_rig(scene_name: str) -> Callable[[], Rig]:
+    """Builder of rigs for a scene by name or path; the scene is read and checked at once."""
+    from beardyn_core.config import load_scene
+    from beardyn_core.record.description import RunDescription
+    from beardyn_core.twin import Twin
+
+    scene = load_scene(scene_name)
+
+    def build() -> Rig:
+        twin = Twin(scene)
+        return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names))
+
+    return build
+
+
 @dataclass(frozen=True)
 class SessionOptions:
     """How a session is fed and when it gives up.
@@ -49,15 +65,18 @@ class SessionOptions:
         Longest wait for the first load, 0 for ever, [s].
     max_age : float
         Oldest load that `live` may hold, [s].
-    queue_samples : int
-        Capacity of the load queue.
+    queue_ns : int
+        Longest stretch of load that may wait, [ns].
+    queue_bytes : int
+        Most memory that it may take.
     """
 
     mode: str
     load_timeout: float
     start_timeout: float
     max_age: float
-    queue_samples: int
+    queue_ns: int
+    queue_bytes: int
 
 
 @dataclass(frozen=True)
@@ -99,6 +118,8 @@ class SessionReport:
     energy_residual : float
     load_waiting : int
         Samples in the queue (lockstep).
+    load_waiting_s : float
+        The stretch that they cover, [s].
     load_age : float
         Age of the held load (live), [s].
     lag_s : float
@@ -120,6 +141,7 @@ class SessionReport:
     status: int = 0
     energy_residual: float = 0.0
     load_waiting: int = 0
+    load_waiting_s: float = 0.0
     load_age: float = 0.0
     lag_s: float = 0.0
     waveform_samples: int = 0

@@ -16,14 +16,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import encode_string
-from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.load_gate import HeldLoad, LiveLoad, LoadGate, Refusals, shifted
+from beardyn_ros.load_feed import LoadFeed, StoppedError
 from beardyn_ros.pacer import Pacer
 from beardyn_ros.run_state import (
     COMPILING,
@@ -35,13 +32,12 @@ from beardyn_ros.run_state import (
     READY,
     RUNNING,
     STOPPED,
-    WAITING_FOR_LOAD,
     Outgoing,
     Rig,
     SessionOptions,
     SessionReport,
 )
-from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL, EXIT_LOAD_LOST
+from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL
 
 BLOCKS_WAITING_TO_BE_PUBLISHED = 32
 
@@ -71,9 +67,7 @@ class TwinSession:
         self.options = options
         self._wake = wake
         self._condition = threading.Condition()  # guards load, commands and what is to be published
-        self.refusals = Refusals()
-        self.gate = LoadGate(options.queue_samples, self.refusals, self._condition)
-        self.live = LiveLoad(self.refusals, self._condition)
+        self.feed = LoadFeed(options, self._condition, self._wait, self._set_state)
         self.pacer = Pacer(speed_factor)
         self.exit_code = EXIT_DONE
         self._outgoing: deque[Outgoing] = deque()
@@ -148,8 +142,8 @@ class TwinSession:
         with self._condition:
             report = SessionReport(**vars(self._report))
             recent = list(self._report.recent)
-        report.load_waiting = self.gate.waiting
-        held = self.live.held() if self.options.mode == "live" else None
+        report.load_waiting, report.load_waiting_s = self.feed.gate.waiting, self.feed.gate.waiting_s
+        held = self.feed.live.held() if self.options.mode == "live" else None
         report.load_age = held.age if held else 0.0
         report.late_blocks, report.lag_s = self.pacer.late_blocks, self.pacer.lag_s
         if len(recent) > 1:
@@ -169,7 +163,7 @@ class TwinSession:
                     self._one_run(rig)
                 except _InterruptedError:
                     pass
-                except _StoppedError as stop:
+                except StoppedError as stop:
                     self.exit_code = stop.exit_code
                     self._set_state(STOPPED, str(stop))
                 except ValidityError as error:
@@ -194,8 +188,7 @@ class TwinSession:
             self._reset = False
             self.exit_code = EXIT_DONE
             self._report = SessionReport(state=READY, sentence="reset")
-        self.gate.restart()
-        self.live.forget_order()
+        self.feed.restart()
         self.pacer.begin()
 
     def _one_run(self, rig: Rig) -> None:
@@ -208,9 +201,7 @@ class TwinSession:
             self._report.run_id = run_id
         description = replace(description, truth={**description.truth, "run_id": run_id})
         self._put(Outgoing((("truth", encode_string(description.to_json())),)))
-        first = self._first_load(twin.block_ns)
-        self._load_begin_ns = int(first.time_ns[0])
-        first = shifted(first, -self._load_begin_ns)
+        first = self.feed.first(twin.block_ns)
         self._set_state(EQUILIBRIUM, "solving the static equilibrium under the first load")
         twin.start(first)
         self._set_state(RUNNING, "running")
@@ -218,10 +209,11 @@ class TwinSession:
         begin, waited = time.monotonic(), 0.0
         while True:
             waited += self._hold()
-            starved = self._cover(twin)
+            starved = self.feed.cover(twin)
+            waited += self.feed.slept_s
             if starved is None:
                 break
-            self.pacer.shift(starved)
+            self.pacer.shift(starved + self.feed.slept_s)
             block = twin.advance()
             self._deliver(twin, block, time.monotonic() - begin - waited, starved)
         sentence = "the load stream has ended, every block that it covers is published"
@@ -231,71 +223,6 @@ class TwinSession:
                 f"{self.pacer.lag_s:.2f} s behind the wall clock"
             )
         self._set_state(FINISHED, sentence)
-
-    def _first_load(self, block_ns: int) -> LoadHistory:
-        topics = "load/wrench and load/shaft" if self.options.mode == "live" else "load/blocks"
-        self._set_state(WAITING_FOR_LOAD, f"waiting for the first load on {topics}")
-
-        def there() -> bool:
-            if self.options.mode == "live":
-                return self.live.held() is not None or self.gate.ended
-            return self.gate.waiting > 0 or self.gate.ended
-
-        timeout = self.options.start_timeout
-        if not self._wait(there, timeout):
-            raise _StoppedError(
-                f"no load has come within {timeout:g} s (parameter start_timeout) on {topics}", EXIT_LOAD_LOST
-            )
-        if self.options.mode == "live":
-            held = self.live.held()
-            if held is not None:
-                return _constant_load(held, 0)
-        else:
-            begin_ns = self.gate.first_time_ns()
-            if begin_ns is not None:
-                load = self.gate.take_through(begin_ns + block_ns)
-                assert load is not None
-                return load
-        raise _StoppedError("the load stream has ended before its first sample", EXIT_LOAD_LOST)
-
-    def _cover(self, twin: Any) -> float | None:
-        """Feed load until the next block is covered; seconds waited, ``None`` at the end of the stream."""
-        if self.options.mode == "live":
-            if self.gate.ended:
-                return None
-            held = self.live.held()
-            assert held is not None
-            if held.age > self.options.max_age:
-                raise _StoppedError(
-                    f"the live load is {held.age:.2f} s old, more than max_age = {self.options.max_age:g} s: "
-                    "its source has stopped",
-                    EXIT_LOAD_LOST,
-                )
-            twin.feed(_constant_load(held, twin.next_end_ns))
-            return 0.0
-        begin = time.monotonic()
-        while not twin.covered():
-            part = self.gate.take_through(twin.next_end_ns + self._load_begin_ns)
-            if part is not None:
-                twin.feed(shifted(part, -self._load_begin_ns))
-                continue
-            if self.gate.failure:
-                raise _StoppedError(self.gate.failure, EXIT_LOAD_LOST)
-            if self.gate.ended:
-                return None
-            timeout = self.options.load_timeout
-            ready = self._wait(
-                lambda: self.gate.waiting > 0 or self.gate.ended or bool(self.gate.failure), timeout
-            )
-            if not ready:
-                last = self.refusals.report().last_sentence
-                hint = f"; last refusal: {last}" if last else ""
-                raise _StoppedError(
-                    f"no usable load for {timeout:g} s (parameter load_timeout): load that covers "
-                    f"t = {(twin.next_end_ns + self._load_begin_ns) / 1e9:.3f} s is missing{hint}",
-                    EXIT_LOAD_LOST,
-                )
-        return time.monotonic() - begin
 
     def _deliver(self, twin: Any, block: Block, wall: float, starved: float) -> None:
         messages = self._messages(block)
@@ -315,7 +242,7 @@ class TwinSession:
             if block.audit is not None:
                 report.energy_residual = block.audit.residual
             report.recent.append((time.monotonic(), simulated))
-        self._put(Outgoing(messages, block.end_ns, block.end_ns + self._load_begin_ns))
+        self._put(Outgoing(messages, block.end_ns, block.end_ns + self.feed.begin_ns))
 
     def _hand_over_last_block(self, error: ValidityError) -> None:
         block = getattr(error, "block", None)
@@ -325,7 +252,7 @@ class TwinSession:
             self._report.status = block.status
             self._report.blocks += 1
             self._report.waveform_samples += len(block.waveform_time_ns)
-        self._put(Outgoing(self._messages(block), block.end_ns, block.end_ns + self._load_begin_ns))
+        self._put(Outgoing(self._messages(block), block.end_ns, block.end_ns + self.feed.begin_ns))
 
     def _messages(self, block: Block) -> tuple[tuple[str, bytes], ...]:
         return tuple((name, cdr) for name, _, cdr in self._encoder.encode(block))
@@ -379,20 +306,3 @@ class TwinSession:
 
 class _InterruptedError(Exception):
     """The run is left because of a reset or the end of the process."""
-
-
-class _StoppedError(Exception):
-    """The run cannot go on."""
-
-    def __init__(self, sentence: str, exit_code: int) -> None:
-        super().__init__(sentence)
-        self.exit_code = exit_code
-
-
-def _constant_load(held: HeldLoad, time_ns: int) -> LoadHistory:
-    return LoadHistory(
-        np.array([time_ns], np.int64),
-        np.asarray(held.wrench, float)[None, :],
-        np.array([held.shaft_speed]),
-        np.zeros((1, 3)),
-    )

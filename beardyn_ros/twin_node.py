@@ -16,18 +16,25 @@ from std_srvs.srv import SetBool, Trigger
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.load_stream import decode_load
-from beardyn_core.record.messages import decode, encode_clock, encode_diagnostics, encode_time, header_stamp
+from beardyn_core.record.messages import (
+    decode,
+    decode_string,
+    encode_clock,
+    encode_diagnostics,
+    encode_time,
+    header_stamp,
+)
 from beardyn_core.record.topics import FRAME, TWIST, WRENCH, topic
 from beardyn_ros.diagnostics import diagnostic_name, needs_attention, twin_diagnostic
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.run_state import END_STATES, FINISHED, Outgoing, Rig, SessionOptions
+from beardyn_ros.run_state import END_STATES, FINISHED, Outgoing, Rig, SessionOptions, scene_rig
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node
+from beardyn_ros.scenario import says_paused
 from beardyn_ros.session import TwinSession
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
 RigLoader = Callable[[str], Callable[[], Rig]]
 
-LOAD_RATE_HZ = 2000.0
 REPORT_PERIOD_S = 0.2
 LAST_WORDS_TIMEOUT_S = 2.0
 THREAD_END_TIMEOUT_S = 2.0
@@ -83,11 +90,19 @@ PARAMETERS = (
     ),
     NodeParameter(
         "load_queue",
-        60.0,
-        "load that may wait at 2 kHz; more is an error that ends the run",
+        120.0,
+        "load that may wait; more is an error that ends the run",
         "s",
         minimum=0.1,
         maximum=3600.0,
+    ),
+    NodeParameter(
+        "load_queue_size",
+        256.0,
+        "memory that waiting load may take, 88 bytes a sample",
+        "MB",
+        minimum=0.1,
+        maximum=16_384.0,
     ),
     NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
 )
@@ -109,6 +124,7 @@ class TwinNode(LifecycleNode):
         self._load_rig = load_rig or scene_rig
         self._values = ParameterValues(self, PARAMETERS)
         self._session: TwinSession | None = None
+        self._load_paused = False
         self._consumed_ns: int | None = None
         self._clock_ns = 0
         self._announced = ""
@@ -150,14 +166,17 @@ class TwinNode(LifecycleNode):
             load_timeout=values.load_timeout,
             start_timeout=values.start_timeout,
             max_age=values.max_age,
-            queue_samples=round(values.load_queue * LOAD_RATE_HZ),
+            queue_ns=round(values.load_queue * 1e9),
+            queue_bytes=round(values.load_queue_size * 1e6),
         )
         self._session = TwinSession(make_rig, options, self._speed_factor, self._guard.trigger)
         if not self._intake.publisher_counts():
             self._intake.add(topic("load/blocks"), self._on_load)
+            self._intake.add(topic("load/truth"), self._on_load_truth)
             if values.mode == "live":
                 self._intake.add(topic("load/wrench"), self._on_wrench)
                 self._intake.add(topic("load/shaft"), self._on_shaft)
+        self._session.feed.pause(self._load_paused)
         self._session.compile()
         return super().on_configure(state)
 
@@ -207,14 +226,19 @@ class TwinNode(LifecycleNode):
         try:
             load, samples = decode_load(cdr)
         except Exception as error:  # a foreign message may break the decoder in any way
-            refusal: str | None = self._session.gate.refuse(
+            refusal: str | None = self._session.feed.gate.refuse(
                 "wrong fields",
                 "it is not a block of load samples with the fields sample, t, fx..mz, shaft_speed "
                 f"({error!r})",
             )
         else:
-            refusal = self._session.gate.offer(load, samples)
+            refusal = self._session.feed.gate.offer(load, samples)
         self._tell_refusal(refusal)
+
+    def _on_load_truth(self, cdr: bytes) -> None:
+        self._load_paused = says_paused(decode_string(cdr))
+        if self._session is not None:
+            self._session.feed.pause(self._load_paused)
 
     def _on_wrench(self, cdr: bytes) -> None:
         if self._session is None:
@@ -222,13 +246,13 @@ class TwinNode(LifecycleNode):
         content = decode(WRENCH, cdr).wrench
         force, torque = content.force, content.torque
         wrench = np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
-        self._tell_refusal(self._session.live.offer_wrench(wrench, header_stamp(cdr)))
+        self._tell_refusal(self._session.feed.live.offer_wrench(wrench, header_stamp(cdr)))
 
     def _on_shaft(self, cdr: bytes) -> None:
         if self._session is None:
             return
         speed = float(decode(TWIST, cdr).twist.angular.y)
-        self._tell_refusal(self._session.live.offer_speed(speed, header_stamp(cdr)))
+        self._tell_refusal(self._session.feed.live.offer_speed(speed, header_stamp(cdr)))
 
     def _tell_refusal(self, sentence: str | None) -> None:
         if sentence is not None:
@@ -322,14 +346,20 @@ class TwinNode(LifecycleNode):
             self._out.publish("load/consumed", encode_time(self._consumed_ns))
         if self._session is None:
             return
+        senders = self._intake.publisher_counts()
+        known = senders.pop(self.resolve_topic_name("load/truth"), 0)
+        if self._load_paused and not known:
+            # whoever was paused knowingly is gone: from here on silence is a loss again
+            self._load_paused = False
+            self._session.feed.pause(False)
         status = twin_diagnostic(
             diagnostic_name(self.get_namespace(), "twin"),
             self._session.report(),
-            self._session.refusals.report(),
+            self._session.feed.refusals.report(),
             self._out.lost_messages,
             self._values.mode,
             self._speed_factor,
-            sum(self._intake.publisher_counts().values()),
+            sum(senders.values()),
         )
         self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, FRAME, [status]))
 
@@ -352,21 +382,6 @@ class TwinNode(LifecycleNode):
         deadline = time.monotonic() + LAST_WORDS_TIMEOUT_S
         for name in self._out.names:
             self._out.wait_until_received(name, max(deadline - time.monotonic(), 0.0))
-
-
-def scene_rig(scene_name: str) -> Callable[[], Rig]:
-    """Builder of rigs for a scene by name or path; the scene is read and checked at once."""
-    from beardyn_core.config import load_scene
-    from beardyn_core.record.description import RunDescription
-    from beardyn_core.twin import Twin
-
-    scene = load_scene(scene_name)
-
-    def build() -> Rig:
-        twin = Twin(scene)
-        return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names))
-
-    return build
 
 
 def main(argv: Sequence[str], load_rig: RigLoader | None = None) -> int:

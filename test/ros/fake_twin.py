@@ -119,6 +119,12 @@ def fake_history(_scene: str, _csv: str, duration: float) -> LoadHistory:
     return load
 
 
+def fake_scenario(scene: str, csv: str, duration: float) -> Any:
+    from beardyn_ros.scenario import Scenario
+
+    return Scenario(fake_history(scene, csv, duration), {"scene": "fake", "seed": 7})
+
+
 def main(words: Sequence[str]) -> int:
     from beardyn_ros.environment import prepare_environment
 
@@ -126,7 +132,7 @@ def main(words: Sequence[str]) -> int:
     if words[0] == "load":
         from beardyn_ros.load_node import main as load_main
 
-        return load_main(words[1:], fake_history)
+        return load_main(words[1:], fake_scenario)
     from beardyn_ros.twin_node import main as twin_main
 
     return twin_main(words[1:], fake_rig)

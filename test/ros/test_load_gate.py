@@ -22,8 +22,8 @@ def history(count: int) -> LoadHistory:
     return LoadHistory(np.arange(count) * STEP_NS, wrench, np.full(count, 100.0), np.zeros((count, 3)))
 
 
-def new_gate(capacity: int = 10_000) -> LoadGate:
-    return LoadGate(capacity, Refusals(), threading.Condition())
+def new_gate(seconds: int = 60, most_bytes: int = 10**9) -> LoadGate:
+    return LoadGate(seconds * 1_000_000_000, most_bytes, Refusals(), threading.Condition())
 
 
 @given(

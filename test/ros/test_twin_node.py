@@ -166,7 +166,7 @@ def test_load_queue_overflow_is_an_error(graph: Graph) -> None:
     for first in range(0, 8000, 200):
         graph.out.publish("load/blocks", encode_load(history.part(first, first + 200), first))
     assert graph.exit_code("twin") == 4
-    assert "the queue holds 1000" in graph.statuses("twin")[-1].message
+    assert "the queue holds 0.5 s" in graph.statuses("twin")[-1].message
 
 
 def test_services_pause_step_and_reset(graph: Graph) -> None:

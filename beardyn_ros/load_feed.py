@@ -1,0 +1,177 @@
+"""What the twin is fed with: load of the queue in lockstep, the held value in live mode."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.load_gate import HeldLoad, LiveLoad, LoadGate, Refusals, shifted
+from beardyn_ros.run_state import PAUSED, RUNNING, WAITING_FOR_LOAD, SessionOptions
+from beardyn_ros.runtime import EXIT_LOAD_LOST
+
+
+class StoppedError(Exception):
+    """The run cannot go on."""
+
+    def __init__(self, sentence: str, exit_code: int) -> None:
+        super().__init__(sentence)
+        self.exit_code = exit_code
+
+
+class LoadFeed:
+    """Load for the twin's thread, as it comes.
+
+    Parameters
+    ----------
+    options : SessionOptions
+    condition : threading.Condition
+        Guards what comes in.
+    wait : callable
+        ``wait(ready, timeout)`` blocks the twin's thread; False after `timeout` seconds, 0: for ever.
+    say : callable
+        ``say(state, sentence)`` tells the world.
+
+    Notes
+    -----
+    A load that is paused knowingly (``load/truth`` says so) holds the twin in both modes: simulated time
+    stands still, neither `load_timeout` nor `max_age` runs, and the age of the held value counts anew
+    when the load goes on.
+    """
+
+    def __init__(
+        self,
+        options: SessionOptions,
+        condition: threading.Condition,
+        wait: Callable[[Callable[[], bool], float], bool],
+        say: Callable[[str, str], None],
+    ) -> None:
+        self._options = options
+        self._condition = condition
+        self._wait = wait
+        self._say = say
+        self.refusals = Refusals()
+        self.gate = LoadGate(options.queue_ns, options.queue_bytes, self.refusals, condition)
+        self.live = LiveLoad(self.refusals, condition)
+        self.begin_ns = 0
+        self.paused = False
+        self.slept_s = 0.0
+        self._running = False
+
+    def restart(self) -> None:
+        """Forget the old stream."""
+        self._running = False
+        self.gate.restart()
+        self.live.forget_order()
+
+    def pause(self, paused: bool) -> None:
+        """Take note that the load is silent on purpose, or that it goes on."""
+        with self._condition:
+            if self.paused and not paused:
+                self.live.forgive()
+            self.paused = paused
+            self._condition.notify_all()
+
+    def first(self, block_ns: int) -> LoadHistory:
+        """Load of the first block, once it is there; its first sample is at time 0."""
+        load = self._first_load(block_ns)
+        self.begin_ns = int(load.time_ns[0])
+        return shifted(load, -self.begin_ns)
+
+    def _first_load(self, block_ns: int) -> LoadHistory:
+        topics = "load/wrench and load/shaft" if self._options.mode == "live" else "load/blocks"
+        self._say(WAITING_FOR_LOAD, f"waiting for the first load on {topics}")
+
+        def there() -> bool:
+            if self._options.mode == "live":
+                return self.live.held() is not None or self.gate.ended
+            return self.gate.waiting > 0 or self.gate.ended
+
+        timeout = self._options.start_timeout
+        if not self._load_comes(there, timeout):
+            raise StoppedError(
+                f"no load has come within {timeout:g} s (parameter start_timeout) on {topics}", EXIT_LOAD_LOST
+            )
+        if self._options.mode == "live":
+            held = self.live.held()
+            if held is not None:
+                return _constant_load(held, 0)
+        else:
+            begin_ns = self.gate.first_time_ns()
+            if begin_ns is not None:
+                load = self.gate.take_through(begin_ns + block_ns)
+                assert load is not None
+                return load
+        raise StoppedError("the load stream has ended before its first sample", EXIT_LOAD_LOST)
+
+    def cover(self, twin: Any) -> float | None:
+        """Feed load until the next block is covered; seconds waited, ``None`` at the end of the stream.
+
+        `slept_s` is then how long the load was paused in between, which is not waiting for it.
+        """
+        self.slept_s, self._running = 0.0, True
+        if self._options.mode == "live":
+            self._load_comes(lambda: not self.paused or self.gate.ended, 0.0)
+            if self.gate.ended:
+                return None
+            held = self.live.held()
+            assert held is not None
+            if held.age > self._options.max_age:
+                raise StoppedError(
+                    f"the live load is {held.age:.2f} s old, more than max_age = "
+                    f"{self._options.max_age:g} s: its source has stopped",
+                    EXIT_LOAD_LOST,
+                )
+            twin.feed(_constant_load(held, twin.next_end_ns))
+            return 0.0
+        begin = time.monotonic()
+        while not twin.covered():
+            part = self.gate.take_through(twin.next_end_ns + self.begin_ns)
+            if part is not None:
+                twin.feed(shifted(part, -self.begin_ns))
+                continue
+            if self.gate.failure:
+                raise StoppedError(self.gate.failure, EXIT_LOAD_LOST)
+            if self.gate.ended:
+                return None
+            timeout = self._options.load_timeout
+            if not self._load_comes(
+                lambda: self.gate.waiting > 0 or self.gate.ended or bool(self.gate.failure), timeout
+            ):
+                last = self.refusals.report().last_sentence
+                hint = f"; last refusal: {last}" if last else ""
+                raise StoppedError(
+                    f"no usable load for {timeout:g} s (parameter load_timeout): load that covers "
+                    f"t = {(twin.next_end_ns + self.begin_ns) / 1e9:.3f} s is missing{hint}",
+                    EXIT_LOAD_LOST,
+                )
+        return time.monotonic() - begin - self.slept_s
+
+    def _load_comes(self, ready: Callable[[], bool], timeout: float) -> bool:
+        """Wait for load; False after `timeout` seconds (0: for ever) that no knowing pause explains."""
+        while True:
+            paused = self.paused
+            if paused and not ready():
+                begin = time.monotonic()
+                self._say(PAUSED, "the load is paused: the twin waits until it goes on")
+                self._wait(lambda: ready() or not self.paused, 0.0)
+                self.slept_s += time.monotonic() - begin
+                self._say(RUNNING if self._running else WAITING_FOR_LOAD, "the load goes on")
+                continue
+            if not self._wait(lambda: ready() or self.paused, timeout):
+                return False
+            if ready():
+                return True
+
+
+def _constant_load(held: HeldLoad, time_ns: int) -> LoadHistory:
+    return LoadHistory(
+        np.array([time_ns], np.int64),
+        np.asarray(held.wrench, float)[None, :],
+        np.array([held.shaft_speed]),
+        np.zeros((1, 3)),
+    )

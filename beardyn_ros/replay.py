@@ -1,0 +1,198 @@
+"""A scenario as an endless stream: sample numbers and stamps go on while the position in it moves.
+
+A loop or a seek moves the position with a cross-fade, so that the load never jumps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.errors import InputError
+from beardyn_core.scene.load import LoadHistory
+
+LAST_SAMPLE = 2**32 - 1  # `sample` on the wire is uint32: five days at 10 kHz
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A stretch of the stream during which the position runs on with time.
+
+    Parameters
+    ----------
+    sample : int
+        Of the stream, where it begins.
+    stamp_ns : int
+        Of that sample, [ns].
+    position_s : float
+        In the scenario at that sample, [s].
+    fade_s : float
+        How long the passage before it still fades out from there on, [s].
+    """
+
+    sample: int
+    stamp_ns: int
+    position_s: float
+    fade_s: float
+
+
+class Replay:
+    """Takes a stream of load out of a scenario, part by part.
+
+    Parameters
+    ----------
+    history : LoadHistory
+        The scenario, evenly spaced in time.
+    loop : bool
+        Wrap from the end to the start, for ever.
+    fade : float
+        Duration of the cross-fade of a wrap or a seek, [s].
+    position : float
+        Where in the scenario the stream begins, [s].
+
+    Notes
+    -----
+    Without loop and seek the stream is the scenario itself, bit by bit. In a cross-fade every column
+    is ``(1 - w) old + w new`` with `w` half a cosine: value and slope are steady at both ends. Speed and
+    force of the two places are mixed alike, so a fade between two speeds is a short change of speed
+    under the mixed load, not a run of the rail model. The passage that fades out holds its last sample
+    when the scenario ends under it.
+
+    Raises
+    ------
+    InputError
+        The samples are not evenly spaced, the position is outside, or a loop has no room for its fade.
+    """
+
+    def __init__(
+        self, history: LoadHistory, loop: bool = False, fade: float = 0.5, position: float = 0.0
+    ) -> None:
+        spacing = np.diff(history.time_ns)
+        if len(history) < 2 or np.ptp(spacing) != 0:
+            raise InputError("the load to be replayed needs two samples or more, evenly spaced in time")
+        self._history = history
+        self._spacing_ns = int(spacing[0])
+        self._fade = max(round(fade * 1e9 / self._spacing_ns), 1)
+        self._begin = self._sample_at(position)
+        problem = self.problem_of_seek(position) or self.problem_of_loop(loop)
+        if problem:
+            raise InputError(problem)
+        self.loop = loop
+        self.restart()
+
+    def restart(self) -> None:
+        """Begin again: sample 0, first stamp, the position given at the start."""
+        self.next_sample = 0
+        self._position = self._begin
+        self._old: int | None = None  # place that fades out
+        self._faded = 0
+        self._wanted: int | None = None
+        self.passages: list[Passage] = []
+        self._begin_passage(0.0)
+
+    @property
+    def spacing_ns(self) -> int:
+        """Time between samples, [ns]."""
+        return self._spacing_ns
+
+    @property
+    def length_s(self) -> float:
+        """Of the scenario, [s]."""
+        return (len(self._history) - 1) * self._spacing_ns * 1e-9
+
+    @property
+    def next_ns(self) -> int:
+        """Stamp of the next sample, [ns]."""
+        return int(self._history.time_ns[0]) + self.next_sample * self._spacing_ns
+
+    @property
+    def position_s(self) -> float:
+        """Where in the scenario the next sample stands, [s]."""
+        return min(self._position, len(self._history) - 1) * self._spacing_ns * 1e-9
+
+    def problem_of_seek(self, position: float) -> str:
+        """Why there is no such place; '' when there is."""
+        if 0.0 <= position <= self.length_s:
+            return ""
+        return f"position {position:g} s is outside the scenario, which is {self.length_s:g} s long"
+
+    def problem_of_loop(self, loop: bool) -> str:
+        """Why the scenario cannot be repeated; '' when it can."""
+        if not loop or 2 * self._fade <= len(self._history):
+            return ""
+        return (
+            f"a loop with a cross-fade of {self._fade * self._spacing_ns * 1e-9:g} s needs a scenario at "
+            f"least twice as long, this one is {self.length_s:g} s long: shorten fade"
+        )
+
+    def seek(self, position: float) -> None:
+        """Move the position with the next sample, or when a cross-fade under way has ended."""
+        self._wanted = self._sample_at(position)
+
+    def take(self, count: int) -> LoadHistory:
+        """The next samples of the stream; fewer, or none, at its end.
+
+        Parameters
+        ----------
+        count : int
+            Samples at most.
+        """
+        first_ns = self.next_ns
+        pieces: list[NDArray[np.float64]] = []
+        left = min(count, LAST_SAMPLE - self.next_sample)
+        while left > 0:
+            self._turn()
+            piece = self._piece(left)
+            if len(piece) == 0:
+                break
+            pieces.append(piece)
+            left -= len(piece)
+            self.next_sample += len(piece)
+        columns = np.concatenate(pieces) if pieces else np.zeros((0, 10))
+        return LoadHistory(
+            first_ns + np.arange(len(columns), dtype=np.int64) * self._spacing_ns,
+            np.ascontiguousarray(columns[:, :6]),
+            np.ascontiguousarray(columns[:, 6]),
+            np.ascontiguousarray(columns[:, 7:]),
+        )
+
+    def _turn(self) -> None:
+        """Begin a cross-fade when one is due."""
+        if self._old is not None:
+            return
+        if self._wanted is None and not (self.loop and self._position >= len(self._history) - self._fade):
+            return
+        self._old, self._faded = self._position, 0
+        self._position, self._wanted = self._wanted or 0, None
+        self._begin_passage(self._fade * self._spacing_ns * 1e-9)
+
+    def _piece(self, count: int) -> NDArray[np.float64]:
+        """Samples up to the next turn, shape [sample, 10]."""
+        if self._old is None:
+            last = len(self._history) - (self._fade if self.loop else 0)
+            count = max(min(count, last - self._position), 0)
+            piece = self._columns(self._position, count)
+        else:
+            count = min(count, self._fade - self._faded)
+            at = (self._faded + 1 + np.arange(count)) / (self._fade + 1)
+            weight = (0.5 - 0.5 * np.cos(np.pi * at))[:, None]
+            old, new = self._columns(self._old, count), self._columns(self._position, count)
+            piece = old + weight * (new - old)
+            self._faded += count
+            self._old = self._old + count if self._faded < self._fade else None
+        self._position += count
+        return piece
+
+    def _columns(self, first: int, count: int) -> NDArray[np.float64]:
+        """Wrench, speed and bogie from a sample of the scenario on, the last one held, shape [count, 10]."""
+        at = np.minimum(first + np.arange(count), len(self._history) - 1)
+        load = self._history
+        return np.column_stack([load.wrench[at], load.shaft_speed[at], load.bogie[at]])
+
+    def _sample_at(self, position: float) -> int:
+        return round(position * 1e9 / self._spacing_ns)
+
+    def _begin_passage(self, fade_s: float) -> None:
+        self.passages.append(Passage(self.next_sample, self.next_ns, self.position_s, fade_s))

@@ -1,0 +1,130 @@
+"""What the load node replays: the load, and the truth about it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, is_dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.replay import Replay
+
+if TYPE_CHECKING:
+    from beardyn_core.scene.scene import Scene
+
+PLAYING = "playing"
+PAUSED = "paused"
+ENDED = "ended"
+PASSAGES_TOLD = 100
+
+# what a wheel or the track does to the load; vehicle and track themselves are in the truth of the twin
+_EVENT_FIELDS = ("irregularity", "wheel_defects", "rail_defects", "path")
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A load to be replayed.
+
+    Parameters
+    ----------
+    history : LoadHistory
+    events : mapping
+        JSON-able: where the load comes from, irregularity, seed, defects of wheel and rail.
+    """
+
+    history: LoadHistory
+    events: Mapping[str, Any]
+
+
+def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
+    """Load of a scene's operation, or of a CSV file in its place.
+
+    Parameters
+    ----------
+    scene_name : str
+    csv : str
+        '' for the scene's operation.
+    duration : float
+        0 for the scene's own, or the whole CSV, [s].
+    """
+    from beardyn_core.config import load_scene
+    from beardyn_core.rail.build import load_history
+    from beardyn_core.rail.measured import read_measurement
+    from beardyn_core.scene.operation import MeasuredOperation
+
+    scene = load_scene(scene_name)
+    length = duration or scene.duration
+    if csv:
+        path = Path(csv)
+        scene = replace(scene, operation=MeasuredOperation(path))
+        if not duration:
+            time_s = read_measurement(path).time
+            length = float(time_s[-1] - time_s[0])
+    return Scenario(load_history(scene.operation, scene.mounting, length, scene.seed), scenario_events(scene))
+
+
+def scenario_events(scene: Scene) -> dict[str, Any]:
+    """What a scene does to the load, JSON-able, in SI units."""
+    operation = scene.operation
+    found = {name: getattr(operation, name) for name in _EVENT_FIELDS if hasattr(operation, name)}
+    return {
+        "scene": scene.name,
+        "operation": type(operation).__name__.removesuffix("Operation"),
+        "seed": scene.seed,
+        **{name: _plain(value) for name, value in found.items()},
+    }
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    if is_dataclass(value) and not isinstance(value, type):
+        return {"kind": type(value).__name__, **asdict(value)}
+    return value if isinstance(value, (bool, int, float, str)) or value is None else str(value)
+
+
+def truth_text(scenario: Scenario, replay: Replay, state: str, run_id: str) -> str:
+    """Content of ``load/truth``: the events of the scenario, and where in it the stream stands when.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    replay : Replay
+    state : str
+        `PLAYING`, `PAUSED` or `ENDED`.
+    run_id : str
+        Of the twin's run that the stream feeds, '' when not known.
+    """
+    passages = [
+        {
+            "sample": passage.sample,
+            "stamp_s": passage.stamp_ns * 1e-9,
+            "position_s": passage.position_s,
+            "fade_s": passage.fade_s,
+        }
+        for passage in replay.passages[-PASSAGES_TOLD:]
+    ]
+    content = {
+        **scenario.events,
+        "run_id": run_id,
+        "replay": {
+            "state": state,
+            "length_s": replay.length_s,
+            "sample_spacing_s": replay.spacing_ns * 1e-9,
+            "loop": replay.loop,
+            "passage_count": len(replay.passages),
+            "passages": passages,
+        },
+    }
+    return json.dumps(content, default=str)
+
+
+def says_paused(truth: str) -> bool:
+    """Whether the sender of a ``load/truth`` is paused knowingly; False when it cannot be read."""
+    try:
+        replay = json.loads(truth).get("replay", {})
+        return bool(replay.get("state") == PAUSED)
+    except (ValueError, AttributeError):
+        return False
