@@ -100,7 +100,7 @@ class Replay:
     @property
     def length_s(self) -> float:
         """Of the scenario, [s]."""
-        return (len(self._history) - 1) * self._spacing_ns * 1e-9
+        return (len(self._history) - 1) * self._spacing_ns / 1e9
 
     @property
     def next_ns(self) -> int:
@@ -110,7 +110,7 @@ class Replay:
     @property
     def position_s(self) -> float:
         """Where in the scenario the next sample stands, [s]."""
-        return min(self._position, len(self._history) - 1) * self._spacing_ns * 1e-9
+        return min(self._position, len(self._history) - 1) * self._spacing_ns / 1e9
 
     def problem_of_seek(self, position: float) -> str:
         """Why there is no such place; '' when there is."""
@@ -123,7 +123,7 @@ class Replay:
         if not loop or 2 * self._fade <= len(self._history):
             return ""
         return (
-            f"a loop with a cross-fade of {self._fade * self._spacing_ns * 1e-9:g} s needs a scenario at "
+            f"a loop with a cross-fade of {self._fade * self._spacing_ns / 1e9:g} s needs a scenario at "
             f"least twice as long, this one is {self.length_s:g} s long: shorten fade"
         )
 
@@ -166,7 +166,7 @@ class Replay:
             return
         self._old, self._faded = self._position, 0
         self._position, self._wanted = self._wanted or 0, None
-        self._begin_passage(self._fade * self._spacing_ns * 1e-9)
+        self._begin_passage(self._fade * self._spacing_ns / 1e9)
 
     def _piece(self, count: int) -> NDArray[np.float64]:
         """Samples up to the next turn, shape [sample, 10]."""

@@ -100,7 +100,7 @@ def truth_text(scenario: Scenario, replay: Replay, state: str, run_id: str) -> s
     passages = [
         {
             "sample": passage.sample,
-            "stamp_s": passage.stamp_ns * 1e-9,
+            "stamp_s": passage.stamp_ns / 1e9,
             "position_s": passage.position_s,
             "fade_s": passage.fade_s,
         }
@@ -112,7 +112,7 @@ def truth_text(scenario: Scenario, replay: Replay, state: str, run_id: str) -> s
         "replay": {
             "state": state,
             "length_s": replay.length_s,
-            "sample_spacing_s": replay.spacing_ns * 1e-9,
+            "sample_spacing_s": replay.spacing_ns / 1e9,
             "loop": replay.loop,
             "passage_count": len(replay.passages),
             "passages": passages,

@@ -158,6 +158,14 @@ class Graph:
 
         return self.call(f"{node}/describe_parameters", DescribeParameters, names=[name]).descriptors[0]
 
+    def set_parameter(self, node: str, name: str, value: bool | float) -> Any:
+        """Result of setting a parameter of a running node."""
+        from rcl_interfaces.srv import SetParameters
+        from rclpy.parameter import Parameter
+
+        wanted = Parameter(name, value=value).to_parameter_msg()
+        return self.call(f"{node}/set_parameters", SetParameters, parameters=[wanted]).results[0]
+
     def _logs(self, names: Iterable[str] | None = None) -> str:
         files = sorted(self.folder.glob("*.log"))
         chosen = [path for path in files if names is None or path.stem in set(names)]

@@ -118,3 +118,26 @@ def test_live_load_refuses_a_jump_of_the_shaft_speed() -> None:
     assert "jumps from 100 to 160" in (live.offer_speed(160.0, 20_000_000) or "")
     assert live.offer_speed(101.0, 40_000_000) is None
     assert live.refusals.report().by_reason == (("absurd", 1),)
+
+
+def test_queue_is_bounded_by_time_at_any_sample_rate() -> None:
+    for step_ns in (500_000, 100_000):
+        gate = new_gate(seconds=1)
+        count = 1_000_000_000 // step_ns
+        load = history(count + 2)
+        load = LoadHistory(np.arange(count + 2) * step_ns, load.wrench, load.shaft_speed, load.bogie)
+        assert gate.offer(load.part(0, 10), np.arange(10)) is None
+        assert gate.offer(load.part(10, count + 1), np.arange(10, count + 1)) is None
+        assert gate.waiting_s == pytest.approx(1.0)
+        sentence = gate.offer(load.part(count + 1, count + 2), np.arange(count + 1, count + 2)) or ""
+        assert "s of load are waiting, the queue holds 1 s" in sentence
+        assert gate.failure
+        assert gate.refusals.report().by_reason == (("overflow", 1),)
+
+
+def test_queue_is_bounded_by_memory_whatever_the_stamps_say() -> None:
+    gate, load = new_gate(seconds=3600, most_bytes=880), history(11)
+    assert gate.offer(load.part(0, 10), np.arange(10)) is None
+    assert "880" not in gate.failure
+    assert "load_queue_size is too small" in (gate.offer(load.part(10, 11), np.arange(10, 11)) or "")
+    assert "load_queue_size" in gate.failure
