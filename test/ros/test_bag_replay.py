@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -25,31 +24,17 @@ pytestmark = [
 ]
 
 
-def recorded_messages(path: Path) -> list[tuple[str, bytes]]:
-    """Load topics of a file as ``ros2 bag play`` sends them: by log time, bytes untouched."""
-    names = [topic(name).path() for name in PLAYED]
+def recorded_messages(path: Path, *names: str) -> list[tuple[str, bytes]]:
+    """Messages of a file as ``ros2 bag play`` sends them: by log time, bytes untouched."""
+    topics = [topic(name).path() for name in names]
     with path.open("rb") as file:
-        found = make_reader(file).iter_messages(topics=names, log_time_order=True)
+        found = make_reader(file).iter_messages(topics=topics, log_time_order=True)
         return [(relative_name(channel.topic), message.data) for _, channel, message in found]
 
 
-def signals_of(
-    graph: Graph, start_twin: Callable[[], None], start_load: Callable[[], None]
-) -> dict[str, list[bytes]]:
-    """Every signal of one run; the load starts when everybody listens."""
-    graph.listen(*SIGNALS)
-    start_twin()
-    graph.until(
-        lambda: all(graph.node.count_publishers(topic(name).path()) for name in SIGNALS),
-        "publishers of the signals",
-    )
-    start_load()
-    assert graph.exit_code("twin") == 0
-    blocks = int(graph.statuses("twin")[-1].value("blocks"))
-    assert blocks >= BLOCKS
-    graph.until(lambda: len(graph.messages["vibration"]) == blocks, "all blocks")
-    graph.until(lambda: len(graph.messages["force"]) == 8 * blocks, "all forces")
-    return {name: graph.messages[name] for name in SIGNALS}
+def recorded_signals(path: Path) -> dict[str, list[bytes]]:
+    """Signals of the twin in a file."""
+    return {name: [cdr for _, cdr in recorded_messages(path, name)] for name in SIGNALS}
 
 
 def wrap_twice(graph: Graph) -> None:
@@ -63,66 +48,69 @@ def wrap_twice(graph: Graph) -> None:
     assert graph.set_parameter("load", "loop", False).successful
 
 
-def original_run(folder: Path, fake: bool, **load: object) -> tuple[dict[str, list[bytes]], Path]:
-    """Twin and load node under a recorder; signals and file."""
+def original_run(folder: Path, fake: bool, **load: object) -> Path:
+    """Twin and load node under a recorder; the file."""
     folder.mkdir()
     path = folder / "run.mcap"
     with Graph(folder) as graph:
         graph.listen("load/truth")
-
-        def start_twin() -> None:
-            graph.node_process("recorder", output=str(path))
-            graph.fake_twin() if fake else graph.node_process("twin", scene="cup_spall")
-            graph.until(
-                lambda: any(status.value("connected") == "true" for status in graph.statuses("recorder")),
-                "the recorder's connection to every topic of the twin",
-            )
-
-        def start_load() -> None:
-            graph.fake_load(**load) if fake else graph.node_process("load", scene="cup_spall", **load)
-            if load.get("loop"):
-                wrap_twice(graph)
-
-        signals = signals_of(graph, start_twin, start_load)
+        graph.node_process("recorder", output=str(path))
+        graph.fake_twin() if fake else graph.node_process("twin", scene="cup_spall")
+        graph.until(
+            lambda: any(status.value("connected") == "true" for status in graph.statuses("recorder")),
+            "the recorder's connection to every topic of the twin",
+        )
+        graph.fake_load(**load) if fake else graph.node_process("load", scene="cup_spall", **load)
+        if load.get("loop"):
+            wrap_twice(graph)
+        assert graph.exit_code("twin") == 0
         assert graph.exit_code("recorder") == 0
-    return signals, path
+        assert graph.statuses("recorder")[-1].value("lost_samples") == "0"
+    return path
 
 
-def replayed_run(folder: Path, fake: bool, path: Path) -> dict[str, list[bytes]]:
-    """The twin fed from the file, all at once: a bag knows no credit."""
+def signals_of_replay(folder: Path, fake: bool, path: Path) -> dict[str, list[bytes]]:
+    """Signals of the twin fed from the file, all at once: a bag knows no credit."""
     folder.mkdir()
+    wanted = {name: len(cdrs) for name, cdrs in recorded_signals(path).items()}
     with Graph(folder) as graph:
-
-        def start_load() -> None:
-            graph.connected(*PLAYED)
-            for name, cdr in recorded_messages(path):
-                assert graph.out.publish(name, cdr)
-
-        def start_twin() -> None:
-            graph.fake_twin() if fake else graph.node_process("twin", scene="cup_spall")
-
-        return signals_of(graph, start_twin, start_load)
+        graph.listen(*SIGNALS)
+        graph.fake_twin() if fake else graph.node_process("twin", scene="cup_spall")
+        graph.until(
+            lambda: all(graph.node.count_publishers(topic(name).path()) for name in SIGNALS),
+            "publishers of the signals",
+        )
+        graph.connected(*PLAYED)
+        for name, cdr in recorded_messages(path, *PLAYED):
+            assert graph.out.publish(name, cdr)
+        assert graph.exit_code("twin") == 0
+        graph.until(
+            lambda: all(len(graph.messages[name]) >= count for name, count in wanted.items()), f"{wanted}"
+        )
+        return {name: graph.messages[name] for name in SIGNALS}
 
 
 def test_recorded_load_topics_of_the_real_twin_give_the_same_bits_again(
     tmp_path: Path, compiled_kernels: None
 ) -> None:
-    signals, path = original_run(tmp_path / "original", fake=False, duration=DURATION)
-    assert replayed_run(tmp_path / "replay", False, path) == signals
+    path = original_run(tmp_path / "original", fake=False, duration=DURATION)
+    signals = recorded_signals(path)
+    assert len(signals["vibration"]) == BLOCKS
+    assert signals_of_replay(tmp_path / "replay", False, path) == signals
 
 
 def test_recording_of_a_looped_load_replays_to_the_same_bits_and_tells_its_passages(tmp_path: Path) -> None:
     load = {"duration": 0.5, "position": 0.3, "loop": True, "fade": 0.05, "horizon": 0.2}
-    signals, path = original_run(tmp_path / "original", fake=True, **load)
-    assert replayed_run(tmp_path / "replay", True, path) == signals
-    last = [decode_string(cdr) for name, cdr in recorded_messages(path) if name == "load/truth"][-1]
-    passages = json.loads(last)["replay"]["passages"]
+    path = original_run(tmp_path / "original", fake=True, **load)
+    assert signals_of_replay(tmp_path / "replay", True, path) == recorded_signals(path)
+    _, last = recorded_messages(path, "load/truth")[-1]
+    passages = json.loads(decode_string(last))["replay"]["passages"]
     assert [passage["position_s"] for passage in passages[:3]] == [0.3, 0.0, 0.0]
     assert passages[1]["stamp_s"] == pytest.approx(0.5 - 0.05 - 0.3, abs=0.001)
 
 
 def test_recorded_topics_are_offered_with_the_quality_that_the_twin_asks_for(tmp_path: Path) -> None:
-    _, path = original_run(tmp_path / "original", fake=True, duration=DURATION)
+    path = original_run(tmp_path / "original", fake=True, duration=DURATION)
     with path.open("rb") as file:
         summary = make_reader(file).get_summary()
     assert summary is not None
