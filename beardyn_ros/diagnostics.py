@@ -77,12 +77,14 @@ def twin_diagnostic(
             ("energy_residual", f"{report.energy_residual:.3e}"),
         ]
     if mode == "live":
-        values += [("load_age", f"{report.load_age:.3f}"), ("lag", f"{report.lag_s:.3f}")]
+        values.append(("load_age", f"{report.load_age:.3f}"))
     else:
         values += [
             ("load_queue", str(report.load_waiting)),
             ("load_queue_time", f"{report.load_waiting_s:.3f}"),
         ]
+    if speed_factor > 0.0:
+        values += [("lag", f"{report.lag_s:.3f}"), ("worst_lag", f"{report.worst_lag_s:.4f}")]
     values.append(("refused_messages", str(refused.count)))
     values += [(f"refused: {reason}", str(count)) for reason, count in refused.by_reason]
     return Diagnostic(name, level, sentence, tuple(values))

@@ -30,6 +30,7 @@ class Pacer:
             self._now_s = 0.0
             self.late_blocks = 0
             self.lag_s = 0.0  # of the last block behind its due time
+            self.worst_lag_s = 0.0
 
     @property
     def speed_factor(self) -> float:
@@ -60,6 +61,7 @@ class Pacer:
         with self._lock:
             if self._speed_factor > 0.0:
                 self.lag_s = max(time.monotonic() - self._due(end_ns), 0.0)
+                self.worst_lag_s = max(self.worst_lag_s, self.lag_s)
                 self.late_blocks += self.lag_s > LATE_AFTER_S
             self._now_s = end_ns * 1e-9
 

@@ -124,6 +124,8 @@ class SessionReport:
         Age of the held load (live), [s].
     lag_s : float
         How late the last block was on the wall clock, [s].
+    worst_lag_s : float
+        The same of the latest of all blocks, [s].
     waveform_samples : int
         Waveform samples delivered since the start of the run.
     """
@@ -144,5 +146,6 @@ class SessionReport:
     load_waiting_s: float = 0.0
     load_age: float = 0.0
     lag_s: float = 0.0
+    worst_lag_s: float = 0.0
     waveform_samples: int = 0
     recent: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=50))

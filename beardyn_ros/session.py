@@ -146,6 +146,7 @@ class TwinSession:
         held = self.feed.live.held() if self.options.mode == "live" else None
         report.load_age = held.age if held else 0.0
         report.late_blocks, report.lag_s = self.pacer.late_blocks, self.pacer.lag_s
+        report.worst_lag_s = self.pacer.worst_lag_s
         if len(recent) > 1:
             (wall_0, simulated_0), (wall_1, simulated_1) = recent[0], recent[-1]
             report.window_rtf = (simulated_1 - simulated_0) / max(wall_1 - wall_0, 1e-9)

@@ -8,10 +8,21 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from benchmarks import naive_model, real_time_factor, sink_throughput, starting, step_costs
+from benchmarks import (
+    naive_model,
+    paced_twin,
+    parallel_twins,
+    real_time_factor,
+    sink_throughput,
+    starting,
+    step_costs,
+)
 from benchmarks.runs import Table, machine
 
-PARTS = ("rtf", "scenes", "stages", "laminae", "rollers", "start", "compile", "sinks", "yardstick")
+PARTS = (
+    *("rtf", "scenes", "stages", "laminae", "rollers", "start", "compile", "sinks", "parallel", "paced"),
+    "yardstick",
+)
 
 
 def measure(part: str, quick: bool, done: dict[str, Table]) -> Table:
@@ -26,6 +37,8 @@ def measure(part: str, quick: bool, done: dict[str, Table]) -> Table:
         "start": lambda: starting.cold_start(3 if quick else 9),
         "compile": starting.compiling,
         "sinks": lambda: sink_throughput.sinks(25, 3 if quick else 9),
+        "parallel": lambda: parallel_twins.parallel(turns // 2),
+        "paced": lambda: paced_twin.paced(6.0 if quick else 60.0),
         "yardstick": lambda: naive_model.yardstick(1e-5 if quick else 5e-5, _standard_rtf(done, turns)),
     }
     return parts[part]()

@@ -1,0 +1,194 @@
+"""The real twin node in real time: twin and load node as processes, lateness of every block.
+
+``python -m benchmarks.paced_twin --scene smooth_run --effects full --laminae 6 --seconds 60`` runs one
+rung alone. A block is late when it is handed over more than 40 ms after it is due.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from beardyn_core.config import load_scene
+from beardyn_core.record.messages import Diagnostic, decode_diagnostics, header_stamp
+from beardyn_core.record.topics import topic
+from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
+from beardyn_ros.processes import Processes, free_domain_id, local_environment
+from benchmarks.runs import Table
+
+SCENE = "smooth_run"
+RUNGS = (("full", 6), ("standard", 6), ("dry", 6))
+READY_TIMEOUT_S = 600.0
+COLUMNS = (
+    *("effects", "laminae", "simulated s", "wall s", "blocks", "late", "worst late ms", "worst arrival ms"),
+    *("RTF", "waited for load s", "state"),
+)
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What a listener in another process saw of a run.
+
+    Parameters
+    ----------
+    last : Diagnostic
+        Last words of the twin.
+    wall_s : float
+        From the first to the last block, [s].
+    worst_arrival_s : float
+        Largest delay of a block against the beat of the wall clock that the fastest one sets, [s].
+    """
+
+    last: Diagnostic
+    wall_s: float
+    worst_arrival_s: float
+
+
+class _Listener:
+    """Diagnostics and clock of the graph."""
+
+    def __init__(self, domain: int) -> None:
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.node import Node
+
+        from beardyn_ros.wire import RawIntake
+
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self._node = Node("stopwatch", namespace="axlebox", context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self.twin: Diagnostic | None = None
+        self.arrivals: list[tuple[float, float]] = []
+        intake = RawIntake(self._node)
+        intake.add(topic("/diagnostics"), self._hear)
+        intake.add(topic("/clock"), self._on_clock)
+
+    def _hear(self, cdr: bytes) -> None:
+        for status in decode_diagnostics(cdr)[1]:
+            if status.name.endswith("/twin"):
+                self.twin = status
+
+    def _on_clock(self, cdr: bytes) -> None:
+        self.arrivals.append((time.monotonic(), header_stamp(cdr) * 1e-9))
+
+    def state(self) -> str:
+        """Of the twin."""
+        return str(self.twin.value("state")) if self.twin else ""
+
+    def until(self, states: tuple[str, ...], timeout: float, processes: Processes) -> None:
+        """Wait for a state of the twin, or for the end of its process."""
+        deadline = time.monotonic() + timeout
+        while self.state() not in states:
+            self._executor.spin_once(timeout_sec=0.2)
+            if processes.failed() or time.monotonic() > deadline:
+                raise RuntimeError(f"the twin is '{self.state()}': {processes.log('twin')[-2000:]}")
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._executor.shutdown()
+        self._node.destroy_node()
+        self._context.try_shutdown()
+
+
+def run_paced(scene: str, effects: str, laminae: int, seconds: float, mode: str = "lockstep") -> Heard:
+    """One run at speed factor 1.
+
+    Parameters
+    ----------
+    scene, effects : str
+    laminae : int
+    seconds : float
+        Simulated time, [s].
+    mode : str
+        ``lockstep`` or ``live``.
+    """
+    prepare_environment()
+    text = load_scene(scene, effects=effects, laminae=laminae, duration=seconds).source_text
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        file = folder / "paced.yaml"
+        file.write_text(text, encoding="utf-8")
+        domain = free_domain_id()
+        common = ["-p", f"scene:={file}", "-p", f"mode:={mode}", "-p", "speed_factor:=1.0"]
+        with Processes(local_environment(domain), folder) as processes:
+            listener = _Listener(domain)
+            try:
+                processes.start("twin", "-m", "beardyn_ros", "twin", "--ros-args", *common)
+                listener.until(("waiting for load",), READY_TIMEOUT_S, processes)
+                processes.start(
+                    "load", "-m", "beardyn_ros", "load", "--ros-args", *common, "-p", f"duration:={seconds}"
+                )
+                listener.until(("finished", "stopped"), 60.0 + 20.0 * seconds, processes)
+            finally:
+                listener.close()
+    assert listener.twin is not None
+    offsets = [wall - simulated for wall, simulated in listener.arrivals]
+    wall_s = listener.arrivals[-1][0] - listener.arrivals[0][0]
+    return Heard(listener.twin, wall_s, max(offsets) - min(offsets))
+
+
+def row(effects: str, laminae: int, heard: Heard) -> tuple[str | float | int, ...]:
+    """Row of the table."""
+
+    def number(key: str) -> float:
+        return float(heard.last.value(key) or 0.0)
+
+    return (
+        effects,
+        laminae,
+        number("simulated_time"),
+        heard.wall_s,
+        int(number("blocks")),
+        int(number("late_blocks")),
+        1e3 * number("worst_lag"),
+        1e3 * heard.worst_arrival_s,
+        number("real_time_factor"),
+        number("waited_for_load"),
+        str(heard.last.value("state")),
+    )
+
+
+def paced(seconds: float, scene: str = SCENE, rungs: tuple[tuple[str, int], ...] = RUNGS) -> Table:
+    """Rungs from the finest down to the first that keeps up for the whole time."""
+    rows: list[tuple[str | float | int, ...]] = []
+    note = f"speed factor 1, lockstep; load average {os.getloadavg()[0]:.2f} before"
+    if not ros_available():
+        return Table("paced", "Twin node in real time", COLUMNS, rows, MISSING_ROS)
+    for effects, laminae in rungs:
+        heard = run_paced(scene, effects, laminae, seconds)
+        rows.append(row(effects, laminae, heard))
+        if heard.last.value("late_blocks") == "0" and heard.last.value("state") == "finished":
+            break
+    else:
+        note += "; no rung has kept up"
+    return Table("paced", f"Twin node in real time, {scene}, {seconds:g} s", COLUMNS, rows, note)
+
+
+def main() -> None:
+    """One rung."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.paced_twin", description=__doc__)
+    parser.add_argument("--scene", default=SCENE)
+    parser.add_argument("--effects", default=RUNGS[0][0])
+    parser.add_argument("--laminae", type=int, default=RUNGS[0][1])
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--mode", choices=("lockstep", "live"), default="lockstep")
+    given = parser.parse_args()
+    heard = run_paced(given.scene, given.effects, given.laminae, given.seconds, given.mode)
+    table = Table(
+        "paced",
+        f"Twin node in real time, {given.scene}, {given.mode}",
+        COLUMNS,
+        [row(given.effects, given.laminae, heard)],
+    )
+    print("\n".join(table.lines()))
+
+
+if __name__ == "__main__":
+    main()
