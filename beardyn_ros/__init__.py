@@ -8,7 +8,11 @@ runtime        one process, one node: arguments, signals, executor, exit code
 parameters     parameters declared once from a table, refused with a sentence
 wire           topics of the table as publishers, and raw subscriptions that are emptied in one sweep
 load_gate      what comes in as load: checked, counted, queued
+scenario       what the load node replays: load, events, and the truth that it tells
+replay         a scenario as an endless stream: loop, seek, cross-fade, passages
+replay_clock   pace and pause of a live replay
 load_node      replays an operation or a CSV as stamped load blocks, within the credit
+load_feed      load for the twin's thread: waiting, age, knowing pauses
 run_state      what a session is told, what it hands over, what it says about itself
 session        the twin in its own thread: compile, wait for load, advance, pace
 pacer          when a block is due on the wall clock

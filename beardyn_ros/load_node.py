@@ -126,7 +126,6 @@ class LoadNode(Node):
         loader = load_scenario or scene_scenario
         self._scenario = loader(values.scene, values.csv, values.duration)
         self._replay = Replay(self._scenario.history, values.loop, values.fade, values.position)
-        self._block_samples = max(int(np.ceil(values.block * 1e9 / self._replay.spacing_ns - 1e-6)), 1)
         self._live = values.mode == "live"
         self._live_clock = ReplayClock(self._pace)
         self._paused = False
@@ -324,7 +323,8 @@ class LoadNode(Node):
         while not self._ended and (not self._paused or self._steps):
             if self._unsent is None:
                 first = self._replay.next_sample
-                self._unsent = self._replay.take(self._block_samples), first
+                until_ns = self._replay.next_ns + round(self._values.block * 1e9)
+                self._unsent = self._replay.take(max(self._replay.samples_before(until_ns), 1)), first
                 self._tell_truth()
             load, first = self._unsent
             if len(load) == 0:
@@ -352,7 +352,7 @@ class LoadNode(Node):
                 stamp = int(load.time_ns[-1])
                 self._out.publish("load/wrench", encode_wrench(load.wrench[-1], stamp))
                 self._out.publish("load/shaft", encode_shaft(float(load.shaft_speed[-1]), stamp))
-            if len(load) == due:
+            if not self._replay.exhausted:
                 return
         self._end_stream()
 

@@ -14,6 +14,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.scene.load import LoadHistory
 
 LAST_SAMPLE = 2**32 - 1  # `sample` on the wire is uint32: five days at 10 kHz
+UNEVEN = "the samples of this load are not evenly spaced in time: it can only be replayed straight through"
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class Replay:
     Parameters
     ----------
     history : LoadHistory
-        The scenario, evenly spaced in time.
+        The scenario. Unless it is evenly spaced in time it can only be replayed straight through.
     loop : bool
         Wrap from the end to the start, for ever.
     fade : float
@@ -63,17 +64,18 @@ class Replay:
     Raises
     ------
     InputError
-        The samples are not evenly spaced, the position is outside, or a loop has no room for its fade.
+        The position is outside, a loop has no room for its fade, or uneven samples are to be moved.
     """
 
     def __init__(
         self, history: LoadHistory, loop: bool = False, fade: float = 0.5, position: float = 0.0
     ) -> None:
         spacing = np.diff(history.time_ns)
-        if len(history) < 2 or np.ptp(spacing) != 0:
-            raise InputError("the load to be replayed needs two samples or more, evenly spaced in time")
+        if len(history) < 2 or spacing.min() <= 0:
+            raise InputError("the load to be replayed needs two samples or more, one after the other in time")
         self._history = history
-        self._spacing_ns = int(spacing[0])
+        self._even = bool(np.ptp(spacing) == 0)
+        self._spacing_ns = int(np.median(spacing))
         self._fade = max(round(fade * 1e9 / self._spacing_ns), 1)
         self._begin = self._sample_at(position)
         problem = self.problem_of_seek(position) or self.problem_of_loop(loop)
@@ -94,32 +96,45 @@ class Replay:
 
     @property
     def spacing_ns(self) -> int:
-        """Time between samples, [ns]."""
+        """Time between samples, the usual one when it changes, [ns]."""
         return self._spacing_ns
 
     @property
     def length_s(self) -> float:
         """Of the scenario, [s]."""
-        return (len(self._history) - 1) * self._spacing_ns / 1e9
+        return float(self._history.time_ns[-1] - self._history.time_ns[0]) / 1e9
 
     @property
     def next_ns(self) -> int:
         """Stamp of the next sample, [ns]."""
-        return int(self._history.time_ns[0]) + self.next_sample * self._spacing_ns
+        if self._even:
+            return int(self._history.time_ns[0]) + self.next_sample * self._spacing_ns
+        return int(self._history.time_ns[min(self._position, len(self._history) - 1)])
+
+    def samples_before(self, stamp_ns: int) -> int:
+        """How many of the next samples have stamps below `stamp_ns`, should the stream be that long."""
+        if self._even:
+            return max(-((self.next_ns - stamp_ns) // self._spacing_ns), 0)
+        return max(int(np.searchsorted(self._history.time_ns, stamp_ns)) - self._position, 0)
 
     @property
     def position_s(self) -> float:
         """Where in the scenario the next sample stands, [s]."""
-        return min(self._position, len(self._history) - 1) * self._spacing_ns / 1e9
+        at = min(self._position, len(self._history) - 1)
+        return float(self._history.time_ns[at] - self._history.time_ns[0]) / 1e9
 
     def problem_of_seek(self, position: float) -> str:
         """Why there is no such place; '' when there is."""
+        if not self._even and position != 0.0:
+            return UNEVEN
         if 0.0 <= position <= self.length_s:
             return ""
         return f"position {position:g} s is outside the scenario, which is {self.length_s:g} s long"
 
     def problem_of_loop(self, loop: bool) -> str:
         """Why the scenario cannot be repeated; '' when it can."""
+        if loop and not self._even:
+            return UNEVEN
         if not loop or 2 * self._fade <= len(self._history):
             return ""
         return (
@@ -131,6 +146,12 @@ class Replay:
         """Move the position with the next sample, or when a cross-fade under way has ended."""
         self._wanted = self._sample_at(position)
 
+    @property
+    def exhausted(self) -> bool:
+        """Whether no sample is left."""
+        moving = self.loop or self._old is not None or self._wanted is not None
+        return self.next_sample >= LAST_SAMPLE or not (moving or self._position < len(self._history))
+
     def take(self, count: int) -> LoadHistory:
         """The next samples of the stream; fewer, or none, at its end.
 
@@ -139,7 +160,7 @@ class Replay:
         count : int
             Samples at most.
         """
-        first_ns = self.next_ns
+        first_ns, first = self.next_ns, self._position
         pieces: list[NDArray[np.float64]] = []
         left = min(count, LAST_SAMPLE - self.next_sample)
         while left > 0:
@@ -151,8 +172,11 @@ class Replay:
             left -= len(piece)
             self.next_sample += len(piece)
         columns = np.concatenate(pieces) if pieces else np.zeros((0, 10))
+        time_ns = first_ns + np.arange(len(columns), dtype=np.int64) * self._spacing_ns
+        if not self._even:
+            time_ns = self._history.time_ns[first : first + len(columns)]
         return LoadHistory(
-            first_ns + np.arange(len(columns), dtype=np.int64) * self._spacing_ns,
+            time_ns,
             np.ascontiguousarray(columns[:, :6]),
             np.ascontiguousarray(columns[:, 6]),
             np.ascontiguousarray(columns[:, 7:]),

@@ -62,7 +62,8 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
         if not duration:
             time_s = read_measurement(path).time
             length = float(time_s[-1] - time_s[0])
-    return Scenario(load_history(scene.operation, scene.mounting, length, scene.seed), scenario_events(scene))
+    history = load_history(scene.operation, scene.mounting, length, scene.seed)
+    return Scenario(history, scenario_events(replace(scene, duration=length)))
 
 
 def scenario_events(scene: Scene) -> dict[str, Any]:

@@ -31,6 +31,42 @@ twin is a lifecycle node: configure loads the scene and compiles off the executo
 equilibrium under the first load and runs; with `autostart` it does both by itself.
 """
 
+LOAD_SERVICES = """
+Services of the load node, in its namespace: `load/pause` (`std_srvs/SetBool`), `load/step`
+(`std_srvs/Trigger`, one block of load while paused, lockstep only) and `load/reset` (`std_srvs/Trigger`,
+a seek to 0). `position`, `loop` and `speed_factor` may change while it runs:
+
+```
+ros2 param set /axlebox/load position 12.5     # seek
+ros2 param set /axlebox/load loop true
+ros2 service call /axlebox/load/pause std_srvs/srv/SetBool "{data: true}"
+```
+
+Sample numbers and stamps always go on; a seek or a loop only moves the position in the scenario, with a
+cross-fade of half a cosine over `fade` in which force, moment, speed and bogie of both places are mixed:
+the load never jumps. A lap of a loop is the length of the scenario less one fade. What is sent already is
+not taken back: in lockstep a seek, a loop or a pause reaches the twin up to `horizon` later. `load/truth`
+says which stamp stands where, before the load that it is about comes: `replay.passages` lists, for each
+passage, its first `sample` and `stamp_s`, its `position_s` there, and for how long (`fade_s`) the passage
+before it still fades out. At the stamp t of a passage the position is `position_s + t - stamp_s`.
+
+A pause is said on `load/truth` too, and the twin then waits in either mode: simulated time stands still,
+neither `load_timeout` nor `max_age` runs, and the age of a live load counts anew when it goes on. A source
+that falls silent without a word, or a paused one that dies (Fast DDS tells within 10 s), is a lost load as
+ever. Reset of the twin starts the stream again at sample 0 and the first stamp.
+
+### A recording in its place
+
+Any node may send the load. A file of the recorder replays to the same bits:
+
+```
+ros2 bag play run.mcap --topics /axlebox/load/blocks /axlebox/load/truth
+```
+
+A bag knows no credit: with `--rate` it may run ahead of the twin by `load_queue` seconds or
+`load_queue_size` MB, beyond which the twin stops and says so.
+"""
+
 PROTOCOL = """
 ## Load protocol
 
@@ -38,7 +74,8 @@ PROTOCOL = """
 the twin repeats on `load/consumed` every 0.2 s; an empty block ends the stream. Samples are linear in
 between, and in lockstep a block is computed only when a sample at or after its end has arrived: the
 signals are the same to the last bit at any speed. Messages with NaN, out of order, with gaps or absurd
-numbers are counted and refused in `/diagnostics`.
+numbers are counted and refused in `/diagnostics`. Every sample has a running number: a loss shows as a gap
+and never as a guess.
 """
 
 
@@ -62,7 +99,7 @@ def page() -> str:
         lines += [f"## {node}", "", f"{PROGRAMS[node][1].capitalize()}.", ""]
         lines += ["| parameter | type | default | allowed | meaning |", "|---|---|---|---|---|"]
         lines += [*parameter_rows(node), ""]
-        lines += [SERVICES] if node == "twin" else []
+        lines += {"twin": [SERVICES], "load": [LOAD_SERVICES]}.get(node, [])
     lines += [PROTOCOL, "## Topics", "", "| topic | type | QoS | rate | content |", "|---|---|---|---|---|"]
     for topic in TOPICS:
         quality = topic.reliability + (", latched" if topic.durability == "transient_local" else "")

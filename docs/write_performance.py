@@ -75,6 +75,19 @@ A new set of effects is compiled once, with a message; the cache is named by a h
     "sinks": """## Recording
 
 """,
+    "parallel": """## Two bearings at once
+
+Two twins in two threads of one process, and in two processes, against one alone, in turns. The time step runs
+without the interpreter lock; what is left of a block holds it.
+
+""",
+    "paced": """## Real time
+
+Twin node and load node as processes at speed factor 1. A block is late when it is handed over more than 40 ms
+after it is due; *worst arrival* is what a listener in a third process sees, transport included. The RTF is
+that of the diagnostics: simulated time over time inside the twin, here beside two other processes.
+
+""",
     "yardstick": """## Yardstick
 
 The same bearing, load, laminae, effects and initial state in the plain force laws that the kernels are tested

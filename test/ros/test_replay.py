@@ -125,11 +125,38 @@ def test_begin_inside_the_scenario_has_no_fade() -> None:
     assert np.array_equal(columns(replay.take(2000)), columns(scenario())[500:])
 
 
+def test_uneven_samples_of_a_recording_go_straight_through_with_their_own_stamps() -> None:
+    load = scenario(400)
+    time_ns = BEGIN_NS + np.cumsum(np.where(np.arange(400) % 7, 500_000, 2_000_000))
+    uneven = LoadHistory(time_ns, load.wrench, load.shaft_speed, load.bogie)
+    replay, parts = Replay(uneven), []
+    while not replay.exhausted:
+        parts.append(replay.take(max(replay.samples_before(replay.next_ns + 20_000_000), 1)))
+        assert parts[-1].time_ns[-1] - parts[-1].time_ns[0] < 20_000_000
+    times, values = joined(parts)
+    assert np.array_equal(times, time_ns)
+    assert np.array_equal(values, columns(uneven))
+    assert "straight through" in replay.problem_of_seek(0.1)
+    assert "straight through" in replay.problem_of_loop(True)
+
+
+@given(ahead_ns=st.integers(-STEP_NS, 10 * STEP_NS), taken=st.integers(0, 300))
+def test_samples_before_a_stamp_are_counted(ahead_ns: int, taken: int) -> None:
+    replay = Replay(scenario())
+    replay.take(taken)
+    count = replay.samples_before(replay.next_ns + ahead_ns)
+    times = scenario().time_ns[taken:]
+    assert count == np.count_nonzero(times < BEGIN_NS + taken * STEP_NS + ahead_ns)
+
+
 def test_what_cannot_be_replayed_is_refused_with_the_reason() -> None:
-    uneven = scenario()
+    backwards, uneven = scenario(), scenario()
+    backwards.time_ns[5] = backwards.time_ns[4]
     uneven.time_ns[5] += 1
     for arguments, words in (
-        ({"history": uneven}, "evenly spaced"),
+        ({"history": backwards}, "one after the other"),
+        ({"history": uneven, "position": 0.1}, "evenly spaced"),
+        ({"history": uneven, "loop": True}, "evenly spaced"),
         ({"history": scenario(1)}, "two samples"),
         ({"history": scenario(), "position": 0.6}, "outside the scenario, which is 0.5 s long"),
         ({"history": scenario(), "loop": True, "fade": 0.3}, "needs a scenario at least twice as long"),
