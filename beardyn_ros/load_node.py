@@ -342,11 +342,8 @@ class LoadNode(Node):
             return
         self._live_clock.start()
         if not self._ended:
-            due = (
-                int(self._live_clock.passed() * 1e9 / self._replay.spacing_ns) + 1 - self._replay.next_sample
-            )
-            due = max(due, 0)
-            load = self._replay.take(due)
+            now_ns = int(self._scenario.history.time_ns[0]) + int(self._live_clock.passed() * 1e9)
+            load = self._replay.take(self._replay.samples_before(now_ns + 1))
             self._tell_truth()
             if len(load):
                 stamp = int(load.time_ns[-1])

@@ -57,7 +57,7 @@ ever. Reset of the twin starts the stream again at sample 0 and the first stamp.
 
 ### A recording in its place
 
-Any node may send the load. A file of the recorder replays to the same bits:
+Any node may send the load. A recording of a lockstep run replays to the same bits:
 
 ```
 ros2 bag play run.mcap --topics /axlebox/load/blocks /axlebox/load/truth

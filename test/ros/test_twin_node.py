@@ -256,6 +256,7 @@ def test_live_mode_alone_runs_in_real_time_and_says_how_far_it_lags(graph: Graph
     assert last.value("speed_factor") == "1"
     lag = float(last.value("lag"))
     assert lag > 0.5
+    assert float(last.value("worst_lag")) >= lag - 0.001
     assert last.level == 1
     simulated = float(last.value("simulated_time"))
     assert simulated < 1.4
