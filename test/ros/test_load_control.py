@@ -59,7 +59,6 @@ def test_truth_is_latched_and_says_seed_irregularity_and_defects_of_the_scene(gr
     assert content["scene"] == "smooth_run"
     assert isinstance(content["seed"], int)
     assert content["irregularity"]["kind"]
-    assert content["wheel_defects"] == []
     assert content["replay"]["state"] == "playing"
     first = {"sample": 0, "stamp_s": 0.0, "position_s": 0.0, "fade_s": 0.0}
     assert content["replay"]["passages"] == [first]
