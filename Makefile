@@ -15,7 +15,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow bench performance costs ladder validation lint format clean
+.PHONY: help demo test slow bench performance costs ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -41,6 +41,9 @@ costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python docs/write_ladder.py $(ARGS)
+
+automatic: $(VENV)/.ready-test ## set up, then try the automatic choices of ten scenes and write docs/automatic.md
+	@$(BIN)/python docs/write_automatic.py $(ARGS)
 
 validation: $(VENV)/.ready-test ## set up, then run every anchor and write docs/validation.md
 	@$(BIN)/python docs/write_validation.py $(ARGS)

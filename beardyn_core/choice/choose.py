@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import product
 from typing import Any
 
 from beardyn_core.choice import friction, guidance, motion, numerics, stiffness, tier
@@ -26,12 +27,12 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
-_DRIVING = 2  # of the rules: friction decides the step
+_DECIDING = 2  # so many first rules decide the step: friction, and what damps the bounce of rollers
 
 RULES: tuple[Callable[[Evidence], Rule], ...] = (
+    friction.traction,
     motion.contact_damping,
     stiffness.lamina_coupling,
-    friction.traction,  # _DRIVING
     friction.rolling_resistance,
     friction.drag,
     guidance.rib,
@@ -79,11 +80,10 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
         offered = [_offered(rule, free, stage.tier, given) for rule in rules]
         if any(not alternatives for alternatives in offered):
             continue
-        driven = offered[_DRIVING]
-        for option in driven:
-            offered[_DRIVING] = [option]
-            step = clock.step(scene, stage.tier, stage.laminae, option)
-            found = cheapest(offered, stage, looked_at, limits, evidence.costs)
+        for deciding in product(*offered[:_DECIDING]):
+            step = clock.step(scene, stage.tier, stage.laminae, deciding)
+            fixed = [[option] for option in deciding]
+            found = cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
             # cost counts per simulated second; between equal costs the smaller error
             seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
             key = (found[0], seconds, found[2])
@@ -94,19 +94,22 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
 
 
 class _Clock:
-    """Time step for each tier, lamina count and law of friction."""
+    """Time step for each tier, lamina count, law of friction and damping."""
 
     def __init__(self, evidence: Evidence, free: Free, vibration: bool) -> None:
         self._evidence, self._free, self._vibration = evidence, free, vibration
-        self._known: dict[tuple[str, int, Any], StepChoice] = {}
+        self._known: dict[tuple[str, int, Any, Any], StepChoice] = {}
 
-    def step(self, scene: Scene, tier_name: str, laminae: int, option: Alternative) -> StepChoice:
-        """Step with a law of friction; the scene's own where it is not free."""
+    def step(
+        self, scene: Scene, tier_name: str, laminae: int, deciding: tuple[Alternative, ...]
+    ) -> StepChoice:
+        """Step with what decides it; the scene's own where it is not free."""
         if not self._free.steps:
             return StepChoice(scene.numerics.steps_per_sample, "as the scene has it")
-        key = (tier_name, laminae, option.members["traction"])
+        members = {name: value for option in deciding for name, value in option.members.items()}
+        key = (tier_name, laminae, members["traction"], members["contact_damping"])
         if key not in self._known:
-            effects = replace(scene.effects, **option.members, lamina_coupling=None)
+            effects = replace(scene.effects, **members, lamina_coupling=None)
             self._known[key] = numerics.steps(self._evidence, effects, tier_name, laminae, self._vibration)
         return self._known[key]
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import cage_speed_ratio
+from beardyn_core.effects import KinematicCage
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.rail.build import load_history
@@ -174,7 +175,7 @@ def varied(scene: Scene, number: int) -> Scene:
     if number == 0:
         return scene
     cage: Any = scene.effects.cage
-    if cage is not None:
+    if cage is not None and not isinstance(cage, KinematicCage):
         ratio = cage.initial_speed_ratio + _VARIED_SPEED * number
         scene = replace(scene, effects=replace(scene.effects, cage=replace(cage, initial_speed_ratio=ratio)))
     return replace(scene, end_play=scene.end_play + _VARIED_END_PLAY * number)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 
 from beardyn_core.choice.choose import choose
+from beardyn_core.choice.outcome import Choice
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.scene import QUANTITIES, Scene
@@ -151,8 +152,8 @@ def rung_of(scene: Scene, effects_name: str, name: str = "") -> Rung:
     return replace(rung, name=name) if name else rung
 
 
-def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Rung:
-    """What `effects: auto` chooses for a scene, judged against every effect.
+def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
+    """What `effects: auto` chooses for a scene, whatever the scene is computed with itself.
 
     Parameters
     ----------
@@ -164,8 +165,14 @@ def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Rung:
     """
     wanted = {_CHOSEN_AS.get(name, name) for name in asked}
     quantities = tuple(name for name in QUANTITIES if name in wanted)
-    given = replace(scene, effects=load_effects("full"), accuracy=accuracy, quantities=quantities)
-    return rung_of(choose(given).applied(given), AUTO, name=f"auto {100.0 * accuracy:g} %")
+    return choose(replace(scene, effects=load_effects("full"), accuracy=accuracy, quantities=quantities))
+
+
+def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Rung:
+    """The rung of `chosen_for`, to be judged against every effect."""
+    return rung_of(
+        chosen_for(scene, accuracy, asked).applied(scene), AUTO, name=f"auto {100.0 * accuracy:g} %"
+    )
 
 
 def _choices(rung: Rung) -> tuple[str, EffectSet, int, int]:

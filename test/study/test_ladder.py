@@ -13,6 +13,7 @@ import pytest
 from PIL import Image
 
 from beardyn_core.config import load_effects, load_scene
+from beardyn_core.effects import KinematicCage
 from beardyn_core.errors import ValidityError
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS, contradictions
@@ -268,6 +269,13 @@ def test_repeated_runs_begin_a_hair_apart_and_feel_the_same(plan: Plan) -> None:
     assert plan.scene.effects.cage is not None
     assert other.effects.cage.initial_speed_ratio == pytest.approx(1.0001)
     assert len(runs.scenes) == REFERENCE_RUNS + sum(repeats_of(rung) for rung in RUNGS.rungs)
+
+
+def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(plan: Plan) -> None:
+    kinematic = replace(plan.scene, effects=replace(plan.scene.effects, cage=KinematicCage()))
+    other = varied(kinematic, 1)
+    assert other.effects.cage == kinematic.effects.cage
+    assert other.end_play != kinematic.end_play
 
 
 @pytest.mark.parametrize("name", ["smooth_run", "cup_spall", "static_5kN"])
