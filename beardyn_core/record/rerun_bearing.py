@@ -149,6 +149,8 @@ def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None
     packed = _packed(colours)
     for row in range(2):
         for k in range(shape.roller_count):
+            if f"roller_{row}_{k}" in run.described().absent_bodies:
+                continue
             stream.send_columns(
                 f"{ROOT}/rollers/roller_{row}_{k}",
                 indexes=[time],
