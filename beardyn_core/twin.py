@@ -20,7 +20,7 @@ from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.integrate.warming import Warmth, cold_start, scene_at, warmed
 from beardyn_core.jit import when_compiling
 from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
+from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
 from beardyn_core.model.fault_params import grow, roller_oversize
 from beardyn_core.model.layout import (
@@ -36,6 +36,7 @@ from beardyn_core.model.layout import (
 )
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.stages import stage_cycles
+from beardyn_core.observe.absence import absence_of
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
 from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
@@ -83,13 +84,16 @@ class Twin:
         Simulated time of a block, [ns].
     """
 
-    rows = 2
+    rows = BOTH_ROWS
     block_ns = BLOCK_NS
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.load = LoadBuffer()
-        self._arrangement = Arrangement(scene.bearing.roller_count, LANE_WIDTH)
+        self._arrangement = Arrangement(
+            scene.bearing.roller_count, LANE_WIDTH, scene.rows, scene.missing_places
+        )
+        self._absence = absence_of(self._arrangement)
         self._lanes = Lanes(LANE_WIDTH)
         self._tier = TIERS[scene.tier]
         self._parameters = build_parameters(scene, self._arrangement, np.zeros(6))
@@ -141,7 +145,7 @@ class Twin:
 
     def _rehearse(self) -> None:
         """Go through what a block takes, at rest and with nothing kept."""
-        static = _at_rest(self.roller_count, len(self._bending_stiffness))
+        static = _at_rest(self.scene.rows, self.roller_count, len(self._bending_stiffness))
         state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
         steps = len(self._signals)
         buffer = LoadBuffer()
@@ -153,7 +157,7 @@ class Twin:
         assess(state, steps, self.scene.bearing.large_end_radius, self._parameters.effects.rib)
         signals = np.zeros_like(self._signals)
         observer = Observer(self.scene, self._arrangement, self._parameters, signals[0])
-        observer.first_instant(state.rollers, state.bodies, loads[0, :6])
+        observer.first_instant(*self._complete(state.rollers, state.bodies), loads[0, :6])
         block = observer.observe(0, signals, loads, rollers, bodies, 0, None, 0.0, None)
         _ = block.body_pose, block.body_twist, block.contacts  # worked out at the first look
 
@@ -189,10 +193,15 @@ class Twin:
             oversize=roller_oversize(scene),
             bending_stiffness=self._bending_stiffness,
             tilt_stiffness=restraint,
+            axial_stiffness=scene.mounting.axial_prop[0],
+            rows=scene.rows,
+            missing=scene.missing_places,
         )
+        on_cup = first[:3].copy()
+        on_cup[1] -= scene.mounting.axial_prop[0] * static.displacement[1]
         moment[[0, 2]] -= restraint * static.tilt
         carried = self._weight_of_rollers_and_cages()
-        preload = np.concatenate([-first[:3], -moment])
+        preload = np.concatenate([-on_cup, -moment])
         preload[2] += carried + self._free_fall * self._parameters.mounting.box_mass
         box = self._parameters.mounting.coupling
         if box is not None:
@@ -201,10 +210,10 @@ class Twin:
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._state = self._tier.start(scene, self._arrangement, self._kernel_parameters, static, first)
         rest = np.zeros(SIGNAL_CHANNELS)
-        rest[SIGNAL_FORCE : SIGNAL_FORCE + 3] = first[:3]
+        rest[SIGNAL_FORCE : SIGNAL_FORCE + 3] = on_cup
         rest[SIGNAL_FORCE + 2] -= carried
         self._observer = Observer(scene, self._arrangement, self._parameters, rest)
-        self._observer.first_instant(self._state.rollers, self._state.bodies, first[:6])
+        self._observer.first_instant(*self._complete(self._state.rollers, self._state.bodies), first[:6])
 
     @property
     def _free_fall(self) -> float:
@@ -212,9 +221,9 @@ class Twin:
 
     def _weight_of_rollers_and_cages(self) -> float:
         """Weight that the cone carries on top of the cup's force, [N]."""
-        bearing = self.scene.bearing
-        cages = self.rows * bearing.cage.mass if self.scene.effects.cage else 0.0
-        return self._free_fall * (self.rows * bearing.roller_count * bearing.roller_mass + cages)
+        scene, bearing = self.scene, self.scene.bearing
+        cages = scene.rows * bearing.cage.mass if scene.effects.cage else 0.0
+        return self._free_fall * (scene.roller_total * bearing.roller_mass + cages)
 
     def feed(self, load: LoadHistory) -> bool:
         """Append load samples; False when they were refused (`load.reason` says why)."""
@@ -302,7 +311,11 @@ class Twin:
             work.box, loads, signals, rollers, bodies, state.energy, self._audit,
             self._kernel_parameters,
         )  # fmt: skip
-        return rollers, bodies
+        return self._complete(rollers, bodies)
+
+    def _complete(self, rollers: Float, bodies: Float) -> tuple[Float, Float]:
+        """With what is missing as the observer wants it."""
+        return (rollers, bodies) if self._absence is None else self._absence.completed(rollers, bodies)
 
     def _warm_up(self, loads: Float) -> Float:
         """Temperatures after the block just computed; the kernels go on with what they change, [K]."""
@@ -348,7 +361,8 @@ class Twin:
                 "effects": list(scene.missing_effects),
                 "channels": list(TIER_NOUNS[scene.tier].absent),
             },
-            "faults": [truth_of(defect, self._index * BLOCK_NS * 1e-9) for defect in scene.defects],
+            "rows": scene.rows,
+            "faults": [truth_of(defect, self._index * BLOCK_NS * 1e-9) for defect in scene.faults],
             "waviness": [asdict(wave) for wave in scene.waviness],
             "fault_frequencies_per_rev": {
                 "FTF": frequencies.ftf,
@@ -393,9 +407,9 @@ class Twin:
         self._observer.restore(snapshot.observer)
 
 
-def _at_rest(roller_count: int, modes: int) -> StaticSolution:
+def _at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
     """A bearing without load, for compiling only."""
-    none = np.zeros((2, roller_count))
+    none = np.zeros((rows, roller_count))
     return StaticSolution(
         displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,
         cup_lamina_load=none[..., None], cone_lamina_load=none[..., None],

@@ -230,7 +230,9 @@ def _drift_text(drift: float) -> str:
 def _warming(evidence: Evidence, effect: Thermal) -> float:
     """Drift of the temperature of bearing and box as one body by the end of the run, [K]."""
     scene, speed = evidence.scene, abs(evidence.loads.typical.speed)
-    network = thermal_network(scene.bearing, effect, scene.mounting.box_mass, speed)
+    network = thermal_network(
+        scene.bearing, effect, scene.mounting.box_mass, speed, scene.roller_total, scene.rows
+    )
     capacity, leaving = float(np.sum(network.capacity)), float(np.sum(network.to_ambient))
     gain = evidence.torque * speed - leaving * (scene.temperature - effect.ambient)
     if leaving <= 0.0:

@@ -121,7 +121,7 @@ class Losses:
         if self.speed == 0.0:
             return 0.0
         bearing = self.scene.bearing
-        count = 2 * bearing.roller_count
+        count = self.scene.roller_total
         orbit = cage_speed(bearing, self.speed)
         power = push * orbit * 0.5 * bearing.pitch_diameter + churning * roller_spin(bearing, self.speed)
         return count * power / self.speed
@@ -254,7 +254,7 @@ class Losses:
         if rolling:
             needed += float(self._couples[:, loaded].sum()) / self.scene.bearing.roller_diameter
         if drag:
-            needed += 2 * self.scene.bearing.roller_count * self._drag()[0]
+            needed += self.scene.roller_total * self._drag()[0]
         needed += 0.5 * self.pocket_force
         loads = np.minimum(self.static.cone_load, self.static.cup_load)[loaded]
         available, slip = self._slip(traction, film, loads, needed)

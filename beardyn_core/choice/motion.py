@@ -7,7 +7,6 @@ import math
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Alternative, Rule, percent
 
-_ROWS = 2
 _FULL = frozenset({"full"})
 
 
@@ -18,7 +17,8 @@ def gravity(evidence: Evidence) -> Rule:
     if effect is None:
         return Rule("gravity", (Alternative({"gravity": None}, "not in the reference", word="off"),))
     bearing = scene.bearing
-    weight = effect.acceleration * _ROWS * (bearing.roller_count * bearing.roller_mass + bearing.cage.mass)
+    rolling = scene.roller_total * bearing.roller_mass
+    weight = effect.acceleration * (rolling + scene.rows * bearing.cage.mass)
     share = weight / max(evidence.loads.typical.size, 1.0)
     said = f"rollers and cages weigh {weight:.3g} N, {percent(share)} of the load"
     influence = {"force": share, "deflection": share, "roller_load": share}
@@ -29,7 +29,7 @@ def gravity(evidence: Evidence) -> Rule:
     drive = evidence.losses.drive(scene.effects.traction, scene.effects.film)
     if drive.skids:
         # the way up and down brakes and drives rollers that hardly stick: mean amount along the orbit
-        rollers = effect.acceleration * _ROWS * bearing.roller_count * bearing.roller_mass * 2.0 / math.pi
+        rollers = effect.acceleration * rolling * 2.0 / math.pi
         part = drive.share(rollers)
         said += f", and {percent(part)} of what brakes rollers that hardly stick"
         moved = evidence.slipping(0.5 * part)

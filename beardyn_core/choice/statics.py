@@ -11,6 +11,7 @@ from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.box_coupling import moved
 from beardyn_core.model.fault_params import roller_oversize
 from beardyn_core.model.flexibility_params import flexibility_params
@@ -82,6 +83,9 @@ class Statics:
                 oversize=roller_oversize(scene),
                 bending_stiffness=self._bending if bending else (),
                 tilt_stiffness=self._restraint(),
+                axial_stiffness=scene.mounting.axial_prop[0],
+                rows=scene.rows,
+                missing=scene.missing_places,
             )
         except (InputError, ValidityError):
             return None
@@ -106,19 +110,22 @@ class Statics:
             return None
         azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
         sine, cosine = np.sin(bearing.cup_angle), np.cos(bearing.cup_angle)
+        sides = (-1.0, 1.0)[: self.scene.rows]
+        there = Arrangement(azimuth.size, 1, self.scene.rows, self.scene.missing_places).present.ravel()
         normals = [
             np.stack(
                 [cosine * np.sin(azimuth), np.full(azimuth.size, -side * sine), cosine * np.cos(azimuth)], 1
             )
-            for side in (-1.0, 1.0)
+            for side in sides
         ]
         # the tilt of the exact solution is kept: it follows from the moment and hardly from the spring
         tilting = [
             spring.lever * side * (np.cos(azimuth) * exact.tilt[0] - np.sin(azimuth) * exact.tilt[1])
-            for side in (-1.0, 1.0)
+            for side in sides
         ]
-        normal = np.concatenate(normals)
-        offset = np.concatenate(tilting) - 0.5 * self.scene.end_play * sine
+        normal = np.concatenate(normals)[there]
+        offset = np.concatenate(tilting)[there] - 0.5 * self.scene.end_play * sine
+        springs = np.array([0.0, self.scene.mounting.axial_prop[0], 0.0])
         found, load = exact.displacement.copy(), np.asarray(case.force)
         idle = spring.idle * _centrifugal(bearing, case.speed)
         force = np.zeros(len(normal))
@@ -133,7 +140,8 @@ class Statics:
             force = np.maximum(pressed + 0.5 * idle, idle)
             tangent = 10.0 / 9.0 * pressed / np.maximum(approach, _SMALLEST) * (pressed > 0.5 * idle)
             step = np.linalg.solve(
-                (normal * tangent[:, None]).T @ normal + _SOFT * np.eye(3), load - force @ normal
+                (normal * tangent[:, None]).T @ normal + np.diag(_SOFT + springs),
+                load - force @ normal - springs * found,
             )
             found = found + step * min(1.0, _LONGEST / max(float(np.abs(step).max()), _SMALLEST))
             if np.abs(step).max() < _SMALLEST:

@@ -19,7 +19,7 @@ from beardyn_core.config.file_model import (
     problem,
 )
 from beardyn_core.config.units import DEG, MM, UM
-from beardyn_core.scene.defect import Growth, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import Growth, MissingRoller, Patch, RollerError, WornPocket
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 
 Row = Annotated[Count, Field(ge=0, le=1)]
@@ -179,6 +179,21 @@ class WornPocketKeys(FileModel):
     def noun(self, _bearing: Bearing) -> WornPocket:
         """The worn pocket, SI."""
         return WornPocket(self.row, self.pocket, self.clearance_mm / MM)
+
+
+class MissingRollerKeys(FileModel):
+    """A roller that is not there; its pocket is empty."""
+
+    row: Row = Field(description="0 inboard, 1 outboard")
+    roller: Annotated[Count, Field(ge=0)]
+
+    def contradictions(self, bearing: Bearing) -> list[str]:
+        """What of this roller does not fit the bearing."""
+        return _no_such("roller", self.roller, bearing)
+
+    def noun(self) -> MissingRoller:
+        """The missing roller."""
+        return MissingRoller(self.row, self.roller)
 
 
 def _defect_tag(value: Any) -> str | None:

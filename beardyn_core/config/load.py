@@ -19,6 +19,7 @@ from beardyn_core.config.excitation_file import WheelDefectKeys
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.folders import find
 from beardyn_core.config.lubricant_file import LubricantKeys
+from beardyn_core.config.missing import missing_problems
 from beardyn_core.config.operation_file import USUAL_WHEEL_DIAMETER_MM, WheelDiameter
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
 from beardyn_core.config.scene_file import NumericsKeys, SceneKeys
@@ -292,6 +293,8 @@ class _Reading:
                 fault = _valid(keys, given)
                 for problem in fault.contradictions(bearing) if fault else []:
                     self.problems.append(f"{self.origins[0].label}: {key_path((key, index))}.{problem}")
+        for place, problem in missing_problems(self.data, bearing):
+            self._complain(place, [problem])
 
     def _check_wheel(self) -> None:
         operation = self.data.get("operation")

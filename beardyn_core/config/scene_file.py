@@ -11,7 +11,7 @@ from typing_extensions import Self
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.thermal_closure import STEEL_EXPANSION, PartTemperatures, end_play_change
 from beardyn_core.config.bearing_file import BearingKeys
-from beardyn_core.config.defect_file import DefectKeys, RoughnessKeys, WavinessKeys
+from beardyn_core.config.defect_file import DefectKeys, MissingRollerKeys, RoughnessKeys, WavinessKeys
 from beardyn_core.config.effects_file import EffectsKeys
 from beardyn_core.config.file_model import (
     Count,
@@ -58,6 +58,10 @@ class MountingKeys(FileModel):
     load_offset_mm: Vector = Field(
         (0.0, 0.0, 0.0), description="where the load acts on the journal, from the bearing centre"
     )
+    axial_prop_stiffness_MN_per_m: NonNegative = Field(
+        0.0, description="of a spring between journal and ground along y; a single row needs it"
+    )
+    axial_prop_damping_kN_s_per_m: NonNegative = Field(0.0, description="of a damper beside that spring")
 
     @model_validator(mode="after")
     def _box_has_inertia(self) -> Self:
@@ -97,6 +101,10 @@ class MountingKeys(FileModel):
             box_centre=_metres(self.box_centre_mm),
             suspension_centre=_metres(self.suspension_centre_mm),
             load_offset=_metres(self.load_offset_mm),
+            axial_prop=(
+                self.axial_prop_stiffness_MN_per_m * MEGA,
+                self.axial_prop_damping_kN_s_per_m * KN,
+            ),
         )
 
 
@@ -205,6 +213,8 @@ class SceneKeys(FileModel):
     )
     operation: OperationKeys = Field(description="where load and speed come from")
     mounting: MountingKeys = MountingKeys()
+    rows: Annotated[Literal[1, 2], Field(description="2, or 1 for row 0 (inboard) alone")] = 2
+    missing_rollers: tuple[MissingRollerKeys, ...] = Field((), description="rollers that are not there")
     defects: tuple[DefectKeys, ...] = ()
     waviness: tuple[WavinessKeys, ...] = ()
     roughness: RoughnessKeys = RoughnessKeys()
@@ -276,4 +286,6 @@ class SceneKeys(FileModel):
             temperatures=None if self.temperatures is None else self.temperatures.noun(),
             accuracy=None if self.accuracy_percent is None else 0.01 * self.accuracy_percent,
             quantities=self.quantities,
+            rows=self.rows,
+            missing_rollers=tuple(roller.noun() for roller in self.missing_rollers),
         )

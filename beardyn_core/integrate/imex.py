@@ -143,13 +143,13 @@ def advance(
     lanes : Lanes
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
         State of the rollers, changed in place.
-    bodies : float64 array, shape [4, BODY_STATES]
+    bodies : float64 array, shape [2 + row, BODY_STATES]
         Cup, cone, cages; changed in place.
     flex : float64 array, shape [mode, 2, 2]
         Bending of the cup, no modes without it; changed in place.
     rings : float64 array, shape [group, 3, RING_FIELDS, lane]
     sums : float64 array, shape [group, 1, SUM_FIELDS + 2 x mode, lane]
-    wrenches : float64 array, shape [4, 6]
+    wrenches : float64 array, shape [2 + row, 6]
     box : float64 array, shape [12]
         Work space.
     loads : float64 array, shape [step + 1, 10]
@@ -204,9 +204,10 @@ def advance(
         )  # fmt: skip
         for i in range(6):
             signals[step, SIGNAL_ACCELERATION + i] = box[i]
-        signals[step, SIGNAL_TORQUE] = kick_cone(
+        signals[step, SIGNAL_TORQUE], propped = kick_cone(
             bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, p.mounting
         )
+        stored += propped
         mark(timers, RINGS)
         move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage)

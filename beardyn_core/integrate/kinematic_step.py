@@ -51,7 +51,7 @@ def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
         for i in range(3):
             bodies[body, POSITION + i] += p.step * bodies[body, LINEAR + i]
             bodies[body, TILT + i] += p.step * bodies[body, ANGULAR + i]
-    for body in range(CONE_BODY, CAGE_BODY + 2):
+    for body in range(CONE_BODY, bodies.shape[0]):
         bodies[body, TURN] += p.step * bodies[body, RATE]
     turn = bodies[CAGE_BODY, TURN]
     turns = (turn, bodies[CONE_BODY, TURN], p.kinematic.spin_ratio * turn)
@@ -98,8 +98,9 @@ def finish_step(
         signal[SIGNAL_FORCE + i] = wrench[i]
     _kick_box(bodies, wrenches, box, load_before, load, signal, energy, base.mounting.coupling, p)
     _kick_journal(bodies, wrench, load, k.rolling_weight, p.step, p.motion)
+    _prop_journal(bodies, p.step, p.motion, base.mounting)
     bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
-    for body in range(CAGE_BODY, CAGE_BODY + 2):
+    for body in range(CAGE_BODY, bodies.shape[0]):
         bodies[body, RATE] = k.cage_ratio * load[LOAD_SPEED]
 
 
@@ -157,3 +158,11 @@ def _kick_journal(bodies: Any, wrench: Any, load: Any, weight: Any, step: Any, m
     bodies[CONE_BODY, LINEAR + 2] += push * (load[2] - wrench[2] - weight)
     bodies[CONE_BODY, ANGULAR] += turn * (load[3] - wrench[3])
     bodies[CONE_BODY, ANGULAR + 2] += turn * (load[5] - wrench[5])
+
+
+@inline
+def _prop_journal(bodies: Any, step: Any, motion: Any, mounting: Any) -> None:
+    """Push of the axial prop on the journal, see `prop_journal` of the full tier."""
+    speed = bodies[CONE_BODY, LINEAR + 1]
+    push = mounting.prop_stiffness * bodies[CONE_BODY, POSITION + 1] + mounting.prop_damping * speed
+    bodies[CONE_BODY, LINEAR + 1] = speed - step * motion.journal_push * push

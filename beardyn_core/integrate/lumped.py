@@ -14,6 +14,7 @@ from beardyn_core.jit import entry
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
 from beardyn_core.kernels.kinematic_torque import held_losses
 from beardyn_core.kernels.spring_roller import load_rollers, sum_rollers
+from beardyn_core.model.layout import MASK, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
     LumpedParameters,
@@ -38,7 +39,7 @@ def lumped_parameters(scene: Scene, base: Parameters) -> LumpedParameters:
         motion=ring_motion_params(base),
         spring=spring_params(scene.bearing, scene.numerics.laminae),
         pockets=pocket_directions(base),
-        sides=row_sides(base),
+        sides=row_sides(base, scene.rows),
         faults=faults_or_none(base),
     )
 
@@ -108,13 +109,16 @@ def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: floa
         When no equilibrium is found.
     """
     spring, cup = p.spring, p.base.cup
-    count = round(float(p.base.rollers[:, 0].sum()) / 2)
-    azimuth = 2.0 * np.pi * np.arange(count) / count
+    counted = p.base.rollers[:, MASK] > 0.0
+    sides = np.broadcast_to(p.sides[0, 0], counted.shape)
+    springs = np.zeros(len(load))
+    springs[1] = p.base.mounting.prop_stiffness
     idle = spring.idle * p.kinematic.centrifugal * cage_rate**2
     rows = []
-    for side in (-1.0, 1.0):
+    for side in np.unique(sides):
+        azimuth = np.sort(p.base.rollers[:, POCKET_ANGLE][counted & (sides == side)])
         outward = np.stack([np.sin(azimuth), np.cos(azimuth)])
-        lean = np.full(count, -side * cup.sine)
+        lean = np.full(azimuth.size, -side * cup.sine)
         tilt_x, tilt_z = spring.lever * side * outward[1], -spring.lever * side * outward[0]
         rows.append(
             np.stack([cup.cosine * outward[0], lean, cup.cosine * outward[1], tilt_x, tilt_z], axis=1)
@@ -130,11 +134,11 @@ def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: floa
         pressed = pressing * approach * root * (root[:, None] ** terms @ spring.series)
         tangent = 10.0 / 9.0 * pressed / np.maximum(approach, 1e-12)
         force = np.maximum(pressed + 0.5 * idle, idle)
-        missing = load - force @ normal
+        missing = load - force @ normal - springs * found
         if np.abs(missing / scale).max() <= _TOLERANCE * max(np.abs(load / scale).max(), 1.0):
             break
         tangent = tangent * (pressed > 0.5 * idle)
-        stiffness = (normal * tangent[:, None]).T @ normal + 1e3 * np.diag(scale**2)
+        stiffness = (normal * tangent[:, None]).T @ normal + np.diag(1e3 * scale**2 + springs)
         change = np.linalg.solve(stiffness, missing)
         found = found + change * min(1.0, 2e-5 / float(np.abs(change * scale).max()))
     else:

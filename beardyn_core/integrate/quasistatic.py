@@ -58,7 +58,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> QuasistaticParamet
         kinematic=kinematic_params(scene),
         motion=ring_motion_params(base),
         pockets=pocket_directions(base),
-        sides=row_sides(base),
+        sides=row_sides(base, scene.rows),
     )
 
 

@@ -8,6 +8,7 @@ displaced and tilted cone in space, of the end sphere to the conical rib.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -60,6 +61,8 @@ class ContactModel:
         Matrices of coupled laminae.
     bending : float64 array, shape [row, roller, 2 x mode]
         Radial deflection of the cup at each roller per amplitude of its bending modes, [-].
+    missing : bool array, shape [row, roller]
+        Rollers that are not there.
     """
 
     bearing: Bearing
@@ -76,6 +79,7 @@ class ContactModel:
     rib_factor: float
     inertia_load: Float
     bending: Float
+    missing: NDArray[np.bool_]
     coupling: LaminaRoot | None = None
 
     @property
@@ -139,6 +143,8 @@ def contact_model(
     coupling: LaminaCoupling | None = None,
     oversize: Float | None = None,
     modes: int = 0,
+    rows: int = ROW_COUNT,
+    missing: Sequence[tuple[int, int]] = (),
 ) -> ContactModel:
     """Constants of the contacts.
 
@@ -159,13 +165,20 @@ def contact_model(
         Radius error of each roller, [m].
     modes : int
         Bending modes of the cup, with 2, 3, ... waves.
+    rows : int
+        2, or 1 for row 0 alone.
+    missing : sequence of pairs of int
+        Row and roller of those that are not there.
     """
-    error = np.zeros((ROW_COUNT, bearing.roller_count)) if oversize is None else oversize
+    error = np.zeros((rows, bearing.roller_count)) if oversize is None else oversize[:rows]
     azimuth = roller_phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
-    radial = np.zeros((ROW_COUNT, bearing.roller_count, 3))
+    radial = np.zeros((rows, bearing.roller_count, 3))
     radial[..., 0], radial[..., 2] = np.sin(azimuth), np.cos(azimuth)
     axial = np.zeros_like(radial)
-    axial[0, :, 1], axial[1, :, 1] = -1.0, 1.0
+    axial[0, :, 1], axial[1:, :, 1] = -1.0, 1.0
+    not_there = np.zeros(radial.shape[:2], dtype=bool)
+    for row, roller in missing:
+        not_there[row, roller] = True
     abscissa = ((np.arange(laminae) + 0.5) / laminae - 0.5) * bearing.effective_length
     return ContactModel(
         bearing=bearing,
@@ -184,15 +197,16 @@ def contact_model(
         rib_factor=rib_contact_factor(bearing),
         inertia_load=_inertia_load(bearing, speed),
         coupling=None if coupling is None else bearing_lamina_root(bearing, coupling, laminae),
-        bending=_bending_shapes(azimuth, modes),
+        bending=_bending_shapes(azimuth, modes, rows),
+        missing=not_there,
     )
 
 
-def _bending_shapes(azimuth: Float, modes: int) -> Float:
-    """Cosine and sine of 2, 3, ... times the azimuth, the same for both rows."""
+def _bending_shapes(azimuth: Float, modes: int, rows: int) -> Float:
+    """Cosine and sine of 2, 3, ... times the azimuth, the same for all rows."""
     angle = (np.arange(modes) + 2) * azimuth[:, None]
     shapes = np.stack([np.cos(angle), np.sin(angle)], axis=-1).reshape(azimuth.size, 2 * modes)
-    return np.stack([shapes] * ROW_COUNT)
+    return np.stack([shapes] * rows)
 
 
 def _inertia_load(bearing: Bearing, speed: float) -> Float:

@@ -82,6 +82,7 @@ def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> R
     touching = _on_cup_and_rib(model, pose)
     start = solver.at(touching)
     free = (solver.cone(touching).approach.max(axis=-1) <= _ROUNDING_GAP) & (not np.any(model.inertia_load))
+    free |= model.missing  # what is not there touches nothing either
     if guess is not None:
         warm = solver.at(guess)
         start = _chosen(warm.energy < start.energy, warm, start)

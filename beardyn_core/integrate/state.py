@@ -40,7 +40,7 @@ class State:
     Parameters
     ----------
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-    bodies : float64 array, shape [4, BODY_STATES]
+    bodies : float64 array, shape [2 + row, BODY_STATES]
     energy : float64 array, shape [ENERGY_TERMS]
     flex : float64 array, shape [mode, 2, 2]
         Bending of the cup: cosine and sine amplitude, displacement [m] and velocity [m/s].
@@ -72,7 +72,7 @@ def work_space(arrangement: Arrangement, modes: int = 0) -> WorkSpace:
     return WorkSpace(
         np.zeros((groups, 3, RING_FIELDS, width)),
         np.zeros((groups, 1, SUM_FIELDS + 2 * modes, width)),
-        np.zeros((4, 6)),
+        np.zeros((CAGE_BODY + arrangement.rows, 6)),
         np.zeros(12),
     )
 
@@ -123,7 +123,7 @@ def initial_state(
     rollers[:, MOMENTUM] = about * sine - across * cosine * sine
     rollers[:, MOMENTUM + 2] = about * cosine + across * sine * sine
 
-    bodies = np.zeros((4, BODY_STATES))
+    bodies = np.zeros((CAGE_BODY + arrangement.rows, BODY_STATES))
     bodies[CONE_BODY, POSITION : POSITION + 3] = static.displacement
     bodies[CONE_BODY, TILT], bodies[CONE_BODY, TILT + 2] = static.tilt
     bodies[CONE_BODY, RATE] = shaft_speed

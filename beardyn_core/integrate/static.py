@@ -1,4 +1,4 @@
-"""Static equilibrium of the double row: every roller between cup, cone and rib.
+"""Static equilibrium of both rows, or of one: every roller between cup, cone and rib.
 
 Unknown are the displacement of the cone relative to the cup and, when it is free, its tilt about x and z,
 and the amplitudes of the cup's bending when it is not rigid. The rollers follow (`roller_equilibrium`); what
@@ -8,6 +8,7 @@ is left is a convex problem in three or five unknowns and two for each bending m
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,7 +18,7 @@ from beardyn_core.bearing.consistency import require_sound
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.integrate.roller_contacts import ConePose, ContactModel, Float, contact_model
+from beardyn_core.integrate.roller_contacts import ROW_COUNT, ConePose, ContactModel, Float, contact_model
 from beardyn_core.integrate.roller_equilibrium import RollerState, solve_rollers
 
 TILT_MODES = ("locked", "free")
@@ -84,10 +85,9 @@ class StaticSolution:
     bending: Float = field(default_factory=lambda: np.zeros((0, 2)))
 
     @property
-    def loaded_roller_count(self) -> tuple[int, int]:
+    def loaded_roller_count(self) -> tuple[int, ...]:
         """Rollers of each row that the cone presses."""
-        loaded = np.count_nonzero(self.cone_load > 0.0, axis=1)
-        return int(loaded[0]), int(loaded[1])
+        return tuple(np.count_nonzero(self.cone_load > 0.0, axis=1).tolist())
 
     @property
     def largest_roller_load(self) -> float:
@@ -109,6 +109,9 @@ def solve(
     oversize: Float | None = None,
     bending_stiffness: ArrayLike = (),
     tilt_stiffness: ArrayLike = (0.0, 0.0),
+    axial_stiffness: float = 0.0,
+    rows: int = ROW_COUNT,
+    missing: Sequence[tuple[int, int]] = (),
 ) -> StaticSolution:
     """Static equilibrium under a load on the cone.
 
@@ -137,6 +140,12 @@ def solve(
         Of the cup against bending with 2, 3, ... waves, [N/m]; without it the cup is rigid.
     tilt_stiffness : array_like, shape [2]
         Of whatever restrains the free tilt of the cone against the cup about x and z, [N m/rad].
+    axial_stiffness : float
+        Of a prop that holds the cone against the cup along the axle, [N/m].
+    rows : int
+        2, or 1 for row 0 alone; the cone leans on it towards +y only.
+    missing : sequence of pairs of int
+        Row and roller of those that are not there; their loads are 0.
 
     Returns
     -------
@@ -158,9 +167,11 @@ def solve(
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
     modal = np.repeat(np.asarray(bending_stiffness, dtype=np.float64), 2)
-    springs = np.concatenate([np.zeros(3), np.asarray(tilt_stiffness, dtype=np.float64), modal])
+    springs = np.concatenate(
+        [[0.0, axial_stiffness, 0.0], np.asarray(tilt_stiffness, dtype=np.float64), modal]
+    )
     model = contact_model(
-        bearing, end_play, laminae, speed, roller_phase, coupling, oversize, modal.size // 2
+        bearing, end_play, laminae, speed, roller_phase, coupling, oversize, modal.size // 2, rows, missing
     )
     cone = _Cone(model, load, 5 if tilt == "free" else 3, springs)
     state, unknowns, iterations = _equilibrium(cone)
@@ -255,7 +266,8 @@ def _equilibrium(cone: _Cone) -> tuple[RollerState, Float, int]:
     raise ValidityError(
         f"static equilibrium of {cone.model.bearing.name} under {force} N was not found in {_ITERATIONS} "
         f"steps: {size:.3g} N are left. Check load, end play and tilt; a moment needs free tilt and both "
-        "rows in contact."
+        "rows in contact; a single row needs an axial load or a prop against its own thrust "
+        "(mounting.axial_prop_stiffness_MN_per_m)."
     )
 
 

@@ -78,7 +78,9 @@ def warmed(
     """
     lost = energy[ENERGY_LOST : ENERGY_LOST + LOSSES].copy()
     heat = (lost - now.lost) / block @ heat_shares()
-    network = thermal_network(scene.bearing, thermal, scene.mounting.box_mass, shaft_speed)
+    network = thermal_network(
+        scene.bearing, thermal, scene.mounting.box_mass, shaft_speed, scene.roller_total, scene.rows
+    )
     temperature = network.after(now.temperature, heat, thermal.ambient, block)
     start = cold_start(scene).temperature
     change = temperature - start

@@ -48,11 +48,11 @@ LOAD_SPEED, LOAD_BOGIE = 6, 7  # after the six components of the load
 
 
 @inline
-def row_of(group: Any, lane: Any, width: Any) -> Any:
+def row_of(group: Any, lane: Any, width: Any, rows: Any) -> Any:
     """Row whose rollers a lane of a group holds."""
     if width == 1:
         return group
-    return 2 * lane // width
+    return rows * lane // width
 
 
 @inline
@@ -102,10 +102,10 @@ def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
     cage_place : float
         Axial place of a cage's centre of mass from the middle plane, [m].
     """
-    width = rings.shape[3]
+    width, rows = rings.shape[3], bodies.shape[0] - CAGE_BODY
     for group in range(rings.shape[0]):
         for lane in range(width):
-            row = row_of(group, lane, width)
+            row = row_of(group, lane, width, rows)
             side = 2.0 * row - 1.0
             for ring in range(3):
                 body = ring + row if ring == CAGE_BODY else ring
@@ -143,11 +143,11 @@ def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
 @inline
 def collect_reactions(sums: Any, wrenches: Any) -> None:
     """Sum the lane reactions into world wrenches [body, 6] about each body's origin."""
-    width = sums.shape[3]
+    width, rows = sums.shape[3], wrenches.shape[0] - CAGE_BODY
     wrenches[:, :] = 0.0
     for group in range(sums.shape[0]):
         for lane in range(width):
-            row = row_of(group, lane, width)
+            row = row_of(group, lane, width, rows)
             side = 2.0 * row - 1.0
             for ring in range(3):
                 body = ring + row if ring == CAGE_BODY else ring
@@ -226,17 +226,33 @@ def kick_cup(
 
 @inline
 def kick_cone(bodies: Any, wrench: Any, load: Any, energy: Any, step: Any, mounting: Any) -> Any:
-    """Accelerate the journal under rollers and load at prescribed spin; returns the torque on the shaft.
+    """Accelerate the journal under rollers, load and axial prop at prescribed spin.
 
-    The gyroscopic moment of the wheelset is neglected.
+    The prop is a spring with a damper between journal and ground along the axle: the other bearing of the
+    wheelset, or the guide of a test rig. The gyroscopic moment of the wheelset is neglected.
+
+    Returns
+    -------
+    torque : float
+        On the shaft, [N m].
+    stored : float
+        Elastic energy of the prop, [J].
     """
+    place, along = bodies[CONE_BODY, POSITION + Y], bodies[CONE_BODY, LINEAR + Y]
+    damper = mounting.prop_damping * along
+    prop = -mounting.prop_stiffness * place - damper
     ax, ay, az = ring_direction(bodies, CONE_BODY)
     torque = wrench[3] * ax + wrench[4] * ay + wrench[5] * az
     energy[ENERGY_EXTERNAL] -= step * torque * bodies[CONE_BODY, RATE]
     for i in range(3):
-        acceleration = (wrench[i] + load[i]) / mounting.journal_mass
+        push = wrench[i] + load[i]
+        if i == Y:
+            push += prop
+        acceleration = push / mounting.journal_mass
         middle = bodies[CONE_BODY, LINEAR + i] + 0.5 * step * acceleration
         energy[ENERGY_EXTERNAL] += step * load[i] * middle
+        if i == Y:
+            energy[ENERGY_LOST + LOSS_SUSPENSION] += step * damper * middle
         bodies[CONE_BODY, LINEAR + i] += step * acceleration
     if mounting.journal_tilts != 0.0:
         for i in range(0, 3, 2):
@@ -245,7 +261,7 @@ def kick_cone(bodies: Any, wrench: Any, load: Any, energy: Any, step: Any, mount
             energy[ENERGY_EXTERNAL] += step * load[3 + i] * middle
             bodies[CONE_BODY, ANGULAR + i] += step * acceleration
     bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
-    return torque
+    return torque, 0.5 * mounting.prop_stiffness * place * place
 
 
 @inline
@@ -253,7 +269,7 @@ def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
     """Accelerate both cages under pocket forces and weight, gyroscopic moment included."""
     if cage is None:
         return
-    for body in range(CAGE_BODY, CAGE_BODY + 2):
+    for body in range(CAGE_BODY, bodies.shape[0]):
         for i in range(3):
             pull = -cage.mass * fall(gravity) if i == Z else 0.0
             acceleration = (wrenches[body, i] + pull) / cage.mass

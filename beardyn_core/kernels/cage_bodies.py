@@ -34,7 +34,7 @@ def _energy(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> Any:
     if kinematic is not None:
         return 0.0
     total = 0.0
-    for body in range(CAGE_BODY, CAGE_BODY + 2):
+    for body in range(CAGE_BODY, bodies.shape[0]):
         total += 0.5 * cage.polar_inertia * bodies[body, RATE] ** 2
         total += _tumbling_energy(bodies, body, cage, rotating)
     return total
@@ -63,7 +63,7 @@ def place_cages(bodies: Any, cage: Any) -> None:
 def _place(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> None:
     if rotating is None and kinematic is None:
         return
-    for body in range(CAGE_BODY, CAGE_BODY + 2):
+    for body in range(CAGE_BODY, bodies.shape[0]):
         lift = cage.place if body > CAGE_BODY else -cage.place
         for place, turn in ((POSITION, TILT), (LINEAR, ANGULAR)):
             for i in range(3):
@@ -99,7 +99,7 @@ def _pass_on(
 ) -> None:
     if rotating is None and kinematic is None:
         return
-    for body in range(CAGE_BODY, CAGE_BODY + 2):
+    for body in range(CAGE_BODY, bodies.shape[0]):
         lift = cage.place if body > CAGE_BODY else -cage.place
         pull = -cage.mass * fall(gravity)
         energy[ENERGY_EXTERNAL] += step * pull * bodies[body, LINEAR + Z]
@@ -143,7 +143,7 @@ def _move(
     if rotating is None and kinematic is None:
         kick_cages(bodies, wrenches, energy, step, cage, gravity)
         return
-    for body in range(CAGE_BODY, CAGE_BODY + 2):
+    for body in range(CAGE_BODY, bodies.shape[0]):
         axis = ring_direction(bodies, body)
         about = wrenches[body, 3] * axis[0] + wrenches[body, 4] * axis[1] + wrenches[body, 5] * axis[2]
         _turn(bodies, body, about, energy, step, cage, kinematic)

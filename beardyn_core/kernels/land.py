@@ -157,6 +157,8 @@ def _across(vector: Any, axis: Any) -> Any:
 
 @inline
 def _push(bodies: Any, wrenches: Any, body: Any, cage: Any, land: Any) -> Any:
+    if body >= bodies.shape[0]:  # the cage of a row that is not there
+        return _nothing()
     lift = cage.place if body > CAGE_BODY else -cage.place
     force, moment, lost_force, lost_moment, energy = land_contact(bodies, body, lift, land)
     ring = int(land.body)
@@ -215,6 +217,8 @@ def _settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any, l
 
 @inline
 def _power(bodies: Any, pushed: Any, body: Any, cage: Any, land: Any) -> Any:
+    if body >= bodies.shape[0]:
+        return 0.0
     lift = cage.place if body > CAGE_BODY else -cage.place
     force, moment, before, _energy = pushed
     after = land_twist(bodies, body, lift, land)

@@ -7,63 +7,91 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+BOTH_ROWS = 2
+
 
 @dataclass(frozen=True)
 class Arrangement:
     """Rollers in lanes: the first half of the lanes holds row 0, the second half row 1.
 
-    With one lane each block is one roller, all of row 0 first. Filler lanes at the end shadow the last
-    roller of their row and are masked out of every sum.
+    With one lane each block is one roller, all of row 0 first; a bearing with one row has it in all lanes.
+    Filler lanes at the end shadow the last roller of their row, and the lane of a missing roller shadows the
+    roller before it: they go through the same numbers and are masked out of every sum.
 
     Parameters
     ----------
     roller_count : int
-        Rollers of each row.
+        Rollers of each row when none is missing.
     width : int
         Lanes of a block: 1, or an even number.
+    rows : int
+        Rows that are there: 2, or 1 for row 0 alone.
+    missing : tuple of pairs of int
+        Row and roller of those that are missing.
     """
 
     roller_count: int
     width: int
+    rows: int = BOTH_ROWS
+    missing: tuple[tuple[int, int], ...] = ()
 
     @property
     def group_count(self) -> int:
         """Groups of blocks that see the same rings: one, or one per row with a single lane."""
-        return 2 if self.width == 1 else 1
+        return self.rows if self.width == 1 else 1
 
     @property
     def block_count(self) -> int:
         """Blocks of all groups."""
         if self.width == 1:
-            return 2 * self.roller_count
-        return -(-self.roller_count // (self.width // 2))
+            return self.rows * self.roller_count
+        return -(-self.roller_count // (self.width // self.rows))
 
     @property
     def row(self) -> NDArray[np.intp]:
         """Row of each lane, shape [block, lane]."""
+        rows = np.arange(self.rows)
         if self.width == 1:
-            return np.repeat([0, 1], self.roller_count)[:, None]
-        lane_row = np.repeat([0, 1], self.width // 2)
+            return np.repeat(rows, self.roller_count)[:, None]
+        lane_row = np.repeat(rows, self.width // self.rows)
         return np.broadcast_to(lane_row, (self.block_count, self.width)).copy()
 
     @property
     def unbounded_roller(self) -> NDArray[np.intp]:
         """Roller index of each lane, fillers counting on beyond the last roller, shape [block, lane]."""
         if self.width == 1:
-            return np.tile(np.arange(self.roller_count), 2)[:, None]
-        half = self.width // 2
-        index = np.arange(self.block_count)[:, None] * half + np.arange(half)
-        return np.tile(index, (1, 2))
+            return np.tile(np.arange(self.roller_count), self.rows)[:, None]
+        share = self.width // self.rows
+        index = np.arange(self.block_count)[:, None] * share + np.arange(share)
+        return np.tile(index, (1, self.rows))
+
+    @property
+    def present(self) -> NDArray[np.bool_]:
+        """Whether a roller is there, shape [row, roller]."""
+        there = np.ones((self.rows, self.roller_count), dtype=bool)
+        for row, roller in self.missing:
+            there[row, roller] = False
+        return there
+
+    @property
+    def stand_in(self) -> NDArray[np.intp]:
+        """Roller that a place shows: its own, or the last before it that is there, shape [row, roller]."""
+        before = np.where(self.present, np.arange(self.roller_count), -1)
+        last = before.max(axis=1, keepdims=True)  # stands in for those before the first
+        found = np.maximum.accumulate(before, axis=1)
+        return np.where(found < 0, last, found)
 
     @property
     def roller(self) -> NDArray[np.intp]:
-        """Roller of each lane, fillers shadowing the last one, shape [block, lane]."""
-        return np.minimum(self.unbounded_roller, self.roller_count - 1)
+        """Roller that each lane shows, shape [block, lane]."""
+        return self.stand_in[self.row, np.minimum(self.unbounded_roller, self.roller_count - 1)]
 
     @property
     def mask(self) -> NDArray[np.float64]:
-        """1 for a roller, 0 for a filler, shape [block, lane]."""
-        return (self.unbounded_roller < self.roller_count).astype(float)
+        """1 for a roller, 0 for a lane that shadows one, shape [block, lane]."""
+        inside = self.unbounded_roller < self.roller_count
+        there = self.present[self.row, np.minimum(self.unbounded_roller, self.roller_count - 1)]
+        return (inside & there).astype(float)
 
     def to_lanes(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Spread values ``[row, roller]`` over ``[block, lane]``."""
@@ -72,7 +100,10 @@ class Arrangement:
     def to_rollers(self, lanes: NDArray[np.float64]) -> NDArray[np.float64]:
         """Collect values ``[..., block, lane]`` into ``[..., row, roller]``."""
         rollers = np.arange(self.roller_count)
+        rows = range(self.rows)
         if self.width == 1:
-            return np.stack([lanes[..., rollers + row * self.roller_count, 0] for row in (0, 1)], axis=-2)
-        half = self.width // 2
-        return np.stack([lanes[..., rollers // half, rollers % half + row * half] for row in (0, 1)], axis=-2)
+            return np.stack([lanes[..., rollers + row * self.roller_count, 0] for row in rows], axis=-2)
+        share = self.width // self.rows
+        return np.stack(
+            [lanes[..., rollers // share, rollers % share + row * share] for row in rows], axis=-2
+        )

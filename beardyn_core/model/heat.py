@@ -70,7 +70,12 @@ def axle_fin(bearing: Bearing, heat_transfer: float) -> float:
 
 
 def thermal_network(
-    bearing: Bearing, thermal: Thermal, box_mass: float, shaft_speed: float
+    bearing: Bearing,
+    thermal: Thermal,
+    box_mass: float,
+    shaft_speed: float,
+    rollers: int | None = None,
+    rows: int = 2,
 ) -> ThermalNetwork:
     """Network of the bearing in its axlebox at one speed.
 
@@ -82,14 +87,18 @@ def thermal_network(
         Axlebox without the cup, [kg].
     shaft_speed : float
         [rad/s].
+    rollers : int, optional
+        Of all rows, where some are missing.
+    rows : int
+        Rows of rollers, each with its cage.
     """
-    count = 2 * bearing.roller_count
+    count = rows * bearing.roller_count if rollers is None else rollers
     capacity = np.array(
         [
             _STEEL_HEAT * bearing.cup_mass,
             _STEEL_HEAT * bearing.cone_mass,
             _STEEL_HEAT * count * bearing.roller_mass,
-            _POLYAMIDE_HEAT * 2.0 * bearing.cage.mass,
+            _POLYAMIDE_HEAT * float(rows) * bearing.cage.mass,
             _GREASE_HEAT * thermal.grease_mass,
             _STEEL_HEAT * box_mass,
         ]
@@ -99,7 +108,7 @@ def thermal_network(
         CUP_NODE: 2.0 * math.pi * (pitch + 0.5 * bearing.roller_diameter) * bearing.width,
         CONE_NODE: 2.0 * math.pi * (pitch - 0.5 * bearing.roller_diameter) * bearing.width,
         ROLLER_NODE: count * math.pi * bearing.roller_diameter * bearing.roller_length,
-        CAGE_NODE: 8.0 * math.pi * pitch * bearing.roller_length,  # both sides of both
+        CAGE_NODE: rows * 4.0 * math.pi * pitch * bearing.roller_length,  # both sides of each
     }
     conductance = np.zeros((6, 6))
     conductance[ROLLER_NODE, CUP_NODE] = conductance[ROLLER_NODE, CONE_NODE] = (

@@ -103,6 +103,8 @@ class MountingParams(NamedTuple):
     damping: Any  # [6]
     preload: Any  # [6], suspension force at rest
     coupling: BoxCoupling | None
+    prop_stiffness: float  # axial, of journal against ground [N/m]
+    prop_damping: float  # [N s/m]
 
 
 class Parameters(NamedTuple):

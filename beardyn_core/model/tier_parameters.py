@@ -33,7 +33,7 @@ class KinematicParams(NamedTuple):
     rolling_on_cup: float  # rotation of a roller against the cup over w, of either sign
     rolling_on_cone: float
     rolling_weight: float  # of all rollers and cages [N]
-    rolling_count: float  # rollers of both rows
+    rolling_count: float  # rollers of all rows
 
 
 class RingMotionParams(NamedTuple):
@@ -94,7 +94,7 @@ def kinematic_params(scene: Scene) -> KinematicParams:
     spin_ratio = math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
     distance = bearing.apex_distance / math.cos(bearing.half_angle)
     fall = effects.gravity.acceleration if effects.gravity else 0.0
-    cages = 2 * bearing.cage.mass if effects.cage else 0.0
+    cages = scene.rows * bearing.cage.mass if effects.cage else 0.0
     return KinematicParams(
         cage_ratio=cage_speed_ratio(bearing),
         spin_ratio=-spin_ratio,
@@ -110,8 +110,8 @@ def kinematic_params(scene: Scene) -> KinematicParams:
         rib_spin=roller_cone_spin(bearing, 1.0),
         rolling_on_cup=distance * math.sin(bearing.cone_angle) / bearing.roller_diameter,
         rolling_on_cone=distance * math.sin(bearing.cup_angle) / bearing.roller_diameter,
-        rolling_weight=fall * (2 * bearing.roller_count * bearing.roller_mass + cages),
-        rolling_count=2.0 * bearing.roller_count,
+        rolling_weight=fall * (scene.roller_total * bearing.roller_mass + cages),
+        rolling_count=float(scene.roller_total),
     )
 
 
@@ -141,10 +141,10 @@ def pocket_directions(base: Parameters) -> Any:
     return np.ascontiguousarray(np.stack([cosine, sine, mask, mask * cosine, mask * sine], axis=1))
 
 
-def row_sides(base: Parameters) -> Any:
+def row_sides(base: Parameters, rows: int) -> Any:
     """Side of the row of each lane, shape [1, 1, lane]."""
     width = base.rollers.shape[2]
-    return np.repeat([-1.0, 1.0], width // 2)[None, None]
+    return np.repeat([-1.0, 1.0][:rows], width // rows)[None, None]
 
 
 def faults_or_none(base: Parameters) -> FaultParams | None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.errors import InputError
-from beardyn_core.scene.defect import Defect, defect_from
+from beardyn_core.scene.defect import Defect, MissingRoller, defect_from
 from beardyn_core.scene.load import LoadHistory
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ class RunDescription:
         Order of the bodies in `Block.body_pose`.
     sensor_names : tuple of str
         Order of the accelerometers in `Block.acceleration`.
-    defects : tuple of Patch, RollerError, WornPocket
+    defects : tuple of Patch, RollerError, WornPocket, MissingRoller
     truth : mapping
         What ``Twin.truth`` returns, JSON-able: faults, fault frequencies, versions, effects, seed.
     load : LoadHistory or None
@@ -144,7 +144,7 @@ class RunDescription:
             shape=BearingShape.of(scene.bearing),
             body_names=tuple(body_names),
             sensor_names=tuple(sensor.name for sensor in scene.sensors),
-            defects=scene.defects,
+            defects=scene.faults,
             truth=truth,
             load=load,
         )
@@ -153,6 +153,15 @@ class RunDescription:
     def roller_count(self) -> int:
         """Rollers per row."""
         return self.shape.roller_count
+
+    @property
+    def absent_bodies(self) -> frozenset[str]:
+        """Names of the bodies that are not there; their motion in the recording is a stand-in's."""
+        missing = [defect for defect in self.defects if isinstance(defect, MissingRoller)]
+        absent = {f"roller_{each.row}_{each.roller}" for each in missing}
+        if self.truth.get("rows", 2) == 1:
+            absent |= {"cage_1", *(f"roller_1_{k}" for k in range(self.roller_count))}
+        return frozenset(absent)
 
     def to_json(self) -> str:
         """Content of the ``truth`` topic: the truth, and the description under its own key."""

@@ -55,9 +55,11 @@ def log_parts(stream: rr.RecordingStream, run: RunDescription) -> None:
     _log_mesh(stream, f"{ROOT}/cone/part", meshes.cone(shape), CONE_COLOUR)
     roller = meshes.roller(shape)
     for row in range(2):
-        _log_mesh(stream, f"{ROOT}/cage_{row}/part", meshes.cage(shape, row), CAGE_COLOUR)
+        if f"cage_{row}" not in run.absent_bodies:
+            _log_mesh(stream, f"{ROOT}/cage_{row}/part", meshes.cage(shape, row), CAGE_COLOUR)
         for k in range(shape.roller_count):
-            _log_mesh(stream, f"{ROOT}/rollers/roller_{row}_{k}", roller, (255, 255, 255))
+            if f"roller_{row}_{k}" not in run.absent_bodies:
+                _log_mesh(stream, f"{ROOT}/rollers/roller_{row}_{k}", roller, (255, 255, 255))
     for number, defect in enumerate(run.defects):
         if isinstance(defect, Patch) and defect.on in ("cup", "cone"):
             patch = meshes.spall(shape, defect)
@@ -147,6 +149,8 @@ def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None
     packed = _packed(colours)
     for row in range(2):
         for k in range(shape.roller_count):
+            if f"roller_{row}_{k}" in run.described().absent_bodies:
+                continue
             stream.send_columns(
                 f"{ROOT}/rollers/roller_{row}_{k}",
                 indexes=[time],

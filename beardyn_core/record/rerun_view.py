@@ -156,7 +156,8 @@ def about(run: Run) -> str:
     description = run.described()
     lines = [
         f"# {description.scene}",
-        f"Bearing **{description.shape.name}**, 2 x {description.roller_count} rollers.",
+        f"Bearing **{description.shape.name}**, {description.truth.get('rows', 2)} x "
+        f"{description.roller_count} rollers.",
     ]
     if run.problem:
         lines.append(f"**The file was cut off:** {run.problem}")

@@ -1,4 +1,4 @@
-"""Defects: patches of raceways and rollers, a roller of another diameter, a worn cage pocket."""
+"""Defects: patches of raceways and rollers, a roller of another diameter or none, a worn cage pocket."""
 
 from __future__ import annotations
 
@@ -157,7 +157,30 @@ class WornPocket:
         return f"pocket {self.pocket} of the cage, row {self.row}, worn by {self.clearance * 1e3:.2f} mm"
 
 
-Defect = Patch | RollerError | WornPocket
+@dataclass(frozen=True)
+class MissingRoller:
+    """A roller that is not there; its pocket is empty.
+
+    Parameters
+    ----------
+    row, roller : int
+    """
+
+    row: int
+    roller: int
+    kind: str = "missing"
+
+    @property
+    def on(self) -> str:
+        """The body at fault."""
+        return "roller"
+
+    def described(self) -> str:
+        """What it is, in a few words."""
+        return f"roller {self.roller}, row {self.row}, missing"
+
+
+Defect = Patch | RollerError | WornPocket | MissingRoller
 
 
 def defect_from(stored: Mapping[str, Any]) -> Defect:
@@ -168,6 +191,8 @@ def defect_from(stored: Mapping[str, Any]) -> Defect:
         return RollerError(**fields)
     if kind == "worn_pocket":
         return WornPocket(**fields)
+    if kind == "missing":
+        return MissingRoller(**fields)
     growth = fields.get("growth")
     return Patch(**{**fields, "growth": None if growth is None else Growth(**growth)})
 

@@ -8,7 +8,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal_closure import PartTemperatures
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.defect import Defect
+from beardyn_core.scene.defect import Defect, MissingRoller
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Operation
 from beardyn_core.scene.sensor import Accelerometer
@@ -76,6 +76,9 @@ class Scene:
         What is asked of the run, out of `QUANTITIES`.
     chosen : tuple of str
         What has been chosen automatically, each with its reason.
+    rows : int
+        Rows of rollers, each with its cage: 2, or 1 for row 0 (inboard) alone.
+    missing_rollers : tuple of MissingRoller
     """
 
     name: str
@@ -99,20 +102,37 @@ class Scene:
     accuracy: float | None = None
     quantities: tuple[str, ...] = USUAL_QUANTITIES
     chosen: tuple[str, ...] = ()
+    rows: int = 2
+    missing_rollers: tuple[MissingRoller, ...] = ()
 
     @property
     def effect_names(self) -> tuple[str, ...]:
         """Names of the effects that are present, faults included."""
         return (
             *self.effects.names(),
-            *(("faults",) if self.defects else ()),
+            *(("faults",) if self.faults else ()),
             *(("waviness",) if self.waviness else ()),
         )
 
     @property
     def fault_sentences(self) -> tuple[str, ...]:
-        """Defects and waviness in words."""
-        return tuple(fault.described() for fault in (*self.defects, *self.waviness))
+        """Defects, missing rollers and waviness in words."""
+        return tuple(fault.described() for fault in (*self.faults, *self.waviness))
+
+    @property
+    def faults(self) -> tuple[Defect, ...]:
+        """Defects and missing rollers."""
+        return (*self.defects, *self.missing_rollers)
+
+    @property
+    def missing_places(self) -> tuple[tuple[int, int], ...]:
+        """Row and roller of those that are missing."""
+        return tuple((each.row, each.roller) for each in self.missing_rollers)
+
+    @property
+    def roller_total(self) -> int:
+        """Rollers that are there, of all rows."""
+        return self.rows * self.bearing.roller_count - len(self.missing_rollers)
 
     @property
     def missing_effects(self) -> tuple[str, ...]:

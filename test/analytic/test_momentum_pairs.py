@@ -43,14 +43,13 @@ def momenta(rig: Rig) -> tuple[Float, Float, float]:
     fields = rig.fields()[:ROLLER_STATES]
     mass = rig.parameters.roller.mass
     linear, angular, size = np.zeros(3), np.zeros(3), 0.0
-    for row in (0, 1):
-        for k in range(fields.shape[2]):
-            state = cartesian(fields[:, row, k])
-            velocity = world(state.velocity, row)
-            place = world(state.centre, row) + rig.state.bodies[CUP_BODY, POSITION : POSITION + 3]
-            linear += mass * velocity
-            angular += mass * np.cross(place, velocity) + world(state.momentum, row, axial=True)
-            size += mass * float(np.linalg.norm(velocity))
+    for row, k in np.argwhere(rig.arrangement.present):
+        state = cartesian(fields[:, row, k])
+        velocity = world(state.velocity, row)
+        place = world(state.centre, row) + rig.state.bodies[CUP_BODY, POSITION : POSITION + 3]
+        linear += mass * velocity
+        angular += mass * np.cross(place, velocity) + world(state.momentum, row, axial=True)
+        size += mass * float(np.linalg.norm(velocity))
     return linear, angular, size
 
 
@@ -91,7 +90,7 @@ def assert_momentum_is_exchanged(rig: Rig) -> None:
     # reactions act at the places of the end of the drift, where the bodies still stand
     wrenches, bodies = rig.work.wrenches, rig.state.bodies
     force, moment, pushed = np.zeros(3), np.zeros(3), 0.0
-    for body in range(4):
+    for body in range(len(bodies)):
         lift = np.array([0.0, p.effects.cage.place * (1.0 if body == 3 else -1.0), 0.0])
         place = bodies[body, POSITION : POSITION + 3] + (lift if body >= CAGE_BODY else 0.0)
         force += wrenches[body, :3]
@@ -100,12 +99,11 @@ def assert_momentum_is_exchanged(rig: Rig) -> None:
     weight = -p.roller.mass * p.effects.gravity.acceleration
     fields = rig.fields()
     gravity, torque = np.zeros(3), np.zeros(3)
-    for row in (0, 1):
-        for k in range(fields.shape[2]):
-            pull = np.array([0.0, 0.0, weight])
-            gravity += pull
-            place = world(cartesian(fields[:ROLLER_STATES, row, k]).centre, row)
-            torque += np.cross(place + bodies[CUP_BODY, POSITION : POSITION + 3], pull)
+    for row, k in np.argwhere(rig.arrangement.present):
+        pull = np.array([0.0, 0.0, weight])
+        gravity += pull
+        place = world(cartesian(fields[:ROLLER_STATES, row, k]).centre, row)
+        torque += np.cross(place + bodies[CUP_BODY, POSITION : POSITION + 3], pull)
     assert pushed > 10.0
     rounding = 1e-12 * size
     won = linear_after - linear_before - p.step * gravity

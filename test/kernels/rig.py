@@ -99,7 +99,7 @@ class Rig:
         cage_ratio: float = 1.0,
     ) -> Rig:
         bearing = scene.bearing
-        arrangement = Arrangement(bearing.roller_count, width)
+        arrangement = Arrangement(bearing.roller_count, width, scene.rows, scene.missing_places)
         parameters = build_parameters(scene, arrangement, np.zeros(6))
         flexibility = parameters.effects.ring_flexibility
         bending = np.zeros(0) if flexibility is None else flexibility.stiffness
@@ -112,6 +112,9 @@ class Rig:
             coupling=scene.effects.lamina_coupling,
             oversize=roller_oversize(scene),
             bending_stiffness=bending,
+            axial_stiffness=scene.mounting.axial_prop[0],
+            rows=scene.rows,
+            missing=scene.missing_places,
         )
         orbit = cage_ratio * cage_speed(bearing, speed)
         state = initial_state(bearing, arrangement, static, speed, orbit)

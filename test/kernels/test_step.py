@@ -86,10 +86,11 @@ def shaken(seed: int, width: int = 8, scene: Scene | None = None) -> Rig:
     rig.set_fields(fields)
     bodies = rig.state.bodies
     bodies[CONE_BODY, LINEAR : LINEAR + 3] = rng.normal(0.0, 0.01, 3)
-    bodies[CAGE_BODY:, POSITION : POSITION + 3] = rng.normal(0.0, 3e-5, (2, 3))
-    bodies[CAGE_BODY:, TILT : TILT + 3] = rng.normal(0.0, 2e-4, (2, 3)) * [1.0, 0.0, 1.0]
-    bodies[CAGE_BODY:, LINEAR : LINEAR + 3] = rng.normal(0.0, 0.02, (2, 3))
-    bodies[CAGE_BODY:, ANGULAR : ANGULAR + 3] = rng.normal(0.0, 0.2, (2, 3)) * [1.0, 0.0, 1.0]
+    cages = (len(bodies) - CAGE_BODY, 3)
+    bodies[CAGE_BODY:, POSITION : POSITION + 3] = rng.normal(0.0, 3e-5, cages)
+    bodies[CAGE_BODY:, TILT : TILT + 3] = rng.normal(0.0, 2e-4, cages) * [1.0, 0.0, 1.0]
+    bodies[CAGE_BODY:, LINEAR : LINEAR + 3] = rng.normal(0.0, 0.02, cages)
+    bodies[CAGE_BODY:, ANGULAR : ANGULAR + 3] = rng.normal(0.0, 0.2, cages) * [1.0, 0.0, 1.0]
     return rig
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import subprocess
 from argparse import ArgumentParser
+from dataclasses import replace
 from pathlib import Path
+from typing import Any, cast
 from urllib.request import urlopen
 
 import numpy as np
@@ -18,13 +20,13 @@ from beardyn_core.record.description import BearingShape
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import encode_string
 from beardyn_core.record.reading import read_run
-from beardyn_core.record.rerun_bearing import load_colours, roller_loads
+from beardyn_core.record.rerun_bearing import load_colours, log_parts, roller_loads
 from beardyn_core.record.rerun_live import LiveView, RerunSink
 from beardyn_core.record.rerun_plots import order_spectrum
 from beardyn_core.record.rerun_spectrum import nice_ticks
 from beardyn_core.record.rerun_stream import live_stream
 from beardyn_core.record.viewer import picture_problem, take_picture, viewer_executable
-from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.defect import MissingRoller, Spall
 from test.record.synthetic_run import SHAPE, SyntheticRun, description
 
 
@@ -101,6 +103,27 @@ def test_a_spall_is_drawn_on_its_raceway(on: str) -> None:
     points = meshes.spall(SHAPE, Spall(on, 1, 0.5, 0.02, 1e-4, 0.03, 0.005)).vertices
     assert np.abs(raceway_gap(points, SHAPE, angle)).max() < 5e-4
     assert np.arctan2(points[:, 0], points[:, 2]).mean() == pytest.approx(0.5, abs=1e-6)
+
+
+def test_what_is_missing_is_not_drawn() -> None:
+    class Listing:
+        def __init__(self) -> None:
+            self.entities: set[str] = set()
+
+        def log(self, entity: str, *_parts: object, **_options: object) -> None:
+            self.entities.add(entity)
+
+    whole, some = Listing(), Listing()
+    log_parts(cast(Any, whole), description())
+    lacking = replace(description(), defects=(MissingRoller(0, 3),), truth={"rows": 1})
+    log_parts(cast(Any, some), lacking)
+    assert lacking.absent_bodies == {"roller_0_3", "cage_1", *(f"roller_1_{k}" for k in range(17))}
+    drawn = {entity.split("/")[-1] for entity in some.entities} | {
+        entity.split("/")[1] for entity in some.entities if entity.startswith("bearing/")
+    }
+    assert not drawn & lacking.absent_bodies
+    assert {"bearing/rollers/roller_0_2", "bearing/cage_0/part", "bearing/cup/part"} <= some.entities
+    assert {"bearing/rollers/roller_0_3", "bearing/cage_1/part"} <= whole.entities
 
 
 def test_colour_grows_from_grey_to_red() -> None:

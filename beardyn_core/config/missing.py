@@ -1,0 +1,81 @@
+"""What of a scene speaks of rows and rollers that are not there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.config.defect_file import MissingRollerKeys
+from beardyn_core.config.problems import Place
+
+_ROW_NAMES = ("inboard", "outboard")
+
+
+def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[Place, str]]:
+    """Contradictions of `rows` and `missing_rollers` with each other and with the faults.
+
+    Parameters
+    ----------
+    scene : mapping
+        A scene as written; entries with other mistakes are left out.
+    bearing : Bearing
+
+    Returns
+    -------
+    list of pairs
+        Place of the entry, and what is wrong with it.
+    """
+    rows = scene.get("rows", 2)
+    if rows not in (1, 2):
+        return []
+    problems: list[tuple[Place, str]] = []
+    missing: set[tuple[int, int]] = set()
+    for place, given in _entries(scene, "missing_rollers"):
+        keys = _valid(given)
+        if keys is None:
+            continue
+        wrong = keys.contradictions(bearing)
+        if keys.row >= rows:
+            wrong.append(_no_row(keys.row))
+        if (keys.row, keys.roller) in missing:
+            wrong.append(f"roller {keys.roller} of row {keys.row} is given twice; name each roller once")
+        problems += [(place, text) for text in wrong]
+        if not wrong:
+            missing.add((keys.row, keys.roller))
+    for row in range(rows):
+        if sum(each == row for each, _ in missing) >= bearing.roller_count:
+            name = _ROW_NAMES[row]
+            hint = "; take `rows: 1` for a bearing with the inboard row alone" if row == 1 else ""
+            problems.append(
+                (("missing_rollers",), f"every roller of row {row} ({name}) is missing; leave one{hint}")
+            )
+    for key in ("defects", "waviness"):
+        for place, given in _entries(scene, key):
+            its_row, on = given.get("row"), given.get("on")
+            if its_row == 1 and rows == 1:
+                problems.append((place, _no_row(1)))
+            roller = given.get("roller", 0 if key == "defects" else None)
+            if (on == "roller" or given.get("kind") == "diameter") and (its_row, roller) in missing:
+                problems.append((place, f"roller {roller} of row {its_row} is one of missing_rollers"))
+    return problems
+
+
+def _no_row(row: int) -> str:
+    return f"row is {row}; with `rows: 1` there is row 0 alone"
+
+
+def _entries(scene: Mapping[str, Any], key: str) -> list[tuple[Place, dict[str, Any]]]:
+    entries = scene.get(key)
+    if not isinstance(entries, list):
+        return []
+    return [((key, index), given) for index, given in enumerate(entries) if isinstance(given, dict)]
+
+
+def _valid(given: dict[str, Any]) -> MissingRollerKeys | None:
+    try:
+        return TypeAdapter(MissingRollerKeys).validate_python(given)
+    except ValidationError:
+        return None
