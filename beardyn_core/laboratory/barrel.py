@@ -273,8 +273,8 @@ def solve_barrel(bearing: BarrelBearing, force: float) -> BarrelLoads:
 
     References
     ----------
-    Harris, T. A. (2001), ch. 7 (Sjoevall's integral, point contact): Q_j = K (delta cos psi cos alpha - c)^1.5
-    with the free travel c along the contact line; load zone extent 1/2 (1 - c / (delta cos alpha)).
+    Harris, T. A. (2001), ch. 7, after Sjoevall: Q_j = K (delta cos psi cos alpha - c)^1.5 for point contact
+    with the free travel c along the contact line.
     """
     row = _Row(bearing)
     formula_displacement = float(

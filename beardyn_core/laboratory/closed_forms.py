@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory.nine_contacts import (
@@ -150,14 +152,11 @@ def circle_sphere_gap(p: Circle, q: Arc) -> float:
     return math.hypot(along, float(np.sqrt(across @ across)) - p.radius) - q.radius
 
 
-def least_along(p: Circle, distance: object, count: int = 720) -> float:
+def least_along(p: Circle, distance: Callable[[Float], float], count: int = 360) -> float:
     """Smallest value of a function of the points of a circle: a scan, then golden sections.
 
     Independent of the search: for pairs that have no closed form.
     """
-    from scipy.optimize import minimize_scalar
-
-    assert callable(distance)
     angles = np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
 
     def at(angle: float) -> float:
@@ -165,5 +164,6 @@ def least_along(p: Circle, distance: object, count: int = 720) -> float:
 
     values = np.array([at(float(angle)) for angle in angles])
     best, width = float(angles[int(np.argmin(values))]), 2.0 * math.pi / count
-    found = minimize_scalar(at, bounds=(best - width, best + width), method="bounded", options={"xatol": 1e-12})
+    bounds = (best - width, best + width)
+    found = minimize_scalar(at, bounds=bounds, method="bounded", options={"xatol": 1e-12})
     return float(min(found.fun, values.min()))

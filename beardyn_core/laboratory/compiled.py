@@ -25,6 +25,7 @@ from beardyn_core.laboratory.shapes import (
     SECOND,
     SHAPE_NUMBERS,
     SIDE,
+    STRAIGHT,
 )
 
 Float = NDArray[np.float64]
@@ -75,7 +76,7 @@ def _frame(shape: Any, u: Any, v: Any, sign: Any, row: Any, column: Any, slopes:
             _put(shape, cosine, sine, 0.0, t_out, 0.0, w, next_base + t)
             _put(shape, cosine, sine, -1.0, 0.0, 0.0, w, next_base + b)
             _put(shape, cosine, sine, 0.0, n_out, 0.0, w, next_base + n)
-    elif kind == CIRCLE or kind == FACE_CIRCLE:
+    elif kind < STRAIGHT:
         distance, height = first, 0.0
         radial, axial = (b, n) if kind == FACE_CIRCLE else (n, b)
         _put(shape, cosine, sine, 0.0, 1.0, 0.0, w, t)
@@ -186,9 +187,18 @@ def solve_pair(p: Any, q: Any, cut: Any, form: Any, count: Any, analytic: Any, x
 
 @entry
 def solve_pairs(
-    p: Any, q: Any, cut: Any, forms: Any, counts: Any, signed: Any, start: Any, analytic: Any, x: Any, out: Any
+    p: Any,
+    q: Any,
+    cut: Any,
+    forms: Any,
+    counts: Any,
+    signed: Any,
+    start: Any,
+    analytic: Any,
+    x: Any,
+    out: Any,
 ) -> None:
-    """Solve many pairs: parameters to ``x`` [pair, 4]; iterations (-1: failed) and gap to ``out`` [pair, 2]."""
+    """Solve pairs: parameters to ``x`` [pair, 4]; iterations (-1: failed) and gap to ``out`` [pair, 2]."""
     w = np.zeros(WORK_NUMBERS)
     for i in range(len(counts)):
         for j in range(4):

@@ -149,9 +149,7 @@ def _row_difference(bearing: Bearing, row: list[RollerPose]) -> float:
     )
 
 
-def find(
-    bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = lambda _: None
-) -> Findings:
+def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = lambda _: None) -> Findings:
     """Run the whole laboratory.
 
     Parameters
@@ -182,7 +180,9 @@ def find(
         for name in NAMES
     }
     together = compare(
-        bearing_setting("random rollers", bearing, poses, warm=False), blocks=max(3, blocks // 7), sweeps=sweeps
+        bearing_setting("random rollers", bearing, poses, warm=False),
+        blocks=max(3, blocks // 7),
+        sweeps=sweeps,
     )
     say("a whole row of the bearing")
     whole = compare(bearing_setting("first time step", bearing, row, warm=True), blocks=blocks, sweeps=sweeps)

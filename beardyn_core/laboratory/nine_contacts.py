@@ -21,12 +21,10 @@ from beardyn_core.laboratory.search import (
     LINES_ALONG_NORMAL,
     SURFACE_LINE,
     SURFACES,
-    SURFACES_CROSSED,
-    SURFACES_PRINTED,
     Form,
     Pair,
 )
-from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Placement, Shape, Straight, placed, unit
+from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, placed, unit
 
 Float = NDArray[np.float64]
 
@@ -277,17 +275,3 @@ def turned(pose: RollerPose, tilt: float, skew: float) -> RollerPose:
     across = np.cross(np.array([0.0, 1.0, 0.0]), pose.axis)
     axis = unit(pose.axis + tilt * across + skew * np.array([0.0, 1.0, 0.0]))
     return RollerPose(pose.centre, axis, pose.cone)
-
-
-__all__ = [
-    "NAMES",
-    "PAIRINGS",
-    "SEARCHES_PER_ROLLER",
-    "SLICES",
-    "SURFACES",
-    "SURFACES_CROSSED",
-    "SURFACES_PRINTED",
-    "Contact",
-    "Placement",
-    "RollerPose",
-]

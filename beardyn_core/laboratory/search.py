@@ -54,7 +54,9 @@ class Form:
 # Eq. (3) as printed, with t along the meridian and b around the axis on both surfaces
 SURFACES_PRINTED = Form("surface-surface, as printed", ((N_Q, T_P), (D, B_P), (N_P, T_Q), (D, B_Q)))
 # Eq. (3) with t and b of Q exchanged
-SURFACES_CROSSED = Form("surface-surface, t and b of Q exchanged", ((N_Q, T_P), (D, B_P), (N_P, B_Q), (D, T_Q)))
+SURFACES_CROSSED = Form(
+    "surface-surface, t and b of Q exchanged", ((N_Q, T_P), (D, B_P), (N_P, B_Q), (D, T_Q))
+)
 # parallel normals, and d along the normal of Q
 SURFACES = Form("surface-surface, parallel normals", ((N_Q, T_P), (N_Q, B_P), (D, T_Q), (D, B_Q)))
 # Eq. (4)
@@ -166,7 +168,10 @@ def search(pair: Pair, start: ArrayLike, method: Method = "analytic") -> Found:
             break
         if np.abs(here).max() < TOLERANCE:
             return found_at(pair, parameters, iteration, True)
-        slopes = jacobian(pair, parameters) if method == "analytic" else numeric_jacobian(pair, parameters, here)
+        if method == "analytic":
+            slopes = jacobian(pair, parameters)
+        else:
+            slopes = numeric_jacobian(pair, parameters, here)
         try:
             parameters = parameters - np.linalg.solve(slopes, here)
         except np.linalg.LinAlgError:

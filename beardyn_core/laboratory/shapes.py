@@ -176,6 +176,7 @@ class Cone(_Revolved):
         return CONE, self.radius, self.angle, self.side
 
     def nearest_parameters(self, point: Float) -> Float:
+        """Foot of the square on the generator at the azimuth of the point."""
         distance, angle, height = self._local(point)
         along = (distance - self.radius) * math.sin(self.angle) + height * math.cos(self.angle)
         return np.array([along, angle])
@@ -209,6 +210,7 @@ class Arc(_Revolved):
         return ARC, self.ring_radius, self.radius, self.side
 
     def nearest_parameters(self, point: Float) -> Float:
+        """Direction of the point from the centre of the arc at its azimuth."""
         distance, angle, height = self._local(point)
         return np.array([math.atan2(height, distance - self.ring_radius), angle])
 
@@ -234,6 +236,7 @@ class Circle(_Line):
     radius: float
 
     def frame(self, parameters: Float) -> Frame:
+        """Frame at a place along the line."""
         out, around = self._directions(float(parameters[0]))
         return Frame(
             point=self.place.origin + self.radius * out,
@@ -251,6 +254,7 @@ class Circle(_Line):
         return CIRCLE, self.radius, 0.0, 1.0
 
     def nearest_parameters(self, point: Float) -> Float:
+        """Azimuth of the point."""
         return np.array([self._local(point)[1]])
 
 
@@ -267,6 +271,7 @@ class FaceCircle(Circle):
     side: float = 1.0
 
     def frame(self, parameters: Float) -> Frame:
+        """Frame at a place along the line."""
         out, around = self._directions(float(parameters[0]))
         return Frame(
             point=self.place.origin + self.radius * out,
@@ -284,6 +289,7 @@ class Straight(_Line):
     """Straight line along the pole through the origin; its normal is `east`."""
 
     def frame(self, parameters: Float) -> Frame:
+        """Frame at a place along the line."""
         here = self.place
         return Frame(
             point=here.origin + float(parameters[0]) * here.pole,
@@ -296,4 +302,5 @@ class Straight(_Line):
         return STRAIGHT, 0.0, 0.0, 1.0
 
     def nearest_parameters(self, point: Float) -> Float:
+        """Foot of the square on the line."""
         return np.array([self._local(point)[2]])

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,7 +75,7 @@ class SphereCase:
 
 
 @entry
-def bounded_contact(centre, axis, rib, window, end, out):  # type: ignore[no-untyped-def]
+def bounded_contact(centre: Any, axis: Any, rib: Any, window: Any, end: Any, out: Any) -> None:
     """Depth, normal and arm of the rib contact with edges and rim to ``out`` [7]."""
     depth, normal, arm = rib_gap(
         (centre[0], centre[1], centre[2]), (axis[0], axis[1], axis[2]), (0.0, 0.0, 1.0), rib, window, end
@@ -151,9 +152,7 @@ def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
     off_axis = float(np.linalg.norm(arm - (arm @ pose.axis) * pose.axis))
     outside = "face"
     normal, place = out[1:4], out[4:7]
-    if not math.isclose(float(np.linalg.norm(place - case.sphere_centre * pose.axis)), case.sphere_radius, rel_tol=1e-9) or (
-        normal @ pose.axis < end.cosine
-    ):
+    if normal @ pose.axis < end.cosine:
         outside = "rim"
     elif abs(normal[2] - face.normal_axial) > 1e-4:
         outside = "edge of the face"

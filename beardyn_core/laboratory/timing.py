@@ -1,6 +1,7 @@
 """Time, iterations, failures and gap errors of every way to find the contacts.
 
-Ways are timed block by block in turn, so that a busy moment of the machine meets all of them; medians.
+Times are of the processor, not of the wall, and ways are timed block by block in turn, so that a busy machine
+disturbs little and meets all of them alike; medians.
 """
 
 from __future__ import annotations
@@ -8,6 +9,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +20,13 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory import closed_forms
 from beardyn_core.laboratory.closed_compiled import ClosedForms, pose_rows
 from beardyn_core.laboratory.compiled import WORK_NUMBERS, Batch, batch, pair_residual
-from beardyn_core.laboratory.nine_contacts import SEARCHES_PER_ROLLER, Contact, RollerPose, contacts_of
+from beardyn_core.laboratory.nine_contacts import (
+    SEARCHES_PER_ROLLER,
+    Contact,
+    RollerPose,
+    contacts_of,
+    nominal_pose,
+)
 from beardyn_core.laboratory.placements import RANDOM_CASES, RandomCase, near_start, random_start
 from beardyn_core.laboratory.search import SURFACES, Form, Pair, condition_number, search
 from beardyn_core.laboratory.shapes import Cone, Shape, Straight
@@ -91,7 +100,9 @@ class Setting:
     closed_compiled_in_place: Callable[[], None] | None = None
 
 
-def _rated(way: str, seconds: list[float], count: int, found: tuple[Float, Float | None], truth: Float) -> WayResult:
+def _rated(
+    way: str, seconds: list[float], count: int, found: tuple[Float, Float | None], truth: Float
+) -> WayResult:
     gaps, iterations = found
     error = np.abs(gaps - truth)
     good = error <= FAILURE
@@ -100,7 +111,9 @@ def _rated(way: str, seconds: list[float], count: int, found: tuple[Float, Float
     return WayResult(
         way,
         1e6 * float(np.median(seconds)) / count,
-        float(iterations[iterations >= 0].mean()) if iterations is not None and (iterations >= 0).any() else None,
+        None
+        if iterations is None or not (iterations >= 0).any()
+        else float(iterations[iterations >= 0].mean()),
         float(1.0 - good.mean()),
         float(error[good].max()) if good.any() else float("nan"),
     )
@@ -129,14 +142,14 @@ def compare(setting: Setting, *, blocks: int, sweeps: int, ways: Sequence[str] =
     for way in ways:
         if way in _PLAIN_METHODS:
             method = _PLAIN_METHODS[way]
-            jobs[way] = (lambda method=method: _plain(setting, method), 1)
+            jobs[way] = (partial(_plain, setting, method), 1)
             results[way] = _plain(setting, method)
         elif way == WAYS[4]:
-            jobs[way] = (lambda: _root_finder_compiled(setting, arrays), 1)
+            jobs[way] = (partial(_root_finder_compiled, setting, arrays), 1)
             results[way] = _root_finder_compiled(setting, arrays)
         elif way in (WAYS[5], WAYS[6]):
             analytic = way == WAYS[6]
-            jobs[way] = (lambda analytic=analytic: arrays.solve_into(x, out, analytic=analytic), sweeps)
+            jobs[way] = (partial(arrays.solve_into, x, out, analytic=analytic), sweeps)
             _, iterations, gaps = arrays.solve(analytic=analytic)
             results[way] = gaps, iterations.astype(float)
         elif way == WAYS[3] and setting.plain_closed is not None:
@@ -149,13 +162,11 @@ def compare(setting: Setting, *, blocks: int, sweeps: int, ways: Sequence[str] =
     seconds: dict[str, list[float]] = {way: [] for way in jobs}
     for _ in range(blocks):
         for way, (job, times) in jobs.items():
-            begun = time.perf_counter()
+            begun = time.thread_time()
             for _ in range(times):
                 job()
-            seconds[way].append((time.perf_counter() - begun) / times)
-    return [
-        _rated(way, seconds[way], len(setting.pairs), results[way], setting.truth) for way in jobs
-    ]
+            seconds[way].append((time.thread_time() - begun) / times)
+    return [_rated(way, seconds[way], len(setting.pairs), results[way], setting.truth) for way in jobs]
 
 
 def _plain(setting: Setting, method: str) -> tuple[Float, Float]:
@@ -180,16 +191,20 @@ def _root_finder_compiled(setting: Setting, arrays: Batch) -> tuple[Float, Float
             constants = arrays.p[i], arrays.q[i], arrays.cut[i], arrays.forms[i], count
             value = np.empty(count)
 
-            def equations(parameters: Float, constants=constants, value=value) -> Float:  # type: ignore[no-untyped-def]
-                moved[: len(parameters)] = parameters
-                pair_residual(*constants, moved, work, value)
-                return value.copy()
-
+            equations = partial(_compiled_residual, constants, moved, work, value)
             root, info, _, _ = fsolve(equations, start, full_output=True, xtol=1e-13)
             left = float(np.abs(equations(root)).max())
             gaps[i] = work[:3] @ work[18:21] if arrays.signed[i] else np.sqrt(work[:3] @ work[:3])
             iterations[i] = info["nfev"] if left < 1e-9 else -1
     return gaps, iterations
+
+
+def _compiled_residual(
+    constants: tuple[Any, ...], moved: Float, work: Float, value: Float, parameters: Float
+) -> Float:
+    moved[: len(parameters)] = parameters
+    pair_residual(*constants, moved, work, value)
+    return value.copy()
 
 
 def warm_start(shape: Shape, parameters: Float, random: np.random.Generator) -> Float:
@@ -276,7 +291,9 @@ def random_results(count: int, *, blocks: int, sweeps: int, seed: int = 11) -> l
     for case in RANDOM_CASES:
         pairs, truth, random = _drawn(case, count, seed)
         for start in ("near", "random"):
-            starts = tuple(near_start(pair) if start == "near" else random_start(pair, random) for pair in pairs)
+            starts = tuple(
+                near_start(pair) if start == "near" else random_start(pair, random) for pair in pairs
+            )
             setting = Setting(case.name, pairs, starts, truth)
             ways = compare(setting, blocks=blocks, sweeps=sweeps, ways=(*WAYS[:3], WAYS[6]))
             _, iterations, gaps = batch(pairs, starts).solve()
@@ -304,12 +321,15 @@ class FormResult:
         Mean, of those that converged.
     condition : float
         Median of the Jacobian at the true contact.
+    even_condition : float
+        The same for the roller in its place, whose axis and the bearing's lie in one plane.
     """
 
     form: str
     failures: float
     iterations: float | None
     condition: float
+    even_condition: float
 
 
 def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[Form]) -> list[FormResult]:
@@ -324,15 +344,15 @@ def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[
         contacts = [_of_rib(bearing, pose, form) for pose in poses]
         _, iterations, gaps = batch([c.pair for c in contacts], [c.start for c in contacts]).solve()
         good = iterations >= 0
-        conditions = [
-            condition_number(c.pair, solved[i]) for i, c in enumerate(contacts) if reached[i] >= 0
-        ]
+        conditions = [condition_number(c.pair, solved[i]) for i, c in enumerate(contacts) if reached[i] >= 0]
+        even = _of_rib(bearing, nominal_pose(bearing), form)
         found.append(
             FormResult(
                 form.name,
                 float(1.0 - (good & (np.abs(gaps - truth) <= FAILURE)).mean()),
                 float(iterations[good].mean()) if good.any() else None,
                 float(np.median(conditions)),
+                condition_number(even.pair, even.start),
             )
         )
     return found
@@ -340,5 +360,3 @@ def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[
 
 def _of_rib(bearing: Bearing, pose: RollerPose, form: Form) -> Contact:
     return next(contact for contact in contacts_of(bearing, pose, form) if contact.name == "FR")
-
-
