@@ -20,9 +20,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "contacts",
         help="the contact laboratory: general contact search, four ways to solve it, closed forms",
         description="Find contact points of parametric surfaces and lines by SciPy's root finder, by "
-        "Newton's method with numeric and with analytic Jacobian, and in closed form, plain and compiled: time, "
-        "iterations, failures and gap errors over random placements and over a whole bearing row; the nine "
-        "contacts of a roller; roller ends of too large a radius; a coin and a roller that roll down a "
+        "Newton's method with numeric and with analytic Jacobian, and in closed form, plain and compiled: "
+        "time, iterations, failures and gap errors over random placements and over a whole bearing row; the "
+        "nine contacts of a roller; roller ends of too large a radius; a coin and a roller that roll down a "
         "trough; the load distribution of a spherical roller bearing.",
     )
     parser.add_argument(

@@ -153,7 +153,7 @@ def circle_sphere_gap(p: Circle, q: Arc) -> float:
 
 
 def least_along(p: Circle, distance: Callable[[Float], float], count: int = 360) -> float:
-    """Smallest value of a function of the points of a circle: a scan, then golden sections.
+    """Smallest value of a function of the points of a circle: a scan, refined by Brent's method.
 
     Independent of the search: for pairs that have no closed form.
     """

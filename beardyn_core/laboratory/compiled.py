@@ -42,7 +42,7 @@ def _put(shape: Any, cosine: Any, sine: Any, out: Any, around: Any, along: Any, 
         target[at + i] = first * shape[EAST + i] + second * shape[NORTH + i] + along * shape[POLE + i]
 
 
-@inline
+@entry
 def _frame(shape: Any, u: Any, v: Any, sign: Any, row: Any, column: Any, slopes: Any, w: Any) -> None:
     """Point times ``sign`` added to d, the vectors, and where ``slopes`` their derivatives, into the work."""
     kind = shape[KIND]
@@ -143,7 +143,7 @@ def _eliminate(w: Any, count: Any) -> Any:
     return True
 
 
-@inline
+@entry
 def solve_pair(p: Any, q: Any, cut: Any, form: Any, count: Any, analytic: Any, x: Any, w: Any) -> Any:
     """Newton's iteration on the parameters ``x``; their number of steps, or -1 when it failed.
 

@@ -162,7 +162,7 @@ def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = 
         Told what comes next.
     """
     begun = time.perf_counter()
-    blocks, sweeps = (5, 5) if quick else (21, 20)
+    blocks, sweeps = (5, 5) if quick else (15, 20)
     say("nine contacts at the first time step")
     row = loaded_row(bearing, LOAD, 0.0)
     poses = list(random_rollers(bearing, 10 if quick else 40, seed=3))
@@ -188,7 +188,7 @@ def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = 
     whole = compare(bearing_setting("first time step", bearing, row, warm=True), blocks=blocks, sweeps=sweeps)
     forms = form_results(bearing, many, (SURFACES_PRINTED, SURFACES_CROSSED, SURFACES))
     say("random circles, spheres, cylinders")
-    shapes = random_results(40 if quick else 300, blocks=3, sweeps=sweeps)
+    shapes = random_results(40 if quick else 200, blocks=3, sweeps=sweeps)
     say("roller ends of growing radius")
     spheres = sphere_cases(bearing)
     say("coin and roller in the trough")

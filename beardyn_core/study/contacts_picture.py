@@ -223,15 +223,19 @@ def rolling_figure(found: Findings) -> Figure:
     middle.axhline(_MM * coin.height[0], color="0.6", lw=0.8, ls="--")
     middle.set_xlabel("time [s]")
     middle.set_ylabel("height of the centre [mm]")
-    middle.legend(fontsize=8, frameon=False)
-    energies = {name: values for name, values in roller.energies.items() if name != "elastic"}
-    right.stackplot(
-        roller.time, [1e3 * values for values in energies.values()], labels=list(energies),
-        colors=(_CUP, _CONE, _POINT, _ROLLER), alpha=0.75,
-    )  # fmt: skip
+    middle.set_ylim(0.0, 1.35 * _MM * coin.height[0])
+    middle.legend(fontsize=8, frameon=False, loc="upper center")
+    energies = roller.energies
+    motion = energies["kinetic"] + energies["potential"] + energies["elastic"]
+    right.plot(
+        roller.time, 1e6 * (motion[0] - motion), color=_CUP, lw=3.0, alpha=0.5, label="energy of motion lost"
+    )
+    both = energies["friction"] + energies["damping"]
+    right.plot(roller.time, 1e6 * both, color=_POINT, lw=1.0, ls="--", label="friction and damping")
+    right.plot(roller.time, 1e6 * energies["damping"], color=_CONE, lw=1.0, label="damping alone")
     right.set_xlabel("time [s]")
-    right.set_ylabel("energy of the roller [mJ]")
-    right.legend(fontsize=8, frameon=False, loc="lower right")
+    right.set_ylabel("roller [µJ]")
+    right.legend(fontsize=8, frameon=False, loc="upper left")
     figure.suptitle("Rolling down a cylindrical floor and up again", fontsize=11)
     return figure
 
