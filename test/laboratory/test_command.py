@@ -75,4 +75,4 @@ def test_quick_run_prints_writes_and_makes_the_page(tmp_path, capsys) -> None:
     assert "\nKept.\n" in text
     for line in text.splitlines():
         if line.startswith("!["):
-            assert (page / line.split("(")[1].rstrip(")")).stat().st_size > 5_000
+            assert (page / line.split("](")[1].rstrip(")")).stat().st_size > 5_000
