@@ -12,6 +12,7 @@ model       nouns to kernel parameters, and where each number stands
 kernels     contacts, rollers and rings as compiled lane code
 integrate   static equilibrium, state, time steps, status
 observe     raw signals to channels, sensors, features, monitoring
+laboratory  general contact search against closed forms; nothing else uses it
 twin        a scene that advances block by block
 record      the topic table, MCAP files, the rerun view
 study       desk runs, summaries, pictures, the demo's report

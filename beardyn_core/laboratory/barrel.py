@@ -1,0 +1,321 @@
+"""A spherical (barrel) roller bearing through the same contact search, at rest under a radial load.
+
+Outer raceway: sphere; inner raceways and rollers: arcs swept about their axes. The gaps of each roller come
+from two surface-surface searches; Hertz's point contact turns them into forces, and every roller is put in
+balance in its meridian plane (radial, axial, tilt). The check is the closed form of the load distribution.
+
+The frame of a roller: x outwards at its azimuth, y around, z along the bearing axis.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq, root
+
+from beardyn_core.bearing.hertz import ExactPointContact
+from beardyn_core.bearing.material import Material
+from beardyn_core.laboratory.compiled import Batch, batch
+from beardyn_core.laboratory.search import SURFACES, Pair
+from beardyn_core.laboratory.shapes import Arc, placed
+
+Float = NDArray[np.float64]
+POINT_EXPONENT = 1.5
+ROWS = 2
+_MANY = 20_000
+_UNIT = 1e-6  # roller coordinates are solved in this unit, [m]
+
+
+@dataclass(frozen=True)
+class BarrelBearing:
+    """A double-row spherical roller bearing with symmetric rollers.
+
+    Parameters
+    ----------
+    name, source : str
+    roller_count : int
+        Per row.
+    pitch_diameter, roller_diameter, roller_length : float
+        [m].
+    contact_angle : float
+        [rad].
+    roller_contour, inner_contour : float
+        Radii of the roller's and of the inner raceway's profile, [m].
+    outer_sphere : float
+        Radius of the outer raceway, [m].
+    material : Material
+    """
+
+    name: str
+    source: str
+    roller_count: int
+    pitch_diameter: float
+    roller_diameter: float
+    roller_length: float
+    contact_angle: float
+    roller_contour: float
+    inner_contour: float
+    outer_sphere: float
+    material: Material
+
+    @property
+    def centre_distance(self) -> float:
+        """Of a roller's centre from the bearing centre when it touches the inner raceway, [m]."""
+        return 0.5 * self.pitch_diameter / math.cos(self.contact_angle)
+
+    @property
+    def clearance(self) -> float:
+        """Free travel of the rollers along the contact line, [m]."""
+        return self.outer_sphere - self.centre_distance - 0.5 * self.roller_diameter
+
+    @cached_property
+    def outer_contact(self) -> ExactPointContact:
+        """Roller and outer raceway."""
+        r, sphere = 0.5 * self.roller_diameter, self.outer_sphere
+        return ExactPointContact(
+            1.0 / (1.0 / r - 1.0 / sphere),
+            1.0 / (1.0 / self.roller_contour - 1.0 / sphere),
+            self.material.contact_modulus,
+        )
+
+    @cached_property
+    def inner_contact(self) -> ExactPointContact:
+        """Roller and inner raceway."""
+        r = 0.5 * self.roller_diameter
+        raceway = self.centre_distance - r
+        return ExactPointContact(
+            1.0 / (1.0 / r + 1.0 / raceway),
+            1.0 / (1.0 / self.roller_contour - 1.0 / self.inner_contour),
+            self.material.contact_modulus,
+        )
+
+    @cached_property
+    def pair_factor(self) -> float:
+        """K of both contacts of a roller in series, Q = K delta^1.5, [N/m^1.5]."""
+        power = 1.0 / POINT_EXPONENT
+        soft = self.outer_contact.factor**-power + self.inner_contact.factor**-power
+        return float(soft**-POINT_EXPONENT)
+
+    def roller(self, position: Float) -> Arc:
+        """Roller displaced by ``position``: radial, axial [m], tilt [rad]."""
+        radial, axial, tilt = position
+        distance = self.centre_distance + 0.5 * self.clearance
+        angle = self.contact_angle
+        centre = (distance * math.cos(angle) + radial, 0.0, distance * math.sin(angle) + axial)
+        lean = angle - tilt
+        axis = (-math.sin(lean), 0.0, math.cos(lean))
+        east = (math.cos(lean), 0.0, math.sin(lean))
+        half = 0.5 * self.roller_diameter
+        return Arc(placed(centre, axis, east), half - self.roller_contour, self.roller_contour)
+
+    def outer_raceway(self) -> Arc:
+        """Sphere around the bearing centre."""
+        return Arc(placed((0, 0, 0), (0, 0, 1)), 0.0, self.outer_sphere, -1.0)
+
+    def inner_raceway(self, shift: Float) -> Arc:
+        """Groove of one row, displaced by ``shift`` [3]."""
+        reach = self.centre_distance - 0.5 * self.roller_diameter + self.inner_contour
+        place = placed(shift + np.array([0.0, 0.0, reach * math.sin(self.contact_angle)]), (0, 0, 1))
+        return Arc(place, reach * math.cos(self.contact_angle), self.inner_contour, -1.0)
+
+    def pairs(self, position: Float, shift: Float) -> list[Pair]:
+        """Roller against outer and inner raceway."""
+        roller = self.roller(position)
+        return [
+            Pair(roller, self.outer_raceway(), SURFACES),
+            Pair(roller, self.inner_raceway(shift), SURFACES),
+        ]
+
+    def starts(self) -> list[Float]:
+        """Parameters of the centred roller: outer contact at its angle 0, inner contact opposite."""
+        angle = self.contact_angle
+        return [np.array([0.0, 0.0, angle, 0.0]), np.array([0.0, math.pi, math.pi + angle, 0.0])]
+
+
+BARREL_22317 = BarrelBearing(
+    name="22317",
+    source="Harris, T. A. (2001), Rolling Bearing Analysis, 4th ed., worked examples on the 22317 spherical "
+    "roller bearing, recalled",
+    roller_count=14,
+    pitch_diameter=135.077e-3,
+    roller_diameter=25.0e-3,
+    roller_length=20.762e-3,
+    contact_angle=math.radians(12.0),
+    roller_contour=79.959e-3,
+    inner_contour=81.585e-3,
+    outer_sphere=81.585e-3,
+    material=Material(),
+)
+
+
+@dataclass(frozen=True)
+class BarrelLoads:
+    """Loads of one row under a radial load, and those of the closed form.
+
+    Parameters
+    ----------
+    force : float
+        Radial load on the bearing, [N].
+    displacement : float
+        Of the inner ring, [m].
+    azimuth, load, formula : float64 arrays, shape [roller]
+        [rad], [N], [N].
+    formula_displacement : float
+        [m].
+    integral_largest : float
+        Largest load by the load-zone integral instead of the sum over rollers, [N].
+    contact_angle : float64 array, shape [roller]
+        Under load at the outer raceway, nominal where a roller is free, [rad].
+    balance : float
+        Largest force that a roller's balance leaves over its load, [-].
+    searches : int
+        General searches it took.
+    """
+
+    force: float
+    displacement: float
+    azimuth: Float
+    load: Float
+    formula: Float
+    formula_displacement: float
+    integral_largest: float
+    contact_angle: Float
+    balance: float
+    searches: int
+
+
+class _Row:
+    def __init__(self, bearing: BarrelBearing) -> None:
+        self.bearing = bearing
+        self.azimuth = 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
+        self.factors = np.array([bearing.outer_contact.factor, bearing.inner_contact.factor])
+        self.searches = 0
+        self.balance = 0.0
+        self.angles = np.full(bearing.roller_count, bearing.contact_angle)
+        self._starts = bearing.starts()
+
+    def gaps(self, position: Float, shift: Float) -> tuple[Float, list[Pair], Float]:
+        """Gaps of both contacts, their pairs, and the parameters."""
+        pairs = self.bearing.pairs(position, shift)
+        prepared: Batch = batch(pairs, self._starts)
+        parameters, iterations, gap = prepared.solve()
+        self.searches += len(pairs)
+        if (iterations < 0).any():
+            raise ArithmeticError("no contact point of a barrel roller was found")
+        return gap, pairs, parameters
+
+    def wrench(self, position: Float, shift: Float) -> tuple[Float, Float, Float, float]:
+        """Radial and axial force and moment on the roller, loads, radial force on the inner ring, angle."""
+        gap, pairs, parameters = self.gaps(position, shift)
+        loads = self.factors * np.maximum(-gap, 0.0) ** POINT_EXPONENT
+        centre = pairs[0].p.place.origin
+        total, inner, angle = np.zeros(3), 0.0, self.bearing.contact_angle
+        for i, pair in enumerate(pairs):
+            frame = pair.q.frame(parameters[i, 2:4])
+            push = loads[i] * frame.vectors[2]
+            arm = pair.p.frame(parameters[i, :2]).point - centre
+            # + tilt turns the small z towards x: about -y
+            total += (push[0], push[2], -(arm[2] * push[0] - arm[0] * push[2]))
+            if i == 0:
+                angle = math.atan2(-frame.vectors[2, 2], -frame.vectors[2, 0])
+            else:
+                inner = -push[0]
+        return total, loads, np.array([inner]), angle
+
+    def roller_load(self, number: int, displacement: float) -> tuple[float, float]:
+        """Outer load of a roller in balance, and the radial force it puts on the inner ring."""
+        azimuth = float(self.azimuth[number])
+        shift = displacement * np.array([math.cos(azimuth), -math.sin(azimuth), 0.0])
+        gap, _, _ = self.gaps(np.zeros(3), shift)
+        squeeze = -float(gap.sum())
+        self.angles[number] = self.bearing.contact_angle
+        if squeeze <= 0.0:
+            return 0.0, 0.0
+        angle = self.bearing.contact_angle
+        # both contacts share the squeeze as their stiffnesses do
+        power = 1.0 / POINT_EXPONENT
+        share = self.factors[0] ** -power / (self.factors**-power).sum()
+        along = float(gap[0]) + share * squeeze
+        guess = np.array([along * math.cos(angle), along * math.sin(angle), 0.0])
+        scale = np.array([_UNIT, _UNIT, _UNIT / self.bearing.roller_length])
+        unit_load = self.bearing.pair_factor * squeeze**POINT_EXPONENT
+        force_scale = np.array([unit_load, unit_load, unit_load * self.bearing.roller_length])
+        found = root(
+            lambda y: self.wrench(y * scale, shift)[0] / force_scale, guess / scale, method="hybr", tol=1e-10
+        )
+        left, loads, inner, angle = self.wrench(found.x * scale, shift)
+        self.angles[number] = angle
+        self.balance = max(self.balance, float(np.abs(left[:2]).max() / unit_load))
+        return float(loads[0]), float(inner[0]) * math.cos(azimuth)
+
+    def loads(self, displacement: float) -> tuple[Float, float]:
+        """Loads of the row, and the load the two rows carry."""
+        count = self.bearing.roller_count
+        found = [self.roller_load(k, displacement) for k in range(count // 2 + 1)]
+        number = np.minimum(np.arange(count), count - np.arange(count))  # the other half mirrors it
+        self.angles = self.angles[number]
+        load = np.array([found[k][0] for k in number])
+        return load, -ROWS * sum(found[k][1] for k in number)
+
+
+def solve_barrel(bearing: BarrelBearing, force: float) -> BarrelLoads:
+    """Balance of the inner ring under a radial load, and the closed form beside it.
+
+    Parameters
+    ----------
+    bearing : BarrelBearing
+    force : float
+        [N].
+
+    References
+    ----------
+    Harris, T. A. (2001), ch. 7, after Sjoevall: Q_j = K (delta cos psi cos alpha - c)^1.5 for point contact
+    with the free travel c along the contact line.
+    """
+    row = _Row(bearing)
+    formula_displacement = float(
+        brentq(lambda d: _formula_loads(bearing, row.azimuth, d)[1] - force, 1e-7, 1e-3, xtol=1e-12)
+    )
+    displacement = float(
+        brentq(
+            lambda d: row.loads(d)[1] - force,
+            0.9 * formula_displacement,
+            1.1 * formula_displacement,
+            xtol=1e-10,
+        )
+    )
+    load, _ = row.loads(displacement)
+    return BarrelLoads(
+        force=force,
+        displacement=displacement,
+        azimuth=row.azimuth,
+        load=load,
+        formula=_formula_loads(bearing, row.azimuth, formula_displacement)[0],
+        formula_displacement=formula_displacement,
+        integral_largest=_integral_largest(bearing, force),
+        contact_angle=row.angles.copy(),
+        balance=row.balance,
+        searches=row.searches,
+    )
+
+
+def _formula_loads(bearing: BarrelBearing, azimuth: Float, displacement: float) -> tuple[Float, float]:
+    cosine = math.cos(bearing.contact_angle)
+    squeeze = displacement * np.cos(azimuth) * cosine - bearing.clearance
+    load = bearing.pair_factor * np.maximum(squeeze, 0.0) ** POINT_EXPONENT
+    return load, ROWS * float((load * np.cos(azimuth)).sum()) * cosine
+
+
+def _integral_largest(bearing: BarrelBearing, force: float) -> float:
+    """Largest load from the continuous load zone: the sum over very many rollers, [N]."""
+    cosine, share = math.cos(bearing.contact_angle), bearing.roller_count / _MANY
+    azimuth = 2.0 * math.pi * np.arange(_MANY) / _MANY
+    least = bearing.clearance / cosine
+    found = brentq(
+        lambda d: share * _formula_loads(bearing, azimuth, d)[1] - force, least, least + 1e-3, xtol=1e-13
+    )
+    return float(_formula_loads(bearing, azimuth, float(found))[0].max())

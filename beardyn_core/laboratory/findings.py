@@ -1,0 +1,230 @@
+"""Everything the contact laboratory finds, in one run."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.laboratory import closed_forms
+from beardyn_core.laboratory.barrel import BARREL_22317, BarrelBearing, BarrelLoads, solve_barrel
+from beardyn_core.laboratory.closed_compiled import ClosedForms
+from beardyn_core.laboratory.nine_contacts import NAMES, SEARCHES_PER_ROLLER, RollerPose, contacts_of
+from beardyn_core.laboratory.placements import loaded_row, random_rollers
+from beardyn_core.laboratory.rolling import COIN, ROLLER, Rolling, Trough, run_rolling
+from beardyn_core.laboratory.search import SURFACES, SURFACES_CROSSED, SURFACES_PRINTED, search
+from beardyn_core.laboratory.sphere_radius import SphereCase, sphere_cases
+from beardyn_core.laboratory.timing import (
+    WAYS,
+    FormResult,
+    RandomResult,
+    WayResult,
+    bearing_setting,
+    compare,
+    form_results,
+    random_results,
+)
+
+# The ancestor's run: 0.03 s. Its Runge-Kutta 4(5) made steps of 1.33 us in the mean on a copy of its model,
+# six evaluations each.
+RUN_SECONDS, MEAN_STEP, EVALUATIONS_PER_STEP = 0.03, 1.33e-6, 6
+EVALUATIONS = round(RUN_SECONDS / MEAN_STEP * EVALUATIONS_PER_STEP)
+# hours of the ancestor's Table 1, whole run
+ANCESTOR_HOURS = {"fsolve": 24.0, "numeric Newton": 8.0, "analytic Newton": 9.5}
+CONTACT_SHARE = 0.8  # of the ancestor's time, by its own estimate
+LOAD = 5.0e3
+BARREL_LOADS = (10.0e3, 25.0e3, 50.0e3, 100.0e3)
+GOOD_FRICTION = 2.0e-4  # transition speed of the run with little creep, [m/s]
+
+
+@dataclass(frozen=True)
+class LocatedContact:
+    """One of the nine contacts at the first time step, most loaded roller.
+
+    Parameters
+    ----------
+    name : str
+    abscissa : float
+        [m].
+    gap : float
+        By the general search, [m].
+    plain_difference, compiled_difference : float
+        Of the closed forms from it, [m].
+    p, q : tuple of 3 floats
+        Points found, in the frame of the roller's azimuth, [m].
+    """
+
+    name: str
+    abscissa: float
+    gap: float
+    plain_difference: float
+    compiled_difference: float
+    p: tuple[float, float, float]
+    q: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Results of a run of the laboratory.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    quick : bool
+    located : tuple of LocatedContact
+    row_difference : float
+        Largest difference of general search and closed forms over the whole row, [m].
+    by_contact : dict of name to tuple of WayResult
+        Random rollers, starts at the nominal roller.
+    random_rollers : tuple of WayResult
+        All contacts of them together.
+    whole_bearing : tuple of WayResult
+        All rollers of a row at the first time step, warm starts.
+    forms : tuple of FormResult
+    shapes : tuple of RandomResult
+    spheres : tuple of SphereCase
+    rolling : tuple of Rolling
+    barrel : BarrelBearing
+    barrel_loads : tuple of BarrelLoads
+    seconds : float
+        Wall time of all this, [s].
+    """
+
+    bearing: Bearing
+    quick: bool
+    located: tuple[LocatedContact, ...]
+    row_difference: float
+    by_contact: dict[str, tuple[WayResult, ...]]
+    random_rollers: tuple[WayResult, ...]
+    whole_bearing: tuple[WayResult, ...]
+    forms: tuple[FormResult, ...]
+    shapes: tuple[RandomResult, ...]
+    spheres: tuple[SphereCase, ...]
+    rolling: tuple[Rolling, ...]
+    barrel: BarrelBearing
+    barrel_loads: tuple[BarrelLoads, ...]
+    seconds: float
+
+    @property
+    def searches_per_evaluation(self) -> int:
+        """Of one row."""
+        return SEARCHES_PER_ROLLER * self.bearing.roller_count
+
+    def run_hours(self, result: WayResult, evaluations: int = EVALUATIONS) -> float:
+        """Contact detection of the ancestor's run of 0.03 s, [h]."""
+        return result.microseconds * 1e-6 * self.searches_per_evaluation * evaluations / 3600.0
+
+
+def locate(bearing: Bearing, pose: RollerPose) -> tuple[LocatedContact, ...]:
+    """All searches of a roller by the general search, with the closed forms beside them."""
+    compiled = ClosedForms(bearing).gaps([pose])[0]
+    found = []
+    for contact, by_kernel in zip(contacts_of(bearing, pose), compiled, strict=True):
+        here = search(contact.pair, contact.start)
+        if not here.converged:
+            raise ArithmeticError(f"{contact.name}: the general search found no contact point")
+        by_form = closed_forms.contact_gap(bearing, pose, contact)
+        found.append(
+            LocatedContact(
+                contact.name,
+                contact.abscissa,
+                here.gap,
+                by_form - here.gap,
+                float(by_kernel) - here.gap,
+                (float(here.p[0]), float(here.p[1]), float(here.p[2])),
+                (float(here.q[0]), float(here.q[1]), float(here.q[2])),
+            )
+        )
+    return tuple(found)
+
+
+def _row_difference(bearing: Bearing, row: list[RollerPose]) -> float:
+    return max(
+        max(abs(contact.plain_difference), abs(contact.compiled_difference))
+        for pose in row
+        for contact in locate(bearing, pose)
+    )
+
+
+def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = lambda _: None) -> Findings:
+    """Run the whole laboratory.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Without end play; loaded by `LOAD`.
+    quick : bool
+        Fewer placements, shorter runs.
+    say : function of a str
+        Told what comes next.
+    """
+    begun = time.perf_counter()
+    blocks, sweeps = (5, 5) if quick else (15, 20)
+    say("nine contacts at the first time step")
+    row = loaded_row(bearing, LOAD, 0.0)
+    poses = list(random_rollers(bearing, 10 if quick else 40, seed=3))
+    many = list(random_rollers(bearing, 100 if quick else 1000, seed=5))
+    located, difference = locate(bearing, row[0]), _row_difference(bearing, row)
+    say("random rollers")
+    by_contact = {
+        name: tuple(
+            compare(
+                bearing_setting(name, bearing, poses, warm=False, only=name),
+                blocks=max(3, blocks // 5),
+                sweeps=sweeps,
+            )
+        )
+        for name in NAMES
+    }
+    together = compare(
+        bearing_setting("random rollers", bearing, poses, warm=False),
+        blocks=max(3, blocks // 7),
+        sweeps=sweeps,
+    )
+    say("a whole row of the bearing")
+    whole = compare(bearing_setting("first time step", bearing, row, warm=True), blocks=blocks, sweeps=sweeps)
+    forms = form_results(bearing, many, (SURFACES_PRINTED, SURFACES_CROSSED, SURFACES))
+    say("random circles, spheres, cylinders")
+    shapes = random_results(40 if quick else 200, blocks=3, sweeps=sweeps)
+    say("roller ends of growing radius")
+    spheres = sphere_cases(bearing)
+    say("coin and roller in the trough")
+    trough = Trough()
+    little_creep = replace(trough, transition_speed=GOOD_FRICTION)
+    duration = 0.8 if quick else 1.5
+    rolling = [
+        run_rolling(COIN, trough, duration=duration),
+        run_rolling(COIN, little_creep, duration=duration),
+        run_rolling(ROLLER, trough, duration=duration),
+    ]
+    say("barrel rollers")
+    loads = [solve_barrel(BARREL_22317, force) for force in (BARREL_LOADS[:2] if quick else BARREL_LOADS)]
+    return Findings(
+        bearing=bearing,
+        quick=quick,
+        located=located,
+        row_difference=difference,
+        by_contact=by_contact,
+        random_rollers=tuple(together),
+        whole_bearing=tuple(whole),
+        forms=tuple(forms),
+        shapes=tuple(shapes),
+        spheres=tuple(spheres),
+        rolling=tuple(rolling),
+        barrel=BARREL_22317,
+        barrel_loads=tuple(loads),
+        seconds=time.perf_counter() - begun,
+    )
+
+
+def ancestor_hours(way: str) -> float | None:
+    """Of the ancestor's Table 1 for a way, [h]."""
+    return ANCESTOR_HOURS.get(way.split(",")[0]) if way in WAYS else None
+
+
+def largest_lean(run: Rolling) -> float:
+    """Of a rolling body from the trough's axis, [rad]."""
+    return float(np.max(run.lean))

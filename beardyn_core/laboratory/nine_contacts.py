@@ -1,0 +1,277 @@
+"""The nine contacts of a tapered roller as pairs of shapes.
+
+Inner, Outer, FR, FL, C2.1, C3.1, C3.2, C4.1, C4.2 as Santos (2017) names them. Frame of a roller: x
+outwards at its azimuth, y around, z along the bearing axis towards the large end, origin at the bearing
+centre. The roller is cut into discs for the raceways, so it has 19 searches.
+
+The cage is centred and its pocket lines follow the nominal roller; the face of the small rib, which the
+bearing's data do not give, leans by `SMALL_RIB_RELIEF` from the small end.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.laboratory.search import (
+    LINES_ALONG_NORMAL,
+    SURFACE_LINE,
+    SURFACES,
+    Form,
+    Pair,
+)
+from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, placed, unit
+
+Float = NDArray[np.float64]
+
+SLICES = 6
+SMALL_RIB_RELIEF = math.radians(1.0)
+NAMES = ("Inner", "Outer", "FR", "FL", "C2.1", "C3.1", "C3.2", "C4.1", "C4.2")
+SEARCHES_PER_ROLLER = 2 * SLICES + len(NAMES) - 2
+
+PAIRINGS: dict[str, tuple[str, Form]] = {
+    "Inner": ("disc of the roller, cone raceway", SURFACE_LINE),
+    "Outer": ("disc of the roller, cup raceway", SURFACE_LINE),
+    "FR": ("spherical large end, face of the large rib", SURFACES),
+    "FL": ("edge of the small end, face of the small rib", SURFACE_LINE),
+    "C2.1": ("spherical large end, pocket line", SURFACE_LINE),
+    "C3.1": ("disc of the roller, bar ahead", LINES_ALONG_NORMAL),
+    "C3.2": ("disc of the roller, bar behind", LINES_ALONG_NORMAL),
+    "C4.1": ("edge of the small end, pocket line, ahead", LINES_ALONG_NORMAL),
+    "C4.2": ("edge of the small end, pocket line, behind", LINES_ALONG_NORMAL),
+}
+
+
+@dataclass(frozen=True)
+class RollerPose:
+    """Where a roller and the cone are, in the frame of the roller's azimuth.
+
+    Parameters
+    ----------
+    centre : float64 array, shape [3]
+        Mid-length of the roller, [m].
+    axis : float64 array, shape [3]
+        Unit vector to the large end.
+    cone : float64 array, shape [3]
+        Displacement of the cone against the cup, [m].
+    """
+
+    centre: Float
+    axis: Float
+    cone: Float
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One contact search of a roller.
+
+    Parameters
+    ----------
+    name : str
+        One of `NAMES`.
+    abscissa : float
+        Of the disc from mid-length, [m]; 0 where there is none.
+    pair : Pair
+    start : float64 array
+        Parameters of the nominal roller.
+    """
+
+    name: str
+    abscissa: float
+    pair: Pair
+    start: Float
+
+
+def nominal_axis(bearing: Bearing) -> Float:
+    """Axis of the roller in its place, shape [3]."""
+    return np.array([math.sin(bearing.contact_angle), 0.0, math.cos(bearing.contact_angle)])
+
+
+def nominal_centre(bearing: Bearing) -> Float:
+    """Mid-length of the roller in its place, shape [3], [m]."""
+    return np.array([0.5 * bearing.pitch_diameter, 0.0, 0.5 * bearing.row_spacing])
+
+
+def nominal_pose(bearing: Bearing) -> RollerPose:
+    """Roller in its place: it touches both raceways and the large rib."""
+    return RollerPose(nominal_centre(bearing), nominal_axis(bearing), np.zeros(3))
+
+
+def abscissae(bearing: Bearing) -> Float:
+    """Places of the discs along the roller, shape [SLICES], [m]."""
+    return ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * bearing.effective_length
+
+
+def disc_radius(bearing: Bearing, abscissa: float) -> float:
+    """Radius of the roller cone, [m]."""
+    return (bearing.apex_distance + abscissa) * math.tan(bearing.half_angle)
+
+
+@dataclass(frozen=True)
+class RibFace:
+    """Face of a rib as a cone: components of the normal into the rib, and a point of the face.
+
+    Parameters
+    ----------
+    normal_axial, normal_radial : float
+    axial, radial : float
+        [m].
+    """
+
+    normal_axial: float
+    normal_radial: float
+    axial: float
+    radial: float
+
+    @property
+    def distance(self) -> float:
+        """Of the face along its normal, [m]."""
+        return self.axial * self.normal_axial + self.radial * self.normal_radial
+
+    def shape(self, cone: Float) -> Cone:
+        """The face with the cone displaced."""
+        angle = math.atan2(-self.normal_axial, self.normal_radial)
+        return Cone(placed(cone + np.array([0.0, 0.0, self.axial]), (0, 0, 1)), self.radial, angle, -1.0)
+
+
+def large_rib(bearing: Bearing) -> RibFace:
+    """Face of the large rib through the nominal contact."""
+    lean = bearing.contact_angle - bearing.rib_polar_angle
+    centre = nominal_centre(bearing) + bearing.sphere_centre * nominal_axis(bearing)
+    return RibFace(
+        math.cos(lean),
+        math.sin(lean),
+        centre[2] + bearing.sphere_radius * math.cos(lean),
+        centre[0] + bearing.sphere_radius * math.sin(lean),
+    )
+
+
+def small_rib(bearing: Bearing) -> RibFace:
+    """Face of the small rib: through the lowest point of the small end, less the clearance."""
+    lean = bearing.contact_angle + SMALL_RIB_RELIEF
+    along = -0.5 * bearing.roller_length - bearing.small_rib_clearance
+    point = nominal_centre(bearing) + along * nominal_axis(bearing)
+    below = bearing.small_end_radius
+    return RibFace(
+        -math.cos(lean),
+        -math.sin(lean),
+        point[2] + below * math.sin(bearing.contact_angle),
+        point[0] - below * math.cos(bearing.contact_angle),
+    )
+
+
+def end_sphere(bearing: Bearing, pose: RollerPose) -> Arc:
+    """Spherical large end, swept about the roller axis as in the text."""
+    centre = pose.centre + bearing.sphere_centre * pose.axis
+    return Arc(placed(centre, pose.axis), 0.0, bearing.sphere_radius)
+
+
+def crown_sphere(bearing: Bearing, pose: RollerPose) -> Arc:
+    """The same sphere swept about an axis across the roller: at its crown the other has a pole."""
+    centre = pose.centre + bearing.sphere_centre * pose.axis
+    return Arc(placed(centre, (0.0, 1.0, 0.0), pose.axis), 0.0, bearing.sphere_radius)
+
+
+def raceway(bearing: Bearing, name: str, cone: Float) -> Cone:
+    """Raceway of the cone (``Inner``) or the cup (``Outer``)."""
+    angle, side = (bearing.cone_angle, 1.0) if name == "Inner" else (bearing.cup_angle, -1.0)
+    apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
+    origin = np.array([0.0, 0.0, apex]) + (cone if name == "Inner" else 0.0)
+    return Cone(placed(origin, (0, 0, 1)), 0.0, angle, side)
+
+
+def disc(bearing: Bearing, pose: RollerPose, abscissa: float) -> Circle:
+    """Edge of a disc of the roller."""
+    return Circle(placed(pose.centre + abscissa * pose.axis, pose.axis), disc_radius(bearing, abscissa))
+
+
+def pocket_line(bearing: Bearing, name: str) -> Straight:
+    """Line of the pocket that a contact of the cage meets."""
+    centre, axis = nominal_centre(bearing), nominal_axis(bearing)
+    ahead = np.array([0.0, 1.0, 0.0])
+    if name in ("C3.1", "C3.2"):
+        side = 1.0 if name == "C3.1" else -1.0
+        reach = disc_radius(bearing, 0.0) + 0.5 * bearing.cage.circumferential_clearance
+        slope = side * math.tan(bearing.half_angle)
+        return Straight(placed(centre + side * reach * ahead, axis + slope * ahead, -side * ahead))
+    play = 0.5 * bearing.cage.axial_clearance
+    if name == "C2.1":
+        place = bearing.sphere_centre + bearing.sphere_radius + play
+        return Straight(placed(centre + place * axis, ahead, -axis))
+    return Straight(placed(centre - (0.5 * bearing.roller_length + play) * axis, ahead, axis))
+
+
+def pairs_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -> list[tuple[str, float, Pair]]:
+    """Name, abscissa and pair of all searches of a roller."""
+    found: list[tuple[str, float, Pair]] = []
+
+    def add(name: str, abscissa: float, p: Shape, q: Shape) -> None:
+        form = surfaces if name == "FR" else PAIRINGS[name][1]
+        found.append((name, abscissa, Pair(p, q, form)))
+
+    for name in ("Inner", "Outer"):
+        ring = raceway(bearing, name, pose.cone)
+        for abscissa in abscissae(bearing):
+            add(name, float(abscissa), disc(bearing, pose, float(abscissa)), ring)
+    add("FR", 0.0, end_sphere(bearing, pose), large_rib(bearing).shape(pose.cone))
+    end = pose.centre - 0.5 * bearing.roller_length * pose.axis
+    here = placed(end, pose.axis)
+    add("FL", 0.0, Circle(here, bearing.small_end_radius), small_rib(bearing).shape(pose.cone))
+    add("C2.1", 0.0, pocket_line(bearing, "C2.1"), crown_sphere(bearing, pose))
+    for name in ("C3.1", "C3.2"):
+        add(name, 0.0, pocket_line(bearing, name), disc(bearing, pose, 0.0))
+    for name in ("C4.1", "C4.2"):
+        # the end looks away from the large end
+        add(name, 0.0, pocket_line(bearing, name), FaceCircle(here, bearing.small_end_radius, -1.0))
+    return found
+
+
+def nominal_starts(bearing: Bearing) -> list[Float]:
+    """Parameters of the contacts of the nominal roller, in the order of `pairs_of`."""
+    apex, phi = bearing.apex_distance, bearing.half_angle
+    # the angle pi of a placement with east = x is the side of the bearing axis
+    raceways = [
+        np.array([angle, (apex + x) / math.cos(phi), 0.0])
+        for angle in (math.pi, 0.0)
+        for x in abscissae(bearing)
+    ]
+    polar = bearing.rib_polar_angle
+    return [
+        *raceways,
+        np.array([0.5 * math.pi - polar, math.pi, 0.0, 0.0]),
+        np.array([math.pi, 0.0, 0.0]),
+        np.array([0.0, 0.0, 0.0]),
+        np.array([0.0, 0.5 * math.pi]),
+        np.array([0.0, -0.5 * math.pi]),
+        np.array([bearing.small_end_radius, 0.5 * math.pi]),
+        np.array([-bearing.small_end_radius, -0.5 * math.pi]),
+    ]
+
+
+def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -> list[Contact]:
+    """All searches of a roller with the starts of the nominal roller.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    pose : RollerPose
+    surfaces : Form
+        Conditions for the one surface-surface contact, FR.
+    """
+    return [
+        Contact(name, abscissa, pair, start)
+        for (name, abscissa, pair), start in zip(
+            pairs_of(bearing, pose, surfaces), nominal_starts(bearing), strict=True
+        )
+    ]
+
+
+def turned(pose: RollerPose, tilt: float, skew: float) -> RollerPose:
+    """Pose with its axis turned in the meridian plane (+: large end outwards) and out of it (+: y)."""
+    across = np.cross(np.array([0.0, 1.0, 0.0]), pose.axis)
+    axis = unit(pose.axis + tilt * across + skew * np.array([0.0, 1.0, 0.0]))
+    return RollerPose(pose.centre, axis, pose.cone)

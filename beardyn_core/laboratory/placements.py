@@ -1,0 +1,169 @@
+"""Placements to search in: simple shapes at random, rollers at random, and all rollers of a loaded row."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.integrate.static import solve
+from beardyn_core.laboratory import closed_forms
+from beardyn_core.laboratory.nine_contacts import RollerPose, nominal_centre, nominal_pose, turned
+from beardyn_core.laboratory.search import LINES, SURFACE_LINE, SURFACES, Form, Pair
+from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Placement, Shape, Straight, placed
+
+Float = NDArray[np.float64]
+Random = np.random.Generator
+
+_SHIFT, _TURN = 50e-6, 2e-3  # of a roller at random: +-, [m] and [rad]
+_CONE_SHIFT = 30e-6
+
+
+def random_place(random: Random, reach: float = 0.0) -> Placement:
+    """Any direction, and an origin within a cube of twice ``reach``."""
+    return placed(random.uniform(-reach, reach, 3), random.normal(size=3), random.normal(size=3))
+
+
+def _apart(random: Random) -> Float:
+    """A place 8 to 12 cm from the origin."""
+    direction = random.normal(size=3)
+    return random.uniform(0.08, 0.12) * direction / np.linalg.norm(direction)
+
+
+def _sphere(random: Random) -> Arc:
+    return Arc(random_place(random), 0.0, random.uniform(0.01, 0.03))
+
+
+def _circle(random: Random) -> Circle:
+    return Circle(random_place(random), random.uniform(0.01, 0.03))
+
+
+def _cylinder(random: Random) -> Cone:
+    return Cone(random_place(random), random.uniform(0.01, 0.03))
+
+
+def _line(random: Random) -> Straight:
+    return Straight(random_place(random))
+
+
+def _moved(shape: Shape, origin: Float) -> Shape:
+    from dataclasses import replace
+
+    return replace(shape, place=replace(shape.place, origin=origin))
+
+
+@dataclass(frozen=True)
+class RandomCase:
+    """A pair of simple shapes apart from each other.
+
+    Parameters
+    ----------
+    name : str
+    form : Form
+    p, q : functions that draw a shape
+        P is then moved away from Q.
+    truth : function of both shapes
+        Least distance, [m].
+    """
+
+    name: str
+    form: Form
+    p: Callable[[Random], Shape]
+    q: Callable[[Random], Shape]
+    truth: Callable[..., float]
+
+    def draw(self, random: Random) -> Pair:
+        """One placement."""
+        q = self.q(random)
+        return Pair(_moved(self.p(random), _apart(random)), q, self.form)
+
+
+def _circle_cylinder_gap(p: Circle, q: Cone) -> float:
+    axis = Straight(q.place)
+    return closed_forms.least_along(p, lambda point: closed_forms.line_distance(axis, point)) - q.radius
+
+
+def _circles_gap(p: Circle, q: Circle) -> float:
+    def distance(point: Float) -> float:
+        arm = point - q.place.origin
+        along = float(arm @ q.place.pole)
+        across = arm - along * q.place.pole
+        return math.hypot(along, float(np.sqrt(across @ across)) - q.radius)
+
+    return closed_forms.least_along(p, distance)
+
+
+RANDOM_CASES = (
+    RandomCase("sphere, sphere", SURFACES, _sphere, _sphere, closed_forms.sphere_sphere_gap),
+    RandomCase("sphere, cylinder", SURFACES, _sphere, _cylinder, closed_forms.sphere_cylinder_gap),
+    RandomCase("cylinder, cylinder", SURFACES, _cylinder, _cylinder, closed_forms.cylinders_gap),
+    RandomCase("circle, sphere", SURFACE_LINE, _circle, _sphere, closed_forms.circle_sphere_gap),
+    RandomCase("circle, cylinder", SURFACE_LINE, _circle, _cylinder, _circle_cylinder_gap),
+    RandomCase("circle, circle", LINES, _circle, _circle, _circles_gap),
+    RandomCase("line, line", LINES, _line, _line, closed_forms.lines_gap),
+)
+
+
+def near_start(pair: Pair) -> Float:
+    """Parameters of P nearest to Q's origin, and of Q nearest to that point of P."""
+    first = pair.p.nearest_parameters(pair.q.place.origin)
+    return np.concatenate([first, pair.q.nearest_parameters(pair.p.frame(first).point)])
+
+
+def random_start(pair: Pair, random: Random) -> Float:
+    """Any angles, and lengths within 10 cm."""
+
+    def of(shape: Shape) -> Float:
+        angles = random.uniform(-math.pi, math.pi, shape.parameter_count)
+        if isinstance(shape, (Cone, Straight)):
+            angles[0] = random.uniform(-0.1, 0.1)
+        return angles
+
+    return np.concatenate([of(pair.p), of(pair.q)])
+
+
+def random_rollers(bearing: Bearing, count: int, seed: int) -> Iterator[RollerPose]:
+    """Rollers shifted and turned at random about their place, and the cone shifted."""
+    random = np.random.default_rng(seed)
+    nominal = nominal_pose(bearing)
+    for _ in range(count):
+        shifted = RollerPose(
+            nominal.centre + random.uniform(-_SHIFT, _SHIFT, 3),
+            nominal.axis,
+            random.uniform(-_CONE_SHIFT, _CONE_SHIFT, 3),
+        )
+        tilt, skew = random.uniform(-_TURN, _TURN, 2)
+        yield turned(shifted, float(tilt), float(skew))
+
+
+def loaded_row(bearing: Bearing, force: float, end_play: float) -> list[RollerPose]:
+    """Rollers of the row at +y at the first time step: static equilibrium under a radial load.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    force : float
+        Radial, on the cone, [N].
+    end_play : float
+        [m].
+    """
+    static = solve(bearing, (0.0, 0.0, force), end_play=end_play, laminae=6)
+    nominal, poses = nominal_pose(bearing), []
+    centre = nominal_centre(bearing)
+    # with end play the cup is that much farther along the axle
+    play = np.array([0.0, 0.0, 0.5 * end_play])
+    for k in range(bearing.roller_count):
+        azimuth = 2.0 * math.pi * k / bearing.roller_count
+        sine, cosine = math.sin(azimuth), math.cos(azimuth)
+        x, y, z = static.displacement
+        pose = RollerPose(
+            centre + np.array([static.roller_radial[1, k], 0.0, static.roller_axial[1, k]]) + play,
+            nominal.axis,
+            np.array([x * sine + z * cosine, x * cosine - z * sine, y]) + play,
+        )
+        poses.append(turned(pose, float(static.roller_tilt[1, k]), 0.0))
+    return poses

@@ -1,0 +1,205 @@
+"""The general contact search: conditions of least distance as equations, and three ways to solve them.
+
+P lies on body i and Q on body j, d = r_P - r_Q. A form is a list of scalar products that must vanish; it
+suits a pair of shape kinds. Plain NumPy, one pair at a time; `compiled` holds the same search compiled.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import fsolve
+
+from beardyn_core.laboratory.shapes import Shape
+
+Float = NDArray[np.float64]
+Method = Literal["fsolve", "numeric", "analytic"]
+
+# rows of the table of vectors
+D, T_P, B_P, N_P, T_Q, B_Q, N_Q = range(7)
+ROWS = 7
+
+TOLERANCE = 1e-11  # of a scalar product: [-], or [m] with d
+MOST_ITERATIONS = 30
+DIFFERENCE = 1e-7  # of a parameter for the numeric Jacobian, [rad] or [m]
+
+
+@dataclass(frozen=True)
+class Form:
+    """One set of conditions.
+
+    Parameters
+    ----------
+    name : str
+    equations : tuple of pairs of rows
+        Whose scalar products vanish.
+    signed : bool
+        The gap is d . n_Q, negative inside the body; otherwise it is the length of d.
+    """
+
+    name: str
+    equations: tuple[tuple[int, int], ...]
+    signed: bool = True
+
+    def coded(self) -> NDArray[np.int64]:
+        """Equations as an array, shape [4, 2], unused rows -1."""
+        found = np.full((4, 2), -1, dtype=np.int64)
+        found[: len(self.equations)] = self.equations
+        return found
+
+
+# Eq. (3) as printed, with t along the meridian and b around the axis on both surfaces
+SURFACES_PRINTED = Form("surface-surface, as printed", ((N_Q, T_P), (D, B_P), (N_P, T_Q), (D, B_Q)))
+# Eq. (3) with t and b of Q exchanged
+SURFACES_CROSSED = Form(
+    "surface-surface, t and b of Q exchanged", ((N_Q, T_P), (D, B_P), (N_P, B_Q), (D, T_Q))
+)
+# parallel normals, and d along the normal of Q
+SURFACES = Form("surface-surface, parallel normals", ((N_Q, T_P), (N_Q, B_P), (D, T_Q), (D, B_Q)))
+# Eq. (4)
+SURFACE_LINE = Form("surface-line", ((N_Q, T_P), (D, T_Q), (D, B_Q)))
+# Eq. (5), first form: one displacement condition for each line
+LINES = Form("line-line, least distance", ((D, T_P), (D, T_Q)), signed=False)
+# Eq. (5), second form: d along the normal of Q
+LINES_ALONG_NORMAL = Form("line-line, along the normal", ((D, B_Q), (D, T_Q)))
+FORMS = (SURFACES_PRINTED, SURFACES_CROSSED, SURFACES, SURFACE_LINE, LINES, LINES_ALONG_NORMAL)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two shapes that may touch.
+
+    Parameters
+    ----------
+    p, q : Shape
+    form : Form
+    """
+
+    p: Shape
+    q: Shape
+    form: Form
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search found.
+
+    Parameters
+    ----------
+    parameters : float64 array
+        Of P, then of Q.
+    iterations : int
+        Newton steps, or evaluations of the root finder.
+    converged : bool
+    gap : float
+        d . n_Q, or the length of d, [m].
+    p, q : float64 array, shape [3]
+        The points, [m].
+    """
+
+    parameters: Float
+    iterations: int
+    converged: bool
+    gap: float
+    p: Float
+    q: Float
+
+
+def vectors(pair: Pair, parameters: Float) -> Float:
+    """Rows d, t_P, b_P, n_P, t_Q, b_Q, n_Q, shape [ROWS, 3]."""
+    cut = pair.p.parameter_count
+    p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
+    return np.concatenate([[p.point - q.point], p.vectors, q.vectors])
+
+
+def residual(pair: Pair, parameters: Float) -> Float:
+    """Scalar products that must vanish."""
+    table = vectors(pair, parameters)
+    return np.array([table[a] @ table[b] for a, b in pair.form.equations])
+
+
+def jacobian(pair: Pair, parameters: Float) -> Float:
+    """Derivatives of the residual, shape [equation, parameter]."""
+    cut = pair.p.parameter_count
+    p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
+    table = np.concatenate([[p.point - q.point], p.vectors, q.vectors])
+    slopes = np.zeros((len(parameters), ROWS, 3))
+    slopes[:cut, D] = p.point_slopes
+    slopes[:cut, T_P : N_P + 1] = p.vector_slopes
+    slopes[cut:, D] = -q.point_slopes
+    slopes[cut:, T_Q : N_Q + 1] = q.vector_slopes
+    return np.array([slopes[:, a] @ table[b] + slopes[:, b] @ table[a] for a, b in pair.form.equations])
+
+
+def numeric_jacobian(pair: Pair, parameters: Float, here: Float) -> Float:
+    """The same by forward differences; ``here`` is the residual at ``parameters``."""
+    found = np.empty((here.size, parameters.size))
+    for i in range(parameters.size):
+        moved = parameters.copy()
+        moved[i] += DIFFERENCE
+        found[:, i] = (residual(pair, moved) - here) / DIFFERENCE
+    return found
+
+
+def search(pair: Pair, start: ArrayLike, method: Method = "analytic") -> Found:
+    """Solve the conditions of a pair from a start.
+
+    Parameters
+    ----------
+    pair : Pair
+    start : array_like
+        Parameters of P, then of Q.
+    method : str
+        ``fsolve`` (SciPy's root finder, numeric Jacobian), ``numeric`` or ``analytic`` (Newton).
+
+    Returns
+    -------
+    Found
+    """
+    parameters = np.array(start, dtype=np.float64)
+    if method == "fsolve":
+        return _by_root_finder(pair, parameters)
+    for iteration in range(MOST_ITERATIONS):
+        here = residual(pair, parameters)
+        if not np.isfinite(here).all():
+            break
+        if np.abs(here).max() < TOLERANCE:
+            return found_at(pair, parameters, iteration, True)
+        if method == "analytic":
+            slopes = jacobian(pair, parameters)
+        else:
+            slopes = numeric_jacobian(pair, parameters, here)
+        try:
+            parameters = parameters - np.linalg.solve(slopes, here)
+        except np.linalg.LinAlgError:
+            return found_at(pair, parameters, iteration, False)
+    return found_at(pair, parameters, MOST_ITERATIONS, False)
+
+
+def _by_root_finder(pair: Pair, parameters: Float) -> Found:
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # it warns of slow progress; `converged` says so here
+        root, info, _flag, _text = fsolve(
+            lambda x: residual(pair, x), parameters, full_output=True, xtol=1e-13
+        )
+    return found_at(pair, root, int(info["nfev"]), bool(np.abs(info["fvec"]).max() < 1e-9))
+
+
+def found_at(pair: Pair, parameters: Float, iterations: int, converged: bool) -> Found:
+    """Points and gap at parameters."""
+    cut = pair.p.parameter_count
+    with np.errstate(all="ignore"):
+        p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
+    between = p.point - q.point
+    gap = float(between @ q.vectors[2]) if pair.form.signed else float(np.sqrt(between @ between))
+    return Found(parameters, iterations, converged, gap, p.point, q.point)
+
+
+def condition_number(pair: Pair, parameters: Float) -> float:
+    """Of the Jacobian; infinite where the conditions do not fix the points."""
+    return float(np.linalg.cond(jacobian(pair, parameters)))

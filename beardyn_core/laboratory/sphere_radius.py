@@ -1,0 +1,177 @@
+"""The roller end whose sphere is too large for its rib: where the general search puts the contact.
+
+The rib face stays that of the sound bearing; only the radius of the roller end grows, and the roller moves
+along its axis until the sphere it is drawn with touches the face. The search knows neither the edges of the
+rib face nor the rim of the roller end, so its contact wanders off both. The kernel of the twin bounds both.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from beardyn_core.bearing.consistency import check
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.jit import entry
+from beardyn_core.kernels.rib_gap import rib_gap
+from beardyn_core.laboratory.closed_compiled import rib_face_params
+from beardyn_core.laboratory.nine_contacts import RibFace, RollerPose, end_sphere, large_rib, nominal_pose
+from beardyn_core.laboratory.search import SURFACES, Pair, condition_number, search
+from beardyn_core.model.guide_parameters import RibEndParams, RibWindowParams
+
+Float = NDArray[np.float64]
+SPHERE_RATIOS = (0.80, 0.85, 0.90, 0.95, 1.00, 1.05, 1.20)
+PUSH = 10e-6  # how far the roller is pushed into the rib, [m]
+SKEW = 0.5e-3  # of the roller, [rad]: at an even placement a search may sit on what it cannot hold
+_ROUNDING = 0.2e-3
+_SMALLEST_BEND = 0.01
+_LONGEST_MOVE = 2e-3
+
+
+@dataclass(frozen=True)
+class SphereCase:
+    """One radius of the roller end.
+
+    Parameters
+    ----------
+    ratio : float
+        Sphere radius over the distance from the apex to the edge of the large end, [-].
+    radius : float
+        [m].
+    search_height, bounded_height : float
+        Of the contact over the cone raceway, by the general search and by the bounded closed form, [m].
+    search_gap : float
+        Of the general search with the roller pushed in, [m].
+    search_converged : bool
+    condition : float
+        Of its Jacobian.
+    on_face, in_rim : bool
+        Whether its contact lies on the rib face, and within the rim of the roller end.
+    bounded_depth : float
+        Penetration of the bounded closed form, [m].
+    carried_by : str
+        Part that bears in the bounded closed form: ``face``, ``edge of the face`` or ``rim``.
+    refused : bool
+        Whether the consistency check of the bearing refuses this radius.
+    """
+
+    ratio: float
+    radius: float
+    search_height: float
+    bounded_height: float
+    search_gap: float
+    search_converged: bool
+    condition: float
+    on_face: bool
+    in_rim: bool
+    bounded_depth: float
+    carried_by: str
+    refused: bool
+
+
+@entry
+def bounded_contact(centre: Any, axis: Any, rib: Any, window: Any, end: Any, out: Any) -> None:
+    """Depth, normal and arm of the rib contact with edges and rim to ``out`` [7]."""
+    depth, normal, arm = rib_gap(
+        (centre[0], centre[1], centre[2]), (axis[0], axis[1], axis[2]), (0.0, 0.0, 1.0), rib, window, end
+    )
+    out[0] = depth
+    for i in range(3):
+        out[1 + i], out[4 + i] = normal[i], arm[i]
+
+
+def with_sphere(bearing: Bearing, ratio: float) -> Bearing:
+    """The bearing with another sphere on its rollers; its rib would follow, so use the face of the first."""
+    return replace(bearing, sphere_ratio=ratio, forced=True)
+
+
+def _contact_height(bearing: Bearing, pose: RollerPose, point: Float) -> float:
+    """Of a point over the cone raceway, square to the roller axis, [m]."""
+    arm = point - pose.centre
+    across = arm - (arm @ pose.axis) * pose.axis
+    inwards = -float(across[0]) / math.hypot(pose.axis[2], 0.0)
+    return bearing.large_end_radius - inwards
+
+
+def _window(bearing: Bearing, face: RibFace) -> RibWindowParams:
+    nominal = face.radial * face.normal_axial - face.axial * face.normal_radial
+    along = 1.0 / math.cos(bearing.rib_polar_angle)
+    low = nominal + (bearing.rib_undercut - bearing.rib_contact_height) * along + _ROUNDING
+    high = nominal + (bearing.rib_height - bearing.rib_contact_height) * along - _ROUNDING
+    return RibWindowParams(low, high, _ROUNDING)
+
+
+def _end(bearing: Bearing, case: Bearing) -> RibEndParams:
+    radius = bearing.large_end_radius - bearing.roller_chamfer
+    ahead = math.sqrt(case.sphere_radius**2 - radius**2)
+    return RibEndParams(
+        radius=radius,
+        place=case.sphere_centre + ahead,
+        cosine=ahead / case.sphere_radius,
+        smallest_bend=_SMALLEST_BEND * math.sin(bearing.rib_polar_angle),
+    )
+
+
+def _moved(pose: RollerPose, along: float) -> RollerPose:
+    return RollerPose(pose.centre + along * pose.axis, pose.axis, pose.cone)
+
+
+def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
+    """What both methods find for one sphere on the rib of a sound bearing.
+
+    The roller, skewed by `SKEW`, is moved along its axis until the bounded roller end just touches, then
+    pushed in by `PUSH`.
+    """
+    case = with_sphere(bearing, ratio)
+    face = large_rib(bearing)
+    rib = rib_face_params(face, case.sphere_radius, case.sphere_centre)
+    window, end = _window(bearing, face), _end(bearing, case)
+    nominal = nominal_pose(bearing)
+    axis = nominal.axis + np.array([0.0, SKEW, 0.0])
+    nominal = RollerPose(nominal.centre, axis / np.linalg.norm(axis), nominal.cone)
+    out = np.zeros(7)
+
+    def depth(along: float) -> float:
+        pose = _moved(nominal, along)
+        bounded_contact(pose.centre, pose.axis, rib, window, end, out)
+        return float(out[0])
+
+    touch = brentq(depth, -_LONGEST_MOVE, _LONGEST_MOVE, xtol=1e-15)
+    pose = _moved(nominal, float(touch) + PUSH)
+    bounded = depth(float(touch) + PUSH)
+    pair = Pair(end_sphere(case, pose), face.shape(pose.cone), SURFACES)
+    found = search(pair, np.array([0.5 * math.pi - bearing.rib_polar_angle, math.pi, 0.0, 0.0]))
+    height = _contact_height(bearing, pose, found.p)
+    rim = bearing.large_end_radius - bearing.roller_chamfer
+    arm = found.p - pose.centre
+    off_axis = float(np.linalg.norm(arm - (arm @ pose.axis) * pose.axis))
+    outside = "face"
+    normal, place = out[1:4], out[4:7]
+    if normal @ pose.axis < end.cosine:
+        outside = "rim"
+    elif abs(normal[2] - face.normal_axial) > 1e-4:
+        outside = "edge of the face"
+    return SphereCase(
+        ratio=ratio,
+        radius=case.sphere_radius,
+        search_height=height,
+        bounded_height=_contact_height(bearing, pose, pose.centre + place),
+        search_gap=found.gap,
+        search_converged=found.converged,
+        condition=condition_number(pair, found.parameters) if found.converged else math.inf,
+        on_face=found.converged and bearing.rib_undercut <= height <= bearing.rib_height,
+        in_rim=found.converged and off_axis <= rim,
+        bounded_depth=bounded,
+        carried_by=outside,
+        refused=bool(check(replace(case, forced=False))),
+    )
+
+
+def sphere_cases(bearing: Bearing) -> list[SphereCase]:
+    """All of `SPHERE_RATIOS`."""
+    return [sphere_case(bearing, ratio) for ratio in SPHERE_RATIOS]

@@ -1,0 +1,362 @@
+"""Time, iterations, failures and gap errors of every way to find the contacts.
+
+Times are of the processor, not of the wall, and ways are timed block by block in turn, so that a busy machine
+disturbs little and meets all of them alike; medians.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import fsolve
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.laboratory import closed_forms
+from beardyn_core.laboratory.closed_compiled import ClosedForms, pose_rows
+from beardyn_core.laboratory.compiled import WORK_NUMBERS, Batch, batch, pair_residual
+from beardyn_core.laboratory.nine_contacts import (
+    SEARCHES_PER_ROLLER,
+    Contact,
+    RollerPose,
+    contacts_of,
+    nominal_pose,
+)
+from beardyn_core.laboratory.placements import RANDOM_CASES, RandomCase, near_start, random_start
+from beardyn_core.laboratory.search import SURFACES, Form, Pair, condition_number, search
+from beardyn_core.laboratory.shapes import Cone, Shape, Straight
+
+Float = NDArray[np.float64]
+
+WAYS = (
+    "fsolve, plain",
+    "numeric Newton, plain",
+    "analytic Newton, plain",
+    "closed form, plain",
+    "fsolve, compiled equations",
+    "numeric Newton, compiled",
+    "analytic Newton, compiled",
+    "closed form, compiled",
+)
+FAILURE = 1e-9  # a gap that is farther off is a failure, [m]
+# from one evaluation to the next a disc turns by about this, and a body moves by this
+WARM_TURN, WARM_SHIFT = 1e-3, 1e-6
+_PLAIN_METHODS = {WAYS[0]: "fsolve", WAYS[1]: "numeric", WAYS[2]: "analytic"}
+
+
+@dataclass(frozen=True)
+class WayResult:
+    """What one way did on a set of pairs.
+
+    Parameters
+    ----------
+    way : str
+        One of `WAYS`.
+    microseconds : float
+        Per search, median over blocks.
+    iterations : float or None
+        Mean; evaluations of the residual for fsolve; none for closed forms.
+    failures : float
+        Share that did not converge or is off by more than `FAILURE`, [-].
+    largest_error : float
+        Of the gap, among those that did not fail, [m].
+    """
+
+    way: str
+    microseconds: float
+    iterations: float | None
+    failures: float
+    largest_error: float
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Pairs with starts and true gaps, for all ways.
+
+    Parameters
+    ----------
+    name : str
+    pairs : tuple of Pair
+    starts : tuple of float64 arrays
+    truth : float64 array, shape [pair]
+        [m].
+    plain_closed, compiled_closed : functions of no argument, or None
+        Give all gaps; those of the closed forms.
+    closed_compiled_in_place : function of no argument, or None
+        The same for timing.
+    """
+
+    name: str
+    pairs: tuple[Pair, ...]
+    starts: tuple[Float, ...]
+    truth: Float
+    plain_closed: Callable[[], Float] | None = None
+    compiled_closed: Callable[[], Float] | None = None
+    closed_compiled_in_place: Callable[[], None] | None = None
+
+
+def _rated(
+    way: str, seconds: list[float], count: int, found: tuple[Float, Float | None], truth: Float
+) -> WayResult:
+    gaps, iterations = found
+    error = np.abs(gaps - truth)
+    good = error <= FAILURE
+    if iterations is not None:
+        good &= iterations >= 0
+    return WayResult(
+        way,
+        1e6 * float(np.median(seconds)) / count,
+        None
+        if iterations is None or not (iterations >= 0).any()
+        else float(iterations[iterations >= 0].mean()),
+        float(1.0 - good.mean()),
+        float(error[good].max()) if good.any() else float("nan"),
+    )
+
+
+def compare(setting: Setting, *, blocks: int, sweeps: int, ways: Sequence[str] = WAYS) -> list[WayResult]:
+    """Run all ways on a setting.
+
+    Parameters
+    ----------
+    setting : Setting
+    blocks : int
+        Timed blocks of each way, in turn.
+    sweeps : int
+        Sweeps over all pairs in a block of a compiled way; plain ways make one.
+    ways : sequence of str
+
+    Returns
+    -------
+    list of WayResult
+    """
+    arrays = batch(setting.pairs, setting.starts)
+    x, out = np.zeros((len(setting.pairs), 4)), np.zeros((len(setting.pairs), 2))
+    jobs: dict[str, tuple[Callable[[], object], int]] = {}
+    results: dict[str, tuple[Float, Float | None]] = {}
+    for way in ways:
+        if way in _PLAIN_METHODS:
+            method = _PLAIN_METHODS[way]
+            jobs[way] = (partial(_plain, setting, method), 1)
+            results[way] = _plain(setting, method)
+        elif way == WAYS[4]:
+            jobs[way] = (partial(_root_finder_compiled, setting, arrays), 1)
+            results[way] = _root_finder_compiled(setting, arrays)
+        elif way in (WAYS[5], WAYS[6]):
+            analytic = way == WAYS[6]
+            jobs[way] = (partial(arrays.solve_into, x, out, analytic=analytic), sweeps)
+            _, iterations, gaps = arrays.solve(analytic=analytic)
+            results[way] = gaps, iterations.astype(float)
+        elif way == WAYS[3] and setting.plain_closed is not None:
+            jobs[way] = (setting.plain_closed, 1)
+            results[way] = setting.plain_closed(), None
+        elif way == WAYS[7] and setting.compiled_closed is not None:
+            assert setting.closed_compiled_in_place is not None
+            jobs[way] = (setting.closed_compiled_in_place, 10 * sweeps)
+            results[way] = setting.compiled_closed(), None
+    seconds: dict[str, list[float]] = {way: [] for way in jobs}
+    for _ in range(blocks):
+        for way, (job, times) in jobs.items():
+            begun = time.thread_time()
+            for _ in range(times):
+                job()
+            seconds[way].append((time.thread_time() - begun) / times)
+    return [_rated(way, seconds[way], len(setting.pairs), results[way], setting.truth) for way in jobs]
+
+
+def _plain(setting: Setting, method: str) -> tuple[Float, Float]:
+    gaps, iterations = np.empty(len(setting.pairs)), np.empty(len(setting.pairs))
+    for i, (pair, start) in enumerate(zip(setting.pairs, setting.starts, strict=True)):
+        found = search(pair, start, method)  # type: ignore[arg-type]
+        gaps[i] = found.gap
+        iterations[i] = found.iterations if found.converged else -1
+    return gaps, iterations
+
+
+def _root_finder_compiled(setting: Setting, arrays: Batch) -> tuple[Float, Float]:
+    """SciPy's root finder with the compiled residual."""
+    import warnings
+
+    gaps, iterations = np.empty(len(setting.pairs)), np.empty(len(setting.pairs))
+    work, moved = np.zeros(WORK_NUMBERS), np.zeros(4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        for i, start in enumerate(setting.starts):
+            count = int(arrays.counts[i])
+            constants = arrays.p[i], arrays.q[i], arrays.cut[i], arrays.forms[i], count
+            value = np.empty(count)
+
+            equations = partial(_compiled_residual, constants, moved, work, value)
+            root, info, _, _ = fsolve(equations, start, full_output=True, xtol=1e-13)
+            left = float(np.abs(equations(root)).max())
+            gaps[i] = work[:3] @ work[18:21] if arrays.signed[i] else np.sqrt(work[:3] @ work[:3])
+            iterations[i] = info["nfev"] if left < 1e-9 else -1
+    return gaps, iterations
+
+
+def _compiled_residual(
+    constants: tuple[Any, ...], moved: Float, work: Float, value: Float, parameters: Float
+) -> Float:
+    moved[: len(parameters)] = parameters
+    pair_residual(*constants, moved, work, value)
+    return value.copy()
+
+
+def warm_start(shape: Shape, parameters: Float, random: np.random.Generator) -> Float:
+    """Parameters an evaluation earlier: `WARM_TURN` and `WARM_SHIFT` away, either way."""
+    away = np.full(parameters.size, WARM_TURN)
+    if isinstance(shape, (Cone, Straight)):
+        away[0] = WARM_SHIFT
+    return parameters + away * random.choice([-1.0, 1.0], parameters.size)
+
+
+def bearing_setting(
+    name: str, bearing: Bearing, poses: Sequence[RollerPose], *, warm: bool, only: str | None = None
+) -> Setting:
+    """All searches of many rollers, or those of one contact.
+
+    Parameters
+    ----------
+    name : str
+    bearing : Bearing
+    poses : sequence of RollerPose
+    warm : bool
+        Start near the solution, as a time step does; otherwise from the nominal roller.
+    only : str, optional
+        One of `NAMES`.
+    """
+    random = np.random.default_rng(7)
+    chosen: list[tuple[int, Contact]] = []
+    for i, pose in enumerate(poses):
+        chosen += [(i, contact) for contact in contacts_of(bearing, pose) if only in (None, contact.name)]
+    pairs = tuple(contact.pair for _, contact in chosen)
+    starts = tuple(contact.start for _, contact in chosen)
+    if warm:
+        solved, _, _ = batch(pairs, starts).solve()
+        starts = tuple(
+            np.concatenate(
+                [
+                    warm_start(pair.p, solved[i, : pair.p.parameter_count], random),
+                    warm_start(pair.q, solved[i, pair.p.parameter_count : len(start)], random),
+                ]
+            )
+            for i, (pair, start) in enumerate(zip(pairs, starts, strict=True))
+        )
+
+    def plain() -> Float:
+        return np.array([closed_forms.contact_gap(bearing, poses[i], contact) for i, contact in chosen])
+
+    if only is not None:
+        return Setting(name, pairs, starts, plain(), plain)
+    closed, rows = ClosedForms(bearing), pose_rows(list(poses))
+    out = np.zeros((len(poses), SEARCHES_PER_ROLLER))
+    return Setting(
+        name,
+        pairs,
+        starts,
+        plain(),
+        plain,
+        lambda: closed.gaps(list(poses)).ravel(),
+        lambda: closed.gaps_into(rows, out),
+    )
+
+
+@dataclass(frozen=True)
+class RandomResult:
+    """How the search does on random placements of simple shapes.
+
+    Parameters
+    ----------
+    case, start : str
+        Start: ``near`` (nearest to the other's centre) or ``random``.
+    ways : tuple of WayResult
+    elsewhere : float
+        Share that converged, but to another stationary pair of points, [-].
+    """
+
+    case: str
+    start: str
+    ways: tuple[WayResult, ...]
+    elsewhere: float
+
+
+def random_results(count: int, *, blocks: int, sweeps: int, seed: int = 11) -> list[RandomResult]:
+    """All of `RANDOM_CASES` from both starts."""
+    found = []
+    for case in RANDOM_CASES:
+        pairs, truth, random = _drawn(case, count, seed)
+        for start in ("near", "random"):
+            starts = tuple(
+                near_start(pair) if start == "near" else random_start(pair, random) for pair in pairs
+            )
+            setting = Setting(case.name, pairs, starts, truth)
+            ways = compare(setting, blocks=blocks, sweeps=sweeps, ways=(*WAYS[:3], WAYS[6]))
+            _, iterations, gaps = batch(pairs, starts).solve()
+            elsewhere = (iterations >= 0) & (np.abs(gaps - truth) > FAILURE)
+            found.append(RandomResult(case.name, start, tuple(ways), float(elsewhere.mean())))
+    return found
+
+
+def _drawn(case: RandomCase, count: int, seed: int) -> tuple[tuple[Pair, ...], Float, np.random.Generator]:
+    random = np.random.default_rng(seed)
+    pairs = tuple(case.draw(random) for _ in range(count))
+    return pairs, np.array([case.truth(pair.p, pair.q) for pair in pairs]), random
+
+
+@dataclass(frozen=True)
+class FormResult:
+    """How one form of the surface-surface conditions does on the contact of sphere and rib.
+
+    Parameters
+    ----------
+    form : str
+    failures : float
+        [-].
+    iterations : float or None
+        Mean, of those that converged.
+    condition : float
+        Median of the Jacobian at the true contact.
+    even_condition : float
+        The same for the roller in its place, whose axis and the bearing's lie in one plane.
+    """
+
+    form: str
+    failures: float
+    iterations: float | None
+    condition: float
+    even_condition: float
+
+
+def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[Form]) -> list[FormResult]:
+    """The surface-surface contact FR with several forms, from the nominal roller."""
+    found = []
+    sound = [_of_rib(bearing, pose, SURFACES) for pose in poses]
+    truth = np.array(
+        [closed_forms.contact_gap(bearing, pose, contact) for pose, contact in zip(poses, sound, strict=True)]
+    )
+    solved, reached, _ = batch([c.pair for c in sound], [c.start for c in sound]).solve()
+    for form in forms:
+        contacts = [_of_rib(bearing, pose, form) for pose in poses]
+        _, iterations, gaps = batch([c.pair for c in contacts], [c.start for c in contacts]).solve()
+        good = iterations >= 0
+        conditions = [condition_number(c.pair, solved[i]) for i, c in enumerate(contacts) if reached[i] >= 0]
+        even = _of_rib(bearing, nominal_pose(bearing), form)
+        found.append(
+            FormResult(
+                form.name,
+                float(1.0 - (good & (np.abs(gaps - truth) <= FAILURE)).mean()),
+                float(iterations[good].mean()) if good.any() else None,
+                float(np.median(conditions)),
+                condition_number(even.pair, even.start),
+            )
+        )
+    return found
+
+
+def _of_rib(bearing: Bearing, pose: RollerPose, form: Form) -> Contact:
+    return next(contact for contact in contacts_of(bearing, pose, form) if contact.name == "FR")

@@ -1,0 +1,318 @@
+"""Pictures of the contact laboratory. Need no screen."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from beardyn_core.laboratory.findings import Findings
+from beardyn_core.laboratory.nine_contacts import (
+    NAMES,
+    large_rib,
+    nominal_axis,
+    nominal_centre,
+    pocket_line,
+    small_rib,
+)
+from beardyn_core.laboratory.rolling import PLACE, Rolling
+from beardyn_core.laboratory.sphere_radius import SphereCase
+
+Float = NDArray[np.float64]
+DPI = 100
+_ROLLER, _CUP, _CONE, _CAGE = "#DD8452", "#4C72B0", "#55A868", "#8172B3"
+_POINT = "#C44E52"
+_MM = 1e3
+
+
+def _figure(width: float, height: float) -> Figure:
+    figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def write_pictures(found: Findings, folder: Path) -> list[Path]:
+    """Write all pictures, give their names."""
+    figures = {
+        "contacts_nine.png": nine_figure(found),
+        "contacts_sphere.png": sphere_figure(found),
+        "contacts_rolling.png": rolling_figure(found),
+        "contacts_barrel.png": barrel_figure(found),
+    }
+    for name, figure in figures.items():
+        figure.savefig(folder / name, dpi=DPI, format="png")
+    return [folder / name for name in figures]
+
+
+def _along_roller(found: Findings, points: Float) -> tuple[Float, Float, Float]:
+    """Along the roller axis from mid-length, square to it (outwards), and around, [mm]."""
+    axis = nominal_axis(found.bearing)
+    outward = np.array([axis[2], 0.0, -axis[0]])
+    arm = np.asarray(points, dtype=float) - nominal_centre(found.bearing)
+    return _MM * (arm @ axis), _MM * (arm @ outward), _MM * arm[..., 1]
+
+
+def nine_figure(found: Findings) -> Figure:
+    """The roller with its partners and the contact points: meridian plane, and from the outside."""
+    figure = _figure(12.0, 5.2)
+    left, right = figure.subplots(1, 2, width_ratios=(1.45, 1.0))
+    _meridian(left, found)
+    _from_outside(right, found)
+    figure.suptitle(
+        f"{found.bearing.name}: nine contacts at the first time step, points of the general search",
+        fontsize=11,
+    )
+    return figure
+
+
+def _roller_outline(found: Findings) -> tuple[Float, Float]:
+    bearing = found.bearing
+    half, large, small = 0.5 * bearing.roller_length, bearing.large_end_radius, bearing.small_end_radius
+    turn = np.linspace(-1.0, 1.0, 41) * math.asin(large / bearing.sphere_radius)
+    along = bearing.sphere_centre + bearing.sphere_radius * np.cos(turn)
+    across = bearing.sphere_radius * np.sin(turn)
+    x = np.concatenate([[-half], along, [-half, -half]])
+    y = np.concatenate([[-small], across, [small, -small]])
+    return _MM * x, _MM * y
+
+
+def _draw_line(axes: Axes, found: Findings, points: Float, colour: str, label: str | None = None) -> None:
+    along, across, _ = _along_roller(found, points)
+    axes.plot(along, across, color=colour, lw=2.5, label=label, solid_capstyle="round")
+
+
+def _meridian(axes: Axes, found: Findings) -> None:
+    bearing = found.bearing
+    x, y = _roller_outline(found)
+    axes.fill(x, y, color=_ROLLER, alpha=0.25, lw=0)
+    axes.plot(x, y, color=_ROLLER, lw=1.5, label="roller")
+    reach = np.linspace(-0.56, 0.56, 2)[:, None] * bearing.roller_length
+    axis, centre = nominal_axis(bearing), nominal_centre(bearing)
+    outward = np.array([axis[2], 0.0, -axis[0]])
+    for side, colour, label in ((1.0, _CUP, "cup"), (-1.0, _CONE, "cone with ribs")):
+        radius = (bearing.apex_distance + reach) * math.tan(bearing.half_angle)
+        _draw_line(axes, found, centre + reach * axis + side * radius * outward, colour, label)
+    for face, height in (
+        (large_rib(bearing), bearing.rib_height),
+        (small_rib(bearing), bearing.small_rib_height),
+    ):
+        start = np.array([face.radial, 0.0, face.axial])
+        along = np.array([face.normal_axial, 0.0, -face.normal_radial])
+        along = along if along[0] > 0.0 else -along
+        # the face of the large rib is given at its contact height
+        foot = -bearing.rib_contact_height if height == bearing.rib_height else 0.0
+        _draw_line(axes, found, start + np.array([[foot], [foot + height]]) * along, _CONE)
+    for number, name in enumerate(("C2.1", "C4.1")):
+        along_axis, _, _ = _along_roller(found, pocket_line(bearing, name).place.origin[None, :])
+        axes.plot(
+            along_axis, [0.0], marker="s", ms=8, color=_CAGE, ls="", label=None if number else "cage lines"
+        )
+    _mark(axes, found, 0, 1, ("Inner", "Outer", "FR", "FL", "C2.1"))
+    axes.set_xlabel("along the roller axis [mm]")
+    axes.set_ylabel("square to it, outwards [mm]")
+    axes.set_title("meridian plane", fontsize=10)
+    axes.set_aspect("equal")
+    axes.set_ylim(-1.75 * y.max(), 1.75 * y.max())
+    axes.legend(loc="lower center", ncols=4, fontsize=8, frameon=False)
+
+
+def _from_outside(axes: Axes, found: Findings) -> None:
+    bearing = found.bearing
+    x, y = _roller_outline(found)
+    axes.fill(x, y, color=_ROLLER, alpha=0.25, lw=0)
+    axes.plot(x, y, color=_ROLLER, lw=1.5)
+    reach = np.linspace(-0.5, 0.5, 2)[:, None] * bearing.roller_length
+    for name in ("C3.1", "C3.2"):
+        place = pocket_line(bearing, name).place
+        along, _, around = _along_roller(found, place.origin + reach * place.pole)
+        axes.plot(along, around, color=_CAGE, lw=2.5)
+    width = np.linspace(-1.0, 1.0, 2)[:, None] * bearing.large_end_radius
+    for name in ("C2.1", "C4.1"):
+        place = pocket_line(bearing, name).place
+        along, _, around = _along_roller(found, place.origin + width * place.pole)
+        axes.plot(along, around, color=_CAGE, lw=2.5)
+    _mark(axes, found, 0, 2, ("C2.1", "C3.1", "C3.2", "C4.1", "C4.2"))
+    axes.set_xlabel("along the roller axis [mm]")
+    axes.set_ylabel("around the bearing [mm]")
+    axes.set_title("seen from outside: cage pocket", fontsize=10)
+    axes.set_aspect("equal")
+    axes.set_ylim(-1.45 * y.max(), 1.45 * y.max())
+
+
+def _mark(axes: Axes, found: Findings, first: int, second: int, names: tuple[str, ...]) -> None:
+    assert set(names) <= set(NAMES)
+    labelled: set[str] = set()
+    for contact in found.located:
+        if contact.name not in names:
+            continue
+        # points of both shapes lie microns apart; the mark is on the roller's neighbour or on the roller
+        coordinates = _along_roller(found, np.array([contact.q]))
+        x, y = float(coordinates[first][0]), float(coordinates[second][0])
+        axes.plot([x], [y], marker="o", ms=5, color=_POINT, zorder=5)
+        if contact.name not in labelled:
+            labelled.add(contact.name)
+            offset = (8, 9 if y >= 0.0 else -15) if contact.name not in ("C2.1", "FR") else (9, -4)
+            axes.annotate(
+                contact.name, (x, y), textcoords="offset points", xytext=offset, fontsize=9, color=_POINT
+            )
+
+
+def sphere_figure(found: Findings) -> Figure:
+    """Roller ends of growing radius: height of the contact, and the gap each method gives."""
+    bearing = found.bearing
+    figure = _figure(11.0, 4.4)
+    left, right = figure.subplots(1, 2, width_ratios=(1.2, 1.0))
+    ratios = np.array([case.ratio for case in found.spheres])
+    low = -6.0
+    left.axhspan(
+        _MM * bearing.rib_undercut, _MM * bearing.rib_height, color=_CONE, alpha=0.18, label="rib face"
+    )
+    left.axhline(_MM * bearing.roller_chamfer, color=_ROLLER, ls="--", lw=1.2, label="rim of the roller end")
+    heights = _MM * np.array([case.search_height for case in found.spheres])
+    left.plot(ratios, np.maximum(heights, low), "o-", color=_POINT, label="general search")
+    for ratio, height in zip(ratios, heights, strict=True):
+        if height < low:
+            left.annotate(
+                f"{height:.0f} mm", (ratio, low), textcoords="offset points", xytext=(6, 3), fontsize=8
+            )
+    bounded = _MM * np.array([case.bounded_height for case in found.spheres])
+    left.plot(ratios, bounded, "s-", color=_CUP, ms=4, label="closed form with edges and rim")
+    left.set_xlabel("sphere radius over distance to the apex")
+    left.set_ylabel("height of the contact over the raceway [mm]")
+    left.legend(fontsize=8, frameon=False, loc="lower left")
+    width = 0.3
+    places = np.arange(len(ratios))
+    right.bar(
+        places - width / 2,
+        [1e6 * _felt(case) for case in found.spheres],
+        width,
+        color=_POINT,
+        label="general search",
+    )
+    right.bar(
+        places + width / 2, [1e6 * case.bounded_depth for case in found.spheres], width, color=_CUP,
+        label="closed form with edges and rim",
+    )  # fmt: skip
+    right.set_xticks(places, [f"{ratio:.2f}" for ratio in ratios])
+    right.set_xlabel("sphere radius over distance to the apex")
+    right.set_ylabel("depth that makes a force on the part [µm]")
+    right.legend(fontsize=8, frameon=False, loc="lower left")
+    figure.suptitle("A roller end on a given rib, pushed in by 10 µm", fontsize=11)
+    return figure
+
+
+def _felt(case: SphereCase) -> float:
+    """Depth of a contact that lies on both parts."""
+    return max(-case.search_gap, 0.0) if case.on_face and case.in_rim else 0.0
+
+
+def rolling_figure(found: Findings) -> Figure:
+    """Coin and roller in the trough: where they are, how high, where the energy is."""
+    figure = _figure(12.0, 4.4)
+    left, middle, right = figure.subplots(1, 3, width_ratios=(1.1, 1.0, 1.0))
+    coin, roller = found.rolling[0], found.rolling[-1]
+    _positions(left, coin)
+    for run in found.rolling:
+        label = f"{run.body.name.split(',')[0]}, v_r {run.trough.transition_speed * 1e3:g} mm/s"
+        middle.plot(run.time, _MM * run.height, lw=1.2, label=label)
+    middle.axhline(_MM * coin.height[0], color="0.6", lw=0.8, ls="--")
+    middle.set_xlabel("time [s]")
+    middle.set_ylabel("height of the centre [mm]")
+    middle.set_ylim(0.0, 1.35 * _MM * coin.height[0])
+    middle.legend(fontsize=8, frameon=False, loc="upper center")
+    energies = roller.energies
+    motion = energies["kinetic"] + energies["potential"] + energies["elastic"]
+    right.plot(
+        roller.time, 1e6 * (motion[0] - motion), color=_CUP, lw=3.0, alpha=0.5, label="energy of motion lost"
+    )
+    both = energies["friction"] + energies["damping"]
+    right.plot(roller.time, 1e6 * both, color=_POINT, lw=1.0, ls="--", label="friction and damping")
+    right.plot(roller.time, 1e6 * energies["damping"], color=_CONE, lw=1.0, label="damping alone")
+    right.set_xlabel("time [s]")
+    right.set_ylabel("roller [µJ]")
+    right.legend(fontsize=8, frameon=False, loc="upper left")
+    figure.suptitle("Rolling down a cylindrical floor and up again", fontsize=11)
+    return figure
+
+
+def _positions(axes: Axes, run: Rolling) -> None:
+    angles = np.linspace(-0.9, 0.9, 91)
+    axes.plot(
+        _MM * run.trough.radius * np.sin(angles), -_MM * run.trough.radius * np.cos(angles), color="0.35"
+    )
+    ring = np.linspace(0.0, 2.0 * math.pi, 49)
+    last = run.turning_sample
+    for sample in np.unique(np.linspace(0, last, 12).astype(int)):
+        x, y = run.history[sample, PLACE : PLACE + 2]
+        shade = 0.25 + 0.75 * sample / max(last, 1)
+        axes.plot(
+            _MM * (x + run.body.radius * np.cos(ring)), _MM * (y + run.body.radius * np.sin(ring)),
+            color=_ROLLER, alpha=shade, lw=1.2,
+        )  # fmt: skip
+    axes.set_aspect("equal")
+    axes.set_xlabel("x [mm]")
+    axes.set_ylabel("y [mm]")
+    axes.set_title("coin, evenly in time until it turns", fontsize=10)
+
+
+def barrel_figure(found: Findings) -> Figure:
+    """Load distribution of the barrel roller bearing, and its cross-section with the contact points."""
+    figure = _figure(10.0, 4.2)
+    left, right = figure.subplots(1, 2)
+    for loads, colour in zip(found.barrel_loads, (_CUP, _CONE, _ROLLER, _POINT), strict=False):
+        azimuth = np.degrees((loads.azimuth + math.pi) % (2.0 * math.pi) - math.pi)
+        order = np.argsort(azimuth)
+        left.plot(azimuth[order], loads.formula[order] / 1e3, color=colour, lw=1.2)
+        left.plot(
+            azimuth[order],
+            loads.load[order] / 1e3,
+            "o",
+            color=colour,
+            ms=5,
+            label=f"{loads.force / 1e3:g} kN",
+        )
+    left.set_xlabel("azimuth from the load [deg]")
+    left.set_ylabel("roller load [kN]")
+    left.set_xlim(-95, 95)
+    left.legend(fontsize=8, frameon=False, title="points: search, lines: formula", title_fontsize=8)
+    _barrel_section(right, found)
+    figure.suptitle(f"Spherical roller bearing {found.barrel.name}", fontsize=11)
+    return figure
+
+
+def _barrel_section(axes: Axes, found: Findings) -> None:
+    bearing = found.barrel
+    angle, half = bearing.contact_angle, 0.5 * bearing.roller_length
+    for side in (-1.0, 1.0):
+        spread = np.linspace(-half, half, 41) / bearing.roller_contour
+        roller = bearing.roller(np.zeros(3))
+        upper = np.array([roller.frame(np.array([u, 0.0])).point for u in spread])
+        lower = np.array([roller.frame(np.array([u, math.pi])).point for u in spread[::-1]])
+        outline = np.concatenate([upper, lower, upper[:1]])
+        axes.fill(side * _MM * outline[:, 2], _MM * outline[:, 0], color=_ROLLER, alpha=0.25, lw=0)
+        axes.plot(side * _MM * outline[:, 2], _MM * outline[:, 0], color=_ROLLER, lw=1.5)
+        groove = bearing.inner_raceway(np.zeros(3))
+        inner = np.array([groove.frame(np.array([math.pi + angle + u, 0.0])).point for u in spread])
+        axes.plot(side * _MM * inner[:, 2], _MM * inner[:, 0], color=_CONE, lw=2.5)
+        centre = bearing.centre_distance * np.array([math.sin(angle), math.cos(angle)])
+        axes.plot(
+            [0.0, side * _MM * centre[0] * 1.22], [0.0, _MM * centre[1] * 1.22], color="0.6", lw=0.8, ls="--"
+        )
+        for point in (upper[20], inner[20]):
+            axes.plot([side * _MM * point[2]], [_MM * point[0]], "o", color=_POINT, ms=4)
+    sphere = np.linspace(-0.36, 0.36, 81)
+    axes.plot(
+        _MM * bearing.outer_sphere * np.sin(sphere),
+        _MM * bearing.outer_sphere * np.cos(sphere),
+        color=_CUP,
+        lw=2.5,
+    )
+    axes.set_aspect("equal")
+    axes.set_ylim(38.0, 88.0)
+    axes.set_xlabel("along the bearing axis [mm]")
+    axes.set_ylabel("radius [mm]")

@@ -1,0 +1,78 @@
+"""``beardyn contacts`` and its page."""
+
+import argparse
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from beardyn_core.cli.contacts import option_problems
+from beardyn_core.cli.main import BAD_INPUT, DONE, main
+from beardyn_core.study.table import Table, digits, duration_text
+
+WRITER = Path(__file__).parents[2] / "docs" / "write_contacts.py"
+
+
+def test_all_mistakes_are_named_at_once_and_nothing_is_written(tmp_path, capsys) -> None:
+    missing = tmp_path / "no" / "folder"
+    command = ["contacts", "--bearing", "nonesuch", "-o", str(missing), "--rrd", str(tmp_path)]
+    assert main(command) == BAD_INPUT
+    said = capsys.readouterr().err
+    assert "nonesuch" in said
+    assert "--output" in said
+    assert "--rrd" in said
+    assert not missing.exists()
+
+
+def test_an_animation_in_the_folder_to_be_made_is_no_mistake(tmp_path) -> None:
+    folder = tmp_path / "new"
+    assert option_problems(argparse.Namespace(output=folder, rrd=folder / "a.rrd")) == []
+    assert len(option_problems(argparse.Namespace(output=None, rrd=folder / "a.rrd"))) == 1
+
+
+def test_table_lines_up_and_makes_markdown() -> None:
+    table = Table("Title", ("way", "us"), (("fsolve", "173"), ("closed", "0.0043")), ("remark",))
+    lines = table.text().splitlines()
+    assert lines[2:5] == ["way         us", "fsolve     173", "closed  0.0043"]
+    assert table.markdown().splitlines()[:2] == ["| way | us |", "|---|--:|"]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(173.2, "173"), (0.00431, "0.00431"), (2.0e-7, "2.00e-07"), (0.0, "0"), (float("nan"), "-")],
+)
+def test_numbers_have_few_digits(value: float, text: str) -> None:
+    assert digits(value) == text
+
+
+@pytest.mark.parametrize(("hours", "text"), [(24.0, "24.0 h"), (0.12, "7.2 min"), (2.0 / 3600.0, "2.0 s")])
+def test_durations_have_a_unit_that_reads(hours: float, text: str) -> None:
+    assert duration_text(hours) == text
+
+
+@pytest.mark.slow
+def test_quick_run_prints_writes_and_makes_the_page(tmp_path, capsys) -> None:
+    folder = tmp_path / "out"
+    assert main(["contacts", "--quick", "--json", "-o", str(folder), "--rrd", str(folder / "a.rrd")]) == DONE
+    found = json.loads(capsys.readouterr().out)
+    assert found == json.loads((folder / "contacts.json").read_text())
+    assert found["row_difference"] < 1e-9
+    time = {entry["way"]: entry["microseconds"] for entry in found["whole_bearing"]}
+    assert time["closed form, compiled"] < time["analytic Newton, compiled"] < time["analytic Newton, plain"]
+    assert (folder / "a.rrd").stat().st_size > 10_000
+    page = tmp_path / "docs"
+    page.mkdir()
+    write = [sys.executable, str(WRITER), str(folder), "--to", str(page)]
+    subprocess.run(write, check=True)
+    (page / "contacts.md").write_text(
+        (page / "contacts.md").read_text().replace("Not yet on this page.", "Kept.")
+    )
+    subprocess.run(write, check=True)
+    text = (page / "contacts.md").read_text()
+    assert text.count("<!-- ancestor's runs -->") == 1
+    assert "\nKept.\n" in text
+    for line in text.splitlines():
+        if line.startswith("!["):
+            assert (page / line.split("](")[1].rstrip(")")).stat().st_size > 5_000
