@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.jit import entry
+from beardyn_core.jit import entry, inline
 from beardyn_core.rail.suspension import excess, law
 from beardyn_core.rail.track import RailWaves, rail_waves
 from beardyn_core.scene.mounting import Mounting
@@ -164,7 +164,13 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
     from scipy.linalg import expm  # takes a while, and only a ride needs it
 
     rail = vehicle.rail
+    # the shortest waves, exact for a force that is linear within a step: what stays of what was, and
+    # what the forces at its beginning and end add
     keep = float(np.exp(-step / rail.residual_time))
+    mean = rail.residual_time / step * (1.0 - keep)
+    residue = np.array(
+        [keep, rail.residual_flexibility * (mean - keep), rail.residual_flexibility * (1.0 - mean)]
+    )
     return Ride(
         *_run(
             expm(rates * step),
@@ -175,12 +181,31 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
             float(step),
             1.0 / vehicle.mass,
             rail.inverse_mass,
-            np.array([keep, (1.0 - keep) * rail.residual_flexibility]),
+            residue,
             vehicle.primary,
             float(vehicle.static_force),
             float(vehicle.contact_flexibility),
         )
     )
+
+
+@inline
+def _pressed(room, flexibility, give):
+    """Force of the Hertz contact in series with a spring, 0 while open; Newton from the stiff side."""
+    if room <= 0.0:
+        return 0.0
+    compression = room  # a NaN profile stays visible
+    for _ in range(3):
+        force = _hertz(compression, flexibility)
+        excess_room = compression + give * force - room
+        compression -= excess_room / (1.0 + 1.5 * give * force / compression)
+    return _hertz(max(compression, 0.0), flexibility)
+
+
+@inline
+def _hertz(compression, flexibility):
+    share = compression / flexibility
+    return share * np.sqrt(share)
 
 
 @partial(entry, flags=("contract",))
@@ -192,17 +217,16 @@ def _run(
     bogie, wheel, box = np.empty(count), np.empty(count), np.empty(count)
     state, moved = np.zeros(8), np.zeros(8)
     rail, rail_moved = np.zeros((6, waves.shape[2])), np.zeros((6, waves.shape[2]))
-    shortest = 0.0
+    shortest = contact = 0.0
     static_compression = flexibility * static_force ** (2.0 / 3.0)
     for n in range(count):
-        sunk = shortest
+        shortest = residue[0] * shortest - residue[1] * contact
+        room = static_compression + height[n] + shortest - state[WHEEL] + residue[2] * static_force
         for wave in range(waves.shape[2]):
-            sunk += rail[0, wave]
-        compression = static_compression + height[n] + sunk - state[WHEEL]
-        force = 0.0
-        if not compression <= 0.0:  # a NaN profile stays visible
-            force = (compression / flexibility) ** 1.5
+            room += rail[0, wave]
+        force = _pressed(room, flexibility, residue[2])
         contact = force - static_force
+        shortest -= residue[2] * contact
         if len(primary) > 0:
             beyond[n] = excess(primary, state[BOX] - state[BOGIE], state[4 + BOX] - state[4 + BOGIE])
         contact_force[n], bogie[n], wheel[n], box[n] = force, state[BOGIE], state[WHEEL], state[BOX]
@@ -230,5 +254,4 @@ def _run(
                     + waves[i, 5, wave] * rail[5, wave]
                 )
         rail, rail_moved = rail_moved, rail
-        shortest = residue[0] * shortest - residue[1] * contact
     return contact_force, bogie, wheel, box, beyond

@@ -70,7 +70,9 @@ def test_p2_force_of_a_kink(speed_kmh, angle):
     """
     step, speed = 2.5e-5, speed_kmh / 3.6
     time = np.arange(800) * step
-    force = ride(quarter_vehicle(SMOOTH, Mounting()), angle * speed * np.maximum(time, 0.0), step).contact_force
+    force = ride(
+        quarter_vehicle(SMOOTH, Mounting()), angle * speed * np.maximum(time, 0.0), step
+    ).contact_force
     assert force[time > 2.5e-3].max() == pytest.approx(p2_of_dipped_joint(speed, angle), rel=0.02)
 
 
