@@ -91,8 +91,8 @@ def rail_waves(track: Track) -> RailWaves:
     -----
     The rail bends and shears; its rotary inertia is neglected (3 % of the receptance at 3 kHz). The
     seats are spread along the rail: the pinned-pinned mode between sleepers, near 1 kHz, and the passing
-    of sleepers are absent. The waves stand under the wheel and so move along with it: right while the
-    vehicle is slow against the waves (above 500 m/s on the seats of a main line).
+    of sleepers are absent. The waves stand under the wheel and so move along with it, which neglects that
+    a load runs towards its own waves.
 
     The stretch is so long that a wave has died away before it comes round: a beam without end. Waves too
     short for it answer at once for all the wheel does; what they add to the static flexibility gives

@@ -241,7 +241,9 @@ def test_a_sway_is_that_of_a_plain_integration(speed):
     time = np.arange(7000) * step
     # backwards through the same curve
     plan = course(curves, speed * time + (0.0 if speed > 0 else 70.0), np.full(len(time), speed))
-    swayed = sway(lateral_vehicle(operation, Mounting()), np.full(len(time), speed), plan, 0 * time, step)
+    swayed = sway(
+        lateral_vehicle(operation, Mounting()), np.full(len(time), speed), plan, np.zeros(len(time)), step
+    )
     assert np.abs(swayed.motion[:, 0]).max() > operation.vehicle.guidance.flange_clearance
     plain = naive_sway(operation, Mounting(), speed, plan, time, 20)
     for axis in range(4):

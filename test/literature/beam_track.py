@@ -52,9 +52,9 @@ class BeamTrack:
             stiffness += track.rail_shear_stiffness * np.outer(shear, shear)
             add("stiffness", places, ELEMENT * stiffness)
             add("mass", places, 0.5 * ELEMENT * np.diag([track.rail_mass_per_length, inertia] * 2))
-        for k, node in enumerate(at):
+        for k, seat in enumerate(int(place) for place in at):
             sleeper, ballast = 2 * nodes + 2 * k, 2 * nodes + 2 * k + 1
-            link(2 * node, sleeper, part * track.pad_stiffness, part * track.pad_damping)
+            link(2 * seat, sleeper, part * track.pad_stiffness, part * track.pad_damping)
             link(sleeper, ballast, part * track.ballast_stiffness, part * track.ballast_damping)
             link(ballast, None, part * track.subgrade_stiffness, part * track.subgrade_damping)
             add("mass", [sleeper], np.array([[part * track.sleeper_mass]]))

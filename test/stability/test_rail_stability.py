@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, 
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
 SMOOTH = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 120 / 3.6),))
-STRIKES = {
+STRIKES: dict[str, dict[str, Any]] = {
     "flat": {"wheel_defects": (WheelFlat(0.06),)},
     "joint": {"rail_defects": (DippedJoint(8.0, 20e-3, 0.3, 10.0),)},
     "polygon": {"wheel_defects": (WheelPolygon(20, 100e-6),)},
