@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, TypeVar, get_args
 
 from pydantic import (
     BaseModel,
@@ -160,7 +160,8 @@ class SourcedPart(FileModel):
 
 
 def _is_part(annotation: Any) -> bool:
-    return isinstance(annotation, type) and issubclass(annotation, SourcedPart)
+    parts = (annotation, *get_args(annotation))  # a part may be left out: `Part | None`
+    return any(isinstance(part, type) and issubclass(part, SourcedPart) for part in parts)
 
 
 class SourcedModel(SourcedPart):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 from typing_extensions import Self
@@ -21,8 +21,9 @@ from beardyn_core.config.file_model import (
     kind_tag,
     problem,
 )
+from beardyn_core.config.running_file import BrakingKeys, CurveKeys, StartingKeys, TimetableKeys
 from beardyn_core.config.units import KMH, KN, MEGA, MM, RPM
-from beardyn_core.config.vehicle_file import VehicleKeys
+from beardyn_core.config.vehicle_file import TONNE, VehicleKeys
 from beardyn_core.scene.operation import (
     ConstantOperation,
     Irregularity,
@@ -32,10 +33,11 @@ from beardyn_core.scene.operation import (
     SteppedOperation,
     Track,
 )
+from beardyn_core.scene.speed import Profile
 
 Triple = tuple[float, float, float]
 RotationalSpeed = Annotated[Number, Field(ge=-6000.0, le=6000.0)]
-VehicleSpeed = Annotated[NonNegative, Field(le=400.0)]
+VehicleSpeed = Annotated[Number, Field(ge=-400.0, le=400.0)]
 WheelDiameter = Annotated[Positive, Field(ge=300.0, le=1500.0)]
 USUAL_WHEEL_DIAMETER_MM = 920.0
 
@@ -103,7 +105,7 @@ class SpeedPointKeys(FileModel):
     """Speed of the vehicle at one time."""
 
     time_s: NonNegative
-    speed_kmh: VehicleSpeed
+    speed_kmh: VehicleSpeed = Field(description="negative when it runs backwards")
 
 
 class IrregularityKeys(FileModel):
@@ -131,6 +133,7 @@ class TrackKeys(FileModel):
     """Ballasted track under one rail; what is not given is the track of Zhai."""
 
     rail_bending_stiffness_MN_m2: Positive | None = None
+    rail_shear_stiffness_MN: Positive | None = Field(None, description="G A, A reduced to what shears")
     rail_mass_kg_per_m: Positive | None = None
     sleeper_spacing_mm: Positive | None = None
     pad_stiffness_MN_per_m: Positive | None = None
@@ -146,6 +149,7 @@ class TrackKeys(FileModel):
         """The track, SI."""
         given = {
             "rail_bending_stiffness": (self.rail_bending_stiffness_MN_m2, MEGA),
+            "rail_shear_stiffness": (self.rail_shear_stiffness_MN, MEGA),
             "rail_mass_per_length": (self.rail_mass_kg_per_m, 1.0),
             "sleeper_spacing": (self.sleeper_spacing_mm, 1.0 / MM),
             "pad_stiffness": (self.pad_stiffness_MN_per_m, MEGA),
@@ -168,9 +172,10 @@ class QuarterVehicleKeys(FileModel):
     kind: Literal["quarter_vehicle"]
     vehicle: Reference[VehicleKeys]
     irregularity: IrregularityKeys = IrregularityKeys()
-    speed_profile: Annotated[tuple[SpeedPointKeys, ...], Field(min_length=1)] = Field(
-        description="linear in between, held before and after"
+    speed_profile: Annotated[tuple[SpeedPointKeys, ...], Field(min_length=1)] | None = Field(
+        None, description="linear in between, held before and after"
     )
+    timetable: TimetableKeys | None = Field(None, description="from stop to stop, instead of a profile")
     wheel_diameter_mm: WheelDiameter = USUAL_WHEEL_DIAMETER_MM
     lateral_force_kN: Annotated[Number, Field(ge=-100.0, le=100.0)] = 0.0
     track: TrackKeys = TrackKeys()
@@ -178,10 +183,35 @@ class QuarterVehicleKeys(FileModel):
     rail_defects: tuple[RailDefectKeys, ...] = Field(
         (), description="dipped joints and corrugation, besides the irregularity"
     )
+    payload_t: Annotated[NonNegative, Field(le=100.0)] = Field(
+        0.0, description="of the whole car, besides what its body_mass_t has in it"
+    )
+    lateral: bool | None = Field(None, description="sideways motion; where there are curves when not given")
+    curve: tuple[CurveKeys, ...] = Field((), description="one curve or a list in order of place")
+    braking: BrakingKeys | None = None
+    starting: StartingKeys | None = None
+
+    @classmethod
+    def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:
+        curve = data.get("curve")
+        return {**data, "curve": [curve]} if isinstance(curve, dict) else data
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
-        _ascending("speed_profile", [point.time_s for point in self.speed_profile], from_zero=False)
+        if (self.speed_profile is None) == (self.timetable is None):
+            given = "neither" if self.timetable is None else "both"
+            raise problem(f"{given} of speed_profile and timetable is given; give exactly one of them")
+        if self.speed_profile is not None:
+            _ascending("speed_profile", [point.time_s for point in self.speed_profile], from_zero=False)
+        if self.curve and self.lateral is False:
+            raise problem("lateral is false, and there is a curve; a curve needs the sideways motion")
+        for index, (one, two) in enumerate(pairwise(self.curve), start=1):
+            end = one.begin_m + one.length_m
+            if two.begin_m < end:
+                raise problem(
+                    f"curve[{index}].begin_m is {two.begin_m:g}; it must be at least {end:g}, the end of "
+                    "the curve before it"
+                )
         return self
 
     def noun(self) -> QuarterVehicleOperation:
@@ -190,13 +220,24 @@ class QuarterVehicleKeys(FileModel):
         return QuarterVehicleOperation(
             vehicle=self.vehicle.noun(),
             irregularity=self.irregularity.noun(),
-            speed_profile=tuple((point.time_s, point.speed_kmh * KMH) for point in self.speed_profile),
+            speed_profile=self._speed_profile(),
             wheel_diameter=self.wheel_diameter_mm / MM,
             lateral_force=self.lateral_force_kN * KN,
             track=self.track.noun(),
             wheel_defects=tuple(defect.noun() for defect in self.wheel_defects),
             rail_defects=tuple(defect.noun() for defect in self.rail_defects),
+            payload=self.payload_t * TONNE,
+            lateral=self.lateral,
+            curves=tuple(curve.noun() for curve in self.curve),
+            braking=None if self.braking is None else self.braking.noun(),
+            starting=None if self.starting is None else self.starting.noun(),
         )
+
+    def _speed_profile(self) -> Profile:
+        if self.timetable is not None:
+            return self.timetable.noun().speed_profile()
+        assert self.speed_profile is not None  # one of both is there
+        return tuple((point.time_s, point.speed_kmh * KMH) for point in self.speed_profile)
 
 
 class MeasuredKeys(FileModel):

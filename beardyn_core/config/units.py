@@ -50,6 +50,7 @@ _WORDS = {
     "deg": "degrees",
     "GPa": "gigapascals",
     "MPa": "megapascals",
+    "MN": "meganewtons",
     "kN": "kilonewtons",
     "kg": "kilograms",
     "um": "micrometres",
@@ -81,7 +82,7 @@ _FOREIGN = (
         "min",
         "h",
     ),
-    *("N", "MN", "lbf", "Nm", "kNm", "N_per_m", "kN_per_m", "g", "lb", "Pa", "kPa", "bar"),
+    *("N", "lbf", "Nm", "kNm", "N_per_m", "kN_per_m", "g", "lb", "Pa", "kPa", "bar"),
 )
 _ENDINGS = tuple(sorted((*_WORDS, *_FOREIGN), key=len, reverse=True))
 

@@ -38,10 +38,7 @@ def wheel_height(defects: tuple[WheelDefect, ...], wheel_radius: float, position
     Notes
     -----
     The contact is a point: waves and flats shorter than some 20 mm are in truth smoothed by the
-    contact patch, about 12 mm long. The first half millisecond of a strike (P1) is the wheel against
-    the rail alone; the chain of `track` moves 1.3 m of rail there and lets no wave run away. Against a
-    beam on the same seats what that peak adds to the static force comes out 1.4 to 2.1 times too high,
-    most at low speed; 3 ms later (P2) both agree.
+    contact patch, about 12 mm long.
     """
     flats = np.zeros_like(position)
     waves = np.zeros_like(position)

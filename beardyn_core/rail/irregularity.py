@@ -20,6 +20,8 @@ _GERMAN_ROUGHNESS = {"german_low": 4.032e-7, "german_high": 1.08e-6}
 _FRA_CUTOFF = 0.8245
 _FRA_SHARE = 0.25
 _FRA_6_ROUGHNESS = 0.0339e-4
+# density of the alignment over that of the vertical profile
+_ALIGNMENT = {"german_low": 2.119 / 4.032, "german_high": 6.125 / 10.8, "fra_6": 1.0}
 
 _SHORTEST_PERIOD = 4096.0
 _SAMPLES_PER_WAVE = 8
@@ -129,7 +131,9 @@ class RailProfile:
         return (rise + (1.0 - s) * (1.0 - 3.0 * s) * entry + s * (2.0 - 3.0 * s) * leave) / self.spacing
 
 
-def rail_profile(irregularity: Irregularity, distance: float, seed: int) -> RailProfile:
+def rail_profile(
+    irregularity: Irregularity, distance: float, seed: int, direction: str = "vertical"
+) -> RailProfile:
     """Random-phase profile at least as long as the run.
 
     Every spectral line in the wavelength band gets the amplitude sqrt(2 S dOmega) and a random phase.
@@ -142,6 +146,8 @@ def rail_profile(irregularity: Irregularity, distance: float, seed: int) -> Rail
     distance : float
         Length of the run, [m].
     seed : int
+    direction : str
+        ``vertical``, upwards, or ``lateral``, the alignment, along +y.
 
     Returns
     -------
@@ -159,8 +165,13 @@ def rail_profile(irregularity: Irregularity, distance: float, seed: int) -> Rail
     line = np.arange(first, last + 1)
     step = 2.0 * np.pi / period
     wavenumber: Float = np.asarray(line * step, dtype=np.float64)
-    amplitude = np.sqrt(2.0 * spectral_density(irregularity.kind, wavenumber) * step)
-    random = np.random.Generator(np.random.PCG64(np.random.SeedSequence([_STREAM, seed])))
+    density = spectral_density(irregularity.kind, wavenumber)
+    stream = [_STREAM, seed]
+    if direction == "lateral":
+        density = density * _ALIGNMENT[irregularity.kind]
+        stream.append(1)
+    amplitude = np.sqrt(2.0 * density * step)
+    random = np.random.Generator(np.random.PCG64(np.random.SeedSequence(stream)))
     phase = random.uniform(0.0, 2.0 * np.pi, len(line))
     spectrum = np.zeros(points // 2 + 1, dtype=np.complex128)
     spectrum[line] = 0.5 * points * amplitude * np.exp(1j * phase)

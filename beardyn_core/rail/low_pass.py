@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.jit import entry
+
 Float = NDArray[np.float64]
 
 
@@ -39,3 +41,32 @@ def kaiser_order(ripple: float, width: float) -> tuple[int, float]:
     Kaiser (1974): N = (A - 7.95) / (2.285 d_omega) + 1, beta = 0.1102 (A - 8.7).
     """
     return math.ceil((ripple - 7.95) / (2.285 * math.pi * width) + 1.0), 0.1102 * (ripple - 8.7)
+
+
+def first_order(signal: Float, steps: float) -> Float:
+    """First-order lag whose time constant is a number of steps; begins settled.
+
+    Parameters
+    ----------
+    signal : float64 array, shape [step]
+    steps : float
+        Time constant over the time step, 0 or more.
+
+    Returns
+    -------
+    float64 array, shape [step]
+        Exact for a signal that is held over each step.
+    """
+    if steps == 0.0:
+        return signal.copy()
+    return np.asarray(_lag(np.ascontiguousarray(signal), math.exp(-1.0 / steps)))
+
+
+@entry
+def _lag(signal, keep):
+    lagged = np.empty_like(signal)
+    last = signal[0]
+    for n in range(len(signal)):
+        last = keep * last + (1.0 - keep) * signal[n]
+        lagged[n] = last
+    return lagged

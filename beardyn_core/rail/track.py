@@ -1,42 +1,83 @@
-"""Lumped track: what the wheel feels of a rail on pads, sleepers, ballast and subgrade."""
+"""The rail under the wheel: standing waves of a long beam on two layers of seats."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from beardyn_core.scene.operation import Track
+
+Float = NDArray[np.float64]
+
+# waves per metre of rail: the shortest is 0.38 m long, about 5 kHz
+_WAVES_PER_METRE = 8.0 / 3.0
+_SHORTEST_STRETCH, _LONGEST_STRETCH = 18.0, 60.0
+# how far a wave must have died away, as exp(-x), before it comes round the stretch
+_DECAY = 3.0
+_TAIL = 4000
 
 
 @dataclass(frozen=True)
-class LumpedTrack:
-    """Chain rail - pad - sleeper - ballast - subgrade under the wheel.
+class RailWaves:
+    """Cosine waves of a stretch of rail, sleepers and ballast that closes upon itself.
+
+    Wave n has the wavenumber 2 pi n / length. Each is a chain rail - pad - sleeper - ballast - subgrade
+    of its own; the rail under the wheel moves by their sum, and by the residue.
 
     Parameters
     ----------
-    mass : tuple of 3 floats
-        Rail, sleepers, ballast, [kg].
-    stiffness : tuple of 3 floats
-        Below rail, sleepers, ballast, [N/m].
-    damping : tuple of 3 floats
-        Below rail, sleepers, ballast, [N s/m].
+    length : float
+        Of the stretch, [m].
+    mass : float64 array, shape [3]
+        Rail, sleepers, ballast, [kg/m].
+    stiffness : float64 array, shape [wave]
+        Of the rail's own bending and shear, [N/m^2].
+    seats, seat_damping : float64 array, shape [3]
+        Pads, ballast, subgrade, [N/m^2], [N s/m^2].
+    share : float64 array, shape [wave]
+        Length of rail that moves with the amplitude of the wave, [m].
+    residual_flexibility : float
+        Of all shorter waves together, [m/N].
+    residual_time : float
+        With which they give way, [s].
     """
 
-    mass: tuple[float, float, float]
-    stiffness: tuple[float, float, float]
-    damping: tuple[float, float, float]
+    length: float
+    mass: Float
+    stiffness: Float
+    seats: Float
+    seat_damping: Float
+    share: Float
+    residual_flexibility: float
+    residual_time: float
+
+    @property
+    def inverse_mass(self) -> Float:
+        """Acceleration of each wave's rail under a unit force of the wheel, shape [wave], [1/kg]."""
+        return np.asarray(1.0 / (self.mass[0] * self.share))
 
     @property
     def point_stiffness(self) -> float:
         """Static stiffness under the wheel, [N/m]."""
-        return 1.0 / sum(1.0 / stiffness for stiffness in self.stiffness)
+        below = 1.0 / np.sum(1.0 / self.seats)
+        waves = np.sum(1.0 / (self.share * (self.stiffness + below)))
+        return 1.0 / float(waves + self.residual_flexibility)
+
+    def rates(self) -> Float:
+        """State matrices of the waves, displacements before speeds, shape [wave, 6, 6]."""
+        stiffness = _chain(self.seats)[None] + np.zeros((len(self.share), 3, 3))
+        stiffness[:, 0, 0] += self.stiffness
+        rates = np.zeros((len(self.share), 6, 6))
+        rates[:, :3, 3:] = np.eye(3)
+        rates[:, 3:, :3] = -stiffness / self.mass[:, None]
+        rates[:, 3:, 3:] = -_chain(self.seat_damping) / self.mass[:, None]
+        return rates
 
 
-def lump(track: Track) -> LumpedTrack:
-    """Equivalent chain of a beam on an elastic foundation.
-
-    The static deflection of the beam under a point load, exp(-b x)(cos b x + sin b x), is taken as
-    the shape of the motion: a length 2 / b of foundation carries the load, and a length 3 / (2 b) of
-    rail, sleepers and ballast moves along.
+def rail_waves(track: Track) -> RailWaves:
+    """Waves of a rail on its track.
 
     Parameters
     ----------
@@ -44,34 +85,55 @@ def lump(track: Track) -> LumpedTrack:
 
     Returns
     -------
-    LumpedTrack
+    RailWaves
 
     Notes
     -----
-    Has the static point stiffness of the beam and about its first resonance with the wheel; waves
-    that run away in the rail (radiation damping above about 300 Hz) and the pinned-pinned mode near
-    1 kHz are neglected.
+    The rail bends and shears; its rotary inertia is neglected (3 % of the receptance at 3 kHz). The
+    seats are spread along the rail: the pinned-pinned mode between sleepers, near 1 kHz, and the passing
+    of sleepers are absent. The waves stand under the wheel and so move along with it, which neglects that
+    a load runs towards its own waves.
+
+    The stretch is so long that a wave has died away before it comes round: a beam without end. Waves too
+    short for it answer at once for all the wheel does; what they add to the static flexibility gives
+    way with the time constant that makes the impedance that of a shear wave, 2 sqrt(G A m), when they are
+    counted in.
 
     References
     ----------
-    Hetenyi (1946), Beams on Elastic Foundation, chapter 2; Jenkins et al. (1974), The effect of
-    track and vehicle parameters on wheel/rail vertical dynamic forces, for the moving mass 3 m / (2 b).
+    Zhai (2020), Vehicle-Track Coupled Dynamics, chapter 2: rail modes and the three layers. Knothe,
+    Grassie (1993), Modelling of railway track and vehicle/track interaction at high frequencies,
+    Vehicle System Dynamics 22: shear of the rail.
     """
-    seats = (track.pad_stiffness, track.ballast_stiffness, track.subgrade_stiffness)
-    modulus = 1.0 / sum(1.0 / stiffness for stiffness in seats) / track.sleeper_spacing
-    b = (modulus / (4.0 * track.rail_bending_stiffness)) ** 0.25
-    carrying = 2.0 / b / track.sleeper_spacing
-    moving = 1.5 / b
-    return LumpedTrack(
-        mass=(
-            track.rail_mass_per_length * moving,
-            track.sleeper_mass * moving / track.sleeper_spacing,
-            track.ballast_mass * moving / track.sleeper_spacing,
-        ),
-        stiffness=(seats[0] * carrying, seats[1] * carrying, seats[2] * carrying),
-        damping=(
-            track.pad_damping * carrying,
-            track.ballast_damping * carrying,
-            track.subgrade_damping * carrying,
-        ),
+    spacing, bending, shear = track.sleeper_spacing, track.rail_bending_stiffness, track.rail_shear_stiffness
+    rail = track.rail_mass_per_length
+    fastest = np.sqrt(shear / rail)
+    decay = track.pad_damping / (2.0 * rail * spacing)
+    length = float(np.clip(_DECAY * fastest / decay, _SHORTEST_STRETCH, _LONGEST_STRETCH))
+    count = int(np.ceil(_WAVES_PER_METRE * length))
+    share = np.full(count, 0.5 * length)
+    share[0] = length
+
+    def own(wave: NDArray[np.int64]) -> Float:
+        square = np.asarray((2.0 * np.pi / length * wave) ** 2, dtype=np.float64)
+        return square**2 * bending / (1.0 + square * bending / shear)
+
+    # the tail beyond the waves summed here is that of shear alone
+    residue = 2.0 / length * float(np.sum(1.0 / own(np.arange(count, count + _TAIL))))
+    residue += length / (2.0 * np.pi**2 * shear * (count + _TAIL))
+    return RailWaves(
+        length=length,
+        mass=np.array([rail, track.sleeper_mass / spacing, track.ballast_mass / spacing]),
+        stiffness=own(np.arange(count)),
+        seats=np.array([track.pad_stiffness, track.ballast_stiffness, track.subgrade_stiffness]) / spacing,
+        seat_damping=np.array([track.pad_damping, track.ballast_damping, track.subgrade_damping]) / spacing,
+        share=share,
+        residual_flexibility=residue,
+        residual_time=residue * 2.0 * float(np.sqrt(shear * rail)),
     )
+
+
+def _chain(link: Float) -> Float:
+    """Matrix of three masses on three links, the last one to the ground."""
+    upper, middle, lower = link
+    return np.array([[upper, -upper, 0.0], [-upper, upper + middle, -middle], [0.0, -middle, middle + lower]])

@@ -1,4 +1,4 @@
-"""An axlebox share of a vehicle on a lumped track, through a wheel-rail contact that can open."""
+"""An axlebox share of a vehicle on its track, vertical, through a wheel-rail contact that can open."""
 
 from __future__ import annotations
 
@@ -8,15 +8,20 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.jit import entry
-from beardyn_core.rail.track import lump
+from beardyn_core.jit import entry, inline
+from beardyn_core.rail.suspension import excess, law
+from beardyn_core.rail.track import RailWaves, rail_waves
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 
 Float = NDArray[np.float64]
 
 GRAVITY = 9.80665
-BODY, BOGIE, WHEEL, RAIL, SLEEPER, BALLAST = range(6)
+BODY, BOGIE, WHEEL, BOX = range(4)
+
+# of a 130 mm axlebox bearing, radial, under 5 to 80 kN: 4.8 to 6.4 GN/m; share of critical damping
+_BEARING_STIFFNESS = 5.0e9
+_BEARING_DAMPING_RATIO = 0.03
 
 # flexibility of the Hertz contact, G = factor R^exponent [m / N^(2/3)], R in m (Zhai, Vehicle-track
 # coupled dynamics)
@@ -25,14 +30,18 @@ _CONTACT_FIT = {"worn": (3.86e-8, -0.115), "cone": (4.57e-8, -0.149)}
 
 @dataclass(frozen=True)
 class QuarterVehicle:
-    """Body and bogie share, wheel with axlebox, rail, sleepers, ballast: displacements from static.
+    """Body and bogie share, half wheelset, axlebox and the rail: displacements from static.
 
     Parameters
     ----------
-    mass : float64 array, shape [6]
-        In the order `BODY`, `BOGIE`, `WHEEL`, `RAIL`, `SLEEPER`, `BALLAST`, [kg].
-    stiffness, damping : float64 array, shape [6, 6]
+    mass : float64 array, shape [4]
+        In the order `BODY`, `BOGIE`, `WHEEL`, `BOX`, [kg].
+    stiffness, damping : float64 array, shape [4, 4]
         Without the wheel-rail contact, [N/m], [N s/m].
+    rail : RailWaves
+        Track under the wheel.
+    primary : float64 array, shape [9] or [0]
+        Row of `suspension.law`; empty while the primary suspension is linear.
     static_force : float
         Wheel-rail force at rest, [N].
     journal_weight : float
@@ -44,6 +53,8 @@ class QuarterVehicle:
     mass: Float
     stiffness: Float
     damping: Float
+    rail: RailWaves
+    primary: Float
     static_force: float
     journal_weight: float
     contact_flexibility: float
@@ -60,12 +71,19 @@ class Ride:
     bogie : float64 array, shape [step]
         Displacement of the bogie from its static place, upwards, [m].
     wheel : float64 array, shape [step]
-        Displacement of wheel, journal and axlebox from their static place, upwards, [m].
+        Displacement of wheel and journal from their static place, upwards, [m].
+    box : float64 array, shape [step]
+        The same of the axlebox, [m].
+    excess : float64 array, shape [step]
+        Upward force of the primary suspension on the bogie beyond its static load and the linear law of
+        the mounting, [N].
     """
 
     contact_force: Float
     bogie: Float
     wheel: Float
+    box: Float
+    excess: Float
 
 
 def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> QuarterVehicle:
@@ -75,31 +93,28 @@ def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> Q
     ----------
     operation : QuarterVehicleOperation
     mounting : Mounting
-        Gives wheelset, axlebox and primary suspension; the bearing is rigid here.
+        Gives wheelset, axlebox and, unless the vehicle has a progressive one, the primary suspension;
+        the bearing is a spring here.
 
     Returns
     -------
     QuarterVehicle
     """
     vehicle = operation.vehicle
-    track = lump(operation.track)
-    wheel_mass = mounting.journal_mass + mounting.box_mass
-    mass = np.array([vehicle.body_mass / 8.0, vehicle.bogie_mass / 4.0, wheel_mass, *track.mass])
+    journal, box = mounting.journal_mass, mounting.box_mass
+    mass = np.array([operation.body_mass / 8.0, vehicle.bogie_mass / 4.0, journal, box])
+    rattling = 2.0 * np.sqrt(_BEARING_STIFFNESS * journal * box / (journal + box))
     # one side of a bogie has two axleboxes
     links = (
         (BODY, BOGIE, 0.5 * vehicle.secondary_stiffness, 0.5 * vehicle.secondary_damping),
-        (BOGIE, WHEEL, mounting.stiffness[2], mounting.damping[2]),
-        (RAIL, SLEEPER, track.stiffness[0], track.damping[0]),
-        (SLEEPER, BALLAST, track.stiffness[1], track.damping[1]),
-        (BALLAST, None, track.stiffness[2], track.damping[2]),
+        (BOGIE, BOX, mounting.stiffness[2], mounting.damping[2]),
+        (BOX, WHEEL, _BEARING_STIFFNESS, _BEARING_DAMPING_RATIO * rattling),
     )
-    stiffness = np.zeros((6, 6))
-    damping = np.zeros((6, 6))
+    stiffness = np.zeros((4, 4))
+    damping = np.zeros((4, 4))
     for upper, lower, spring, damper in links:
-        pull = np.zeros(6)
-        pull[upper] = 1.0
-        if lower is not None:
-            pull[lower] = -1.0
+        pull = np.zeros(4)
+        pull[upper], pull[lower] = 1.0, -1.0
         stiffness += spring * np.outer(pull, pull)
         damping += damper * np.outer(pull, pull)
     factor, exponent = _CONTACT_FIT[vehicle.wheel_profile]
@@ -107,18 +122,20 @@ def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> Q
         mass=mass,
         stiffness=stiffness,
         damping=damping,
-        static_force=float(mass[: WHEEL + 1].sum()) * GRAVITY,
-        journal_weight=mounting.journal_mass * GRAVITY,
+        rail=rail_waves(operation.track),
+        primary=law(vehicle.primary_suspension, mounting, float(mass[[BODY, BOGIE]].sum()) * GRAVITY),
+        static_force=float(mass.sum()) * GRAVITY,
+        journal_weight=journal * GRAVITY,
         contact_flexibility=factor * (0.5 * operation.wheel_diameter) ** exponent,
     )
 
 
-def ride(vehicle: QuarterVehicle, height: Float, step: float) -> Ride:
+def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None = None) -> Ride:
     """Run over a profile, from static equilibrium.
 
-    The linear part moves exactly over a step (matrix exponential), the contact force acts as an
-    impulse between steps: second order, symplectic for the contact, stable while the contact
-    resonance (about 0.8 kHz against the rail) takes more than pi steps.
+    The linear part moves exactly over a step (matrix exponential); the contact force and what the
+    suspension has beyond its linear law act as impulses between steps: second order, symplectic for the
+    contact, stable while the contact resonance (about 1 kHz against the rail) takes more than pi steps.
 
     Parameters
     ----------
@@ -127,6 +144,8 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float) -> Ride:
         Profile under the wheel at each step, upwards, [m]; should begin at 0.
     step : float
         Time step, [s].
+    push : float64 array, shape [step, 4], or None
+        Further upward forces on body, bogie, wheel and axlebox, [N].
 
     Returns
     -------
@@ -138,48 +157,101 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float) -> Ride:
     Vehicle-Track Coupled Dynamics, chapter 2. Impulse method: Hairer, Lubich, Wanner (2006),
     Geometric Numerical Integration, section VIII.4.
     """
-    inverse_mass = 1.0 / vehicle.mass
-    rates = np.zeros((12, 12))
-    rates[:6, 6:] = np.eye(6)
-    rates[6:, :6] = -inverse_mass[:, None] * vehicle.stiffness
-    rates[6:, 6:] = -inverse_mass[:, None] * vehicle.damping
+    rates = np.zeros((8, 8))
+    rates[:4, 4:] = np.eye(4)
+    rates[4:, :4] = -vehicle.stiffness / vehicle.mass[:, None]
+    rates[4:, 4:] = -vehicle.damping / vehicle.mass[:, None]
     from scipy.linalg import expm  # takes a while, and only a ride needs it
 
-    contact_force, bogie, wheel = _run(
-        expm(rates * step),
-        np.ascontiguousarray(height, dtype=np.float64),
-        float(step),
-        float(inverse_mass[WHEEL]),
-        float(inverse_mass[RAIL]),
-        float(vehicle.static_force),
-        float(vehicle.contact_flexibility),
+    rail = vehicle.rail
+    # the shortest waves, exact for a force that is linear within a step: what stays of what was, and
+    # what the forces at its beginning and end add
+    keep = float(np.exp(-step / rail.residual_time))
+    mean = rail.residual_time / step * (1.0 - keep)
+    residue = np.array(
+        [keep, rail.residual_flexibility * (mean - keep), rail.residual_flexibility * (1.0 - mean)]
     )
-    return Ride(contact_force, bogie, wheel)
+    return Ride(
+        *_run(
+            expm(rates * step),
+            # waves side by side: the compiler moves several at once
+            np.ascontiguousarray(np.moveaxis(expm(rail.rates() * step), 0, -1)),
+            np.ascontiguousarray(height, dtype=np.float64),
+            np.zeros((1, 4)) if push is None else np.ascontiguousarray(push, dtype=np.float64),
+            float(step),
+            1.0 / vehicle.mass,
+            rail.inverse_mass,
+            residue,
+            vehicle.primary,
+            float(vehicle.static_force),
+            float(vehicle.contact_flexibility),
+        )
+    )
 
 
-@partial(entry, flags=())
-def _run(flow, height, step, inverse_wheel, inverse_rail, static_force, flexibility):
-    contact_force = np.empty(len(height))
-    bogie = np.empty(len(height))
-    wheel = np.empty(len(height))
-    state = np.zeros(12)
-    moved = np.zeros(12)
+@inline
+def _pressed(room, flexibility, give):
+    """Force of the Hertz contact in series with a spring, 0 while open; Newton from the stiff side."""
+    if room <= 0.0:
+        return 0.0
+    compression = room  # a NaN profile stays visible
+    for _ in range(3):
+        force = _hertz(compression, flexibility)
+        excess_room = compression + give * force - room
+        compression -= excess_room / (1.0 + 1.5 * give * force / compression)
+    return _hertz(max(compression, 0.0), flexibility)
+
+
+@inline
+def _hertz(compression, flexibility):
+    share = compression / flexibility
+    return share * np.sqrt(share)
+
+
+@partial(entry, flags=("contract",))
+def _run(
+    flow, waves, height, push, step, inverse_mass, inverse_wave, residue, primary, static_force, flexibility
+):
+    count = len(height)
+    contact_force, beyond = np.empty(count), np.zeros(count)
+    bogie, wheel, box = np.empty(count), np.empty(count), np.empty(count)
+    state, moved = np.zeros(8), np.zeros(8)
+    rail, rail_moved = np.zeros((6, waves.shape[2])), np.zeros((6, waves.shape[2]))
+    shortest = contact = 0.0
     static_compression = flexibility * static_force ** (2.0 / 3.0)
-    for n in range(len(height)):
-        compression = static_compression + height[n] + state[RAIL] - state[WHEEL]
-        force = 0.0
-        if not compression <= 0.0:  # a NaN profile stays visible
-            force = (compression / flexibility) ** 1.5
-        contact_force[n] = force
-        bogie[n] = state[BOGIE]
-        wheel[n] = state[WHEEL]
-        impulse = step * (force - static_force)
-        state[6 + WHEEL] += impulse * inverse_wheel
-        state[6 + RAIL] -= impulse * inverse_rail
-        for i in range(12):
+    for n in range(count):
+        shortest = residue[0] * shortest - residue[1] * contact
+        room = static_compression + height[n] + shortest - state[WHEEL] + residue[2] * static_force
+        for wave in range(waves.shape[2]):
+            room += rail[0, wave]
+        force = _pressed(room, flexibility, residue[2])
+        contact = force - static_force
+        shortest -= residue[2] * contact
+        if len(primary) > 0:
+            beyond[n] = excess(primary, state[BOX] - state[BOGIE], state[4 + BOX] - state[4 + BOGIE])
+        contact_force[n], bogie[n], wheel[n], box[n] = force, state[BOGIE], state[WHEEL], state[BOX]
+        last = min(n, len(push) - 1)
+        state[4 + BODY] += step * inverse_mass[BODY] * push[last, BODY]
+        state[4 + BOGIE] += step * inverse_mass[BOGIE] * (push[last, BOGIE] + beyond[n])
+        state[4 + WHEEL] += step * inverse_mass[WHEEL] * (push[last, WHEEL] + contact)
+        state[4 + BOX] += step * inverse_mass[BOX] * (push[last, BOX] - beyond[n])
+        for i in range(8):
             total = 0.0
-            for j in range(12):
+            for j in range(8):
                 total += flow[i, j] * state[j]
             moved[i] = total
         state, moved = moved, state
-    return contact_force, bogie, wheel
+        for wave in range(waves.shape[2]):
+            rail[3, wave] -= step * inverse_wave[wave] * contact
+        for i in range(6):
+            for wave in range(waves.shape[2]):
+                rail_moved[i, wave] = (
+                    waves[i, 0, wave] * rail[0, wave]
+                    + waves[i, 1, wave] * rail[1, wave]
+                    + waves[i, 2, wave] * rail[2, wave]
+                    + waves[i, 3, wave] * rail[3, wave]
+                    + waves[i, 4, wave] * rail[4, wave]
+                    + waves[i, 5, wave] * rail[5, wave]
+                )
+        rail, rail_moved = rail_moved, rail
+    return contact_force, bogie, wheel, box, beyond

@@ -8,13 +8,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from beardyn_core.scene.braking import Braking, Starting
+from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.excitation import RailDefect, WheelDefect
+from beardyn_core.scene.guidance import Guidance
 from beardyn_core.scene.ranges import not_finite, outside, refuse
+from beardyn_core.scene.suspension import ProgressiveSuspension
 
 Vector = tuple[float, float, float]
 
 IRREGULARITY_KINDS = ("german_low", "german_high", "fra_6", "none")
 WHEEL_PROFILES = ("worn", "cone")
+LIMIT = 400 / 3.6  # speed of a vehicle, [m/s]
 
 
 @dataclass(frozen=True)
@@ -112,8 +117,8 @@ class SteppedOperation:
 class Vehicle:
     """Sprung masses and secondary suspension of a car with two bogies of two axles.
 
-    Wheelset, axlebox and primary suspension belong to `scene.mounting.Mounting`, so that rail model
-    and twin share them.
+    Wheelset, axlebox and, where it is linear, primary suspension belong to `scene.mounting.Mounting`, so
+    that rail model and twin share them.
 
     Parameters
     ----------
@@ -128,6 +133,10 @@ class Vehicle:
         Vertical, one side of one bogie, [N s/m].
     wheel_profile : str
         ``worn`` or ``cone``: which fit of the Hertz wheel-rail contact applies.
+    primary_suspension : ProgressiveSuspension or None
+        Instead of the vertical springs and dampers of the mounting; ``None``: those.
+    guidance : Guidance
+        What its lateral motion depends on.
     sources : tuple of (field, source) pairs
     """
 
@@ -138,6 +147,8 @@ class Vehicle:
     secondary_stiffness: float
     secondary_damping: float
     wheel_profile: str = "worn"
+    primary_suspension: ProgressiveSuspension | None = None
+    guidance: Guidance = field(default_factory=Guidance)
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
@@ -163,6 +174,8 @@ class Track:
         E I of one rail, [N m^2].
     rail_mass_per_length : float
         One rail, [kg/m].
+    rail_shear_stiffness : float
+        G A of one rail, A reduced to 0.4 of the section, [N].
     sleeper_spacing : float
         [m].
     pad_stiffness, pad_damping : float
@@ -179,7 +192,8 @@ class Track:
     References
     ----------
     Values as in the TTB-2D track library (D. Cantero, NTNU), after Zhai, Wang, Lin (2004), Modelling
-    and experiment of railway ballast vibrations, J. Sound Vib. 270. Half of the 251 kg sleeper.
+    and experiment of railway ballast vibrations, J. Sound Vib. 270. Half of the 251 kg sleeper. Shear of a
+    60 kg rail, 0.4 of its section: Wu, Thompson (1999), J. Sound Vib. 224.
     """
 
     rail_bending_stiffness: float = 2.059e11 * 3.217e-5
@@ -193,6 +207,7 @@ class Track:
     ballast_mass: float = 531.0
     subgrade_stiffness: float = 77.5e6
     subgrade_damping: float = 31.15e3
+    rail_shear_stiffness: float = 0.4 * 81.0e9 * 7.725e-3
 
     def __post_init__(self) -> None:
         refuse(
@@ -242,7 +257,8 @@ class QuarterVehicleOperation:
     vehicle : Vehicle
     irregularity : Irregularity
     speed_profile : tuple of (time, speed) pairs
-        Time, [s], and speed of the vehicle, [m/s]: linear in between, held before and after.
+        Time, [s], and speed of the vehicle, negative when it runs backwards, [m/s]: linear in between,
+        held before and after.
     wheel_diameter : float
         Running diameter, [m].
     lateral_force : float
@@ -252,6 +268,14 @@ class QuarterVehicleOperation:
         Flats and polygons of the running surface; they come back every revolution.
     rail_defects : tuple of RailDefect
         Dips and corrugation at their places along the track, besides the irregularity.
+    payload : float
+        Besides what the vehicle's body mass has in it, whole car, [kg].
+    lateral : bool or None
+        Whether wheelset and bogie move sideways; ``None``: where there are curves.
+    curves : tuple of Curve
+        In order of place, not overlapping.
+    braking, starting : Braking or Starting or None
+        Forces at this axle while the vehicle slows down and speeds up; ``None``: this axle only rolls.
     """
 
     vehicle: Vehicle
@@ -262,6 +286,21 @@ class QuarterVehicleOperation:
     track: Track = field(default_factory=Track)
     wheel_defects: tuple[WheelDefect, ...] = ()
     rail_defects: tuple[RailDefect, ...] = ()
+    payload: float = 0.0
+    lateral: bool | None = None
+    curves: tuple[Curve, ...] = ()
+    braking: Braking | None = None
+    starting: Starting | None = None
+
+    @property
+    def body_mass(self) -> float:
+        """Car body with all its payload, [kg]."""
+        return self.vehicle.body_mass + self.payload
+
+    @property
+    def moves_sideways(self) -> bool:
+        """Whether the lateral model runs."""
+        return bool(self.curves) if self.lateral is None else self.lateral
 
     def __post_init__(self) -> None:
         refuse(self._problems())
@@ -274,7 +313,7 @@ class QuarterVehicleOperation:
             yield f"{owner}: speed_profile is empty; give at least one (time, speed) point"
         for index, (time, speed) in enumerate(self.speed_profile):
             yield from not_finite(owner, f"time of speed_profile point {index}", (time,))
-            yield from outside(owner, f"speed of speed_profile point {index}", speed, 0.0, 400 / 3.6, "m/s")
+            yield from outside(owner, f"speed of speed_profile point {index}", speed, -LIMIT, LIMIT, "m/s")
         times = [time for time, _ in self.speed_profile]
         for index, (one, two) in enumerate(itertools.pairwise(times), start=1):
             if not two > one:
@@ -282,12 +321,24 @@ class QuarterVehicleOperation:
                     f"{owner}: speed_profile point {index} is at {two:g} s; it must be later than point "
                     f"{index - 1} at {one:g} s"
                 )
+        yield from outside(owner, "payload", self.payload, 0.0, 1e5, "kg")
+        yield from self._running_problems(owner)
         for index, defect in enumerate(self.wheel_defects):
             for problem in defect.problems(0.5 * self.wheel_diameter):
                 yield f"{owner}, wheel defect {index}: {problem}"
         for index, fault in enumerate(self.rail_defects):
             for problem in fault.problems():
                 yield f"{owner}, rail defect {index}: {problem}"
+
+    def _running_problems(self, owner: str) -> Iterator[str]:
+        if self.curves and self.lateral is False:
+            yield f"{owner}: lateral is False with {len(self.curves)} curves; curves need the lateral motion"
+        for index, (one, two) in enumerate(itertools.pairwise(self.curves), start=1):
+            if not two.begin >= one.end:
+                yield (
+                    f"{owner}: curve {index} begins at {two.begin:g} m; it must begin at the end of curve "
+                    f"{index - 1}, {one.end:g} m, or later"
+                )
 
 
 @dataclass(frozen=True)

@@ -79,7 +79,7 @@ def test_shaft_speed_is_vehicle_speed_over_wheel_radius_and_lateral_force_is_pas
     assert history.shaft_speed[0] == pytest.approx(200 / 3.6 / 0.46)
     assert history.shaft_speed[-1] == pytest.approx(220 / 3.6 / 0.46)
     assert (history.wrench[:, 1] == 5e3).all()
-    assert (history.wrench[:, [0, 3, 4, 5]] == 0.0).all()
+    assert (history.wrench[:, 3:] == 0.0).all()
 
 
 def test_rail_model_takes_suspension_and_masses_from_the_mounting():

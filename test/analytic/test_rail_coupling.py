@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
 from beardyn_core.config import load_scene
-from beardyn_core.rail.build import load_history, ride_of
+from beardyn_core.rail.build import FADE_IN, load_history, ride_of
+from beardyn_core.rail.running import running
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.twin import Twin
 
@@ -43,3 +46,28 @@ def test_journal_accelerates_as_in_the_rail_model_below_50_hz() -> None:
     assert np.std(theirs[judged]) > 0.5
     assert np.std((ours - theirs)[judged]) < 0.05 * np.std(theirs[judged])
     assert np.std(ours[judged]) == pytest.approx(np.std(theirs[judged]), rel=0.03)
+
+
+@pytest.mark.slow
+def test_journal_sways_as_in_the_rail_model_below_20_hz() -> None:
+    """Sideways on the alignment, with the play of the bearing and its own mass in between."""
+    scene = load_scene("smooth_run")
+    assert isinstance(scene.operation, QuarterVehicleOperation)
+    operation = dataclasses.replace(scene.operation, lateral=True)
+    twin = Twin(scene)
+    twin.start(load_history(operation, scene.mounting, DURATION, scene.seed))
+    blocks = [twin.advance() for _ in range(round(DURATION * 1e9) // twin.block_ns)]
+    time = np.concatenate([block.snapshot_time_ns for block in blocks]) * 1e-9
+    ours = np.concatenate([block.body_twist[:, CONE, 1] for block in blocks])
+
+    grid = np.arange(round(DURATION * 4000) + 1) / 4000
+    fade = 0.5 - 0.5 * np.cos(np.pi * np.clip(grid / FADE_IN, 0.0, 1.0))
+    run = running(operation, scene.mounting, grid, fade, scene.seed)
+    assert run is not None
+    assert run.sway is not None
+    theirs = np.interp(time, grid, np.gradient(run.sway.motion[:, 0], grid))
+    slow = butter(4, 20.0, fs=SNAPSHOT_RATE, output="sos")
+    ours, theirs = sosfiltfilt(slow, ours), sosfiltfilt(slow, theirs)
+    judged = (time > SETTLED) & (time < DURATION - 0.1)
+    assert np.std(theirs[judged]) > 1e-3
+    assert np.std((ours - theirs)[judged]) < 0.10 * np.std(theirs[judged])

@@ -9,7 +9,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.rail.build import load_history, ride_of
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import rail_profile
-from beardyn_core.rail.vehicle import WHEEL, quarter_vehicle, ride
+from beardyn_core.rail.vehicle import BOX, WHEEL, quarter_vehicle, ride
 from beardyn_core.scene.excitation import Corrugation, DippedJoint, WheelFlat, WheelPolygon
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
@@ -120,7 +120,7 @@ def test_corrugation_stays_on_its_stretch():
 def test_without_defects_the_load_is_the_one_of_the_irregularity_alone():
     operation = dataclasses.replace(SMOOTH, irregularity=Irregularity("german_high"))
     response, step = ride_of(operation, Mounting(), 1.0, seed=5)
-    time = np.arange(len(response.contact_force)) / 20_000
+    time = np.arange(len(response.contact_force)) / round(1.0 / step)
     position = distance_at(operation.speed_profile, time)
     height = rail_profile(operation.irregularity, float(position[-1]), 5).height_at(position)
     height = (height - height[0]) * (0.5 - 0.5 * np.cos(np.pi * np.clip(time / 0.2, 0.0, 1.0)))
@@ -157,8 +157,9 @@ def test_the_delivered_load_keeps_the_strike():
     settled = history.wrench[history.time_ns > SETTLED * 1e9, 2]
     force = response.contact_force[int(SETTLED / step) :]
     assert settled.max() + weight == pytest.approx(force.max(), rel=0.08)
-    # in the air there is nothing but the weight of the half wheelset, and the ringing of the filter
-    assert settled.min() + weight > -0.03 * force.max()
+    # in the air there is nothing but the weight of the half wheelset, and the ringing of the filter,
+    # 7 kN of the 200 kN that come down
+    assert settled.min() + weight > -8e3
 
 
 @pytest.mark.parametrize("speed_kmh", [40.0, 120.0, 200.0])
@@ -216,7 +217,7 @@ def test_at_a_walk_the_wheel_keeps_contact_and_at_speed_it_flies_and_lands():
     assert flights.max() * step < 0.035 / (80 / 3.6)
     longest = takeoffs[: len(landed)][np.argmax(flights)]
     way = fast.wheel[settled][longest + 1 : longest + flights.max() + 1]
-    mass = quarter_vehicle(SMOOTH, Mounting()).mass[WHEEL]
+    mass = quarter_vehicle(SMOOTH, Mounting()).mass[[WHEEL, BOX]].sum()
     assert np.diff(way, 2).mean() / step**2 == pytest.approx(-static_force / mass, rel=0.1)
     # between strikes the force is back at the static one
     assert np.median(force) == pytest.approx(static_force, rel=0.05)
@@ -228,19 +229,19 @@ def test_the_strike_of_a_fresh_flat_is_worst_at_a_middling_speed_and_grows_with_
         return response.contact_force[int(SETTLED / step) :].max()
 
     over_speed = [peak(speed, 0.035) for speed in (10.0, 30.0, 80.0, 200.0, 400.0)]
-    assert np.argmax(over_speed) == 2
+    assert np.argmax(over_speed) == 3
     over_length = [peak(120.0, length) for length in (0.02, 0.03, 0.04, 0.06)]
     assert (np.diff(over_length) > 0).all()
 
 
-def test_rounding_takes_the_strike_away_at_a_walk_and_little_at_speed():
+def test_rounding_halves_the_strike_at_a_walk_and_changes_little_at_speed():
     def strike(speed_kmh, shape):
         flat = WheelFlat(0.035, shape=shape)
         response, step = ride_of(with_flat(speed_kmh, flat), Mounting(), 2.0, seed=1)
         static_force = quarter_vehicle(SMOOTH, Mounting()).static_force
         return response.contact_force[int(SETTLED / step) :].max() - static_force
 
-    assert strike(20.0, "rounded") < 0.3 * strike(20.0, "fresh")
+    assert strike(20.0, "rounded") < 0.5 * strike(20.0, "fresh")
     assert strike(200.0, "rounded") == pytest.approx(strike(200.0, "fresh"), rel=0.1)
 
 
@@ -249,7 +250,7 @@ def test_a_finer_step_changes_the_strike_by_no_more_than_two_percent(speed_kmh):
     operation = with_flat(speed_kmh, WheelFlat(0.04))
     vehicle = quarter_vehicle(operation, Mounting())
     peaks = []
-    for rate in (20_000, 200_000):
+    for rate in (40_000, 400_000):
         position = distance_at(operation.speed_profile, np.arange(rate) / rate)
         height = wheel_height(operation.wheel_defects, RADIUS, position)
         force = ride(vehicle, height, 1.0 / rate).contact_force
@@ -275,11 +276,13 @@ def test_stable_at_every_speed_with_all_excitations_at_once(speed_kmh, shape):
     if speed_kmh < 10.0:
         assert force.max() < 5.0 * vehicle.static_force
         return
-    # the rail carries the weight on average, and a quarter of the step gives the same strikes
+    # the rail carries the weight on average, and half of the step gives the same strikes
     assert force.mean() == pytest.approx(vehicle.static_force, rel=0.03)
-    fine = ride(vehicle, height_of(operation, 80_000, len(force) * 4, seed=2), step / 4).contact_force
+    fine = ride(
+        vehicle, height_of(operation, round(4 / step), len(force) * 4, seed=2), step / 4
+    ).contact_force
     assert force.std() == pytest.approx(fine.std(), rel=0.02)
-    assert force.max() == pytest.approx(fine.max(), rel=0.05)
+    assert force.max() == pytest.approx(fine.max(), rel=0.03)
     assert np.isfinite(load_history(operation, Mounting(), 1.0, seed=2).wrench).all()
 
 

@@ -5,14 +5,14 @@ import dataclasses
 import numpy as np
 import pytest
 
-from beardyn_core.rail.build import load_history
-from beardyn_core.rail.vehicle import GRAVITY, RAIL, WHEEL, quarter_vehicle, ride
+from beardyn_core.rail.build import RIDE_RATE, load_history
+from beardyn_core.rail.vehicle import BOX, GRAVITY, WHEEL, quarter_vehicle, ride
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
 FLAT = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 55.0),))
-STEP = 1.0 / 20_000
+STEP = 1.0 / RIDE_RATE
 
 
 def test_on_a_flat_rail_nothing_moves():
@@ -34,17 +34,19 @@ def test_small_waves_give_the_linear_frequency_response(frequency):
     contact = 1.5 * vehicle.static_force ** (1 / 3) / vehicle.contact_flexibility
     omega = 2 * np.pi * frequency
     dynamic = vehicle.stiffness + 1j * omega * vehicle.damping - omega**2 * np.diag(vehicle.mass)
-    squeeze = np.zeros(6)
-    squeeze[RAIL], squeeze[WHEEL] = 1.0, -1.0
-    motion = np.linalg.solve(dynamic + contact * np.outer(squeeze, squeeze), -contact * squeeze)
-    expected = contact * (1.0 + squeeze @ motion)
+    rail = vehicle.rail
+    sinks = rail.residual_flexibility / (1 + 1j * omega * rail.residual_time)
+    for rates, inverse_mass in zip(rail.rates(), rail.inverse_mass, strict=True):
+        sinks += inverse_mass * np.linalg.inv(1j * omega * np.eye(6) - rates)[0, 3]
+    rises = np.linalg.inv(dynamic)[WHEEL, WHEEL]
+    expected = 1 / (1 / contact + sinks + rises)
     # second order in the step; 12 s after the start the body mode (0.86 Hz, 15 % damping) is 1e-4
     assert abs(measured - expected) < 2e-3 * abs(expected)
 
 
 def test_halving_the_step_changes_the_force_by_less_than_a_percent_of_its_scatter():
     vehicle = quarter_vehicle(FLAT, Mounting())
-    time = np.arange(40_000 * 4) * STEP / 4
+    time = np.arange(80_000 * 4) * STEP / 4
     bump = 2e-3 * np.exp(-(((time - 0.5) / 0.01) ** 2)) + 1e-5 * np.sin(2 * np.pi * 400 * time) * (time > 0.2)
     error = []
     reference = ride(vehicle, bump, STEP / 4).contact_force
@@ -58,7 +60,7 @@ def test_halving_the_step_changes_the_force_by_less_than_a_percent_of_its_scatte
 
 def test_over_a_sharp_dip_the_wheel_takes_off_and_falls_freely():
     vehicle = quarter_vehicle(FLAT, Mounting())
-    time = np.arange(20_000) * STEP
+    time = np.arange(40_000) * STEP
     drop = -20e-3 * np.clip((time - 0.1) / 0.01, 0.0, 1.0)
     response = ride(vehicle, drop, STEP)
     flying = response.contact_force == 0.0
@@ -67,9 +69,10 @@ def test_over_a_sharp_dip_the_wheel_takes_off_and_falls_freely():
     assert np.isfinite(response.contact_force).all()
     # with the primary suspension nearly as compressed as at rest, the static force pulls the wheel down
     first = np.flatnonzero(flying)[0]
-    fall = response.wheel[first + 1 : first + 40]
+    fall = response.wheel[first + 1 : first + 80]
     acceleration = np.polyfit(np.arange(len(fall)) * STEP, fall, 2)[0] * 2
-    assert acceleration == pytest.approx(-vehicle.static_force / vehicle.mass[WHEEL], rel=0.1)
+    falling = vehicle.mass[[WHEEL, BOX]].sum()
+    assert acceleration == pytest.approx(-vehicle.static_force / falling, rel=0.1)
 
 
 def test_mean_force_over_irregular_track_is_the_static_load():
@@ -87,8 +90,8 @@ def test_stable_at_every_speed(speed_kmh, kind):
     operation = dataclasses.replace(
         FLAT, irregularity=Irregularity(kind, 0.02), speed_profile=((0.0, speed_kmh / 3.6),)
     )
-    history = load_history(operation, Mounting(), 20.0, seed=9)
-    first, last = history.wrench[2000:10_000, 2].std(), history.wrench[-8000:, 2].std()
+    history = load_history(operation, Mounting(), 10.0, seed=9)
+    first, last = history.wrench[2000:8_000, 2].std(), history.wrench[-6000:, 2].std()
     assert np.isfinite(history.wrench).all()
     assert last < 2.0 * first + 1.0
 
