@@ -311,7 +311,7 @@ class TwinSession:
             report.waited_for_load_s += starved
             report.compute_s += block.wall_s
             report.status = block.status
-            report.waveform_samples += len(block.waveform_time_ns)
+            report.waveform_samples += _heard(block)
             if block.audit is not None:
                 report.energy_residual = block.audit.residual
             report.recent.append((time.monotonic(), simulated))
@@ -324,7 +324,7 @@ class TwinSession:
         with self._condition:
             self._report.status = block.status
             self._report.blocks += 1
-            self._report.waveform_samples += len(block.waveform_time_ns)
+            self._report.waveform_samples += _heard(block)
         self._put(Outgoing(self._messages(block), block.end_ns, block.end_ns + self._load_begin_ns))
 
     def _messages(self, block: Block) -> tuple[tuple[str, bytes], ...]:
@@ -387,6 +387,11 @@ class _StoppedError(Exception):
     def __init__(self, sentence: str, exit_code: int) -> None:
         super().__init__(sentence)
         self.exit_code = exit_code
+
+
+def _heard(block: Block) -> int:
+    """Samples of the first accelerometer."""
+    return len(block.vibration[0].time_ns) if block.vibration else 0
 
 
 def _constant_load(held: HeldLoad, time_ns: int) -> LoadHistory:
