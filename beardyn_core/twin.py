@@ -39,7 +39,7 @@ from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
 from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
-from beardyn_core.scene.defect import truth_of
+from beardyn_core.scene.defect import Patch, truth_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.scene import Scene
@@ -95,8 +95,7 @@ class Twin:
         self._parameters = build_parameters(scene, self._arrangement, np.zeros(6))
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._work = work_space(self._arrangement, len(self._bending_stiffness))
-        steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
-        self._signals = np.zeros((steps, SIGNAL_CHANNELS))
+        self._steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
         self._audit = np.zeros(ENERGY_TERMS)
         self._first_audit: Float | None = None
         self._state: State | None = None
@@ -105,6 +104,7 @@ class Twin:
         self.stages = StageClock()
         heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
         self._warmth = cold_start(scene) if heated else None
+        self._signals = np.zeros((self.blocks_at_once * self._steps, SIGNAL_CHANNELS))
         self._audited = scene.effects.audit is not None and "audit" not in scene.missing_effects
 
     @property
@@ -143,15 +143,15 @@ class Twin:
         """Go through what a block takes, at rest and with nothing kept."""
         static = _at_rest(self.roller_count, len(self._bending_stiffness))
         state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
-        steps = len(self._signals)
+        steps = self._steps
         buffer = LoadBuffer()
         buffer.append(LoadHistory(np.array([0, BLOCK_NS]), np.zeros((2, 6)), np.zeros(2), np.zeros((2, 3))))
         loads = buffer.at_steps(0, BLOCK_NS, steps)
         rollers, bodies = self._run(
-            state, loads[: TRENDS_PER_BLOCK + 1].copy(), self._signals[:TRENDS_PER_BLOCK].copy()
+            state, loads[: TRENDS_PER_BLOCK + 1].copy(), self._signals[:TRENDS_PER_BLOCK].copy(), 1
         )
         assess(state, steps, self.scene.bearing.large_end_radius, self._parameters.effects.rib)
-        signals = np.zeros_like(self._signals)
+        signals = np.zeros((steps, SIGNAL_CHANNELS))
         observer = Observer(self.scene, self._arrangement, self._parameters, signals[0])
         observer.first_instant(state.rollers, state.bodies, loads[0, :6])
         block = observer.observe(0, signals, loads, rollers, bodies, 0, None, 0.0, None)
@@ -220,13 +220,27 @@ class Twin:
         """Append load samples; False when they were refused (`load.reason` says why)."""
         return self.load.append(load)
 
+    @property
+    def blocks_at_once(self) -> int:
+        """Most blocks that `advance` may take: several where only the kernel changes anything meanwhile."""
+        changing = self._warmth is not None or any(
+            isinstance(defect, Patch) and defect.growth is not None for defect in self.scene.defects
+        )
+        return 1 if changing else TIER_NOUNS[self.scene.tier].blocks_at_once
+
     def covered(self) -> bool:
         """Whether a sample at or after the end of the next block has arrived."""
         last = self.load.last_ns
         return last is not None and last >= self.next_end_ns
 
-    def advance(self) -> Block:
-        """Advance by one block.
+    def advance(self, blocks: int = 1) -> Block:
+        """Advance by a block.
+
+        Parameters
+        ----------
+        blocks : int, optional
+            Blocks of 20 ms in one, up to `blocks_at_once`: the same bits as one after the other, in less
+            time.
 
         Returns
         -------
@@ -237,38 +251,41 @@ class Twin:
         ValidityError
             The model left its range of validity; the block is in the error's ``block``.
         """
+        if not 1 <= blocks <= self.blocks_at_once:
+            raise ValueError(f"blocks is {blocks}; allowed is 1 to {self.blocks_at_once} for this scene")
         if self._state is None or self._observer is None:
             raise ValidityError("the twin has not been started: it needs its first load")
         self.stages.begin()
-        loads = self._loads(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
+        signals = self._signals[: blocks * self._steps]
+        loads = self._loads(self._index * BLOCK_NS, (self._index + blocks) * BLOCK_NS, self._steps, blocks)
         self.stages.lap(LOAD)
         began = time.perf_counter()
         grow(self._parameters.effects.faults, self.scene, self._index * BLOCK_NS * 1e-9)
-        rollers, bodies = self._run(self._state, loads, self._signals)
+        rollers, bodies = self._run(self._state, loads, signals, blocks)
         wall = time.perf_counter() - began
         self.stages.lap_kernel(stage_cycles(self._parameters.effects.timers))
         status = assess(
             self._state,
-            len(self._signals),
+            len(signals),
             self.scene.bearing.large_end_radius,
             self._parameters.effects.rib,
         )
         audit = self._energy_audit()
         temperature = None if self._warmth is None else self._warm_up(loads)
         block = self._observer.observe(
-            self._index, self._signals, loads, rollers, bodies, int(status), audit, wall, temperature
+            self._index, signals, loads, rollers, bodies, int(status), audit, wall, temperature
         )
         self.stages.lap(OBSERVE)
-        self._index += 1
+        self._index += blocks
         self.stages.lap(REST)
         if is_fatal(status):
             moment = f"at {block.end_ns * 1e-9:.2f} s of simulated time"
             raise ValidityError(f"the run ended {moment}: {describe(status)}", block)
         return block
 
-    def _loads(self, start_ns: int, end_ns: int, steps: int) -> Float:
-        """Load at the step boundaries about the bearing centre, shape [steps + 1, 10]."""
-        loads = self.load.at_steps(start_ns, end_ns, steps)
+    def _loads(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> Float:
+        """Load at the step boundaries about the bearing centre, shape [steps * blocks + 1, 10]."""
+        loads = self.load.at_steps(start_ns, end_ns, steps, blocks)
         loads[:, :6] = self.scene.mounting.about_bearing_centre(loads[:, :6])
         return loads
 
@@ -293,9 +310,9 @@ class Twin:
         flexibility = self._parameters.effects.ring_flexibility
         return np.zeros(0) if flexibility is None else np.asarray(flexibility.stiffness)
 
-    def _run(self, state: State, loads: Float, signals: Float) -> tuple[Float, Float]:
-        rollers = np.empty((TRENDS_PER_BLOCK, *state.rollers.shape))
-        bodies = np.empty((TRENDS_PER_BLOCK, *state.bodies.shape))
+    def _run(self, state: State, loads: Float, signals: Float, blocks: int) -> tuple[Float, Float]:
+        rollers = np.empty((blocks * TRENDS_PER_BLOCK, *state.rollers.shape))
+        bodies = np.empty((blocks * TRENDS_PER_BLOCK, *state.bodies.shape))
         work = self._work
         self._tier.advance(
             self._lanes, state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches,

@@ -1,4 +1,4 @@
-"""The block: about 20 ms of every channel, the only thing that crosses a Python boundary."""
+"""The block: 20 ms of every channel, or some times that: all that crosses a Python boundary."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ class Block:
     Parameters
     ----------
     index : int
-        Running number of the block.
+        Running number of the block, counted in 20 ms; of the first one where it holds several.
     start_ns, end_ns : int
         Simulated time at its first and after its last step, [ns].
     waveform_sample : int

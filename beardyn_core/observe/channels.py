@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.jit import entry
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, SAMPLES_PER_BLOCK, WAVEFORM_RATE
 from beardyn_core.model.layout import (
@@ -77,9 +78,7 @@ class Observer:
             carry = (self._trend_delay - DELAY) * per_trend - self._sensors.delays[0]
             self._fast_decimator = Decimator(per_trend, 3, REST, held_back=carry)
         # blocks hold views of it, so every block gets one of its own; the newest instant is the last
-        self._instants = np.zeros(
-            (self._trend_delay + TRENDS_PER_BLOCK + 1, INSTANT_ROLLERS + 4 * self._count)
-        )
+        self._instants = np.zeros((self._trend_delay + 1, INSTANT_ROLLERS + 4 * self._count))
         self._box_motion = np.zeros((2, 6))
 
     def first_instant(self, rollers: Float, bodies: Float, load: Float) -> None:
@@ -111,7 +110,7 @@ class Observer:
         Parameters
         ----------
         index : int
-            Running number of the block.
+            Running number of the block, the first one of several.
         signals : float64 array, shape [step, SIGNAL_CHANNELS]
         loads : float64 array, shape [step + 1, 10]
         rollers, bodies : float64 arrays, shape [trend, ...]
@@ -129,31 +128,31 @@ class Observer:
         waves = self._decimator.push(signals)
         first_wave = index * SAMPLES_PER_BLOCK - self._waveform_delay
         readings = self._sensors.read(index, waves, signals, self._motion(bodies))
+        heard = readings[0] if readings and self._fast_decimator is None else np.tile(REST, (len(waves), 1))
         channels = np.empty((len(waves), _TREND_CHANNELS))
-        channels[:, :6] = waves[:, SIGNAL_FORCE : SIGNAL_FORCE + 6]
-        channels[:, 6:9] = readings[0] if readings and self._fast_decimator is None else REST
-        channels[:, 9] = waves[:, SIGNAL_TORQUE]
+        _select(waves, heard, channels)
+        blocks = len(bodies) // TRENDS_PER_BLOCK
         first_trend = index * TRENDS_PER_BLOCK - self._trend_delay
         keep_wave = slice(max(0, -first_wave), None)
-        keep_trend = slice(min(max(0, -first_trend), TRENDS_PER_BLOCK), None)
+        keep_trend = slice(min(max(0, -first_trend), len(bodies)), None)
         trends = self._trend_decimator.push(channels)
         if self._fast_decimator is not None:
             trends[:, 6:9] = self._fast_decimator.push(readings[0])
         trends = trends[keep_trend]
         first_kept = first_trend + keep_trend.start
-        instants = self._remember(index, rollers, bodies, loads, first_kept, len(trends))
+        instants = self._remember(index + blocks, rollers, bodies, loads, first_kept, len(trends))
         waveform_sample = first_wave + keep_wave.start
         wave_index = np.arange(waveform_sample, first_wave + len(waves), dtype=np.int64)
         shown = slice(TRENDS_PER_SNAPSHOT - 1, None, TRENDS_PER_SNAPSHOT)
         first_snapshot = index * TRENDS_PER_BLOCK // TRENDS_PER_SNAPSHOT + 1
         snapshots = np.arange(
-            first_snapshot, first_snapshot + TRENDS_PER_BLOCK // TRENDS_PER_SNAPSHOT, dtype=np.int64
+            first_snapshot, first_snapshot + len(bodies) // TRENDS_PER_SNAPSHOT, dtype=np.int64
         )
         angles = INSTANT_ROLLERS + 2 * self._count
         return Block(
             index=index,
             start_ns=index * BLOCK_NS,
-            end_ns=(index + 1) * BLOCK_NS,
+            end_ns=(index + blocks) * BLOCK_NS,
             waveform_sample=waveform_sample,
             waveform_time_ns=wave_index * 1_000_000_000 // WAVEFORM_RATE,
             force_waveform=waves[keep_wave, SIGNAL_FORCE : SIGNAL_FORCE + 6],
@@ -180,15 +179,16 @@ class Observer:
         )
 
     def _remember(
-        self, index: int, rollers: Float, bodies: Float, loads: Float, first: int, count: int
+        self, end: int, rollers: Float, bodies: Float, loads: Float, first: int, count: int
     ) -> Float:
-        """Instants number `first` and following; the newest is the end of block `index`."""
-        instants = np.empty_like(self._instants)
-        instants[:-TRENDS_PER_BLOCK] = self._instants[TRENDS_PER_BLOCK:]
-        stride = (len(loads) - 1) // TRENDS_PER_BLOCK
-        write_instants(rollers, bodies, loads, stride, self._count, instants[-TRENDS_PER_BLOCK:])
-        self._instants = instants
-        place = len(instants) - 1 - (index + 1) * TRENDS_PER_BLOCK + first
+        """Instants number `first` and following; the newest is the beginning of block `end`."""
+        kept = len(self._instants)
+        instants = np.empty((kept + len(bodies), self._instants.shape[1]))
+        instants[:kept] = self._instants
+        stride = (len(loads) - 1) // len(bodies)
+        write_instants(rollers, bodies, loads, stride, self._count, instants[kept:])
+        self._instants = instants[-kept:]
+        place = len(instants) - 1 - end * TRENDS_PER_BLOCK + first
         return instants[place : place + count]
 
     def _motion(self, bodies: Float) -> Float:
@@ -214,3 +214,14 @@ class Observer:
         if self._fast_decimator is not None:
             self._fast_decimator.restore(fast)
         self._sensors.restore(sensors)
+
+
+@entry
+def _select(waves, heard, channels):
+    """What the trends are made of: force, moment, specific force, torque."""
+    for i in range(len(waves)):
+        for j in range(6):
+            channels[i, j] = waves[i, SIGNAL_FORCE + j]
+        for j in range(3):
+            channels[i, 6 + j] = heard[i, j]
+        channels[i, 9] = waves[i, SIGNAL_TORQUE]

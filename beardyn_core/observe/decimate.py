@@ -104,10 +104,11 @@ class Decimator:
 # of any length give the same bits
 @partial(entry, flags=("reassoc", "contract", "nsz"))
 def _filter(stretch, kept, block, kernel, factor, out):
+    for i in range(len(block)):
+        for channel in range(stretch.shape[0]):
+            stretch[channel, kept + i] = block[i, channel]
     for channel in range(stretch.shape[0]):
         signal = stretch[channel]
-        for i in range(len(block)):
-            signal[kept + i] = block[i, channel]
         for m in range(len(out)):
             window = signal[m * factor : m * factor + len(kernel)]
             total = 0.0

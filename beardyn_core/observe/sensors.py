@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from beardyn_core.jit import entry
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION
-from beardyn_core.observe.accelerometer import GRAVITY, NoiseStream, reading, specific_force
+from beardyn_core.observe.accelerometer import GRAVITY, NoiseStream, force_at, reading
 from beardyn_core.observe.block import Vibration
 from beardyn_core.observe.decimate import DELAY, Decimator
 from beardyn_core.observe.resonance import LOOKAHEAD, Resonance
@@ -171,22 +171,31 @@ def box_force(position: tuple[float, float, float], signals: Float, motion: Floa
     float64 array, shape [sample, 3]
         [m/s^2].
     """
-    between = np.empty((len(signals), 6))
-    _between(motion, len(signals) // (len(motion) - 2), delay, between)
-    return specific_force(
-        position,
-        signals[:, SIGNAL_ACCELERATION : SIGNAL_ACCELERATION + 3],
-        between[:, 3:],
-        signals[:, SIGNAL_ANGULAR_ACCELERATION : SIGNAL_ANGULAR_ACCELERATION + 3],
-        between[:, :3],
-    )
+    force = np.empty((len(signals), 3))
+    _box_force(*position, signals, motion, len(signals) // (len(motion) - 2), delay, force)
+    return force
 
 
 @entry
-def _between(held, stride, delay, out):
-    for i in range(len(out)):
-        at = i + stride - delay
-        row = min(at // stride, len(held) - 2)
-        part = (at - row * stride) / stride
-        for j in range(held.shape[1]):
-            out[i, j] = held[row, j] + part * (held[row + 1, j] - held[row, j])
+def _box_force(px, py, pz, signals, motion, stride, delay, force):
+    row, first = 0, np.empty(6)
+    slope = np.empty(6)
+    at = stride - delay  # samples after the first row
+    known = -1
+    for i in range(len(signals)):
+        row = min(at // stride, len(motion) - 2)
+        if row != known:
+            known = row
+            for j in range(6):
+                slope[j] = (motion[row + 1, j] - motion[row, j]) / stride
+                first[j] = motion[row, j]
+        since = float(at - row * stride)
+        at += 1
+        force_at(
+            (px, py, pz),
+            signals[i, SIGNAL_ACCELERATION : SIGNAL_ACCELERATION + 3],
+            signals[i, SIGNAL_ANGULAR_ACCELERATION : SIGNAL_ANGULAR_ACCELERATION + 3],
+            (first[3] + since * slope[3], first[4] + since * slope[4], first[5] + since * slope[5]),
+            (first[0] + since * slope[0], first[1] + since * slope[1], first[2] + since * slope[2]),
+            force[i],
+        )
