@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
-from dataclasses import asdict, dataclass
-from importlib.metadata import PackageNotFoundError, version
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -13,28 +12,23 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.restraint import tilt_restraint
+from beardyn_core.integrate.snapshot import Snapshot
 from beardyn_core.integrate.state import State, initial_state, work_space
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
-from beardyn_core.integrate.warming import Warmth, cold_start, scene_at, warmed
+from beardyn_core.integrate.warming import cold_start, scene_at, warmed
 from beardyn_core.jit import when_compiling
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
 from beardyn_core.model.fault_params import grow, roller_oversize
 from beardyn_core.model.layout import (
-    ENERGY_ELASTIC,
-    ENERGY_EXTERNAL,
-    ENERGY_KINETIC,
-    ENERGY_LOST,
-    ENERGY_NUMERICAL,
     ENERGY_TERMS,
-    LOSSES,
     SIGNAL_CHANNELS,
     SIGNAL_FORCE,
 )
-from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
@@ -44,6 +38,7 @@ from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
+from beardyn_core.versions import versions
 
 Float = NDArray[np.float64]
 LANE_WIDTH = 8
@@ -51,19 +46,6 @@ LANE_WIDTH = 8
 COMPILING = "compiling the kernels of these effects: once, about a minute"
 
 log = logging.getLogger("beardyn")
-
-
-@dataclass(frozen=True)
-class Snapshot:
-    """Everything the rest of a run depends on."""
-
-    index: int
-    state: State
-    parameters: Parameters
-    load: LoadBuffer
-    observer: tuple[object, ...]
-    first_audit: Float | None
-    warmth: Warmth | None = None
 
 
 class Twin:
@@ -291,18 +273,8 @@ class Twin:
 
     @property
     def _tilt_restraint(self) -> Float:
-        """Of the suspension, against the tilt of the bearing about x and z, [N m/rad].
-
-        A journal free to tilt leans the whole moment on the box, whatever holds that.
-        """
-        mounting = self.scene.mounting
-        if mounting.cup == "held" or mounting.journal_tilt == "free":
-            return np.zeros(2)
-        stiffness = self._parameters.mounting.stiffness
-        if self._parameters.mounting.coupling is not None:
-            # the bearing centre stays where it is, so its springs beside it restrain the tilt too
-            stiffness = np.diag(self._parameters.mounting.coupling.stiffness)
-        return np.asarray(stiffness)[[3, 5]]
+        """Against the tilt of the bearing about x and z, [N m/rad]."""
+        return tilt_restraint(self.scene.mounting, self._parameters.mounting)
 
     @property
     def _bending_stiffness(self) -> Float:
@@ -343,14 +315,7 @@ class Twin:
             return None
         if self._first_audit is None:
             self._first_audit = self._audit.copy()
-        since = self._audit - self._first_audit
-        return EnergyAudit(
-            external=float(since[ENERGY_EXTERNAL]),
-            dissipated=float(since[ENERGY_LOST : ENERGY_LOST + LOSSES].sum()),
-            numerical=float(since[ENERGY_NUMERICAL]),
-            stored=float(since[ENERGY_ELASTIC] + since[ENERGY_KINETIC]),
-            losses=tuple(since[ENERGY_LOST : ENERGY_LOST + LOSSES].tolist()),
-        )
+        return EnergyAudit.of(self._audit - self._first_audit)
 
     def truth(self) -> dict[str, Any]:
         """What is known of the run that a train could not know: scene, faults, frequencies, versions."""
@@ -377,7 +342,7 @@ class Twin:
             "step_s": self._parameters.step,
             "seed": scene.seed,
             "chosen": list(scene.chosen),
-            "versions": {name: _version(name) for name in ("beardyn", "numba", "numpy")},
+            "versions": versions(),
         }
 
     def snapshot(self) -> Snapshot:
@@ -419,10 +384,3 @@ def _at_rest(roller_count: int, modes: int) -> StaticSolution:
         roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
         stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0, bending=np.zeros((modes, 2)),
     )  # fmt: skip
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "source"

@@ -9,6 +9,14 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.model.layout import (
+    ENERGY_ELASTIC,
+    ENERGY_EXTERNAL,
+    ENERGY_KINETIC,
+    ENERGY_LOST,
+    ENERGY_NUMERICAL,
+    LOSSES,
+)
 from beardyn_core.scene.sensor import RATES
 
 Float = NDArray[np.float64]
@@ -44,6 +52,18 @@ class EnergyAudit:
     numerical: float
     stored: float
     losses: tuple[float, ...] = ()
+
+    @classmethod
+    def of(cls, since: Float) -> EnergyAudit:
+        """Audit from the kernel's sums since the start of the run, shape [ENERGY_TERMS]."""
+        lost = since[ENERGY_LOST : ENERGY_LOST + LOSSES]
+        return cls(
+            external=float(since[ENERGY_EXTERNAL]),
+            dissipated=float(lost.sum()),
+            numerical=float(since[ENERGY_NUMERICAL]),
+            stored=float(since[ENERGY_ELASTIC] + since[ENERGY_KINETIC]),
+            losses=tuple(lost.tolist()),
+        )
 
     @property
     def residual(self) -> float:

@@ -64,7 +64,7 @@ TIERS = {
             needs_rib=True,
             smallest_laminae=1,
             absent=(*_FAST_ABSENT, "roller displacement and tilt"),
-            blocks_at_once=16,
+            blocks_at_once=8,
         ),
         TierNoun(
             "quasistatic",
@@ -74,7 +74,7 @@ TIERS = {
             needs_rib=True,
             smallest_laminae=2,
             absent=_FAST_ABSENT,
-            blocks_at_once=16,
+            blocks_at_once=8,
         ),
         TierNoun("full", "every body with 6 degrees of freedom", None, 4, False, 1, ()),
     )

@@ -101,6 +101,11 @@ class RunSummary:
         return self.duration / self.wall_time if self.wall_time > 0.0 else math.inf
 
     @property
+    def nothing_to_average(self) -> bool:
+        """Whether the run ended before its first trend sample had passed the filters."""
+        return self.averaged[1] == 0.0
+
+    @property
     def complete(self) -> bool:
         """Whether the run came to its end inside the model's validity."""
         return self.status.startswith(COMPLETE)

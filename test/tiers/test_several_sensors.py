@@ -13,6 +13,7 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.study.desk_run import run
 from beardyn_core.twin import Twin
 
@@ -85,11 +86,11 @@ def test_restored_sensors_go_on_with_the_same_bits(scene: Scene) -> None:
 
 def test_trends_of_a_fast_first_sensor_stand_where_those_of_the_others_do(scene: Scene) -> None:
     """The same place heard at both rates, decimated to 400 Hz, differs by noise and rounding only."""
-    place = {"position": (0.0, 0.0, 0.1), "mounting_resonance": 30_000.0, "mounting_damping_ratio": 0.02}
-    quiet = [replace(each, noise_density=0.0, range=1e9, **place) for each in scene.sensors]
+    place = Accelerometer("here", (0.0, 0.0, 0.1), 0.0, 1e9, mounting_resonance=30_000.0)
+    quiet = (place, replace(place, rate=51_200.0))
     usual, fast = (
         np.concatenate([block.specific_force for block in blocks_of(replace(scene, sensors=(each,)), 8)])
-        for each in (quiet[1], quiet[2])
+        for each in quiet
     )
     assert usual.shape == fast.shape
     np.testing.assert_allclose(usual, fast, atol=1e-3 * np.abs(usual - usual.mean(axis=0)).max())
