@@ -38,9 +38,9 @@ def tiers_and_effects(turns: int) -> Table:
         rows=[(*row, *alone[str(row[0])], count) for row, count in zip(table.rows, at_once, strict=True)],
         note=(
             f"RTF and ratios: {len(scenes)} runs in turn, a block of 20 ms each, so that every block finds "
-            "its data driven out of the caches by the others, as several axleboxes on one core would. RTF alone: "
-            "stretches of a quarter of a second of one run, in blocks of 20 ms as in the node. Desk: the "
-            "same with as many blocks in one as a run without a recording takes. Medians of wall time."
+            "its data driven out of the caches by the others, as several axleboxes on one core would. RTF "
+            "alone: stretches of a quarter of a second of one run, in blocks of 20 ms as in the node. Desk: "
+            "the same with as many blocks in one as a run without a recording takes. Medians of wall time."
         ),
     )
 
