@@ -184,6 +184,17 @@ class Block:
     wall_s: float
     temperature: Float | None = None
 
+    def arrays(self) -> dict[str, Float | Int]:
+        """Every array by its name, with those that are worked out at the first look."""
+        found = {name: value for name, value in vars(self).items() if isinstance(value, np.ndarray)}
+        found |= {name: getattr(self, name) for name in ("body_pose", "body_twist", "contacts")}
+        for number, heard in enumerate(self.vibration):
+            found[f"vibration {number}"], found[f"vibration {number}, time"] = (
+                heard.acceleration,
+                heard.time_ns,
+            )
+        return found
+
     @cached_property
     def acceleration(self) -> Float:
         """Readings at `waveform_time_ns`, of the accelerometers at 25.6 kHz in the order of the scene.
