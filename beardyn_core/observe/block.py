@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Protocol
 
@@ -186,7 +186,8 @@ class Block:
 
     def arrays(self) -> dict[str, Float | Int]:
         """Every array by its name, with those that are worked out at the first look."""
-        found = {name: value for name, value in vars(self).items() if isinstance(value, np.ndarray)}
+        every = {field.name: getattr(self, field.name) for field in fields(self)}
+        found = {name: value for name, value in every.items() if isinstance(value, np.ndarray)}
         found |= {name: getattr(self, name) for name in ("body_pose", "body_twist", "contacts")}
         for number, heard in enumerate(self.vibration):
             found[f"vibration {number}"], found[f"vibration {number}, time"] = (
