@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
-from dataclasses import asdict, dataclass
-from importlib.metadata import PackageNotFoundError, version
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -13,38 +12,34 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.restraint import tilt_restraint
+from beardyn_core.integrate.snapshot import Snapshot
 from beardyn_core.integrate.state import State, initial_state, work_space
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
-from beardyn_core.integrate.warming import Warmth, cold_start, scene_at, warmed
+from beardyn_core.integrate.warming import cold_start, scene_at, warmed
 from beardyn_core.jit import when_compiling
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
 from beardyn_core.model.fault_params import grow, roller_oversize
 from beardyn_core.model.layout import (
-    ENERGY_ELASTIC,
-    ENERGY_EXTERNAL,
-    ENERGY_KINETIC,
-    ENERGY_LOST,
-    ENERGY_NUMERICAL,
     ENERGY_TERMS,
-    LOSSES,
     SIGNAL_CHANNELS,
     SIGNAL_FORCE,
 )
-from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.absence import absence_of
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
 from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
-from beardyn_core.scene.defect import truth_of
+from beardyn_core.scene.defect import Patch, truth_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
+from beardyn_core.versions import versions
 
 Float = NDArray[np.float64]
 LANE_WIDTH = 8
@@ -52,19 +47,6 @@ LANE_WIDTH = 8
 COMPILING = "compiling the kernels of these effects: once, about a minute"
 
 log = logging.getLogger("beardyn")
-
-
-@dataclass(frozen=True)
-class Snapshot:
-    """Everything the rest of a run depends on."""
-
-    index: int
-    state: State
-    parameters: Parameters
-    load: LoadBuffer
-    observer: tuple[object, ...]
-    first_audit: Float | None
-    warmth: Warmth | None = None
 
 
 class Twin:
@@ -99,8 +81,7 @@ class Twin:
         self._parameters = build_parameters(scene, self._arrangement, np.zeros(6))
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._work = work_space(self._arrangement, len(self._bending_stiffness))
-        steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
-        self._signals = np.zeros((steps, SIGNAL_CHANNELS))
+        self._steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
         self._audit = np.zeros(ENERGY_TERMS)
         self._first_audit: Float | None = None
         self._state: State | None = None
@@ -109,6 +90,7 @@ class Twin:
         self.stages = StageClock()
         heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
         self._warmth = cold_start(scene) if heated else None
+        self._signals = np.zeros((self.blocks_at_once * self._steps, SIGNAL_CHANNELS))
         self._audited = scene.effects.audit is not None and "audit" not in scene.missing_effects
 
     @property
@@ -147,15 +129,15 @@ class Twin:
         """Go through what a block takes, at rest and with nothing kept."""
         static = _at_rest(self.scene.rows, self.roller_count, len(self._bending_stiffness))
         state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
-        steps = len(self._signals)
+        steps = self._steps
         buffer = LoadBuffer()
         buffer.append(LoadHistory(np.array([0, BLOCK_NS]), np.zeros((2, 6)), np.zeros(2), np.zeros((2, 3))))
         loads = buffer.at_steps(0, BLOCK_NS, steps)
         rollers, bodies = self._run(
-            state, loads[: TRENDS_PER_BLOCK + 1].copy(), self._signals[:TRENDS_PER_BLOCK].copy()
+            state, loads[: TRENDS_PER_BLOCK + 1].copy(), self._signals[:TRENDS_PER_BLOCK].copy(), 1
         )
         assess(state, steps, self.scene.bearing.large_end_radius, self._parameters.effects.rib)
-        signals = np.zeros_like(self._signals)
+        signals = np.zeros((steps, SIGNAL_CHANNELS))
         observer = Observer(self.scene, self._arrangement, self._parameters, signals[0])
         observer.first_instant(*self._complete(state.rollers, state.bodies), loads[0, :6])
         block = observer.observe(0, signals, loads, rollers, bodies, 0, None, 0.0, None)
@@ -229,13 +211,27 @@ class Twin:
         """Append load samples; False when they were refused (`load.reason` says why)."""
         return self.load.append(load)
 
+    @property
+    def blocks_at_once(self) -> int:
+        """Most blocks that `advance` may take: several where only the kernel changes anything meanwhile."""
+        changing = self._warmth is not None or any(
+            isinstance(defect, Patch) and defect.growth is not None for defect in self.scene.defects
+        )
+        return 1 if changing else TIER_NOUNS[self.scene.tier].blocks_at_once
+
     def covered(self) -> bool:
         """Whether a sample at or after the end of the next block has arrived."""
         last = self.load.last_ns
         return last is not None and last >= self.next_end_ns
 
-    def advance(self) -> Block:
-        """Advance by one block.
+    def advance(self, blocks: int = 1) -> Block:
+        """Advance by a block.
+
+        Parameters
+        ----------
+        blocks : int, optional
+            Blocks of 20 ms in one, up to `blocks_at_once`: the same bits as one after the other, in less
+            time.
 
         Returns
         -------
@@ -246,55 +242,48 @@ class Twin:
         ValidityError
             The model left its range of validity; the block is in the error's ``block``.
         """
+        if not 1 <= blocks <= self.blocks_at_once:
+            raise ValueError(f"blocks is {blocks}; allowed is 1 to {self.blocks_at_once} for this scene")
         if self._state is None or self._observer is None:
             raise ValidityError("the twin has not been started: it needs its first load")
         self.stages.begin()
-        loads = self._loads(self._index * BLOCK_NS, self.next_end_ns, len(self._signals))
+        signals = self._signals[: blocks * self._steps]
+        loads = self._loads(self._index * BLOCK_NS, (self._index + blocks) * BLOCK_NS, self._steps, blocks)
         self.stages.lap(LOAD)
         began = time.perf_counter()
         grow(self._parameters.effects.faults, self.scene, self._index * BLOCK_NS * 1e-9)
-        rollers, bodies = self._run(self._state, loads, self._signals)
+        rollers, bodies = self._run(self._state, loads, signals, blocks)
         wall = time.perf_counter() - began
         self.stages.lap_kernel(stage_cycles(self._parameters.effects.timers))
         status = assess(
             self._state,
-            len(self._signals),
+            len(signals),
             self.scene.bearing.large_end_radius,
             self._parameters.effects.rib,
         )
         audit = self._energy_audit()
         temperature = None if self._warmth is None else self._warm_up(loads)
         block = self._observer.observe(
-            self._index, self._signals, loads, rollers, bodies, int(status), audit, wall, temperature
+            self._index, signals, loads, rollers, bodies, int(status), audit, wall, temperature
         )
         self.stages.lap(OBSERVE)
-        self._index += 1
+        self._index += blocks
         self.stages.lap(REST)
         if is_fatal(status):
             moment = f"at {block.end_ns * 1e-9:.2f} s of simulated time"
             raise ValidityError(f"the run ended {moment}: {describe(status)}", block)
         return block
 
-    def _loads(self, start_ns: int, end_ns: int, steps: int) -> Float:
-        """Load at the step boundaries about the bearing centre, shape [steps + 1, 10]."""
-        loads = self.load.at_steps(start_ns, end_ns, steps)
+    def _loads(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> Float:
+        """Load at the step boundaries about the bearing centre, shape [steps * blocks + 1, 10]."""
+        loads = self.load.at_steps(start_ns, end_ns, steps, blocks)
         loads[:, :6] = self.scene.mounting.about_bearing_centre(loads[:, :6])
         return loads
 
     @property
     def _tilt_restraint(self) -> Float:
-        """Of the suspension, against the tilt of the bearing about x and z, [N m/rad].
-
-        A journal free to tilt leans the whole moment on the box, whatever holds that.
-        """
-        mounting = self.scene.mounting
-        if mounting.cup == "held" or mounting.journal_tilt == "free":
-            return np.zeros(2)
-        stiffness = self._parameters.mounting.stiffness
-        if self._parameters.mounting.coupling is not None:
-            # the bearing centre stays where it is, so its springs beside it restrain the tilt too
-            stiffness = np.diag(self._parameters.mounting.coupling.stiffness)
-        return np.asarray(stiffness)[[3, 5]]
+        """Against the tilt of the bearing about x and z, [N m/rad]."""
+        return tilt_restraint(self.scene.mounting, self._parameters.mounting)
 
     @property
     def _bending_stiffness(self) -> Float:
@@ -302,9 +291,9 @@ class Twin:
         flexibility = self._parameters.effects.ring_flexibility
         return np.zeros(0) if flexibility is None else np.asarray(flexibility.stiffness)
 
-    def _run(self, state: State, loads: Float, signals: Float) -> tuple[Float, Float]:
-        rollers = np.empty((TRENDS_PER_BLOCK, *state.rollers.shape))
-        bodies = np.empty((TRENDS_PER_BLOCK, *state.bodies.shape))
+    def _run(self, state: State, loads: Float, signals: Float, blocks: int) -> tuple[Float, Float]:
+        rollers = np.empty((blocks * TRENDS_PER_BLOCK, *state.rollers.shape))
+        bodies = np.empty((blocks * TRENDS_PER_BLOCK, *state.bodies.shape))
         work = self._work
         self._tier.advance(
             self._lanes, state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches,
@@ -339,14 +328,7 @@ class Twin:
             return None
         if self._first_audit is None:
             self._first_audit = self._audit.copy()
-        since = self._audit - self._first_audit
-        return EnergyAudit(
-            external=float(since[ENERGY_EXTERNAL]),
-            dissipated=float(since[ENERGY_LOST : ENERGY_LOST + LOSSES].sum()),
-            numerical=float(since[ENERGY_NUMERICAL]),
-            stored=float(since[ENERGY_ELASTIC] + since[ENERGY_KINETIC]),
-            losses=tuple(since[ENERGY_LOST : ENERGY_LOST + LOSSES].tolist()),
-        )
+        return EnergyAudit.of(self._audit - self._first_audit)
 
     def truth(self) -> dict[str, Any]:
         """What is known of the run that a train could not know: scene, faults, frequencies, versions."""
@@ -374,7 +356,7 @@ class Twin:
             "step_s": self._parameters.step,
             "seed": scene.seed,
             "chosen": list(scene.chosen),
-            "versions": {name: _version(name) for name in ("beardyn", "numba", "numpy")},
+            "versions": versions(),
         }
 
     def snapshot(self) -> Snapshot:
@@ -416,10 +398,3 @@ def _at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
         roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
         stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0, bending=np.zeros((modes, 2)),
     )  # fmt: skip
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "source"

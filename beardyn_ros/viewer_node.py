@@ -9,10 +9,11 @@ from pathlib import Path
 from rclpy.node import Node
 
 from beardyn_core.errors import InputError
-from beardyn_core.record.messages import decode_diagnostics
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.messages import decode_diagnostics, decode_string
 from beardyn_core.record.rerun_live import LiveView
 from beardyn_core.record.rerun_stream import live_stream
-from beardyn_core.record.topics import topic
+from beardyn_core.record.topics import topic, vibration_topic
 from beardyn_core.record.viewer import has_display
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node
@@ -63,6 +64,7 @@ class ViewerNode(Node):
         self._intake = RawIntake(self)
         for name in DRAWN:
             self._intake.add(topic(name), self._drawer(name))
+        self._further: set[str] = set()
         self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
         self._watch = TwinWatch(lambda: self.count_publishers(topic("truth").path(self.get_namespace())))
         self.create_timer(TICK_S, self._tick)
@@ -72,10 +74,19 @@ class ViewerNode(Node):
         def draw(cdr: bytes) -> None:
             try:
                 self._view.feed(name, cdr)
+                if name == "truth":
+                    self._draw_further_sensors(RunDescription.from_json(decode_string(cdr)))
             except InputError as error:
                 self.get_logger().error(str(error), throttle_duration_sec=5.0)
 
         return draw
+
+    def _draw_further_sensors(self, run: RunDescription) -> None:
+        for number in range(1, len(run.sensor_names)):
+            name = vibration_topic(number, run.sensor_names)
+            if name not in self._further:
+                self._further.add(name)
+                self._intake.add(topic(name), self._drawer(name))
 
     def _on_diagnostics(self, cdr: bytes) -> None:
         self._watch.hear(decode_diagnostics(cdr)[1])

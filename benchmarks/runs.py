@@ -108,6 +108,54 @@ def take_turns(scenes: dict[str, Scene], turns: int) -> dict[str, Timing]:
     return timings
 
 
+STRETCH_S = 0.25
+STRETCHES = 5
+
+
+def measure_alone(scenes: dict[str, Scene], stretches: int = STRETCHES) -> dict[str, tuple[float, float]]:
+    """Real-time factors of runs that each have the machine to themselves for a while.
+
+    Parameters
+    ----------
+    scenes : dict
+    stretches : int
+        A stretch is a quarter of a second of one run, and the runs take turns with them, so that each
+        has its data in the caches and a machine that slows down still slows all of them.
+
+    Returns
+    -------
+    dict of name to 2 floats
+        Medians over all advances: with blocks of 20 ms, and with as many in one as a desk run takes.
+    """
+    found = {}
+    for name, scene in scenes.items():
+        probe = started(scene, SETTLING_BLOCKS + 1)
+        began = time.perf_counter()
+        for _ in range(SETTLING_BLOCKS):
+            probe.advance()
+        block_s = (time.perf_counter() - began) / SETTLING_BLOCKS
+        found[name] = max(2 * probe.blocks_at_once, round(STRETCH_S / block_s))
+    twins = {name: started(scene, 2 * stretches * found[name]) for name, scene in scenes.items()}
+    walls: dict[str, tuple[list[float], list[float]]] = {name: ([], []) for name in scenes}
+    for turn in range(stretches):
+        for name in scenes if turn % 2 else reversed(scenes):
+            twin = twins[name]
+            for kind, at_once in enumerate((1, twin.blocks_at_once)):
+                took = []
+                for _ in range(found[name] // at_once):
+                    began = time.perf_counter()
+                    twin.advance(at_once)
+                    took.append((time.perf_counter() - began) / at_once)
+                walls[name][kind].extend(took[1:])
+    return {
+        name: (
+            twins[name].block_ns * 1e-9 / statistics.median(one),
+            twins[name].block_ns * 1e-9 / statistics.median(several),
+        )
+        for name, (one, several) in walls.items()
+    }
+
+
 @dataclass(frozen=True)
 class Line:
     """Straight line through measurements: value at 0, slope, coefficient of determination."""

@@ -30,7 +30,9 @@ The real-time factor (RTF) is simulated over wall time, all channels of a run in
 TEXTS = {
     "real_time_factor": """## Tiers and effects
 
-Every tier with every shipped set of effects, steady 80 kN at 1165 rpm, 6 laminae unless named.
+Every tier with every shipped set of effects and the step it takes by itself, steady 80 kN at 1165 rpm, 6
+laminae unless named. The first factor is measured in turn with all the others, the last two with one run at a
+time.
 
 """,
     "scenes": """## Scenes

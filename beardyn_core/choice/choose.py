@@ -236,7 +236,9 @@ def _told(
 def _unjudged(scene: Scene, free: Free, given: EffectSet, accuracy: float, why: str) -> Choice:
     """Everything on, for want of an equilibrium to judge by."""
     name = "full" if free.tier else scene.tier
-    usual = TIERS[name].steps_per_sample if free.steps else scene.numerics.steps_per_sample
+    usual = scene.numerics.steps_per_sample
+    if free.steps:
+        usual = numerics.served(StepChoice(TIERS[name].steps_per_sample, ""), scene.sensors).steps_per_sample
     total = measured_costs().ratios["full"]
     effects = replace(given, **{member: getattr(scene.effects, member) for member in free.effects})
     return Choice(

@@ -10,6 +10,7 @@ from beardyn_core.choice.rule import Influence, percent
 from beardyn_core.effects import EffectSet
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, StepChoice, choose_steps
 from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 
 _FINE = 400
 LAMINAE = (2, 4, 6, 8, 12, 20, 40)
@@ -104,11 +105,12 @@ def lever_error(patch: Patch, length: float, count: int) -> float:
 def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibration: bool) -> StepChoice:
     """Coarsest step that is converged, by the current stiffness.
 
-    Friction decides; what else a choice may change is taken as in the reference.
+    Friction decides; what else a choice may change is taken as in the reference. A sensor that needs
+    more steps for its rate gets them.
     """
     loads, scene = evidence.loads, evidence.scene
     radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
-    return choose_steps(
+    found = choose_steps(
         scene.bearing,
         (min(radial), max(radial)),
         (abs(loads.typical.speed), loads.top_speed),
@@ -120,3 +122,11 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         mounting=scene.mounting,
         band=AUDIBLE_BAND if vibration else 0.0,
     )
+    return served(found, scene.sensors)
+
+
+def served(choice: StepChoice, sensors: tuple[Accelerometer, ...]) -> StepChoice:
+    """A choice of the step, or a finer one where the sensors need it."""
+    steps = choice.steps_per_sample
+    problem = steps_do_not_fit(sensors, steps)
+    return choice if problem is None else StepChoice(max(FINE_STEPS, steps + steps % 2), problem)

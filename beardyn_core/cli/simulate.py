@@ -149,19 +149,36 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
     }
 
 
-def text(summary: RunSummary, recording: Path | None) -> str:
-    """Readable summary."""
-    from beardyn_core.observe.stage_clock import stage_lines
-    from beardyn_core.study.life_text import life_sentence
-
+def _means(summary: RunSummary) -> list[tuple[str, str]]:
+    """Lines of the mean values."""
+    if summary.nothing_to_average:
+        why = f"too little: {summary.duration:g} s end before the first values have passed their filters"
+        return [("means", f"{why}; simulate 0.06 s or more")]
     fx, fy, fz = summary.mean_force
     first, last = summary.averaged
-    ratios = ", ".join(f"{ratio:.4f} (row {row})" for row, ratio in enumerate(summary.cage_speed_ratio))
+    ratios = (
+        "none, the shaft stands still"
+        if any(math.isnan(ratio) for ratio in summary.cage_speed_ratio)
+        else ", ".join(f"{ratio:.4f} (row {row})" for row, ratio in enumerate(summary.cage_speed_ratio))
+    )
     over = (
         f"{summary.cage_revolutions} whole cage revolution{'s' * (summary.cage_revolutions != 1)}"
         if summary.cage_revolutions
         else "no whole cage revolution"
     )
+    return [
+        ("means over", f"{first:.3f} s to {last:.3f} s, {over}"),
+        ("force on the cup", f"x {fx:.1f} N, y {fy:.1f} N, z {fz:.1f} N"),
+        ("torque on the shaft", f"{summary.shaft_torque:.3f} N m"),
+        ("cage speed ratio", ratios),
+    ]
+
+
+def text(summary: RunSummary, recording: Path | None) -> str:
+    """Readable summary."""
+    from beardyn_core.observe.stage_clock import stage_lines
+    from beardyn_core.study.life_text import life_sentence
+
     residual = "not kept" if summary.energy_residual is None else f"{100.0 * summary.energy_residual:.3f} %"
     lines = [
         ("scene", summary.scene),
@@ -174,10 +191,7 @@ def text(summary: RunSummary, recording: Path | None) -> str:
             f"{summary.duration:.2f} s in {summary.wall_time:.2f} s, "
             f"real-time factor {summary.real_time_factor:.2f}",
         ),
-        ("means over", f"{first:.3f} s to {last:.3f} s, {over}"),
-        ("force on the cup", f"x {fx:.1f} N, y {fy:.1f} N, z {fz:.1f} N"),
-        ("torque on the shaft", f"{summary.shaft_torque:.3f} N m"),
-        ("cage speed ratio", ratios),
+        *_means(summary),
         ("energy residual", residual),
         ("status", summary.status),
     ]

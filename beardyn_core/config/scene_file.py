@@ -32,7 +32,7 @@ from beardyn_core.config.operation_file import OperationKeys, scaled
 from beardyn_core.config.units import KN, MEGA, MM, UM, ZERO_CELSIUS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Numerics, Scene
-from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, steps_do_not_fit
 from beardyn_core.scene.tier import TIERS
 
 
@@ -143,15 +143,41 @@ class SensorKeys(FileModel):
     position_mm: Vector = Field((0.0, 0.0, 170.0), description="from the bearing centre along x, y, z")
     noise_density_m_per_s2_per_sqrt_Hz: NonNegative = 0.02
     range_m_per_s2: Positive = Field(5000.0, description="clipping level of each axis")
+    mounting_resonance_Hz: Annotated[Positive, Field(ge=500.0, le=100_000.0)] | None = Field(
+        None, description="of the accelerometer on its mounting (ISO 5348); rigid when not given"
+    )
+    mounting_damping_ratio: Annotated[Positive, Field(ge=0.001, le=0.9)] | None = Field(
+        None, description=f"of critical; {Accelerometer.mounting_damping_ratio:g} when not given"
+    )
+    rate_kHz: Annotated[Number, WithJsonSchema({"enum": [rate / KN for rate in RATES]})] = Field(
+        RATES[0] / KN,
+        description=f"51.2 needs an even numerics.steps_per_sample of {FINE_STEPS} or more, its default then",
+    )
+
+    @model_validator(mode="after")
+    def _is_offered(self) -> Self:
+        offered = [rate / KN for rate in RATES]
+        if self.rate_kHz not in offered:
+            raise problem(f"rate_kHz is {self.rate_kHz:g}; allowed is {offered[0]:g} or {offered[1]:g}")
+        if self.mounting_damping_ratio is not None and self.mounting_resonance_Hz is None:
+            raise problem(
+                f"mounting_damping_ratio is {self.mounting_damping_ratio:g}; it damps nothing without "
+                "mounting_resonance_Hz: give that too, or leave both out for a rigid mounting"
+            )
+        return self
 
     def noun(self) -> Accelerometer:
         """The accelerometer, SI."""
         x, y, z = self.position_mm
+        damping = self.mounting_damping_ratio
         return Accelerometer(
             self.name,
             (x / MM, y / MM, z / MM),
             self.noise_density_m_per_s2_per_sqrt_Hz,
             self.range_m_per_s2,
+            self.mounting_resonance_Hz,
+            Accelerometer.mounting_damping_ratio if damping is None else damping,
+            self.rate_kHz * KN,
         )
 
 
@@ -228,12 +254,17 @@ class SceneKeys(FileModel):
     @model_validator(mode="before")
     @classmethod
     def _steps_of_the_tier(cls, data: Any) -> Any:
-        """Write down the time step of the tier where the scene does not."""
+        """Write down the time step of the tier, or of a fast sensor, where the scene does not."""
         tier = TIERS.get(str(data.get("tier", "full"))) if isinstance(data, dict) else None
         numerics = data.get("numerics", {}) if isinstance(data, dict) else None
         if tier is None or not isinstance(numerics, dict) or "steps_per_sample" in numerics:
             return data
-        return {**data, "numerics": {**numerics, "steps_per_sample": tier.steps_per_sample}}
+        sensors = data.get("sensors")
+        fast = isinstance(sensors, list | tuple) and any(
+            isinstance(each, dict) and each.get("rate_kHz") == RATES[1] / KN for each in sensors
+        )
+        steps = max(tier.steps_per_sample, FINE_STEPS if fast else 1)
+        return {**data, "numerics": {**numerics, "steps_per_sample": steps}}
 
     @model_validator(mode="after")
     def _each_quantity_once(self) -> Self:
@@ -250,6 +281,16 @@ class SceneKeys(FileModel):
                 raise problem(
                     f"sensors[{index}].name is {name!r}, given twice; each sensor needs its own name"
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _steps_serve_the_sensors(self) -> Self:
+        if isinstance(self.numerics, NumericsKeys):
+            found = steps_do_not_fit(
+                tuple(sensor.noun() for sensor in self.sensors), self.numerics.steps_per_sample
+            )
+            if found:
+                raise problem(found)
         return self
 
     def noun(self, source_text: str) -> Scene:

@@ -15,5 +15,7 @@ quasistatic        explicit steps of the quasistatic tier
 tiers              what each tier computes with
 status             status bits and the sentence of each
 step_choice        the coarsest step that is converged
+restraint          what holds the bearing against tilt
+snapshot           what a run is frozen in and goes on from
 ================== ==========================================
 """

@@ -25,11 +25,18 @@ from beardyn_core.model.layout import (
     TURN,
 )
 
+TRENDS_PER_BLOCK = 8  # instants at 400 Hz in 20 ms
+
 
 @inline
-def begin_block(rollers: Any, bodies: Any) -> Any:
-    """Direction of the cages, as cosine and sine; the largest penetration of a block starts anew."""
+def begin_advance(rollers: Any) -> None:
+    """The largest penetration starts anew."""
     rollers[:, PENETRATION] = 0.0
+
+
+@inline
+def cage_direction(bodies: Any) -> Any:
+    """Direction of the cages, as cosine and sine."""
     return math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN])
 
 

@@ -7,7 +7,13 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.errors import ValidityError
-from beardyn_core.integrate.kinematic_step import begin_block, begin_step, finish_step
+from beardyn_core.integrate.kinematic_step import (
+    TRENDS_PER_BLOCK,
+    begin_advance,
+    begin_step,
+    cage_direction,
+    finish_step,
+)
 from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.jit import entry
@@ -62,7 +68,7 @@ def advance_lumped(
     audit: Any,
     p: Any,
 ) -> None:
-    """Advance the lumped tier over one block of steps; arguments as of the full tier's `advance`.
+    """Advance the lumped tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
     Parameters
     ----------
@@ -72,9 +78,12 @@ def advance_lumped(
     """
     steps = signals.shape[0]
     stride = steps // roller_trend.shape[0]
-    direction = begin_block(rollers, bodies)
+    begin_advance(rollers)
+    direction = cage_direction(bodies)
     losses = (0.0, 0.0)
     for step in range(steps):
+        if step % (TRENDS_PER_BLOCK * stride) == 0:
+            direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
         due, shown = step % stride == 0, (step + 1) % stride == 0
         load_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p)

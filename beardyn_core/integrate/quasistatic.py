@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from beardyn_core.integrate.kinematic_step import begin_block, begin_step, finish_step
+from beardyn_core.integrate.kinematic_step import (
+    TRENDS_PER_BLOCK,
+    begin_advance,
+    begin_step,
+    cage_direction,
+    finish_step,
+)
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
 from beardyn_core.kernels.kinematic_rollers import (
@@ -182,7 +188,7 @@ def advance_quasistatic(
     audit: Any,
     p: Any,
 ) -> None:
-    """Advance the quasistatic tier over one block of steps; arguments as of the full tier's `advance`.
+    """Advance the quasistatic tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
     Parameters
     ----------
@@ -192,9 +198,12 @@ def advance_quasistatic(
     """
     steps = signals.shape[0]
     stride = steps // roller_trend.shape[0]
-    direction = begin_block(rollers, bodies)
+    begin_advance(rollers)
+    direction = cage_direction(bodies)
     losses = (0.0, 0.0)
     for step in range(steps):
+        if step % (TRENDS_PER_BLOCK * stride) == 0:
+            direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
         due, shown = step % stride == 0, (step + 1) % stride == 0
         balance_rollers(

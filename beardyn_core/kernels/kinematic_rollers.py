@@ -70,12 +70,19 @@ def turned(direction: Any, angle: Any) -> Any:
 @inline
 def lane_total(sums: Any, field: Any) -> Any:
     """Sum of a field over the lanes."""
+    inner, outer = row_totals(sums, field)
+    return inner + outer
+
+
+@inline
+def row_totals(sums: Any, field: Any) -> Any:
+    """Sum of a field over the lanes of each row."""
     half = sums.shape[3] // 2
     inner, outer = 0.0, 0.0
     for lane in range(half):
         inner += sums[0, 0, field, lane]
         outer += sums[0, 0, field, half + lane]
-    return inner + outer
+    return inner, outer
 
 
 @inline

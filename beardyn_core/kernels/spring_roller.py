@@ -7,15 +7,12 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
 from beardyn_core.kernels.kinematic_rollers import (
-    LOAD_AXIAL,
     LOAD_COSINE,
     LOAD_SINE,
-    MOMENT_COSINE,
-    MOMENT_SINE,
     RIB_SUM,
     TORQUE_RIB,
     TORQUE_ROLLING,
-    lane_total,
+    row_totals,
     show_contacts,
     show_roller,
 )
@@ -183,7 +180,7 @@ def load_rollers(
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
         Written when `shown`, the largest approach always.
     sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Written: ``LOAD_COSINE`` and following.
+        Written: ``LOAD_COSINE``, ``LOAD_SINE``, ``RIB_SUM`` and the torques.
     motion : tuple
         From `relative_cone`.
     direction : tuple of 2 floats
@@ -236,9 +233,6 @@ def load_rollers(
                 show_spring(lanes, rollers, block, loads, (turns[0], speeds[1]), speeds, angle, p)
     lanes.store(sums, 0, LOAD_COSINE, load_cosine)
     lanes.store(sums, 0, LOAD_SINE, load_sine)
-    lanes.store(sums, 0, LOAD_AXIAL, lanes.load(p.sides, 0, 0) * load_sum)
-    lanes.store(sums, 0, MOMENT_COSINE, lanes.load(p.sides, 0, 0) * load_cosine)
-    lanes.store(sums, 0, MOMENT_SINE, lanes.load(p.sides, 0, 0) * load_sine)
     lanes.store(sums, 0, RIB_SUM, load_sum)
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
@@ -260,15 +254,18 @@ def idle_load(cage_speed: Any, p: Any) -> Any:
 def sum_rollers(sums: Any, speeds: Any, p: Any) -> Any:
     """Totals as `cup_wrench` takes them, and the sum of the rib loads, from what `load_rollers` stored."""
     spring = p.spring
+    cosine, sine = row_totals(sums, LOAD_COSINE), row_totals(sums, LOAD_SINE)
+    load = row_totals(sums, RIB_SUM)
+    inner, outer = p.sides[0, 0, 0], p.sides[0, 0, p.sides.shape[2] - 1]
     totals = (
-        lane_total(sums, LOAD_COSINE),
-        lane_total(sums, LOAD_SINE),
-        lane_total(sums, LOAD_AXIAL),
-        spring.lever * lane_total(sums, MOMENT_COSINE),
-        spring.lever * lane_total(sums, MOMENT_SINE),
+        cosine[0] + cosine[1],
+        sine[0] + sine[1],
+        inner * load[0] + outer * load[1],
+        spring.lever * (inner * cosine[0] + outer * cosine[1]),
+        spring.lever * (inner * sine[0] + outer * sine[1]),
     )
     centrifugal = p.kinematic.rolling_count * centrifugal_force(speeds[1], p)
-    return totals, spring.rib_share * lane_total(sums, RIB_SUM) + spring.rib_centrifugal * centrifugal
+    return totals, spring.rib_share * (load[0] + load[1]) + spring.rib_centrifugal * centrifugal
 
 
 @inline

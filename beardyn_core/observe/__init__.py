@@ -6,6 +6,8 @@
 | `torque_budget` | mean power and torque of every loss |
 | `decimate` | streaming anti-alias decimation |
 | `accelerometer` | specific force at the sensor, noise, clipping |
+| `resonance` | the sensor on its mounting: one mass on a spring |
+| `sensors` | all accelerometers of a scene |
 | `features` | envelope, order tracking, spectrum, line search |
 | `diagnosis` | the pure monitoring algorithm: one stretch of signal to a verdict |
 | `monitoring` | the streaming monitor around it |

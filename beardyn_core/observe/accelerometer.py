@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.jit import entry
+from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, log2
 from beardyn_core.scene.sensor import Accelerometer
 
@@ -17,6 +17,7 @@ GRAVITY = 9.80665
 _STREAM = 0x61636365  # keeps the sensors' random numbers apart from those of the rail
 _TWICE_LN_2 = 1.3862943611198906
 _TWO_PI = 6.283185307179586
+_PIECE = 256
 
 
 def specific_force(
@@ -61,19 +62,27 @@ def specific_force(
 
 @entry
 def _specific_force(position, acceleration, angular_velocity, angular_acceleration, rotation, force):
-    px, py, pz = position
     for i in range(len(force)):
-        ax, ay, az = rotation[i, 0], rotation[i, 1], rotation[i, 2]
-        wx, wy, wz = angular_velocity[i, 0], angular_velocity[i, 1], angular_velocity[i, 2]
-        cx, cy, cz = angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2]
-        rx, ry, rz = px + ay * pz - az * py, py + az * px - ax * pz, pz + ax * py - ay * px
-        vx, vy, vz = wy * rz - wz * ry, wz * rx - wx * rz, wx * ry - wy * rx
-        fx = acceleration[i, 0] + (cy * rz - cz * ry) + (wy * vz - wz * vy)
-        fy = acceleration[i, 1] + (cz * rx - cx * rz) + (wz * vx - wx * vz)
-        fz = acceleration[i, 2] + (cx * ry - cy * rx) + (wx * vy - wy * vx) + GRAVITY
-        force[i, 0] = fx - (ay * fz - az * fy)
-        force[i, 1] = fy - (az * fx - ax * fz)
-        force[i, 2] = fz - (ax * fy - ay * fx)
+        force_at(
+            position, acceleration[i], angular_acceleration[i], angular_velocity[i], rotation[i], force[i]
+        )
+
+
+@inline
+def force_at(position, acceleration, angular_acceleration, angular_velocity, rotation, force):
+    """One sample of `specific_force`, written to `force`."""
+    px, py, pz = position[0], position[1], position[2]
+    ax, ay, az = rotation[0], rotation[1], rotation[2]
+    wx, wy, wz = angular_velocity[0], angular_velocity[1], angular_velocity[2]
+    cx, cy, cz = angular_acceleration[0], angular_acceleration[1], angular_acceleration[2]
+    rx, ry, rz = px + ay * pz - az * py, py + az * px - ax * pz, pz + ax * py - ay * px
+    vx, vy, vz = wy * rz - wz * ry, wz * rx - wx * rz, wx * ry - wy * rx
+    fx = acceleration[0] + (cy * rz - cz * ry) + (wy * vz - wz * vy)
+    fy = acceleration[1] + (cz * rx - cx * rz) + (wz * vx - wx * vz)
+    fz = acceleration[2] + (cx * ry - cy * rx) + (wx * vy - wy * vx) + GRAVITY
+    force[0] = fx - (ay * fz - az * fy)
+    force[1] = fy - (az * fx - ax * fz)
+    force[2] = fz - (ax * fy - ay * fx)
 
 
 def white_noise(seed: int, sensor: int, first_sample: int, count: int) -> Float:
@@ -122,17 +131,30 @@ class NoiseStream:
 
 @entry
 def _normal(raw, noise):
-    for i in range(len(noise)):
-        # 53 bits each, in (0, 1]: the logarithm stays finite; at 1 it may be above zero by its error
-        first = (np.float64(raw[4 * i] >> np.uint64(11)) + 1.0) * 2.0**-53
-        second = (np.float64(raw[4 * i + 1] >> np.uint64(11)) + 1.0) * 2.0**-53
-        turn = (np.float64(raw[4 * i + 2] >> np.uint64(11)) + 1.0) * (2.0**-53 * _TWO_PI)
-        other = (np.float64(raw[4 * i + 3] >> np.uint64(11)) + 1.0) * (2.0**-53 * _TWO_PI)
-        radius = np.sqrt(at_least(-_TWICE_LN_2 * log2(first), 0.0))
-        cosine, sine = cos_sin(turn)
-        noise[i, 0] = radius * cosine
-        noise[i, 1] = np.sqrt(at_least(-_TWICE_LN_2 * log2(second), 0.0)) * cos_sin(other)[0]
-        noise[i, 2] = radius * sine
+    # pieces that stay in the cache; within them one simple loop each, which the compiler turns into lanes
+    uniform, normal = np.empty((4, _PIECE)), np.empty((3, _PIECE))
+    for start in range(0, len(noise), _PIECE):
+        count = min(_PIECE, len(noise) - start)
+        for i in range(count):
+            for k in range(4):
+                # 53 bits, in (0, 1]: the logarithm stays finite; at 1 it may be above zero by its error
+                uniform[k, i] = (
+                    np.float64(np.int64(raw[4 * (start + i) + k] >> np.uint64(11))) + 1.0
+                ) * 2.0**-53
+        _box_muller(uniform[0], uniform[1], uniform[2], uniform[3], normal[0], normal[1], normal[2])
+        for i in range(count):
+            for k in range(3):
+                noise[start + i, k] = normal[k, i]
+
+
+@inline
+def _box_muller(first, second, turn, other, x, y, z):
+    for i in range(_PIECE):
+        radius = np.sqrt(at_least(-_TWICE_LN_2 * log2(first[i]), 0.0))
+        cosine, sine = cos_sin(_TWO_PI * turn[i])
+        x[i] = radius * cosine
+        z[i] = radius * sine
+        y[i] = np.sqrt(at_least(-_TWICE_LN_2 * log2(second[i]), 0.0)) * cos_sin(_TWO_PI * other[i])[0]
 
 
 def reading(

@@ -1,13 +1,23 @@
-"""The block: about 20 ms of every channel, the only thing that crosses a Python boundary."""
+"""The block: 20 ms of every channel, or some times that: all that crosses a Python boundary."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, cast
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+from beardyn_core.model.layout import (
+    ENERGY_ELASTIC,
+    ENERGY_EXTERNAL,
+    ENERGY_KINETIC,
+    ENERGY_LOST,
+    ENERGY_NUMERICAL,
+    LOSSES,
+)
+from beardyn_core.scene.sensor import RATES
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
@@ -43,6 +53,18 @@ class EnergyAudit:
     stored: float
     losses: tuple[float, ...] = ()
 
+    @classmethod
+    def of(cls, since: Float) -> EnergyAudit:
+        """Audit from the kernel's sums since the start of the run, shape [ENERGY_TERMS]."""
+        lost = since[ENERGY_LOST : ENERGY_LOST + LOSSES]
+        return cls(
+            external=float(since[ENERGY_EXTERNAL]),
+            dissipated=float(lost.sum()),
+            numerical=float(since[ENERGY_NUMERICAL]),
+            stored=float(since[ENERGY_ELASTIC] + since[ENERGY_KINETIC]),
+            losses=tuple(lost.tolist()),
+        )
+
     @property
     def residual(self) -> float:
         """Part of the energy that the audit cannot account for, relative to the dissipation."""
@@ -50,50 +72,55 @@ class EnergyAudit:
         return abs(missing) / max(self.dissipated, SMALLEST_LOSS)
 
 
-class Later:
-    """A member of a block that is worked out at the first look; a function without arguments does it.
+class Pictures(Protocol):
+    """Bodies and contacts at some instants, worked out when somebody looks.
 
-    The function must own what it reads: it may be called after the next blocks, and from any thread.
+    It must own what it reads: it may be asked after the next blocks, and from any thread.
     """
 
-    def __init__(self, function: Callable[[], Float]) -> None:
-        self.function = function
+    def pose(self) -> Float:
+        """See `Block.body_pose`."""
+        ...
+
+    def twist(self) -> Float:
+        """See `Block.body_twist`."""
+        ...
+
+    def contacts(self) -> Float:
+        """See `Block.contacts`."""
+        ...
 
 
-def later(function: Callable[[], Float]) -> Float:
-    """A `Later`, to hand to `Block` in place of an array."""
-    return cast(Any, Later(function))
+@dataclass(frozen=True)
+class Vibration:
+    """What one accelerometer read during a block.
 
+    Parameters
+    ----------
+    rate : float
+        [Hz].
+    sample : int
+        Running index of the first sample.
+    time_ns : int64 array, shape [sample]
+        True time of each sample; the delay of the anti-alias filter is compensated, [ns].
+    acceleration : float64 array, shape [sample, 3]
+        Specific force: +g on z at rest, [m/s^2].
+    """
 
-class _Worked:
-    """Descriptor of a block's member that may be a `Later`."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    def __get__(self, block: Any, _owner: type) -> Any:
-        if block is None:
-            return self
-        found = block.__dict__[self._name]
-        if isinstance(found, Later):
-            # two threads may both come here: they work out the same
-            found = block.__dict__[self._name] = found.function()
-        return found
-
-    def __set__(self, block: Any, given: Any) -> None:
-        block.__dict__[self._name] = given
+    rate: float
+    sample: int
+    time_ns: Int
+    acceleration: Float
 
 
 @dataclass(frozen=True)
 class Block:
     """One block of simulated time, world axes, SI.
 
-    `body_pose`, `body_twist` and `contacts` are worked out when somebody looks at them.
-
     Parameters
     ----------
     index : int
-        Running number of the block.
+        Running number of the block, counted in 20 ms; of the first one where it holds several.
     start_ns, end_ns : int
         Simulated time at its first and after its last step, [ns].
     waveform_sample : int
@@ -102,8 +129,8 @@ class Block:
         True time of each waveform sample; the delay of the anti-alias filter is compensated, [ns].
     force_waveform : float64 array, shape [sample, 6]
         Force and moment of the rollers on the cup at the bearing centre, [N, N m].
-    acceleration : float64 array, shape [sensor, sample, 3]
-        Specific force read by each accelerometer: +g on z at rest, [m/s^2].
+    vibration : tuple of Vibration
+        Of each accelerometer, in the order of the scene.
     trend_sample : int
         Running index of the first trend sample (400 Hz).
     trend_time_ns : int64 array, shape [trend], [ns]
@@ -119,13 +146,8 @@ class Block:
     snapshot_sample : int
         Running index of the first snapshot (200 Hz).
     snapshot_time_ns : int64 array, shape [snapshot], [ns]
-    body_pose : float64 array, shape [snapshot, body, 7]
-        x, y, z, qx, qy, qz, qw of each body; order of ``Twin.body_names``.
-    body_twist : float64 array, shape [snapshot, body, 6]
-        vx, vy, vz, wx, wy, wz, [m/s, rad/s].
-    contacts : float64 array, shape [snapshot, row, roller, kind, 8]
-        For each of `CONTACT_KINDS` the `CONTACT_FIELDS`: point, force of the roller's partner on the
-        roller, slip speed and film thickness, [m, N, m/s, m]. No contact: force exactly zero.
+    pictures : Pictures
+        Bodies and contacts at the snapshots: look at `body_pose`, `body_twist` and `contacts`.
     status : int
         Bit flags of `integrate.status`.
     audit : EnergyAudit or None
@@ -141,7 +163,7 @@ class Block:
     waveform_sample: int
     waveform_time_ns: Int
     force_waveform: Float
-    acceleration: Float
+    vibration: tuple[Vibration, ...]
     trend_sample: int
     trend_time_ns: Int
     force: Float
@@ -156,14 +178,53 @@ class Block:
     roller_speed: Float
     snapshot_sample: int
     snapshot_time_ns: Int
-    body_pose: Float
-    body_twist: Float
-    contacts: Float
+    pictures: Pictures
     status: int
     audit: EnergyAudit | None
     wall_s: float
     temperature: Float | None = None
 
+    def arrays(self) -> dict[str, Float | Int]:
+        """Every array by its name, with those that are worked out at the first look."""
+        every = {field.name: getattr(self, field.name) for field in fields(self)}
+        found = {name: value for name, value in every.items() if isinstance(value, np.ndarray)}
+        found |= {name: getattr(self, name) for name in ("body_pose", "body_twist", "contacts")}
+        for number, heard in enumerate(self.vibration):
+            found[f"vibration {number}"], found[f"vibration {number}, time"] = (
+                heard.acceleration,
+                heard.time_ns,
+            )
+        return found
 
-for _name in ("body_pose", "body_twist", "contacts"):
-    setattr(Block, _name, _Worked(_name))
+    @cached_property
+    def acceleration(self) -> Float:
+        """Readings at `waveform_time_ns`, of the accelerometers at 25.6 kHz in the order of the scene.
+
+        Shape [sensor, sample, 3], [m/s^2].
+        """
+        heard = [each.acceleration for each in self.vibration if each.rate == RATES[0]]
+        return np.stack(heard) if heard else np.empty((0, len(self.waveform_time_ns), 3))
+
+    # two threads may both come to what follows: they work out the same
+
+    @cached_property
+    def body_pose(self) -> Float:
+        """Place and orientation of each body, shape [snapshot, body, 7].
+
+        x, y, z, qx, qy, qz, qw in the order of ``Twin.body_names``.
+        """
+        return self.pictures.pose()
+
+    @cached_property
+    def body_twist(self) -> Float:
+        """Motion of each body, shape [snapshot, body, 6]: vx, vy, vz, wx, wy, wz, [m/s, rad/s]."""
+        return self.pictures.twist()
+
+    @cached_property
+    def contacts(self) -> Float:
+        """Contacts of each roller, shape [snapshot, row, roller, kind, 8].
+
+        For each of `CONTACT_KINDS` the `CONTACT_FIELDS`: point, force of the roller's partner on the
+        roller, slip speed and film thickness, [m, N, m/s, m]. No contact: force exactly zero.
+        """
+        return self.pictures.contacts()

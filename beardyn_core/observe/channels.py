@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,16 +13,13 @@ from beardyn_core.model.build import BLOCK_NS, SAMPLES_PER_BLOCK, WAVEFORM_RATE
 from beardyn_core.model.layout import (
     ANGULAR,
     CUP_BODY,
-    SIGNAL_ACCELERATION,
-    SIGNAL_ANGULAR_ACCELERATION,
     SIGNAL_CHANNELS,
     SIGNAL_FORCE,
     SIGNAL_TORQUE,
     TILT,
 )
 from beardyn_core.model.parameters import Parameters
-from beardyn_core.observe.accelerometer import GRAVITY, NoiseStream, reading, specific_force
-from beardyn_core.observe.block import Block, EnergyAudit, later
+from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.decimate import DELAY, Decimator
 from beardyn_core.observe.kinematics import (
     INSTANT_CAGES,
@@ -29,7 +28,9 @@ from beardyn_core.observe.kinematics import (
     Snapshots,
     write_instants,
 )
+from beardyn_core.observe.sensors import REST, Sensors, lookahead
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import RATES
 
 Float = NDArray[np.float64]
 
@@ -58,23 +59,27 @@ class Observer:
     """
 
     def __init__(self, scene: Scene, arrangement: Arrangement, parameters: Parameters, signal: Float) -> None:
-        self._sensors = scene.sensors
-        self._noise = [NoiseStream(scene.seed, number) for number in range(len(scene.sensors))]
         self._count = arrangement.roller_count
         self._roller = parameters.roller
         self._cage_place = 0.5 * scene.bearing.row_spacing
         # a step's signals are those of its end: sample 0 stands at the end of the step before the first
-        self._decimator = Decimator(scene.numerics.steps_per_sample, SIGNAL_CHANNELS, signal, held_back=1)
-        self._waveform_delay = DELAY if scene.numerics.steps_per_sample > 1 else 0
-        rest = np.concatenate([signal[:6], [0.0, 0.0, GRAVITY], signal[SIGNAL_TORQUE : SIGNAL_TORQUE + 1]])
+        steps, wait = scene.numerics.steps_per_sample, lookahead(scene)
+        self._decimator = Decimator(steps, SIGNAL_CHANNELS, signal, held_back=1 + wait * steps)
+        self._waveform_delay = wait + (DELAY if steps > 1 else 0)
+        self._sensors = Sensors(scene, self._waveform_delay)
+        rest = np.concatenate([signal[:6], REST, signal[SIGNAL_TORQUE : SIGNAL_TORQUE + 1]])
         carry = -self._waveform_delay % _WAVEFORMS_PER_TREND
         self._trend_decimator = Decimator(_WAVEFORMS_PER_TREND, _TREND_CHANNELS, rest, held_back=carry)
         self._trend_delay = DELAY + (self._waveform_delay + carry) // _WAVEFORMS_PER_TREND
+        # trends of a first accelerometer that runs faster than the other waveforms
+        self._fast_decimator: Decimator | None = None
+        if scene.sensors and scene.sensors[0].rate > RATES[0]:
+            per_trend = round(scene.sensors[0].rate / TREND_RATE)
+            carry = (self._trend_delay - DELAY) * per_trend - self._sensors.delays[0]
+            self._fast_decimator = Decimator(per_trend, 3, REST, held_back=carry)
         # blocks hold views of it, so every block gets one of its own; the newest instant is the last
-        self._instants = np.zeros(
-            (self._trend_delay + TRENDS_PER_BLOCK + 1, INSTANT_ROLLERS + 4 * self._count)
-        )
-        self._box_motion = np.zeros((1, 6))
+        self._instants = np.zeros((self._trend_delay + 1, INSTANT_ROLLERS + 4 * self._count))
+        self._box_motion = np.zeros((2, 6))
 
     def first_instant(self, rollers: Float, bodies: Float, load: Float) -> None:
         """Remember the instant t = 0.
@@ -105,7 +110,7 @@ class Observer:
         Parameters
         ----------
         index : int
-            Running number of the block.
+            Running number of the block, the first one of several.
         signals : float64 array, shape [step, SIGNAL_CHANNELS]
         loads : float64 array, shape [step + 1, 10]
         rollers, bodies : float64 arrays, shape [trend, ...]
@@ -122,34 +127,36 @@ class Observer:
         """
         waves = self._decimator.push(signals)
         first_wave = index * SAMPLES_PER_BLOCK - self._waveform_delay
-        acceleration = self._accelerations(waves, first_wave, bodies)
+        readings = self._sensors.read(index, waves, signals, self._motion(bodies))
+        heard = readings[0] if readings and self._fast_decimator is None else np.tile(REST, (len(waves), 1))
         channels = np.empty((len(waves), _TREND_CHANNELS))
-        channels[:, :6] = waves[:, SIGNAL_FORCE : SIGNAL_FORCE + 6]
-        channels[:, 6:9] = acceleration[0] if len(acceleration) else (0.0, 0.0, GRAVITY)
-        channels[:, 9] = waves[:, SIGNAL_TORQUE]
+        _select(waves, heard, channels)
+        blocks = len(bodies) // TRENDS_PER_BLOCK
         first_trend = index * TRENDS_PER_BLOCK - self._trend_delay
         keep_wave = slice(max(0, -first_wave), None)
-        keep_trend = slice(min(max(0, -first_trend), TRENDS_PER_BLOCK), None)
-        trends = self._trend_decimator.push(channels)[keep_trend]
+        keep_trend = slice(min(max(0, -first_trend), len(bodies)), None)
+        trends = self._trend_decimator.push(channels)
+        if self._fast_decimator is not None:
+            trends[:, 6:9] = self._fast_decimator.push(readings[0])
+        trends = trends[keep_trend]
         first_kept = first_trend + keep_trend.start
-        instants = self._remember(index, rollers, bodies, loads, first_kept, len(trends))
+        instants = self._remember(index + blocks, rollers, bodies, loads, first_kept, len(trends))
         waveform_sample = first_wave + keep_wave.start
         wave_index = np.arange(waveform_sample, first_wave + len(waves), dtype=np.int64)
         shown = slice(TRENDS_PER_SNAPSHOT - 1, None, TRENDS_PER_SNAPSHOT)
         first_snapshot = index * TRENDS_PER_BLOCK // TRENDS_PER_SNAPSHOT + 1
         snapshots = np.arange(
-            first_snapshot, first_snapshot + TRENDS_PER_BLOCK // TRENDS_PER_SNAPSHOT, dtype=np.int64
+            first_snapshot, first_snapshot + len(bodies) // TRENDS_PER_SNAPSHOT, dtype=np.int64
         )
-        views = Snapshots(rollers[shown], bodies[shown], self._count, self._roller, self._cage_place)
         angles = INSTANT_ROLLERS + 2 * self._count
         return Block(
             index=index,
             start_ns=index * BLOCK_NS,
-            end_ns=(index + 1) * BLOCK_NS,
+            end_ns=(index + blocks) * BLOCK_NS,
             waveform_sample=waveform_sample,
             waveform_time_ns=wave_index * 1_000_000_000 // WAVEFORM_RATE,
             force_waveform=waves[keep_wave, SIGNAL_FORCE : SIGNAL_FORCE + 6],
-            acceleration=acceleration[:, keep_wave],
+            vibration=self._sensors.vibration(index, readings),
             trend_sample=first_kept,
             trend_time_ns=np.arange(first_kept, first_kept + len(trends), dtype=np.int64) * _TREND_NS,
             force=trends[:, :6],
@@ -164,9 +171,7 @@ class Observer:
             roller_speed=instants[:, angles:].reshape(-1, 2, self._count),
             snapshot_sample=first_snapshot,
             snapshot_time_ns=snapshots * (TRENDS_PER_SNAPSHOT * _TREND_NS),
-            body_pose=later(views.pose),
-            body_twist=later(views.twist),
-            contacts=later(views.contacts),
+            pictures=Snapshots(rollers[shown], bodies[shown], self._count, self._roller, self._cage_place),
             status=status,
             audit=audit,
             wall_s=wall_s,
@@ -174,62 +179,49 @@ class Observer:
         )
 
     def _remember(
-        self, index: int, rollers: Float, bodies: Float, loads: Float, first: int, count: int
+        self, end: int, rollers: Float, bodies: Float, loads: Float, first: int, count: int
     ) -> Float:
-        """Instants number `first` and following; the newest is the end of block `index`."""
-        instants = np.empty_like(self._instants)
-        instants[:-TRENDS_PER_BLOCK] = self._instants[TRENDS_PER_BLOCK:]
-        stride = (len(loads) - 1) // TRENDS_PER_BLOCK
-        write_instants(rollers, bodies, loads, stride, self._count, instants[-TRENDS_PER_BLOCK:])
-        self._instants = instants
-        place = len(instants) - 1 - (index + 1) * TRENDS_PER_BLOCK + first
+        """Instants number `first` and following; the newest is the beginning of block `end`."""
+        kept = len(self._instants)
+        instants = np.empty((kept + len(bodies), self._instants.shape[1]))
+        instants[:kept] = self._instants
+        stride = (len(loads) - 1) // len(bodies)
+        write_instants(rollers, bodies, loads, stride, self._count, instants[kept:])
+        self._instants = instants[-kept:]
+        place = len(instants) - 1 - end * TRENDS_PER_BLOCK + first
         return instants[place : place + count]
 
-    def _accelerations(self, waves: Float, first_wave: int, bodies: Float) -> Float:
-        """Readings of all accelerometers, shape [sensor, sample, 3]."""
-        held = np.empty((TRENDS_PER_BLOCK + 1, 6))
-        held[:1] = self._box_motion
-        held[1:, :3] = bodies[:, CUP_BODY, TILT : TILT + 3]
-        held[1:, 3:] = bodies[:, CUP_BODY, ANGULAR : ANGULAR + 3]
-        self._box_motion = held[-1:]
-        readings = np.empty((len(self._sensors), len(waves), 3))
-        if not self._sensors:
-            return readings
-        motion = np.empty((len(waves), 6))
-        _between(held, _WAVEFORMS_PER_TREND, self._waveform_delay, motion)
-        first = max(first_wave, 0)
-        skipped = first - first_wave
-        for number, (sensor, stream) in enumerate(zip(self._sensors, self._noise, strict=True)):
-            signal = specific_force(
-                sensor.position,
-                waves[:, SIGNAL_ACCELERATION : SIGNAL_ACCELERATION + 3],
-                motion[:, 3:],
-                waves[:, SIGNAL_ANGULAR_ACCELERATION : SIGNAL_ANGULAR_ACCELERATION + 3],
-                motion[:, :3],
-            )
-            readings[number, :skipped] = signal[:skipped]
-            readings[number, skipped:] = reading(sensor, signal[skipped:], WAVEFORM_RATE, stream, first)
-        return readings
+    def _motion(self, bodies: Float) -> Float:
+        """Rotation and angular velocity of the box at 400 Hz from the last instant but one on."""
+        motion = np.empty((len(bodies) + 2, 6))
+        motion[:2] = self._box_motion
+        motion[2:, :3] = bodies[:, CUP_BODY, TILT : TILT + 3]
+        motion[2:, 3:] = bodies[:, CUP_BODY, ANGULAR : ANGULAR + 3]
+        self._box_motion = motion[-2:]
+        return motion
 
-    def snapshot(self) -> tuple[object, ...]:
+    def snapshot(self) -> tuple[Any, ...]:
         """Everything the next block depends on."""
-        return self._decimator.state, self._trend_decimator.state, self._instants, self._box_motion
+        fast = None if self._fast_decimator is None else self._fast_decimator.state
+        decimators = (self._decimator.state, self._trend_decimator.state, fast)
+        return *decimators, self._sensors.state, self._instants, self._box_motion
 
-    def restore(self, snapshot: tuple[object, ...]) -> None:
+    def restore(self, snapshot: tuple[Any, ...]) -> None:
         """Go back to a `snapshot`."""
-        decimator, trend_decimator, instants, box_motion = snapshot
-        self._decimator.restore(decimator)  # type: ignore[arg-type]
-        self._trend_decimator.restore(trend_decimator)  # type: ignore[arg-type]
-        self._instants = instants  # type: ignore[assignment]
-        self._box_motion = box_motion  # type: ignore[assignment]
+        decimator, trend_decimator, fast, sensors, self._instants, self._box_motion = snapshot
+        self._decimator.restore(decimator)
+        self._trend_decimator.restore(trend_decimator)
+        if self._fast_decimator is not None:
+            self._fast_decimator.restore(fast)
+        self._sensors.restore(sensors)
 
 
 @entry
-def _between(held, stride, delay, out):
-    """Linear between rows that stand `stride` samples apart, `delay` samples late, held before the first."""
-    for i in range(len(out)):
-        at = max(i - delay, 0)
-        row = at // stride
-        part = (at % stride) / stride
-        for j in range(held.shape[1]):
-            out[i, j] = held[row, j] + part * (held[row + 1, j] - held[row, j])
+def _select(waves, heard, channels):
+    """What the trends are made of: force, moment, specific force, torque."""
+    for i in range(len(waves)):
+        for j in range(6):
+            channels[i, j] = waves[i, SIGNAL_FORCE + j]
+        for j in range(3):
+            channels[i, 6 + j] = heard[i, j]
+        channels[i, 9] = waves[i, SIGNAL_TORQUE]

@@ -14,7 +14,7 @@ Float = NDArray[np.float64]
 
 DELAY = 12  # output samples: the shortest that gives 70 dB with a passband to 0.4
 _KAISER_BETA = 7.2
-LARGEST_FACTOR = 64
+LARGEST_FACTOR = 128
 
 
 @cache
@@ -34,7 +34,7 @@ class Decimator:
     Parameters
     ----------
     factor : int
-        Old over new rate, 1 to 64. With 1 the stream passes unchanged, without delay.
+        Old over new rate, 1 to 128. With 1 the stream passes unchanged, without delay.
     channels : int
     initial : array, shape [channel], optional
         What the stream held before its first sample; 0 by default.
@@ -104,10 +104,11 @@ class Decimator:
 # of any length give the same bits
 @partial(entry, flags=("reassoc", "contract", "nsz"))
 def _filter(stretch, kept, block, kernel, factor, out):
+    for i in range(len(block)):
+        for channel in range(stretch.shape[0]):
+            stretch[channel, kept + i] = block[i, channel]
     for channel in range(stretch.shape[0]):
         signal = stretch[channel]
-        for i in range(len(block)):
-            signal[kept + i] = block[i, channel]
         for m in range(len(out)):
             window = signal[m * factor : m * factor + len(kernel)]
             total = 0.0

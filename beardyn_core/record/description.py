@@ -12,6 +12,7 @@ from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.errors import InputError
 from beardyn_core.scene.defect import Defect, MissingRoller, defect_from
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.sensor import RATES
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
@@ -111,7 +112,9 @@ class RunDescription:
     body_names : tuple of str
         Order of the bodies in `Block.body_pose`.
     sensor_names : tuple of str
-        Order of the accelerometers in `Block.acceleration`.
+        Order of the accelerometers in `Block.vibration`.
+    sensor_rates : tuple of float
+        Of each of them, [Hz].
     defects : tuple of Patch, RollerError, WornPocket, MissingRoller
     truth : mapping
         What ``Twin.truth`` returns, JSON-able: faults, fault frequencies, versions, effects, seed.
@@ -128,6 +131,11 @@ class RunDescription:
     defects: tuple[Defect, ...]
     truth: Mapping[str, Any]
     load: LoadHistory | None = None
+    sensor_rates: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.sensor_rates:  # all at the usual one, as every recording before there was another
+            object.__setattr__(self, "sensor_rates", (RATES[0],) * len(self.sensor_names))
 
     @classmethod
     def of(
@@ -147,6 +155,7 @@ class RunDescription:
             defects=scene.faults,
             truth=truth,
             load=load,
+            sensor_rates=tuple(sensor.rate for sensor in scene.sensors),
         )
 
     @property
@@ -171,6 +180,7 @@ class RunDescription:
             "shape": asdict(self.shape),
             "body_names": list(self.body_names),
             "sensor_names": list(self.sensor_names),
+            "sensor_rates_Hz": list(self.sensor_rates),
             "defects": [asdict(defect) for defect in self.defects],
         }
         return json.dumps({**self.truth, DESCRIPTION_KEY: description})
@@ -195,6 +205,7 @@ class RunDescription:
                 sensor_names=tuple(stored["sensor_names"]),
                 defects=tuple(defect_from(defect) for defect in stored["defects"]),
                 truth=truth,
+                sensor_rates=tuple(stored.get("sensor_rates_Hz", ())),
             )
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise InputError(

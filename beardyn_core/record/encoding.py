@@ -107,7 +107,7 @@ class BlockEncoder:
     roller_count : int
         Rollers per row.
     sensor_names : tuple of str
-        Accelerometers, in the order of `Block.acceleration`.
+        Accelerometers, in the order of `Block.vibration`.
     frame : str
         Frame of every header.
     """
@@ -182,10 +182,13 @@ class BlockEncoder:
         for i, axis in enumerate(WRENCH_AXES):
             points[axis] = block.force_waveform[:, i]
         yield "force_waveform", stamp, self._waveform.encode(points, stamp)
-        for sensor in range(len(self._sensor_names)):
-            points = points_of(VIBRATION, block.waveform_sample, times, stamp)
+        for sensor, heard in enumerate(block.vibration):
+            if not len(heard.time_ns):
+                continue
+            stamp = int(heard.time_ns[0])
+            points = points_of(VIBRATION, heard.sample, heard.time_ns, stamp)
             for i, axis in enumerate(("ax", "ay", "az")):
-                points[axis] = block.acceleration[sensor, :, i]
+                points[axis] = heard.acceleration[:, i]
             yield vibration_topic(sensor, self._sensor_names), stamp, self._vibration.encode(points, stamp)
 
     def _snapshots(self, block: Block) -> Iterator[tuple[str, int, bytes]]:

@@ -93,6 +93,8 @@ class Report:
         Losses by source after the start has settled; ``None`` when the recording does not say.
     monitor : str or None
         Last verdict of the monitor.
+    sensor_rates_Hz : mapping
+        Accelerometers by name.
     """
 
     path: str
@@ -115,6 +117,7 @@ class Report:
     energy_residual: float | None
     budget: TorqueBudget | None
     monitor: str | None
+    sensor_rates_Hz: Mapping[str, float]
 
     def to_json(self) -> dict[str, Any]:
         """JSON-able content."""
@@ -172,6 +175,9 @@ def report(path: Path | str) -> Report:
         energy_residual=_last(_diagnosed(run, "energy_residual")),
         budget=_budget(run),
         monitor=run.results[-1][1][0].message if run.results and run.results[-1][1] else None,
+        sensor_rates_Hz=dict(zip(description.sensor_names, description.sensor_rates, strict=True))
+        if description
+        else {},
     )
 
 
@@ -266,6 +272,9 @@ def _lines(r: Report) -> list[str]:
         lines.append(f"scene    {r.scene}, bearing {r.bearing}")
         faults = [defect_from(fault).described() for fault in r.faults]
         lines.append(f"faults   {'; '.join(faults) or 'none'}")
+    if r.sensor_rates_Hz:
+        each = (f"{name} at {rate / 1e3:g} kHz" for name, rate in r.sensor_rates_Hz.items())
+        lines.append(f"sensors  {', '.join(each)}")
     if r.mean_shaft_speed is not None:
         hertz = r.mean_shaft_speed / (2.0 * np.pi)
         lines.append(f"shaft    {hertz * 60.0:.1f} rpm on average")

@@ -96,9 +96,11 @@ class LiveView:
         self._batch.clear()
         for kept in self._window.values():
             kept.clear()
-        self._stream.send_blueprint(blueprint(run.shape.outer_diameter, follow=True))
+        self._stream.send_blueprint(
+            blueprint(run.shape.outer_diameter, follow=True, sensors=run.sensor_names)
+        )
         log_parts(self._stream, run)
-        log_styles(self._stream)
+        log_styles(self._stream, run.sensor_names)
 
     def _draw_spectrum(self, run: RunDescription) -> None:
         window = run_of_messages({name: list(kept) for name, kept in self._window.items()}, run)

@@ -11,6 +11,7 @@ from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.reading import Run
 from beardyn_core.record.rerun_bearing import roller_loads, times
 from beardyn_core.record.rerun_spectrum import log_spectrum
+from beardyn_core.record.topics import vibration_topic
 
 Colour = tuple[int, int, int]
 
@@ -27,20 +28,29 @@ HIGHEST_ORDER_OF_BPFI = 3.1
 
 def log_plots(stream: rr.RecordingStream, run: Run) -> None:
     """Log every curve that the recording has data for, and the spectrum."""
-    log_styles(stream)
+    log_styles(stream, run.described().sensor_names)
     log_curves(stream, run)
     spectrum = order_spectrum(run)
     if spectrum is not None:
         log_spectrum(stream, spectrum, run.described().shape.fault_frequencies)
 
 
-def log_styles(stream: rr.RecordingStream) -> None:
-    """Log names and colours of the curves."""
+def vibration_entity(name: str) -> str:
+    """Entity of the curves of a vibration topic."""
+    return f"plots/{name.replace('/', '_')}"
+
+
+def log_styles(stream: rr.RecordingStream, sensors: tuple[str, ...] = ()) -> None:
+    """Log names and colours of the curves; `sensors` are all accelerometers."""
     dark = tuple(tuple(int(0.6 * part) for part in colour) for colour in ROW_COLOURS)
     rows = (*ROW_COLOURS, *dark)
     for entity, names, colours in (
         (FORCE, ("fx", "fy", "fz"), AXIS_COLOURS),
         (VIBRATION, ("ax", "ay", "az"), AXIS_COLOURS),
+        *(
+            (vibration_entity(vibration_topic(number, sensors)), ("ax", "ay", "az"), AXIS_COLOURS)
+            for number in range(1, len(sensors))
+        ),
         (SPEED_RATIO, ("cage 0", "cage 1", "rollers 0, mean", "rollers 1, mean"), rows),
         (
             ROLLER_LOAD,
@@ -59,9 +69,8 @@ def log_styles(stream: rr.RecordingStream) -> None:
 def log_curves(stream: rr.RecordingStream, run: Run) -> None:
     """Log the samples of every curve."""
     _send(stream, FORCE, run.force.time_ns, run.force.values[:, :3] * 1e-3)
-    if "vibration" in run.vibration:
-        vibration = run.vibration["vibration"]
-        _send(stream, VIBRATION, vibration.time_ns, vibration.values)
+    for name, vibration in run.vibration.items():
+        _send(stream, vibration_entity(name), vibration.time_ns, vibration.values)
     _send_speeds(stream, run)
     if len(run.contacts) and len(run.bodies):
         load = roller_loads(run) * 1e-3

@@ -43,7 +43,10 @@ def log_run(stream: rr.RecordingStream, run: Run) -> None:
 
 
 def blueprint(
-    outer_diameter: float, span: tuple[float, float] | None = None, follow: bool = False
+    outer_diameter: float,
+    span: tuple[float, float] | None = None,
+    follow: bool = False,
+    sensors: tuple[str, ...] = (),
 ) -> rrb.Blueprint:
     """Layout: the bearing on the left, curves on the right.
 
@@ -55,6 +58,8 @@ def blueprint(
         Time window of the curves, [s]; by default all there is.
     follow : bool
         Show the newest data of a running twin, and not a replay.
+    sensors : tuple of str, optional
+        Names of all accelerometers.
     """
     eye = rrb.EyeControls3D(
         kind=rrb.Eye3DKind.Orbital,
@@ -89,7 +94,10 @@ def blueprint(
         eye_controls=eye,
     )
     right = rrb.Vertical(
-        curves("vibration", "vibration, m/s²", close),
+        _tabs(
+            curves("vibration", "vibration, m/s²", close),
+            *(curves(f"vibration_{name}", f"vibration of {name}, m/s²", close) for name in sensors[1:]),
+        ),
         rrb.Spatial2DView(
             origin="plots/envelope",
             name="envelope spectrum, m/s² over orders of the shaft",
@@ -118,6 +126,11 @@ def blueprint(
     )
 
 
+def _tabs(first: rrb.TimeSeriesView, *others: rrb.TimeSeriesView) -> rrb.Tabs | rrb.TimeSeriesView:
+    """One view by itself, more of them behind each other."""
+    return rrb.Tabs(first, *others) if others else first
+
+
 def _window(start: rr.TimeRangeBoundary, end: rr.TimeRangeBoundary) -> rrb.archetypes.TimeAxis:
     return rrb.archetypes.TimeAxis(view_range=rr.TimeRange(start=start, end=end))
 
@@ -126,7 +139,8 @@ def run_blueprint(run: Run) -> rrb.Blueprint:
     """Blueprint for a recording, with its time window."""
     times = run.vibration["vibration"].seconds if "vibration" in run.vibration else run.force.seconds
     span = (float(times[0]), float(times[-1])) if len(times) else None
-    return blueprint(run.described().shape.outer_diameter, span)
+    described = run.described()
+    return blueprint(described.shape.outer_diameter, span, sensors=described.sensor_names)
 
 
 def save(run: Run, target: Path | str) -> Path:

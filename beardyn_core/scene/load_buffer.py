@@ -99,31 +99,35 @@ class LoadBuffer:
             self._parts.append(load)
         return True
 
-    def at_steps(self, start_ns: int, end_ns: int, steps: int) -> NDArray[np.float64]:
-        """Load at the step boundaries of a block, linear between samples, held outside them.
+    def at_steps(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> NDArray[np.float64]:
+        """Load at the step boundaries, linear between samples, held outside them.
 
         Parameters
         ----------
         start_ns, end_ns : int
-            Of the block, [ns].
+            Of all blocks together, [ns].
         steps : int
+            Of a block.
+        blocks : int, optional
+            As many as wanted give the same bits as one at a time.
 
         Returns
         -------
-        float64 array, shape [steps + 1, 10]
+        float64 array, shape [steps * blocks + 1, 10]
             Wrench [N, N m], shaft speed [rad/s], bogie displacement [m].
         """
         self._forget_before(start_ns)
         parts = [_window(part, start_ns, end_ns) for part in self._parts]
         load = parts[0] if len(parts) == 1 else _joined(parts)
-        rows = np.empty((steps + 1, 10))
-        _interpolate(
+        rows = np.empty((steps * blocks + 1, 10))
+        _interpolate_blocks(
             load.time_ns,
             load.wrench,
             load.shaft_speed,
             load.bogie,
             start_ns,
-            (end_ns - start_ns) / steps,
+            (end_ns - start_ns) // blocks,
+            steps,
             rows,
         )
         return rows
@@ -152,6 +156,14 @@ def _joined(parts: list[LoadHistory]) -> LoadHistory:
         np.concatenate([part.shaft_speed for part in parts]),
         np.concatenate([part.bogie for part in parts]),
     )
+
+
+@partial(entry, flags=())
+def _interpolate_blocks(time_ns, wrench, shaft_speed, bogie, start_ns, span_ns, steps, rows):
+    for first in range(0, len(rows) - 1, steps):
+        start = start_ns + first // steps * span_ns
+        part = rows[first : first + steps + 1]
+        _interpolate(time_ns, wrench, shaft_speed, bogie, start, span_ns / steps, part)
 
 
 @partial(entry, flags=())

@@ -24,6 +24,8 @@ class TierNoun:
         Fewest laminae it can work with.
     absent : tuple of str
         Channels of a block that it leaves at zero or without content.
+    blocks_at_once : int
+        Blocks of 20 ms that are worth computing in one go where nobody waits for each.
     """
 
     name: str
@@ -33,6 +35,7 @@ class TierNoun:
     needs_rib: bool
     smallest_laminae: int
     absent: tuple[str, ...]
+    blocks_at_once: int = 1
 
 
 _FAST = frozenset(
@@ -61,6 +64,7 @@ TIERS = {
             needs_rib=True,
             smallest_laminae=1,
             absent=(*_FAST_ABSENT, "roller displacement and tilt"),
+            blocks_at_once=8,
         ),
         TierNoun(
             "quasistatic",
@@ -70,6 +74,7 @@ TIERS = {
             needs_rib=True,
             smallest_laminae=2,
             absent=_FAST_ABSENT,
+            blocks_at_once=8,
         ),
         TierNoun("full", "every body with 6 degrees of freedom", None, 4, False, 1, ()),
     )

@@ -101,6 +101,11 @@ class RunSummary:
         return self.duration / self.wall_time if self.wall_time > 0.0 else math.inf
 
     @property
+    def nothing_to_average(self) -> bool:
+        """Whether the run ended before its first trend sample had passed the filters."""
+        return self.averaged[1] == 0.0
+
+    @property
     def complete(self) -> bool:
         """Whether the run came to its end inside the model's validity."""
         return self.status.startswith(COMPLETE)
@@ -143,10 +148,12 @@ def run(
         for sink in sinks:
             sink.open(description)
             opened.append(sink)
-        for _ in range(block_count):
+        # who records gets every block by itself
+        at_once = 1 if sinks else twin.blocks_at_once
+        for first in range(0, block_count, at_once):
             began = time.perf_counter()
             try:
-                block = twin.advance()
+                block = twin.advance(min(at_once, block_count - first))
             except ValidityError as error:
                 wall_time += time.perf_counter() - began
                 status = str(error)

@@ -40,13 +40,15 @@ class MonitoredRecording(McapSink):
     def open(self, run: RunDescription) -> None:
         """Create the file and a fresh monitor."""
         super().open(run)
-        self._monitor = Monitor(fault_frequencies(self._bearing), self._bearing.roller_count)
+        self._monitor = Monitor(
+            fault_frequencies(self._bearing), self._bearing.roller_count, run.sensor_rates[0]
+        )
         self.findings = []
 
     def write(self, block: Block) -> None:
         """Append a block, and a result when one is due."""
         super().write(block)
-        self._monitor.push_vibration(block.waveform_time_ns, block.acceleration[0])
+        self._monitor.push_vibration(block.vibration[0].time_ns, block.vibration[0].acceleration)
         self._monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
         self._monitor.push_load(block.trend_time_ns, block.load[:, 2])
         result = self._monitor.update()

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import RATES
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,7 @@ class Rung:
     steps_per_sample: int
 
     def applied(self, scene: Scene) -> Scene:
-        """The scene with this choice; bearing, load, faults, sensors and seed stay.
+        """The scene with this choice; bearing, load, faults and seed stay, sensors all run at 25.6 kHz.
 
         Parameters
         ----------
@@ -46,4 +47,5 @@ class Rung:
         Scene
         """
         numerics = replace(scene.numerics, laminae=self.laminae, steps_per_sample=self.steps_per_sample)
-        return replace(scene, tier=self.tier, effects=self.effects, numerics=numerics)
+        sensors = tuple(replace(sensor, rate=RATES[0]) for sensor in scene.sensors)
+        return replace(scene, tier=self.tier, effects=self.effects, numerics=numerics, sensors=sensors)

@@ -103,6 +103,26 @@ def test_the_unspoilt_scene_loads(write: Write) -> None:
         ("scene: mine", "scene: mine\nduration_s: 0", ["duration_s is 0", "greater than 0"]),
         ("scene: mine", "scene: mine\nsensors: []", ["sensors is []", "at least 1"]),
         ("scene: mine", "scene: mine\nsensors: [{}, {}]", ["sensors[1].name", "twice"]),
+        (
+            "scene: mine",
+            "scene: mine\nsensors: [{rate_kHz: 48}]",
+            ["sensors[0]", "rate_kHz is 48", "25.6 or 51.2"],
+        ),
+        (
+            "scene: mine",
+            "scene: mine\nsensors: [{mounting_damping_ratio: 0.1}]",
+            ["sensors[0]", "without mounting_resonance_Hz"],
+        ),
+        (
+            "scene: mine",
+            "scene: mine\nsensors: [{mounting_resonance_Hz: 9}]",
+            ["sensors[0].mounting_resonance_Hz is 9", "500"],
+        ),
+        (
+            "scene: mine",
+            "scene: mine\nsensors: [{rate_kHz: 51.2}]\nnumerics: {steps_per_sample: 4}",
+            ["'axlebox_top' at 51.2 kHz", "steps_per_sample of at least 8 and even, not 4"],
+        ),
         ("scene: mine", "scene: mine\n3: 4", ["line 2", "the key 3 is not a word"]),
     ],
 )

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, Block, EnergyAudit
+from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, Block, EnergyAudit, Vibration
 from beardyn_core.record.description import BearingShape, RunDescription
 from beardyn_core.scene.defect import Spall
 from beardyn_core.scene.load import LoadHistory
@@ -62,6 +62,22 @@ def description(duration: float = 1.0, sensors: tuple[str, ...] = ("axlebox_top"
     )
 
 
+class Taken:
+    """Pictures that are there already."""
+
+    def __init__(self, pose: np.ndarray, twist: np.ndarray, contacts: np.ndarray) -> None:
+        self._parts = pose, twist, contacts
+
+    def pose(self) -> np.ndarray:
+        return self._parts[0]
+
+    def twist(self) -> np.ndarray:
+        return self._parts[1]
+
+    def contacts(self) -> np.ndarray:
+        return self._parts[2]
+
+
 class SyntheticRun:
     """Blocks of pure rolling at a constant shaft speed.
 
@@ -103,7 +119,9 @@ class SyntheticRun:
             waveform_sample=waveform_sample,
             waveform_time_ns=waveform_ns,
             force_waveform=self._force(waveform),
-            acceleration=acceleration,
+            vibration=tuple(
+                Vibration(WAVEFORM_HZ, waveform_sample, waveform_ns, values) for values in acceleration
+            ),
             trend_sample=trend_sample,
             trend_time_ns=trend_ns,
             force=self._force(trend),
@@ -118,9 +136,7 @@ class SyntheticRun:
             roller_speed=np.full((8, 2, SHAPE.roller_count), cage_speed),
             snapshot_sample=snapshot_sample,
             snapshot_time_ns=snapshot_ns,
-            body_pose=pose,
-            body_twist=twist,
-            contacts=contacts,
+            pictures=Taken(pose, twist, contacts),
             status=0,
             audit=EnergyAudit(10.0 * (index + 1), 9.99 * (index + 1), 0.0, 0.0),
             wall_s=0.02,

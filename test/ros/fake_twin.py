@@ -69,6 +69,7 @@ class FakeTwin:
             start_ns=block.start_ns + shift,
             end_ns=block.end_ns + shift,
             waveform_time_ns=block.waveform_time_ns + shift,
+            vibration=tuple(replace(each, time_ns=each.time_ns + shift) for each in block.vibration),
             trend_time_ns=block.trend_time_ns + shift,
             snapshot_time_ns=block.snapshot_time_ns + shift,
         )

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.cli import simulate
 from beardyn_core.config import load_scene
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
@@ -30,6 +31,7 @@ class PureRolling:
     """The part of a twin that a desk run uses; leaves its validity or is interrupted when told to."""
 
     block_ns = BLOCK_NS
+    blocks_at_once = 1
     invalid_at: int | None = None
     interrupted_at: int | None = None
 
@@ -49,7 +51,8 @@ class PureRolling:
     def truth(self) -> dict[str, Any]:
         return {"scene": "static_80kN"}
 
-    def advance(self) -> Block:
+    def advance(self, blocks: int = 1) -> Block:
+        assert blocks == 1
         block = self._run.block(self._index)
         assert self._load.time_ns[-1] >= block.end_ns
         if self._index == self.interrupted_at:
@@ -189,6 +192,8 @@ def test_a_run_too_short_for_a_trend_has_no_means(
     summary = desk_run.run(load_scene("static_80kN", duration=0.02))
     assert summary.complete
     assert all(math.isnan(value) for value in (*summary.mean_force, *summary.cage_speed_ratio))
+    assert "too little: 0.02 s end before the first values" in simulate.text(summary, None)
+    assert "nan" not in simulate.text(summary, None)
 
 
 def test_summary_holds_the_rating_life_of_the_load(rolling: type[PureRolling]) -> None:

@@ -1,0 +1,155 @@
+"""An accelerometer's own chain: mounting resonance as of theory, both rates, any cut into blocks."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from beardyn_core.config import load_scene
+from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_CHANNELS
+from beardyn_core.observe.accelerometer import GRAVITY
+from beardyn_core.observe.decimate import DELAY
+from beardyn_core.observe.resonance import LOOKAHEAD, gain_of, recursion
+from beardyn_core.observe.sensors import Sensors, box_force, lookahead
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import Accelerometer
+
+SAMPLES = 512  # of 25.6 kHz in a block
+BLOCKS = 30
+QUIET = Accelerometer(noise_density=0.0, range=1e9)
+
+
+def scene_with(steps: int, *sensors: Accelerometer) -> Scene:
+    scene = load_scene("static_80kN")
+    return replace(scene, sensors=sensors, numerics=replace(scene.numerics, steps_per_sample=steps))
+
+
+def signals_of(vertical: np.ndarray) -> np.ndarray:
+    signals = np.zeros((len(vertical), SIGNAL_CHANNELS))
+    signals[:, SIGNAL_ACCELERATION + 2] = vertical
+    return signals
+
+
+def heard(scene: Scene, vertical: np.ndarray, blocks_at_once: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Time [s] and vertical reading of the first sensor; the box only shakes along z."""
+    steps = scene.numerics.steps_per_sample
+    sensors = Sensors(scene, lookahead(scene) + DELAY)
+    size = SAMPLES * steps * blocks_at_once
+    parts = []
+    for begin in range(0, len(vertical), size):
+        signals = signals_of(vertical[begin : begin + size])
+        index = begin // (SAMPLES * steps)
+        waves = np.zeros((len(signals) // steps, SIGNAL_CHANNELS))
+        motion = np.zeros((8 * len(signals) // (SAMPLES * steps) + 2, 6))
+        parts.append(sensors.vibration(index, sensors.read(index, waves, signals, motion))[0])
+    time = np.concatenate([part.time_ns for part in parts]) * 1e-9
+    sample = np.concatenate([part.sample + np.arange(len(part.time_ns)) for part in parts])
+    assert np.array_equal(sample, np.arange(len(sample)))
+    return time, np.concatenate([part.acceleration[:, 2] for part in parts]) - GRAVITY
+
+
+@pytest.mark.parametrize(
+    ("rate", "steps"), [(25_600.0, 1), (25_600.0, 4), (25_600.0, 8), (51_200.0, 8), (51_200.0, 16)]
+)
+@pytest.mark.parametrize(("resonance", "damping"), [(2_000.0, 0.05), (9_000.0, 0.02), (30_000.0, 0.01)])
+def test_the_gain_is_that_of_a_mass_on_a_spring(
+    rate: float, steps: int, resonance: float, damping: float
+) -> None:
+    """Amplitude within 0.1 dB and phase within 1 %, through the anti-alias filter's flat band.
+
+    The time of the samples has the delay of every filter taken out, so the phase is that of the mounting.
+    """
+    sensor = replace(QUIET, mounting_resonance=resonance, mounting_damping_ratio=damping, rate=rate)
+    scene = scene_with(steps, sensor)
+    count = SAMPLES * steps * BLOCKS
+    time = (np.arange(count) + 1) / (25_600.0 * steps)
+    span = 0.3
+    # whole periods in the last 0.3 s, so that the tones do not leak into each other
+    tones = np.array([300.0, 1_800.0, 2_000.0, 4_500.0, 8_800.0, 9_000.0, 0.39 * rate])
+    tones = np.round(tones * span) / span
+    at, reading = heard(scene, np.cos(2.0 * np.pi * np.outer(tones, time)).sum(axis=0))
+    last = slice(len(at) - round(span * rate), None)
+    found = 2.0 * np.exp(-2j * np.pi * np.outer(tones, at[last])) @ reading[last] / (span * rate)
+    expected = gain_of(tones, resonance, damping)
+    assert np.abs(20.0 * np.log10(np.abs(found / expected))).max() < 0.1
+    assert np.abs(np.angle(found / expected)).max() < 0.01
+
+
+def test_the_gain_has_the_values_of_the_textbook() -> None:
+    """Gain 1 at rest, 1 over twice the damping ratio at the resonance, 12.5 % high at a third of it."""
+    gain = gain_of(np.array([0.0, 3_000.0, 9_000.0]), 9_000.0, 0.02)
+    assert abs(gain[0]) == 1.0
+    assert abs(gain[1]) == pytest.approx(1.125, rel=1e-3)
+    assert abs(gain[2]) == pytest.approx(25.0)
+    assert np.angle(gain[2]) == pytest.approx(-np.pi / 2)
+
+
+@pytest.mark.parametrize("steps", [1, 2, 3, 4, 8, 64])
+@pytest.mark.parametrize("damping", [0.005, 0.1, 0.7])
+@pytest.mark.parametrize("resonance", [500.0, 12_000.0, 12_800.0, 28_000.0, 100_000.0])
+def test_the_filter_matches_the_theory_over_the_whole_band(
+    resonance: float, damping: float, steps: int
+) -> None:
+    """Poles beyond the band and beyond the step rate included."""
+    rate = 25_600.0 * steps
+    band = (0.4 if steps == 1 else 0.6) * 25_600.0
+    poles, taps = recursion(resonance, damping, rate, band)
+    frequency = np.linspace(0.0, band, 500)
+    late = np.exp(-2j * np.pi * frequency / rate)
+    found = (
+        late[:, None] ** np.arange(2 * LOOKAHEAD, -1, -1)
+        @ taps
+        / (1.0 - poles[0] * late - poles[1] * late**2)
+    )
+    error = np.abs(found / (gain_of(frequency, resonance, damping) * late**LOOKAHEAD) - 1.0)
+    assert error.max() < (2e-3 if steps == 1 else 1e-6)
+    assert abs(found[0] - 1.0) < 1e-9
+
+
+def test_at_rest_it_reads_gravity_from_the_first_sample_on() -> None:
+    sensor = replace(QUIET, mounting_resonance=9_000.0, rate=51_200.0)
+    _, reading = heard(scene_with(8, sensor), np.zeros(SAMPLES * 8 * 2))
+    assert np.abs(reading).max() < 1e-10
+
+
+@pytest.mark.parametrize("rate", [25_600.0, 51_200.0])
+def test_any_cut_into_blocks_gives_the_same_bits(rate: float) -> None:
+    sensor = replace(QUIET, noise_density=0.02, mounting_resonance=9_000.0, rate=rate)
+    shaking = np.random.default_rng(3).normal(size=SAMPLES * 8 * 12)
+    one = heard(scene_with(8, sensor), shaking)
+    for at_once in (3, 12):
+        several = heard(scene_with(8, sensor), shaking, at_once)
+        assert all(np.array_equal(a, b) for a, b in zip(one, several, strict=True))
+
+
+def test_the_anti_alias_filter_keeps_out_what_the_rate_cannot_show() -> None:
+    """A tone at 0.7 of the rate, which would show at 0.3 of it, is 70 dB down."""
+    for rate in (25_600.0, 51_200.0):
+        time = (np.arange(SAMPLES * 8 * 8) + 1) / (25_600.0 * 8)
+        _, reading = heard(scene_with(8, replace(QUIET, rate=rate, mounting_resonance=1e5)), np.sin(
+            2.0 * np.pi * 0.7 * rate * time
+        ))  # fmt: skip
+        assert np.abs(reading[200:]).max() < 10.0 ** (-70.0 / 20.0) * abs(
+            gain_of(np.array([0.7 * rate]), 1e5, 0.02)[0]
+        )
+
+
+def test_noise_has_its_density_at_the_faster_rate_too() -> None:
+    sensor = replace(QUIET, noise_density=0.02, rate=51_200.0)
+    _, reading = heard(scene_with(8, sensor), np.zeros(SAMPLES * 8 * BLOCKS))
+    assert reading.std() == pytest.approx(0.02 * np.sqrt(25_600.0), rel=0.02)
+
+
+def test_the_motion_between_rows_is_linear_and_late_as_the_signals() -> None:
+    """Angular velocity that grows with time shows as the centripetal acceleration of its square."""
+    signals = np.zeros((SAMPLES, SIGNAL_CHANNELS))
+    motion = np.zeros((10, 6))
+    motion[:, 4] = np.arange(-1, 9) * 64.0  # about y, in samples
+    force = box_force((0.0, 0.0, 1.0), signals, motion, delay=24)
+    speed = np.arange(SAMPLES) - 24.0
+    np.testing.assert_allclose(force[:, 2], GRAVITY - speed**2, rtol=1e-12)
+
+
+def test_a_fast_sensor_needs_steps_that_resolve_its_band() -> None:
+    with pytest.raises(ValueError, match="steps_per_sample of at least 8 and even, not 4"):
+        Sensors(scene_with(4, replace(QUIET, rate=51_200.0)), DELAY)
