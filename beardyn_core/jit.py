@@ -92,7 +92,7 @@ def cache_folder(source: Path) -> Path:
     return Path(root) / "kernels" / source_hash(source)
 
 
-class _PartLibrary(JITCodeLibrary):  # type: ignore[misc]
+class _PartLibrary(JITCodeLibrary):
     """Code that exists only to be linked into the code of others: no machine code is made of it."""
 
     def _finalize_specific(self) -> None:
@@ -114,7 +114,7 @@ class _NoEnvironment:
         """Nothing to set."""
 
 
-class _PartCompiler(Compiler):  # type: ignore[misc]
+class _PartCompiler(Compiler):
     """Compiles into a `_PartLibrary`."""
 
     def __init__(self, typing: Any, target: Any, library: Any, *rest: Any) -> None:
@@ -122,7 +122,7 @@ class _PartCompiler(Compiler):  # type: ignore[misc]
         super().__init__(typing, target, made, *rest)
 
 
-class _Part(CPUDispatcher):  # type: ignore[misc]
+class _Part(CPUDispatcher):
     """A function that only compiled functions call, and always as a copy in their own code.
 
     numba makes three things of every function that kernels can do without: wrappers that unpack Python's
@@ -176,7 +176,8 @@ def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH) -> A
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
     numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
     try:
-        return numba.njit(cache=True, no_cfunc_wrapper=True, **{**OPTIONS, "fastmath": set(flags)})(function)
+        options = {**OPTIONS, "fastmath": set(flags), "no_cfunc_wrapper": True}
+        return numba.njit(cache=True, **options)(function)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
 
