@@ -20,7 +20,10 @@ from types import FrameType
 from typing import Any
 
 import numba
-from numba.core import event
+from numba.core import event, sigutils, types
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
+from numba.core.registry import CPUDispatcher
 
 # No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars then differ by the rounding of
 # fused multiplications only, and one machine always gives the same bits.
@@ -89,9 +92,70 @@ def cache_folder(source: Path) -> Path:
     return Path(root) / "kernels" / source_hash(source)
 
 
+class _PartLibrary(JITCodeLibrary):
+    """Code that exists only to be linked into the code of others: no machine code is made of it."""
+
+    def _finalize_specific(self) -> None:
+        """Leave it to the entry point."""
+
+    def get_pointer_to_function(self, _name: str) -> int:
+        """Nowhere."""
+        return 0
+
+    @property
+    def codegen(self) -> Any:
+        """Takes the environment of a function, which only code that runs has use for."""
+        return _NoEnvironment
+
+
+class _NoEnvironment:
+    @staticmethod
+    def set_env(_name: str, _environment: Any) -> None:
+        """Nothing to set."""
+
+
+class _PartCompiler(Compiler):
+    """Compiles into a `_PartLibrary`."""
+
+    def __init__(self, typing: Any, target: Any, library: Any, *rest: Any) -> None:
+        made = _PartLibrary(target.codegen(), "part") if library is None else library
+        super().__init__(typing, target, made, *rest)
+
+
+class _Part(CPUDispatcher):
+    """A function that only compiled functions call, and always as a copy in their own code.
+
+    numba makes three things of every function that kernels can do without: wrappers that unpack Python's
+    arguments, hundreds of numbers here, machine code of the function by itself, and one more version for
+    each constant it is called with. They were more than half of the time of compiling a step.
+    """
+
+    def compile(self, sig: Any) -> Any:
+        """Compile for argument types; constants count as any number of their type."""
+        arguments, result = sigutils.normalize_signature(sig)
+        plain = tuple(types.unliteral(each) for each in arguments)
+        return super().compile(plain if result is None else result(*plain))
+
+    def add_overload(self, compiled: Any) -> None:
+        """Keep a version for other compiled functions and not for Python, which could not call it."""
+        self.overloads[tuple(compiled.signature.args)] = compiled
+
+    def _compile_for_args(self, *arguments: Any, **named: Any) -> Any:
+        """Python calls it after all, in a test: as a function of its own."""
+        return _whole(self.py_func)(*arguments, **named)
+
+
+@cache
+def _whole(function: Callable[..., Any]) -> Any:
+    return numba.njit(**OPTIONS)(function)
+
+
 def inline(function: Callable[..., Any]) -> Any:
     """Compile a kernel part that is always inlined into its caller."""
-    return numba.njit(forceinline=True, **OPTIONS)(function)
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return function
+    options = {"nopython": True, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return _Part(py_func=function, targetoptions={**options, **OPTIONS}, pipeline_class=_PartCompiler)
 
 
 def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH) -> Any:
@@ -112,7 +176,8 @@ def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH) -> A
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
     numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
     try:
-        return numba.njit(cache=True, **{**OPTIONS, "fastmath": set(flags)})(function)
+        options = {**OPTIONS, "fastmath": set(flags), "no_cfunc_wrapper": True}
+        return numba.njit(cache=True, **options)(function)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
 

@@ -9,6 +9,7 @@ vectors           three-vectors of lane values
 saturation        saturating functions over their argument
 orbit             motion of rollers in frames that turn with their orbit
 raceway           laminated roller on a conical raceway
+lamina_spring     the spring of a lamina, sound or damaged
 lamina_coupling   laminae that sink with each other
 film              film thickness of a lamina
 traction          friction of a lamina
@@ -38,6 +39,7 @@ ring_flexibility  bending of the cup
 land              land of a cage in cup or cone
 seal              seals between cup and shaft
 balanced_roller   a roller in balance (quasistatic tier)
+balanced_springs  its laminae as springs
 kinematic_rollers rollers that orbit kinematically
 spring_roller     a roller as one spring (lumped tier)
 ================= ============================================================

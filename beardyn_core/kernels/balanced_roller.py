@@ -10,23 +10,17 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
+from beardyn_core.kernels.balanced_springs import lamina_springs
 from beardyn_core.kernels.exchange import implicit_time
 from beardyn_core.kernels.lane_math import (
     at_least,
     at_most,
     magnitude,
-    quick_ninth_root,
     sqrt,
-    where_greater,
 )
-from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.kernels.raceway import contact_spring
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import wave_gap
-from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
-_SMALLEST_APPROACH = 1e-15
 # A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
 # contact, but enough that it drifts towards a raceway or the rib by about a micrometre a step instead of
 # jumping far into it. It moves at most this far in a step [m].
@@ -120,109 +114,6 @@ def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any,
         -curve * dot(axis, outward) * inverse,
     )
     return arm, arm_slope, add_scaled(scale(side_cosine, outward), -side_sine, ring_axis), approach
-
-
-@inline
-def lamina_springs(
-    lanes: Any, block: Any, approach: Any, bend: Any, azimuths: Any, laminae: Any, reach: Any, patches: Any
-) -> Any:
-    """Elastic force with x^0 and x^1, and tangent stiffness with x^0, x^1 and x^2, over the laminae.
-
-    Parameters
-    ----------
-    approach : tuple of 2 lane values
-        Factors of x^0 and x^1 in the approach, [m].
-    bend : tuple of 2 lane values or None
-        Factors of x^2 and x^3.
-    reach : float
-        Half length of the roller, [m].
-
-    References
-    ----------
-    Palmgren's line contact; see `kernels.raceway.lamina_sums`.
-    """
-    surface, roller_surface, damage = patches
-    near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
-    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
-
-
-@inline
-def _near_or_far(
-    lanes: Any, near: Any, approach: Any, bend: Any, laminae: Any, reach: Any, damage: Any
-) -> Any:
-    if damage is None:
-        return _sound_moments(lanes, approach, bend, laminae, reach)
-    if near:
-        return _damaged_moments(lanes, approach, bend, laminae, damage)
-    return _sound_moments(lanes, approach, bend, laminae, reach)
-
-
-@inline
-def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: Any) -> Any:
-    zero = lanes.constant(0.0)
-    force_0, force_1 = zero, zero
-    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
-    # where no roller of the block is in contact this look is all
-    if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
-        for k in range(laminae.shape[1]):
-            x = laminae[LAMINA_PLACE, k]
-            depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
-            touching = at_least(depth, _SMALLEST_APPROACH)
-            tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
-            tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
-            force = tangent * touching
-            force_0 = force_0 + force
-            force_1 = force_1 + x * force
-            stiffness_0 = stiffness_0 + tangent
-            stiffness_1 = stiffness_1 + x * tangent
-            stiffness_2 = stiffness_2 + (x * x) * tangent
-    steeper = 10.0 / 9.0
-    return (force_0, force_1), (steeper * stiffness_0, steeper * stiffness_1, steeper * stiffness_2)
-
-
-@inline
-def _bend(bend: Any, x: Any) -> Any:
-    """Part of the approach that is not affine in the abscissa, [m]."""
-    if bend is None:
-        return 0.0
-    return (x * x) * (bend[0] + x * bend[1])
-
-
-@inline
-def _most_bend(bend: Any, reach: Any) -> Any:
-    """Bound of `_bend` along the roller, [m]."""
-    if bend is None:
-        return 0.0
-    return (reach * reach) * (magnitude(bend[0]) + reach * magnitude(bend[1]))
-
-
-@inline
-def _all_factors(approach: Any, bend: Any) -> Any:
-    if bend is None:
-        zero = 0.0 * approach[0]
-        return approach[0], approach[1], zero, zero
-    return approach[0], approach[1], bend[0], bend[1]
-
-
-@inline
-def _damaged_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, damage: Any) -> Any:
-    zero = lanes.constant(0.0)
-    force_0, force_1 = zero, zero
-    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
-    factors = _all_factors(approach, bend)
-    springs = spring_count(laminae, damage, None)
-    laminae = spring_table(laminae, damage)
-    for k in range(springs):
-        x = laminae[LAMINA_PLACE, k]
-        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
-        tangent = share * tangent
-        force = 0.9 * tangent * at_least(depth, 0.0)
-        force_0 = force_0 + force
-        force_1 = force_1 + force * x
-        stiffness_0 = stiffness_0 + tangent
-        stiffness_1 = stiffness_1 + tangent * x
-        stiffness_2 = stiffness_2 + tangent * (x * x)
-    return (force_0, force_1), (stiffness_0, stiffness_1, stiffness_2)
 
 
 @inline

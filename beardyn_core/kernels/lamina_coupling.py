@@ -10,11 +10,13 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.model.contact_parameters import LAMINA_STIFFNESS
 
 # rows of the work space
 DEPTH, SURFACE, SPRING, FORCE = range(4)
 _SMALLEST = 1e-15
+_NOTHING = 1e-300
 
 
 @inline
@@ -32,7 +34,8 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
     Notes
     -----
     Two sweeps of single laminae under a linear law, forth and back, then one step of all free laminae under
-    the true law. Where every lamina is pressed the surface is the roller's and the result exact; else loads
+    the true law. Where every lamina is pressed the surface is the roller's and the result exact: the first
+    sweep then moves nothing, and a block of such rollers stops there. Else loads
     are within 0.1 % of the largest for 6 laminae, 0.6 % for 20 and 1.2 % for 40, and so is the total. A
     free lamina that is not yet in balance keeps what it is pressed with beyond its own spring, so that loads
     change continuously as laminae come free.
@@ -40,19 +43,14 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
     work, count = coupling.work, laminae.shape[1]
     for j in range(count):
         lanes.store(work, SURFACE, j, at_least(lanes.load(work, DEPTH, j), 0.0))
-    for i in range(2 * count):
-        j = i
-        if i >= count:
-            j = 2 * count - 1 - i
-        balance = _product(lanes, coupling.follow, j, work, SURFACE)
-        lanes.store(work, SURFACE, j, at_least(lanes.load(work, DEPTH, j), balance))
-    _load_springs(lanes, laminae, coupling)
+    change = lanes.constant(0.0)
     for j in range(count):
-        surface = lanes.load(work, SURFACE, j)
-        depth = lanes.load(work, DEPTH, j)
-        rise = _product(lanes, coupling.root, j, work, FORCE) / _own_tangent(lanes, coupling, j)
-        moved = where_greater(surface, depth, at_least(surface - rise, depth), surface)
-        lanes.store(work, SURFACE, j, moved)
+        balance = _product(lanes, coupling.follow, j, work, SURFACE)
+        surface = at_least(lanes.load(work, DEPTH, j), balance)
+        change = change + magnitude(surface - lanes.load(work, SURFACE, j))
+        lanes.store(work, SURFACE, j, surface)
+    if any_positive(where_greater(_NOTHING, change, 0.0, lanes.constant(1.0))):  # or a NaN
+        _free_laminae(lanes, laminae, coupling)
     _load_springs(lanes, laminae, coupling)
     for j in range(count):
         depth = lanes.load(work, DEPTH, j)
@@ -65,6 +63,23 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
     for j in range(count):
         force = lanes.load(work, FORCE, j)
         lanes.store(work, FORCE, j, (9.0 / 19.0) * force * force / lanes.load(work, SPRING, j))
+
+
+@inline
+def _free_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
+    """The sweep back, and the step of the free laminae under the true law; where none is free, nothing."""
+    work, count = coupling.work, laminae.shape[1]
+    for i in range(count):
+        j = count - 1 - i
+        balance = _product(lanes, coupling.follow, j, work, SURFACE)
+        lanes.store(work, SURFACE, j, at_least(lanes.load(work, DEPTH, j), balance))
+    _load_springs(lanes, laminae, coupling)
+    for j in range(count):
+        surface = lanes.load(work, SURFACE, j)
+        depth = lanes.load(work, DEPTH, j)
+        rise = _product(lanes, coupling.root, j, work, FORCE) / _own_tangent(lanes, coupling, j)
+        moved = where_greater(surface, depth, at_least(surface - rise, depth), surface)
+        lanes.store(work, SURFACE, j, moved)
 
 
 @inline

@@ -11,26 +11,24 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import (
-    find_damage,
-    mean_gap,
-    mean_slopes,
-    spring_count,
-    spring_damage,
-    spring_slopes,
-    spring_table,
-)
+from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
 from beardyn_core.kernels.film import log2_film_thickness
-from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
-from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, sqrt, where_greater
+from beardyn_core.kernels.lamina_spring import (
+    SMALLEST_APPROACH,
+    add_lean,
+    contact_spring,
+    prepare_coupling,
+    share_of,
+    spring_push,
+)
+from beardyn_core.kernels.lane_math import at_least, magnitude, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.stage_timer import mark_result
 from beardyn_core.kernels.traction import friction_rate
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
-from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
+from beardyn_core.model.contact_parameters import LAMINA_PLACE
 from beardyn_core.model.stages import CONTACT, FILM, TRACTION
 
-_SMALLEST_APPROACH = 1e-15
 _LOADS = 0  # the work space has one page
 
 
@@ -135,48 +133,6 @@ def sliding(line: Any, centre: Any, velocity: Any, omega: Any, ring_velocity: An
         (around_0, dot(slope, around)),
         (dot(at_middle, along), dot(slope, along)),
     )
-
-
-@inline
-def spring_push(approach: Any, rate: Any, damping: Any) -> Any:
-    """What the tangent stiffness turns into force: 9/10 of the approach (10/9 law) plus damping, [m]."""
-    if damping is None:
-        return 0.9 * approach
-    return 0.9 * approach + damping.time_constant * rate
-
-
-@inline
-def geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
-    """Penetration of one lamina or spring, negative when apart, [m]."""
-    x = laminae[LAMINA_PLACE, k]
-    return (
-        approach[0] + x * (approach[1] + x * (approach[2] + x * approach[3])) - laminae[LAMINA_DROP, k] - gap
-    )
-
-
-@inline
-def prepare_coupling(lanes: Any, approach: Any, laminae: Any, damage: Any, coupling: Any) -> None:
-    """Springs of all laminae at once, when they are coupled; a damaged lamina takes its mean gap."""
-    if coupling is None:
-        return
-    for k in range(laminae.shape[1]):
-        gap = mean_gap(lanes, k, laminae.shape[1], damage)
-        lanes.store(coupling.work, DEPTH, k, geometric_depth(approach, gap, k, laminae))
-    couple_laminae(lanes, laminae, coupling)
-
-
-@inline
-def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any, coupling: Any) -> Any:
-    """Share of its lamina [-], penetration [m], tangent stiffness [N/m] and energy [J] of one spring."""
-    if coupling is None:
-        share, gap = spring_damage(lanes, k, damage)
-        depth = geometric_depth(approach, gap, k, laminae)
-        touching = at_least(depth, _SMALLEST_APPROACH)
-        tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
-        tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
-        return share, depth, tangent, tangent * touching * touching * (0.9 * 9.0 / 19.0)
-    work = coupling.work
-    return 1.0, lanes.load(work, DEPTH, k), lanes.load(work, SURFACE, k), lanes.load(work, FORCE, k)
 
 
 @inline
@@ -297,7 +253,7 @@ def spring_sums(
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
         share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)
-        touching = at_least(depth, _SMALLEST_APPROACH)
+        touching = at_least(depth, SMALLEST_APPROACH)
         energy = energy + share * stored
         push = spring_push(touching, rate[0] + x * rate[1], effects.damping)
         lean = add_lean(lanes, lean, share * (0.9 * tangent * touching), k, count, damage, effects.coupling)
@@ -334,31 +290,6 @@ def spring_sums(
         lean,
         True,
     )
-
-
-@inline
-def share_of(lanes: Any, k: Any, damage: Any, coupling: Any) -> Any:
-    """Share of its lamina of a spring, [-]."""
-    if coupling is None:
-        return spring_damage(lanes, k, damage)[0]
-    return 1.0
-
-
-@inline
-def add_lean(lanes: Any, lean: Any, elastic: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
-    """Add elastic force times slope of a spring's gap over the azimuth in ring and roller, [N m]."""
-    if damage is None:
-        return lean
-    ring_slope, roller_slope = slope_of(lanes, k, count, damage, coupling)
-    return lean[0] + elastic * ring_slope, lean[1] + elastic * roller_slope
-
-
-@inline
-def slope_of(lanes: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
-    """Slopes of the gap under a spring; coupled laminae take their means, [m/rad]."""
-    if coupling is None:
-        return spring_slopes(lanes, k, damage)
-    return mean_slopes(lanes, k, count, damage)
 
 
 @inline

@@ -1,0 +1,115 @@
+"""The laminae of a roller in balance as springs: their force and tangent stiffness, summed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
+from beardyn_core.kernels.lamina_spring import SMALLEST_APPROACH, contact_spring
+from beardyn_core.kernels.lane_math import at_least, magnitude, quick_ninth_root, where_greater
+from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
+
+
+@inline
+def lamina_springs(
+    lanes: Any, block: Any, approach: Any, bend: Any, azimuths: Any, laminae: Any, reach: Any, patches: Any
+) -> Any:
+    """Elastic force with x^0 and x^1, and tangent stiffness with x^0, x^1 and x^2, over the laminae.
+
+    Parameters
+    ----------
+    approach : tuple of 2 lane values
+        Factors of x^0 and x^1 in the approach, [m].
+    bend : tuple of 2 lane values or None
+        Factors of x^2 and x^3.
+    reach : float
+        Half length of the roller, [m].
+
+    References
+    ----------
+    Palmgren's line contact; see `kernels.raceway.lamina_sums`.
+    """
+    surface, roller_surface, damage = patches
+    near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
+    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
+
+
+@inline
+def _near_or_far(
+    lanes: Any, near: Any, approach: Any, bend: Any, laminae: Any, reach: Any, damage: Any
+) -> Any:
+    if damage is None:
+        return _sound_moments(lanes, approach, bend, laminae, reach)
+    if near:
+        return _damaged_moments(lanes, approach, bend, laminae, damage)
+    return _sound_moments(lanes, approach, bend, laminae, reach)
+
+
+@inline
+def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: Any) -> Any:
+    zero = lanes.constant(0.0)
+    force_0, force_1 = zero, zero
+    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    # where no roller of the block is in contact this look is all
+    if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
+        for k in range(laminae.shape[1]):
+            x = laminae[LAMINA_PLACE, k]
+            depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
+            touching = at_least(depth, SMALLEST_APPROACH)
+            tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
+            tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+            force = tangent * touching
+            force_0 = force_0 + force
+            force_1 = force_1 + x * force
+            stiffness_0 = stiffness_0 + tangent
+            stiffness_1 = stiffness_1 + x * tangent
+            stiffness_2 = stiffness_2 + (x * x) * tangent
+    steeper = 10.0 / 9.0
+    return (force_0, force_1), (steeper * stiffness_0, steeper * stiffness_1, steeper * stiffness_2)
+
+
+@inline
+def _bend(bend: Any, x: Any) -> Any:
+    """Part of the approach that is not affine in the abscissa, [m]."""
+    if bend is None:
+        return 0.0
+    return (x * x) * (bend[0] + x * bend[1])
+
+
+@inline
+def _most_bend(bend: Any, reach: Any) -> Any:
+    """Bound of `_bend` along the roller, [m]."""
+    if bend is None:
+        return 0.0
+    return (reach * reach) * (magnitude(bend[0]) + reach * magnitude(bend[1]))
+
+
+@inline
+def _all_factors(approach: Any, bend: Any) -> Any:
+    if bend is None:
+        zero = 0.0 * approach[0]
+        return approach[0], approach[1], zero, zero
+    return approach[0], approach[1], bend[0], bend[1]
+
+
+@inline
+def _damaged_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, damage: Any) -> Any:
+    zero = lanes.constant(0.0)
+    force_0, force_1 = zero, zero
+    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    factors = _all_factors(approach, bend)
+    springs = spring_count(laminae, damage, None)
+    laminae = spring_table(laminae, damage)
+    for k in range(springs):
+        x = laminae[LAMINA_PLACE, k]
+        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
+        tangent = share * tangent
+        force = 0.9 * tangent * at_least(depth, 0.0)
+        force_0 = force_0 + force
+        force_1 = force_1 + force * x
+        stiffness_0 = stiffness_0 + tangent
+        stiffness_1 = stiffness_1 + tangent * x
+        stiffness_2 = stiffness_2 + tangent * (x * x)
+    return (force_0, force_1), (stiffness_0, stiffness_1, stiffness_2)
