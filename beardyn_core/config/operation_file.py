@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 from typing_extensions import Self
 
-from beardyn_core.config.excitation_file import RailDefectKeys, WheelDefectKeys
+from beardyn_core.config.excitation_file import IrregularityKeys, RailDefectKeys, WheelDefectKeys
 from beardyn_core.config.file_model import (
     FileModel,
     NonNegative,
@@ -25,7 +25,6 @@ from beardyn_core.config.units import KMH, KN, MEGA, MM, RPM
 from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.scene.operation import (
     ConstantOperation,
-    Irregularity,
     MeasuredOperation,
     QuarterVehicleOperation,
     Step,
@@ -106,27 +105,6 @@ class SpeedPointKeys(FileModel):
     speed_kmh: VehicleSpeed
 
 
-class IrregularityKeys(FileModel):
-    """Vertical irregularity of the rail."""
-
-    kind: Literal["german_low", "german_high", "fra_6", "none"] = "german_low"
-    shortest_wavelength_m: Annotated[Positive, Field(ge=0.02, le=50.0)] = 0.1
-    longest_wavelength_m: Annotated[Positive, Field(ge=1.0, le=1000.0)] = 150.0
-
-    @model_validator(mode="after")
-    def _in_order(self) -> Self:
-        if self.shortest_wavelength_m >= self.longest_wavelength_m:
-            raise problem(
-                f"shortest_wavelength_m is {self.shortest_wavelength_m:g}; it must be less than "
-                f"longest_wavelength_m, {self.longest_wavelength_m:g}"
-            )
-        return self
-
-    def noun(self) -> Irregularity:
-        """The irregularity, SI."""
-        return Irregularity(self.kind, self.shortest_wavelength_m, self.longest_wavelength_m)
-
-
 class TrackKeys(FileModel):
     """Ballasted track under one rail; what is not given is the track of Zhai."""
 
@@ -176,7 +154,10 @@ class QuarterVehicleKeys(FileModel):
     track: TrackKeys = TrackKeys()
     wheel_defects: tuple[WheelDefectKeys, ...] = Field((), description="flats and polygons of the wheel")
     rail_defects: tuple[RailDefectKeys, ...] = Field(
-        (), description="dipped joints and corrugation, besides the irregularity"
+        (), description="joints, welds, crossings and corrugation, besides the irregularity"
+    )
+    contact_patch_mm: Annotated[NonNegative, Field(le=30.0)] = Field(
+        12.0, description="length of the wheel-rail contact, which smooths short waves; 0 for a point"
     )
 
     @model_validator(mode="after")
@@ -196,6 +177,7 @@ class QuarterVehicleKeys(FileModel):
             track=self.track.noun(),
             wheel_defects=tuple(defect.noun() for defect in self.wheel_defects),
             rail_defects=tuple(defect.noun() for defect in self.rail_defects),
+            contact_patch=self.contact_patch_mm / MM,
         )
 
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
 from beardyn_core.rail.excitation import rail_height, wheel_height
-from beardyn_core.rail.irregularity import rail_profile
+from beardyn_core.rail.irregularity import irregular_height
 from beardyn_core.rail.low_pass import kaiser_order, low_pass
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
@@ -34,7 +34,7 @@ FADE_IN = 0.2
 def load_history(operation: Operation, mounting: Mounting, duration: float, seed: int) -> LoadHistory:
     """Load on the journal and shaft speed, from time 0 to the first sample at or after the end.
 
-    At 2 kHz; at 10 kHz when the wheel or the rail has defects.
+    At 2 kHz; at 10 kHz when the wheel or the rail has defects or short waves.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
 def _sample_ns(operation: Operation) -> int:
     """Time between samples of the load, [ns]."""
     strikes = isinstance(operation, QuarterVehicleOperation) and (
-        operation.wheel_defects or operation.rail_defects
+        operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
     )
     return STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
 
@@ -135,11 +135,12 @@ def ride_of(
 def _ride(operation: QuarterVehicleOperation, mounting: Mounting, steps: int, seed: int) -> Ride:
     time = np.arange(steps) / RIDE_RATE
     position = distance_at(operation.speed_profile, time)
-    profile = rail_profile(operation.irregularity, float(position[-1]), seed)
-    height = profile.height_at(position)
+    patch = operation.contact_patch
+    height = irregular_height(operation.irregularity, position, seed, patch)
     if operation.wheel_defects or operation.rail_defects:
-        height = height + wheel_height(operation.wheel_defects, 0.5 * operation.wheel_diameter, position)
-        height += rail_height(operation.rail_defects, position)
+        radius = 0.5 * operation.wheel_diameter
+        height = height + wheel_height(operation.wheel_defects, radius, position, patch)
+        height += rail_height(operation.rail_defects, position, patch)
     height = (height - height[0]) * _rise(time, FADE_IN)
     return ride(quarter_vehicle(operation, mounting), height, 1.0 / RIDE_RATE)
 

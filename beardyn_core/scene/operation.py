@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from beardyn_core.scene.excitation import RailDefect, WheelDefect
+from beardyn_core.scene.irregularity import Irregularity
 from beardyn_core.scene.ranges import not_finite, outside, refuse
 
 Vector = tuple[float, float, float]
 
-IRREGULARITY_KINDS = ("german_low", "german_high", "fra_6", "none")
 WHEEL_PROFILES = ("worn", "cone")
 
 
@@ -203,37 +203,6 @@ class Track:
 
 
 @dataclass(frozen=True)
-class Irregularity:
-    """Vertical irregularity of the rail, drawn from a power spectral density.
-
-    Parameters
-    ----------
-    kind : str
-        ``german_low``, ``german_high`` (low and high disturbance), ``fra_6`` or ``none``.
-    shortest_wavelength, longest_wavelength : float
-        Band of the spectrum that is synthesised, [m].
-    """
-
-    kind: str = "german_low"
-    shortest_wavelength: float = 0.1
-    longest_wavelength: float = 150.0
-
-    def __post_init__(self) -> None:
-        refuse(self._problems())
-
-    def _problems(self) -> Iterator[str]:
-        if self.kind not in IRREGULARITY_KINDS:
-            yield f"irregularity: kind is {self.kind!r}; allowed are {', '.join(IRREGULARITY_KINDS)}"
-        yield from outside("irregularity", "shortest_wavelength", self.shortest_wavelength, 0.02, 50.0, "m")
-        yield from outside("irregularity", "longest_wavelength", self.longest_wavelength, 1.0, 1000.0, "m")
-        if self.shortest_wavelength >= self.longest_wavelength:
-            yield (
-                f"irregularity: shortest_wavelength {self.shortest_wavelength:g} m must be less than "
-                f"longest_wavelength {self.longest_wavelength:g} m"
-            )
-
-
-@dataclass(frozen=True)
 class QuarterVehicleOperation:
     """An axlebox share of a vehicle running over an irregular track.
 
@@ -252,6 +221,8 @@ class QuarterVehicleOperation:
         Flats and polygons of the running surface; they come back every revolution.
     rail_defects : tuple of RailDefect
         Dips and corrugation at their places along the track, besides the irregularity.
+    contact_patch : float
+        Length of the wheel-rail contact along the rail, which smooths short waves, [m]; 0: a point.
     """
 
     vehicle: Vehicle
@@ -262,6 +233,7 @@ class QuarterVehicleOperation:
     track: Track = field(default_factory=Track)
     wheel_defects: tuple[WheelDefect, ...] = ()
     rail_defects: tuple[RailDefect, ...] = ()
+    contact_patch: float = 0.012
 
     def __post_init__(self) -> None:
         refuse(self._problems())
@@ -270,6 +242,7 @@ class QuarterVehicleOperation:
         owner = "operation (quarter_vehicle)"
         yield from outside(owner, "wheel_diameter", self.wheel_diameter, 0.3, 1.5, "m")
         yield from outside(owner, "lateral_force", self.lateral_force, -1e5, 1e5, "N")
+        yield from outside(owner, "contact_patch", self.contact_patch, 0.0, 0.03, "m")
         if not self.speed_profile:
             yield f"{owner}: speed_profile is empty; give at least one (time, speed) point"
         for index, (time, speed) in enumerate(self.speed_profile):
