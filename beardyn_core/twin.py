@@ -39,6 +39,7 @@ from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
 from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
+from beardyn_core.rail.events import events_of
 from beardyn_core.scene.defect import truth_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
@@ -350,6 +351,7 @@ class Twin:
             },
             "faults": [truth_of(defect, self._index * BLOCK_NS * 1e-9) for defect in scene.defects],
             "waviness": [asdict(wave) for wave in scene.waviness],
+            "excitation": events_of(scene),
             "fault_frequencies_per_rev": {
                 "FTF": frequencies.ftf,
                 "BPFO": frequencies.bpfo,

@@ -21,11 +21,12 @@ from beardyn_core.config.file_model import (
     kind_tag,
     problem,
 )
+from beardyn_core.config.measured_file import CsvKeys, McapKeys
 from beardyn_core.config.units import KMH, KN, MEGA, MM, RPM
 from beardyn_core.config.vehicle_file import VehicleKeys
+from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.operation import (
     ConstantOperation,
-    MeasuredOperation,
     QuarterVehicleOperation,
     Step,
     SteppedOperation,
@@ -34,7 +35,7 @@ from beardyn_core.scene.operation import (
 
 Triple = tuple[float, float, float]
 RotationalSpeed = Annotated[Number, Field(ge=-6000.0, le=6000.0)]
-VehicleSpeed = Annotated[NonNegative, Field(le=400.0)]
+VehicleSpeed = Annotated[Number, Field(ge=-400.0, le=400.0)]
 WheelDiameter = Annotated[Positive, Field(ge=300.0, le=1500.0)]
 USUAL_WHEEL_DIAMETER_MM = 920.0
 
@@ -147,7 +148,10 @@ class QuarterVehicleKeys(FileModel):
     vehicle: Reference[VehicleKeys]
     irregularity: IrregularityKeys = IrregularityKeys()
     speed_profile: Annotated[tuple[SpeedPointKeys, ...], Field(min_length=1)] = Field(
-        description="linear in between, held before and after"
+        (), description="linear in between, held before and after"
+    )
+    measured_speed: Text | None = Field(
+        None, description="instead: CSV file or recording, relative to the scene file, with the shaft speed"
     )
     wheel_diameter_mm: WheelDiameter = USUAL_WHEEL_DIAMETER_MM
     lateral_force_kN: Annotated[Number, Field(ge=-100.0, le=100.0)] = 0.0
@@ -162,6 +166,11 @@ class QuarterVehicleKeys(FileModel):
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
+        if bool(self.speed_profile) == (self.measured_speed is not None):
+            given = "is missing" if not self.speed_profile else "is given beside measured_speed"
+            raise problem(f"speed_profile {given}; give either speed_profile or measured_speed")
+        if not self.speed_profile:
+            return self
         _ascending("speed_profile", [point.time_s for point in self.speed_profile], from_zero=False)
         return self
 
@@ -171,7 +180,8 @@ class QuarterVehicleKeys(FileModel):
         return QuarterVehicleOperation(
             vehicle=self.vehicle.noun(),
             irregularity=self.irregularity.noun(),
-            speed_profile=tuple((point.time_s, point.speed_kmh * KMH) for point in self.speed_profile),
+            speed_profile=tuple((point.time_s, point.speed_kmh * KMH) for point in self.speed_profile)
+            or speed_points(Path(str(self.measured_speed)), self.wheel_diameter_mm / MM),
             wheel_diameter=self.wheel_diameter_mm / MM,
             lateral_force=self.lateral_force_kN * KN,
             track=self.track.noun(),
@@ -181,24 +191,12 @@ class QuarterVehicleKeys(FileModel):
         )
 
 
-class MeasuredKeys(FileModel):
-    """Load and speed of a CSV file."""
-
-    kind: Literal["csv"]
-    path: Text = Field(
-        description="relative to the scene file; columns as in the documentation of `rail.measured`"
-    )
-
-    def noun(self) -> MeasuredOperation:
-        """The measured operation, SI."""
-        return MeasuredOperation(Path(self.path))
-
-
 OperationKeys = Annotated[
     Annotated[ConstantKeys, Tag("<constant>")]
     | Annotated[SteppedKeys, Tag("<stepped>")]
     | Annotated[QuarterVehicleKeys, Tag("<quarter_vehicle>")]
-    | Annotated[MeasuredKeys, Tag("<csv>")],
+    | Annotated[CsvKeys, Tag("<csv>")]
+    | Annotated[McapKeys, Tag("<mcap>")],
     Discriminator(kind_tag),
 ]
 

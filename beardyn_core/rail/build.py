@@ -9,13 +9,12 @@ from beardyn_core.errors import InputError
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
 from beardyn_core.rail.low_pass import kaiser_order, low_pass
-from beardyn_core.rail.measured import read_measurement
+from beardyn_core.rail.replay import replayed
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
     ConstantOperation,
-    MeasuredOperation,
     Operation,
     QuarterVehicleOperation,
     SteppedOperation,
@@ -66,7 +65,7 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
         return _stepped(operation, count, rate)
     if isinstance(operation, QuarterVehicleOperation):
         return _quarter_vehicle(operation, mounting, count, rate, seed)
-    return _measured(operation, count, rate)
+    return replayed(operation, count, rate, _thin)
 
 
 def _sample_ns(operation: Operation) -> int:
@@ -169,22 +168,8 @@ def _quarter_vehicle(
     return _history(wrench, speed / (0.5 * operation.wheel_diameter), bogie, round(1e9 / rate))
 
 
-def _measured(operation: MeasuredOperation, count: int, rate: float) -> LoadHistory:
-    measured = read_measurement(operation.path)
-    end = (count - 1) / rate
-    if measured.time[-1] < end - 1e-9:
-        raise InputError(
-            f"{operation.path}: covers {measured.time[-1]:g} s; the run needs {end:g} s: "
-            f"shorten the duration or give a longer file"
-        )
-    signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
-    factor = int(np.ceil(round(1.0 / (rate * float(np.median(np.diff(measured.time)))), 6)))
-    grid = np.arange((count - 1) * factor + 1) / (rate * factor)
-    signals = np.column_stack([np.interp(grid, measured.time, column) for column in signals.T])
-    if factor > 1:
-        kernel = _low_pass(factor)
-        signals = np.column_stack([_decimate(column, factor, kernel) for column in signals.T])
-    return _history(signals[:, :6], signals[:, 6], signals[:, 7:])
+def _thin(signal: Float, factor: int) -> Float:
+    return _decimate(signal, factor, _low_pass(factor))
 
 
 def _low_pass(factor: int) -> Float:

@@ -48,10 +48,10 @@ def wheel_height(
     Notes
     -----
     A flat meets the rail in a point; one shorter than some 20 mm is in truth smoothed by the contact
-    patch, about 12 mm long, as waves are here. The first half millisecond of a strike (P1) is the wheel against
-    the rail alone; the chain of `track` moves 1.3 m of rail there and lets no wave run away. Against a
-    beam on the same seats what that peak adds to the static force comes out 1.4 to 2.1 times too high,
-    most at low speed; 3 ms later (P2) both agree.
+    patch, about 12 mm long, as waves are here. The first half millisecond of a strike (P1) is the wheel
+    against the rail alone; the chain of `track` moves 1.3 m of rail there and lets no wave run away.
+    Against a beam on the same seats what that peak adds to the static force comes out 1.4 to 2.1 times
+    too high, most at low speed; 3 ms later (P2) both agree.
     """
     flats = np.zeros_like(position)
     waves = np.zeros_like(position)

@@ -196,7 +196,7 @@ def _numbers(
     if len(wild):
         found = listed([lines[index] for index in wild])
         problems.append(f"{path}, {found}: {name} is {values[wild[0]]}; every value must be finite")
-    low = np.flatnonzero(values <= 0.0) if positive else []
+    low = np.flatnonzero((values <= 0.0) & positive)
     if len(low):
         found = listed([lines[index] for index in low])
         problems.append(f"{path}, {found}: {name} is {values[low[0]]:g}; it must be more than 0")

@@ -6,10 +6,10 @@ import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from beardyn_core.scene.excitation import RailDefect, WheelDefect
 from beardyn_core.scene.irregularity import Irregularity
+from beardyn_core.scene.measured import MeasuredOperation
 from beardyn_core.scene.ranges import not_finite, outside, refuse
 
 Vector = tuple[float, float, float]
@@ -247,7 +247,8 @@ class QuarterVehicleOperation:
             yield f"{owner}: speed_profile is empty; give at least one (time, speed) point"
         for index, (time, speed) in enumerate(self.speed_profile):
             yield from not_finite(owner, f"time of speed_profile point {index}", (time,))
-            yield from outside(owner, f"speed of speed_profile point {index}", speed, 0.0, 400 / 3.6, "m/s")
+            top = 400 / 3.6
+            yield from outside(owner, f"speed of speed_profile point {index}", speed, -top, top, "m/s")
         times = [time for time, _ in self.speed_profile]
         for index, (one, two) in enumerate(itertools.pairwise(times), start=1):
             if not two > one:
@@ -261,19 +262,6 @@ class QuarterVehicleOperation:
         for index, fault in enumerate(self.rail_defects):
             for problem in fault.problems():
                 yield f"{owner}, rail defect {index}: {problem}"
-
-
-@dataclass(frozen=True)
-class MeasuredOperation:
-    """Load and speed read from a CSV file (columns: see `rail.measured`).
-
-    Parameters
-    ----------
-    path : Path
-        The file; the config room resolves a relative path against the folder of the scene file.
-    """
-
-    path: Path
 
 
 Operation = ConstantOperation | SteppedOperation | QuarterVehicleOperation | MeasuredOperation
