@@ -45,8 +45,10 @@ class _Way:
 
     def over(self, first: float, spacing: float | None, endless: bool = False) -> dict[str, Any]:
         """Times and distances of passing places: one, evenly spaced ones from it on, or endless both ways."""
-        period = np.inf if spacing is None else spacing
-        passed = np.floor((self.distance - first) / period).astype(np.int64)
+        if spacing is None:  # -1 before the place, 0 behind it
+            passed = (self.distance >= first).astype(np.int64) - 1
+        else:
+            passed = np.floor((self.distance - first) / spacing).astype(np.int64)
         many = np.abs(np.diff(passed))
         begin = np.repeat(np.arange(len(many)), many)
         nth = np.arange(len(begin)) - np.repeat(np.cumsum(many) - many, many)
