@@ -267,7 +267,8 @@ class _Reading:
     def _locate_files(self, operation: dict[str, Any]) -> None:
         """Make the paths of measured files absolute, and read them for their mistakes."""
         take = str(operation.get("take", "both"))
-        if operation.get("kind") in ("csv", "mcap"):
+        recording = str(operation.get("path", "")).lower().endswith(".mcap")
+        if operation.get("kind") == ("mcap" if recording else "csv"):
             self._locate(operation, "path", lambda path: read_measurement(path, take))
         self._locate(operation, "measured_speed", lambda path: read_measurement(path, "speed"))
         irregularity = operation.get("irregularity")

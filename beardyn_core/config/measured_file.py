@@ -76,6 +76,12 @@ class CsvKeys(_FileKeys):
         description="relative to the scene file; columns as in the documentation of `rail.measured`"
     )
 
+    @model_validator(mode="after")
+    def _no_recording(self) -> Self:
+        if self.path.lower().endswith(".mcap"):
+            raise problem(f"path is {self.path!r}; that is a recording: use kind: mcap")
+        return self
+
 
 class McapKeys(_FileKeys):
     """Load and speed of a recording."""
@@ -85,3 +91,9 @@ class McapKeys(_FileKeys):
         description="relative to the scene file; with load/blocks, load/wrench and load/shaft, or force and "
         "shaft"
     )
+
+    @model_validator(mode="after")
+    def _a_recording(self) -> Self:
+        if not self.path.lower().endswith(".mcap"):
+            raise problem(f"path is {self.path!r}; a recording ends in .mcap: for CSV text use kind: csv")
+        return self

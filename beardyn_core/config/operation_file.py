@@ -147,7 +147,7 @@ class QuarterVehicleKeys(FileModel):
     kind: Literal["quarter_vehicle"]
     vehicle: Reference[VehicleKeys]
     irregularity: IrregularityKeys = IrregularityKeys()
-    speed_profile: Annotated[tuple[SpeedPointKeys, ...], Field(min_length=1)] = Field(
+    speed_profile: tuple[SpeedPointKeys, ...] = Field(
         (), description="linear in between, held before and after"
     )
     measured_speed: Text | None = Field(

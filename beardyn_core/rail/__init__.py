@@ -2,12 +2,16 @@
 
 | module | responsibility |
 |---|---|
-| `irregularity` | power spectral density of the rail, random-phase profile over the distance |
-| `excitation` | flats and polygons of the wheel, dips and corrugation of the rail, over the distance |
+| `table` | a CSV file of numbers, with all its mistakes at once |
+| `spectra` | power spectral densities of the rail, what the contact patch leaves of them |
+| `irregularity` | random-phase or measured profile over the distance |
+| `excitation` | flats and waves of the wheel; joints, welds, crossings, corrugation, over the distance |
 | `track` | beam on elastic foundation to a chain of masses under the wheel |
 | `vehicle` | quarter vehicle on a lumped track, wheel-rail contact with loss of contact |
-| `measured` | load and speed from a CSV file |
+| `measured` | load and speed from a CSV file or a recording |
+| `replay` | a measured operation to a `scene.load.LoadHistory` |
 | `build` | any `scene.operation.Operation` to a `scene.load.LoadHistory` |
+| `events` | what a run meets on its way, as truth |
 
 A further excitation is one more function of position in `excitation`, which `build` adds to the profile
 before the vehicle runs over it.

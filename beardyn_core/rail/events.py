@@ -91,7 +91,7 @@ def events_of(scene: Scene) -> dict[str, Any]:
             "events": [
                 *_wheel(operation, way),
                 *_rail(operation.rail_defects, way),
-                *_curve(operation, way),
+                *_curves(operation, way),
                 *_runs(way),
             ],
         }
@@ -184,9 +184,8 @@ def _stretch(begin: float, end: float, way: _Way) -> dict[str, Any]:
     }
 
 
-def _curve(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
-    curve = getattr(operation, "curve", None)
-    if curve is not None:
+def _curves(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
+    for curve in getattr(operation, "curves", ()):
         yield {
             "kind": "curve",
             "radius_m": curve.radius,

@@ -162,7 +162,7 @@ def _header_problems(path: Path, names: list[str], layout: Layout) -> list[str]:
     for group in layout.one_of:
         given = [name for name in group if name in names]
         if len(given) != 1:
-            few = "none of these columns is" if not given else f"{' and '.join(given)} are"
+            few = "none of these columns is" if not given else f"both {' and '.join(given)} are"
             problems.append(f"{path}: {few} there; give exactly one of {', '.join(group)}")
     return problems
 

@@ -34,7 +34,7 @@ def estimate(height: Float, spacing: float, segment: int) -> tuple[Float, Float]
         power += np.abs(np.fft.rfft(height[start : start + segment] * window)) ** 2
     # per radian and metre; twice for the negative half
     density = 2.0 * power * spacing / (len(starts) * np.sum(window**2)) / (2.0 * np.pi)
-    return 2.0 * np.pi * np.fft.rfftfreq(segment, spacing), density
+    return np.asarray(2.0 * np.pi * np.fft.rfftfreq(segment, spacing), np.float64), density
 
 
 def band_ratios(wavenumber: Float, density: Float, target: Float, edges: Float) -> Float:
