@@ -167,8 +167,12 @@ class QuarterVehicleKeys(FileModel):
     @model_validator(mode="after")
     def _in_order(self) -> Self:
         if bool(self.speed_profile) == (self.measured_speed is not None):
-            given = "is missing" if not self.speed_profile else "is given beside measured_speed"
-            raise problem(f"speed_profile {given}; give either speed_profile or measured_speed")
+            given = (
+                "speed_profile and measured_speed are given"
+                if self.speed_profile
+                else "speed_profile is missing"
+            )
+            raise problem(f"{given}; give exactly one of speed_profile, measured_speed")
         if not self.speed_profile:
             return self
         _ascending("speed_profile", [point.time_s for point in self.speed_profile], from_zero=False)

@@ -223,7 +223,7 @@ def test_a_vehicle_runs_with_a_measured_speed(tmp_path: Path) -> None:
         (
             GOOD,
             ("vehicle: emu_300\n", "vehicle: emu_300\n  measured_speed: run.csv\n"),
-            ["speed_profile is given beside measured_speed"],
+            ["speed_profile and measured_speed are given; give exactly one"],
         ),
         (GOOD, ("kind: fra_2", "kind: csv, path: run.csv"), ["run.csv: unknown column 'time_s'"]),
     ],
