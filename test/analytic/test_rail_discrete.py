@@ -60,7 +60,7 @@ def test_the_strike_of_a_crossing_grows_with_angle_and_speed():
         return float(response.contact_force.max() - quarter_vehicle(operation, Mounting()).static_force)
 
     shallow, deep, fast = peak(1e-3, 40.0), peak(3e-3, 40.0), peak(1e-3, 80.0)
-    assert shallow > 20e3
+    assert shallow > 10e3  # a seventh of the static force at 40 km/h
     assert deep > 1.5 * shallow
     assert fast > 1.3 * shallow
 
@@ -148,13 +148,12 @@ def test_a_run_that_turns_back_meets_the_same_rail_again():
     force = history.wrench[:, 2]
     assert np.isfinite(force).all()
     assert history.shaft_speed[-1] == pytest.approx(-5.0 / RADIUS)
-    strikes = history.time_ns[np.abs(force - force.mean()) > 0.15 * force.mean()] * 1e-9
-    early, late = strikes[strikes < 2.0], strikes[strikes > 2.0]
-    assert len(early) > 0
-    assert len(late) > 0
-    # 7 m are passed at 1.552786 s and, the way being even about 2 s, 0.447 s after it
-    assert early.min() == pytest.approx(1.5528, abs=0.08)
-    assert late.min() == pytest.approx(4.0 - 1.5528, abs=0.08)
+    time, apart = history.time_ns * 1e-9, np.abs(force - np.median(force))
+    there, back = (np.flatnonzero((time > low) & (time < low + 1.5)) for low in (0.5, 2.0))
+    # 7 m are passed at 1.5528 s; the way is even about 2 s
+    assert time[there[np.argmax(apart[there])]] == pytest.approx(1.5528, abs=0.08)
+    assert time[back[np.argmax(apart[back])]] == pytest.approx(4.0 - 1.5528, abs=0.08)
+    assert apart[there].max() > 5 * apart[(time > 0.3) & (time < 1.4)].std()
 
 
 @pytest.mark.parametrize(
