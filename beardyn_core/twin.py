@@ -34,6 +34,7 @@ from beardyn_core.observe.absence import absence_of
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
 from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
+from beardyn_core.rail.events import events_of
 from beardyn_core.scene.defect import Patch, truth_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
@@ -346,6 +347,7 @@ class Twin:
             "rows": scene.rows,
             "faults": [truth_of(defect, self._index * BLOCK_NS * 1e-9) for defect in scene.faults],
             "waviness": [asdict(wave) for wave in scene.waviness],
+            "excitation": events_of(scene),
             "fault_frequencies_per_rev": {
                 "FTF": frequencies.ftf,
                 "BPFO": frequencies.bpfo,

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, is_dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.rail.events import events_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.replay import Replay
 
@@ -18,9 +19,6 @@ PLAYING = "playing"
 PAUSED = "paused"
 ENDED = "ended"
 PASSAGES_TOLD = 100
-
-# what a wheel or the track does to the load; vehicle and track themselves are in the truth of the twin
-_EVENT_FIELDS = ("irregularity", "wheel_defects", "rail_defects", "path")
 
 
 @dataclass(frozen=True)
@@ -68,22 +66,7 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
 
 def scenario_events(scene: Scene) -> dict[str, Any]:
     """What a scene does to the load, JSON-able, in SI units."""
-    operation = scene.operation
-    found = {name: getattr(operation, name) for name in _EVENT_FIELDS if hasattr(operation, name)}
-    return {
-        "scene": scene.name,
-        "operation": type(operation).__name__.removesuffix("Operation"),
-        "seed": scene.seed,
-        **{name: _plain(value) for name, value in found.items()},
-    }
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return [_plain(item) for item in value]
-    if is_dataclass(value) and not isinstance(value, type):
-        return {"kind": type(value).__name__, **asdict(value)}
-    return value if isinstance(value, (bool, int, float, str)) or value is None else str(value)
+    return {"scene": scene.name, "seed": scene.seed, **events_of(scene)}
 
 
 def truth_text(scenario: Scenario, replay: Replay, state: str, run_id: str) -> str:

@@ -140,7 +140,7 @@ def _samples(scene: Scene) -> tuple[Float, Float]:
         levels = np.array([[*step.force, *step.moment, step.speed] for step in steps])
         signals = np.repeat(levels, counts, axis=0)
         return signals[:, :6], signals[:, 6]
-    if isinstance(operation, MeasuredOperation):
+    if isinstance(operation, MeasuredOperation) and operation.take == "both":
         measured = read_measurement(operation.path)
         within = measured.time <= scene.duration
         return measured.wrench[within], measured.shaft_speed[within]

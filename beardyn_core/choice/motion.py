@@ -54,9 +54,7 @@ def contact_damping(evidence: Evidence) -> Rule:
             "contact_damping", (Alternative({"contact_damping": None}, "not in the reference", word="off"),)
         )
     if not evidence.moves:
-        said = (
-            "the cup is held, so that the axlebox has no resonance to damp; without it rollers bounce"
-        )
+        said = "the cup is held, so that the axlebox has no resonance to damp; without it rollers bounce"
         return Rule(
             "contact_damping",
             (

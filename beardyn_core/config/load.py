@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -28,7 +29,11 @@ from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
+from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
+from beardyn_core.rail.spectra import DENSITY_LAYOUT
+from beardyn_core.rail.table import read_table
+from beardyn_core.scene.irregularity import MEASURED
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIER_NAMES, contradictions
@@ -198,7 +203,7 @@ class _Reading:
         if isinstance(operation, dict):
             operation = self.data["operation"] = dict(operation)
             self._inline(operation, "vehicle", "vehicles", ("operation",))
-            self._locate_measurement(operation)
+            self._locate_files(operation)
         try:
             keys = SceneKeys.model_validate(self.data)
         except ValidationError as error:
@@ -260,14 +265,28 @@ class _Reading:
                 ("effects", "preset"), ["a preset cannot start from another preset; write its effects out"]
             )
 
-    def _locate_measurement(self, operation: dict[str, Any]) -> None:
-        path = operation.get("path")
-        if operation.get("kind") != "csv" or not isinstance(path, str):
+    def _locate_files(self, operation: dict[str, Any]) -> None:
+        """Make the paths of measured files absolute, and read them for their mistakes."""
+        take = str(operation.get("take", "both"))
+        recording = str(operation.get("path", "")).lower().endswith(".mcap")
+        if operation.get("kind") == ("mcap" if recording else "csv"):
+            self._locate(operation, "path", lambda path: read_measurement(path, take))
+        self._locate(operation, "measured_speed", lambda path: read_measurement(path, "speed"))
+        irregularity = operation.get("irregularity")
+        if isinstance(irregularity, dict) and irregularity.get("kind") in MEASURED:
+            irregularity = operation["irregularity"] = dict(irregularity)
+            profile = irregularity["kind"] == "csv"
+            layout = RAIL_LAYOUT if profile else DENSITY_LAYOUT
+            self._locate(irregularity, "path", lambda path: read_table(path, layout))
+
+    def _locate(self, owner: dict[str, Any], key: str, read: Callable[[Path], object]) -> None:
+        path = owner.get(key)
+        if not isinstance(path, str):
             return
         located_path = (self.folder / path).resolve()
-        operation["path"] = str(located_path)
+        owner[key] = str(located_path)
         try:
-            read_measurement(located_path)
+            read(located_path)
         except InputError as error:
             self.problems += error.problems
 

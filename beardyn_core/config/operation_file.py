@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 from typing_extensions import Self
 
-from beardyn_core.config.excitation_file import RailDefectKeys, WheelDefectKeys
+from beardyn_core.config.excitation_file import IrregularityKeys, RailDefectKeys, WheelDefectKeys
 from beardyn_core.config.file_model import (
     FileModel,
     NonNegative,
@@ -21,13 +21,13 @@ from beardyn_core.config.file_model import (
     kind_tag,
     problem,
 )
+from beardyn_core.config.measured_file import CsvKeys, McapKeys
 from beardyn_core.config.running_file import BrakingKeys, CurveKeys, StartingKeys, TimetableKeys
 from beardyn_core.config.units import KMH, KN, MEGA, MM, RPM
 from beardyn_core.config.vehicle_file import TONNE, VehicleKeys
+from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.operation import (
     ConstantOperation,
-    Irregularity,
-    MeasuredOperation,
     QuarterVehicleOperation,
     Step,
     SteppedOperation,
@@ -108,27 +108,6 @@ class SpeedPointKeys(FileModel):
     speed_kmh: VehicleSpeed = Field(description="negative when it runs backwards")
 
 
-class IrregularityKeys(FileModel):
-    """Vertical irregularity of the rail."""
-
-    kind: Literal["german_low", "german_high", "fra_6", "none"] = "german_low"
-    shortest_wavelength_m: Annotated[Positive, Field(ge=0.02, le=50.0)] = 0.1
-    longest_wavelength_m: Annotated[Positive, Field(ge=1.0, le=1000.0)] = 150.0
-
-    @model_validator(mode="after")
-    def _in_order(self) -> Self:
-        if self.shortest_wavelength_m >= self.longest_wavelength_m:
-            raise problem(
-                f"shortest_wavelength_m is {self.shortest_wavelength_m:g}; it must be less than "
-                f"longest_wavelength_m, {self.longest_wavelength_m:g}"
-            )
-        return self
-
-    def noun(self) -> Irregularity:
-        """The irregularity, SI."""
-        return Irregularity(self.kind, self.shortest_wavelength_m, self.longest_wavelength_m)
-
-
 class TrackKeys(FileModel):
     """Ballasted track under one rail; what is not given is the track of Zhai."""
 
@@ -175,13 +154,19 @@ class QuarterVehicleKeys(FileModel):
     speed_profile: Annotated[tuple[SpeedPointKeys, ...], Field(min_length=1)] | None = Field(
         None, description="linear in between, held before and after"
     )
+    measured_speed: Text | None = Field(
+        None, description="instead: CSV file or recording, relative to the scene file, with the shaft speed"
+    )
     timetable: TimetableKeys | None = Field(None, description="from stop to stop, instead of a profile")
     wheel_diameter_mm: WheelDiameter = USUAL_WHEEL_DIAMETER_MM
     lateral_force_kN: Annotated[Number, Field(ge=-100.0, le=100.0)] = 0.0
     track: TrackKeys = TrackKeys()
     wheel_defects: tuple[WheelDefectKeys, ...] = Field((), description="flats and polygons of the wheel")
     rail_defects: tuple[RailDefectKeys, ...] = Field(
-        (), description="dipped joints and corrugation, besides the irregularity"
+        (), description="joints, welds, crossings and corrugation, besides the irregularity"
+    )
+    contact_patch_mm: Annotated[NonNegative, Field(le=30.0)] = Field(
+        12.0, description="length of the wheel-rail contact, which smooths short waves; 0 for a point"
     )
     payload_t: Annotated[NonNegative, Field(le=100.0)] = Field(
         0.0, description="of the whole car, besides what its body_mass_t has in it"
@@ -198,9 +183,11 @@ class QuarterVehicleKeys(FileModel):
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
-        if (self.speed_profile is None) == (self.timetable is None):
-            given = "neither" if self.timetable is None else "both"
-            raise problem(f"{given} of speed_profile and timetable is given; give exactly one of them")
+        sources = ("speed_profile", "timetable", "measured_speed")
+        given = [name for name in sources if getattr(self, name) is not None]
+        if len(given) != 1:
+            told = "speed_profile is missing" if not given else f"{' and '.join(given)} are given"
+            raise problem(f"{told}; give exactly one of {', '.join(sources)}")
         if self.speed_profile is not None:
             _ascending("speed_profile", [point.time_s for point in self.speed_profile], from_zero=False)
         if self.curve and self.lateral is False:
@@ -226,6 +213,7 @@ class QuarterVehicleKeys(FileModel):
             track=self.track.noun(),
             wheel_defects=tuple(defect.noun() for defect in self.wheel_defects),
             rail_defects=tuple(defect.noun() for defect in self.rail_defects),
+            contact_patch=self.contact_patch_mm / MM,
             payload=self.payload_t * TONNE,
             lateral=self.lateral,
             curves=tuple(curve.noun() for curve in self.curve),
@@ -236,28 +224,18 @@ class QuarterVehicleKeys(FileModel):
     def _speed_profile(self) -> Profile:
         if self.timetable is not None:
             return self.timetable.noun().speed_profile()
-        assert self.speed_profile is not None  # one of both is there
+        if self.measured_speed is not None:
+            return speed_points(Path(self.measured_speed), self.wheel_diameter_mm / MM)
+        assert self.speed_profile is not None  # one of them is there
         return tuple((point.time_s, point.speed_kmh * KMH) for point in self.speed_profile)
-
-
-class MeasuredKeys(FileModel):
-    """Load and speed of a CSV file."""
-
-    kind: Literal["csv"]
-    path: Text = Field(
-        description="relative to the scene file; columns as in the documentation of `rail.measured`"
-    )
-
-    def noun(self) -> MeasuredOperation:
-        """The measured operation, SI."""
-        return MeasuredOperation(Path(self.path))
 
 
 OperationKeys = Annotated[
     Annotated[ConstantKeys, Tag("<constant>")]
     | Annotated[SteppedKeys, Tag("<stepped>")]
     | Annotated[QuarterVehicleKeys, Tag("<quarter_vehicle>")]
-    | Annotated[MeasuredKeys, Tag("<csv>")],
+    | Annotated[CsvKeys, Tag("<csv>")]
+    | Annotated[McapKeys, Tag("<mcap>")],
     Discriminator(kind_tag),
 ]
 

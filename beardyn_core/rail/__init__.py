@@ -2,8 +2,10 @@
 
 | module | responsibility |
 |---|---|
-| `irregularity` | power spectral density of the rail, random-phase profile over the distance |
-| `excitation` | flats and polygons of the wheel, dips and corrugation of the rail, over the distance |
+| `table` | a CSV file of numbers, with all its mistakes at once |
+| `spectra` | power spectral densities of the rail, what the contact patch leaves of them |
+| `irregularity` | random-phase or measured profile over the distance |
+| `excitation` | flats and waves of the wheel; joints, welds, crossings, corrugation, over the distance |
 | `track` | the rail as standing waves of a long beam on two layers of seats |
 | `suspension` | progressive springs and friction of a freight bogie, and how the twin feels them |
 | `vehicle` | vertical share of one axlebox on its rail, wheel-rail contact with loss of contact |
@@ -11,8 +13,10 @@
 | `lateral` | wheelset, bogie and body sideways: creep, conicity, flanges |
 | `longitudinal` | braking and starting at one axle |
 | `running` | what curves, alignment and a changing speed add to journal load and bogie motion |
-| `measured` | load and speed from a CSV file |
+| `measured` | load and speed from a CSV file or a recording |
+| `replay` | a measured operation to a `scene.load.LoadHistory` |
 | `build` | any `scene.operation.Operation` to a `scene.load.LoadHistory` |
+| `events` | what a run meets on its way, as truth |
 
 A further excitation is one more function of position in `excitation`, which `build` adds to the profile
 before the vehicle runs over it.

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
 from beardyn_core.rail.excitation import rail_height, wheel_height
-from beardyn_core.rail.irregularity import rail_profile
+from beardyn_core.rail.irregularity import irregular_height
 from beardyn_core.rail.low_pass import kaiser_order, low_pass
-from beardyn_core.rail.measured import read_measurement
+from beardyn_core.rail.replay import replayed
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift
 from beardyn_core.rail.suspension import shifted
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
@@ -17,7 +17,6 @@ from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
     ConstantOperation,
-    MeasuredOperation,
     Operation,
     QuarterVehicleOperation,
     SteppedOperation,
@@ -37,7 +36,7 @@ FADE_IN = 0.2
 def load_history(operation: Operation, mounting: Mounting, duration: float, seed: int) -> LoadHistory:
     """Load on the journal and shaft speed, from time 0 to the first sample at or after the end.
 
-    At 2 kHz; at 10 kHz when the wheel or the rail has defects.
+    At 2 kHz; at 10 kHz when the wheel or the rail has defects or short waves.
 
     Parameters
     ----------
@@ -69,13 +68,13 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
         return _stepped(operation, count, rate)
     if isinstance(operation, QuarterVehicleOperation):
         return _quarter_vehicle(operation, mounting, count, rate, seed)
-    return _measured(operation, count, rate)
+    return replayed(operation, count, rate, _thin)
 
 
 def _sample_ns(operation: Operation) -> int:
     """Time between samples of the load, [ns]."""
     strikes = isinstance(operation, QuarterVehicleOperation) and (
-        operation.wheel_defects or operation.rail_defects
+        operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
     )
     return STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
 
@@ -141,11 +140,12 @@ def _ride(
 ) -> tuple[Ride, Running | None]:
     time = np.arange(steps) / RIDE_RATE
     position = distance_at(operation.speed_profile, time)
-    profile = rail_profile(operation.irregularity, float(position[-1]), seed)
-    height = profile.height_at(position)
+    patch = operation.contact_patch
+    height = irregular_height(operation.irregularity, position, seed, patch)
     if operation.wheel_defects or operation.rail_defects:
-        height = height + wheel_height(operation.wheel_defects, 0.5 * operation.wheel_diameter, position)
-        height += rail_height(operation.rail_defects, position)
+        radius = 0.5 * operation.wheel_diameter
+        height = height + wheel_height(operation.wheel_defects, radius, position, patch)
+        height += rail_height(operation.rail_defects, position, patch)
     fade = _rise(time, FADE_IN)
     height = (height - height[0]) * fade
     besides = running(operation, mounting, time, fade, seed)
@@ -185,6 +185,10 @@ def _quarter_vehicle(
     return _history(wrench, speed / (0.5 * operation.wheel_diameter), bogie, round(1e9 / rate))
 
 
+def _thin(signal: Float, factor: int) -> Float:
+    return _decimate(signal, factor, _low_pass(factor))
+
+
 def _columns(signals: Float, factor: int, kernel: Float, count: int) -> Float:
     """Every factor-th sample of filtered columns; a column that stays zero is left alone."""
     thinned = np.zeros((count, signals.shape[1]))
@@ -192,24 +196,6 @@ def _columns(signals: Float, factor: int, kernel: Float, count: int) -> Float:
         if column.any():
             thinned[:, axis] = _decimate(column, factor, kernel)[:count]
     return thinned
-
-
-def _measured(operation: MeasuredOperation, count: int, rate: float) -> LoadHistory:
-    measured = read_measurement(operation.path)
-    end = (count - 1) / rate
-    if measured.time[-1] < end - 1e-9:
-        raise InputError(
-            f"{operation.path}: covers {measured.time[-1]:g} s; the run needs {end:g} s: "
-            f"shorten the duration or give a longer file"
-        )
-    signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
-    factor = int(np.ceil(round(1.0 / (rate * float(np.median(np.diff(measured.time)))), 6)))
-    grid = np.arange((count - 1) * factor + 1) / (rate * factor)
-    signals = np.column_stack([np.interp(grid, measured.time, column) for column in signals.T])
-    if factor > 1:
-        kernel = _low_pass(factor)
-        signals = np.column_stack([_decimate(column, factor, kernel) for column in signals.T])
-    return _history(signals[:, :6], signals[:, 6], signals[:, 7:])
 
 
 def _low_pass(factor: int) -> Float:

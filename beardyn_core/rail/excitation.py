@@ -5,19 +5,27 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.rail.spectra import wave_gain
 from beardyn_core.scene.excitation import (
     Corrugation,
+    Crossing,
     DippedJoint,
+    DippedWeld,
     RailDefect,
     WheelDefect,
     WheelFlat,
+    WheelOutOfRound,
     WheelPolygon,
 )
 
 Float = NDArray[np.float64]
 
+_STREAM = 0x7768656C  # keeps the wheel's random numbers apart from those of rail and sensors
 
-def wheel_height(defects: tuple[WheelDefect, ...], wheel_radius: float, position: Float) -> Float:
+
+def wheel_height(
+    defects: tuple[WheelDefect, ...], wheel_radius: float, position: Float, patch: float = 0.0
+) -> Float:
     """What the wheel's own shape lifts its centre, rolling without slip.
 
     Flats that overlap do not add: a spot is as deep as the deepest.
@@ -29,6 +37,8 @@ def wheel_height(defects: tuple[WheelDefect, ...], wheel_radius: float, position
         [m].
     position : float64 array
         Distance rolled since the start of the run, [m].
+    patch : float
+        Length of the contact patch, over which waves are smoothed, [m]; 0: a point.
 
     Returns
     -------
@@ -37,8 +47,8 @@ def wheel_height(defects: tuple[WheelDefect, ...], wheel_radius: float, position
 
     Notes
     -----
-    The contact is a point: waves and flats shorter than some 20 mm are in truth smoothed by the
-    contact patch, about 12 mm long.
+    A flat meets the rail in a point; one shorter than some 20 mm is in truth smoothed by the contact
+    patch, about 12 mm long, as waves are here.
     """
     flats = np.zeros_like(position)
     waves = np.zeros_like(position)
@@ -46,11 +56,25 @@ def wheel_height(defects: tuple[WheelDefect, ...], wheel_radius: float, position
         if isinstance(defect, WheelFlat):
             flats = np.minimum(flats, _flat(defect, wheel_radius, position))
         else:
-            waves += _polygon(defect, wheel_radius, position)
+            for polygon in waves_of(defect):
+                gain = wave_gain(polygon.order / wheel_radius, patch)
+                waves += gain * _polygon(polygon, wheel_radius, position)
     return flats + waves
 
 
-def rail_height(defects: tuple[RailDefect, ...], position: Float) -> Float:
+def waves_of(defect: WheelPolygon | WheelOutOfRound) -> tuple[WheelPolygon, ...]:
+    """Single waves that the shape of a wheel is made of."""
+    if isinstance(defect, WheelPolygon):
+        return (defect,)
+    random = np.random.Generator(np.random.PCG64(np.random.SeedSequence([_STREAM, defect.seed])))
+    azimuths = random.uniform(0.0, 2.0 * np.pi, len(defect.amplitudes))
+    return tuple(
+        WheelPolygon(order, amplitude, float(azimuth))
+        for order, (amplitude, azimuth) in enumerate(zip(defect.amplitudes, azimuths, strict=True), start=1)
+    )
+
+
+def rail_height(defects: tuple[RailDefect, ...], position: Float, patch: float = 0.0) -> Float:
     """Height of the rail from its own defects.
 
     Parameters
@@ -58,6 +82,8 @@ def rail_height(defects: tuple[RailDefect, ...], position: Float) -> Float:
     defects : tuple of RailDefect
     position : float64 array
         Along the track from the start of the run, [m].
+    patch : float
+        Length of the contact patch, over which corrugation is smoothed, [m]; 0: a point.
 
     Returns
     -------
@@ -66,7 +92,14 @@ def rail_height(defects: tuple[RailDefect, ...], position: Float) -> Float:
     """
     height = np.zeros_like(position)
     for defect in defects:
-        height += _dip(defect, position) if isinstance(defect, DippedJoint) else _waves(defect, position)
+        if isinstance(defect, DippedJoint):
+            height += _dip(defect, position)
+        elif isinstance(defect, DippedWeld):
+            height += _weld(defect, position)
+        elif isinstance(defect, Crossing):
+            height += _crossing(defect, position)
+        else:
+            height += wave_gain(2.0 * np.pi / defect.wavelength, patch) * _waves(defect, position)
     return height
 
 
@@ -87,12 +120,19 @@ def _polygon(polygon: WheelPolygon, wheel_radius: float, position: Float) -> Flo
 
 
 def _dip(joint: DippedJoint, position: Float) -> Float:
-    apart = position - joint.position
-    if joint.spacing is None:
-        return -joint.depth * _cusp(np.abs(apart), joint.length)
-    # the rail before the first joint is sound
-    met = apart > -0.5 * joint.spacing
-    return np.where(met, -joint.depth * _cusp(_apart(apart, joint.spacing), joint.length), 0.0)
+    apart = _from_nearest(position - joint.position, joint.spacing)
+    return -joint.depth * _cusp(apart, joint.length)
+
+
+def _weld(weld: DippedWeld, position: Float) -> Float:
+    apart = _from_nearest(position - weld.position, weld.spacing)
+    return -weld.depth * _hollow(apart, weld.length) - weld.short_depth * _hollow(apart, weld.short_length)
+
+
+def _crossing(crossing: Crossing, position: Float) -> Float:
+    behind = position - crossing.position
+    share = np.where(behind < 0.0, -behind / crossing.wing_length, behind / crossing.nose_length)
+    return -crossing.depth * np.maximum(1.0 - share, 0.0)
 
 
 def _waves(corrugation: Corrugation, position: Float) -> Float:
@@ -106,6 +146,18 @@ def _waves(corrugation: Corrugation, position: Float) -> Float:
 def _apart(distance: Float, period: float) -> Float:
     """Distance to the nearest of places that come back with the period, not negative."""
     return np.abs(distance - period * np.round(distance / period))
+
+
+def _from_nearest(distance: Float, spacing: float | None) -> Float:
+    """Distance to the nearest of places that begin at 0, not negative; before the first the rail is sound."""
+    if spacing is None:
+        return np.abs(distance)
+    return np.where(distance > -0.5 * spacing, _apart(distance, spacing), np.inf)
+
+
+def _hollow(apart: Float, length: float) -> Float:
+    """One wave of a cosine, 1 in the middle and 0 at both ends; here upwards."""
+    return 0.5 + 0.5 * np.cos(2.0 * np.pi * np.minimum(apart / length, 0.5))
 
 
 def _cusp(apart: Float, length: float) -> Float:

@@ -1,68 +1,46 @@
-"""Vertical irregularity of the rail: power spectral densities and random-phase profiles."""
+"""Irregularity of the rail over the distance: random-phase or measured profiles, vertical and lateral."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beardyn_core.errors import InputError
-from beardyn_core.scene.operation import IRREGULARITY_KINDS, Irregularity
+from beardyn_core.rail.spectra import (
+    SHORT_WAVE_BAND,
+    iso_3095_density,
+    patch_gain,
+    spectral_density,
+    target_density,
+)
+from beardyn_core.rail.table import Column, Layout, read_table
+from beardyn_core.scene.irregularity import Irregularity
+
+__all__ = ["RailProfile", "irregular_height", "rail_profile", "read_rail", "spectral_density"]
 
 Float = NDArray[np.float64]
 
-# ERRI B176: break wavenumbers [rad/m] and roughness constants [m^2 rad/m]
-_GERMAN_CUTOFF = 0.8246
-_GERMAN_REFERENCE = 0.0206
-_GERMAN_ROUGHNESS = {"german_low": 4.032e-7, "german_high": 1.08e-6}
-# FRA class 6
-_FRA_CUTOFF = 0.8245
-_FRA_SHARE = 0.25
-_FRA_6_ROUGHNESS = 0.0339e-4
-# density of the alignment over that of the vertical profile
-_ALIGNMENT = {"german_low": 2.119 / 4.032, "german_high": 6.125 / 10.8, "fra_6": 1.0}
-
 _SHORTEST_PERIOD = 4096.0
+_SHORT_WAVE_PERIOD = 512.0
 _SAMPLES_PER_WAVE = 8
 _STREAM = 0x7261696C  # keeps the rail's random numbers apart from those of the sensors
+# numbers that further profiles of the same seed add to the stream
+_FURTHER = {"lateral": 1, "short_waves": 2}
 
-
-def spectral_density(kind: str, wavenumber: Float) -> Float:
-    """One-sided power spectral density of the vertical profile.
-
-    Its integral over positive angular wavenumbers is the variance.
-
-    Parameters
-    ----------
-    kind : str
-        One of `scene.operation.IRREGULARITY_KINDS`.
-    wavenumber : float64 array
-        Angular wavenumber, positive, [rad/m].
-
-    Returns
-    -------
-    float64 array
-        [m^2 / (rad/m)].
-
-    References
-    ----------
-    German low and high disturbance: ERRI B176. FRA class 6: Federal Railroad Administration, as in the
-    TTB-2D irregularity library (D. Cantero, NTNU). Taken one-sided, the standard deviations over
-    3 to 150 m are 2.86, 4.69 and 4.32 mm.
-    """
-    square = np.asarray(wavenumber, dtype=np.float64) ** 2
-    if kind in _GERMAN_ROUGHNESS:
-        return (
-            _GERMAN_ROUGHNESS[kind]
-            * _GERMAN_CUTOFF**2
-            / ((square + _GERMAN_REFERENCE**2) * (square + _GERMAN_CUTOFF**2))
-        )
-    if kind == "fra_6":
-        return _FRA_SHARE * _FRA_6_ROUGHNESS * _FRA_CUTOFF**2 / (square * (square + _FRA_CUTOFF**2))
-    if kind == "none":
-        return np.zeros_like(square)
-    raise InputError(f"irregularity: kind is {kind!r}; allowed are {', '.join(IRREGULARITY_KINDS)}")
+RAIL_LAYOUT = Layout(
+    what="rail irregularity over the distance",
+    columns=(
+        Column("distance_m", "m"),
+        Column("vertical_mm", "mm"),
+        Column("lateral_mm", "mm", needed=False),
+    ),
+    ascending="distance_m",
+    gap=(5.0, 0.2),
+)
+_MOST_POINTS = 2**23
 
 
 @dataclass(frozen=True)
@@ -77,11 +55,14 @@ class RailProfile:
         Upwards, [m].
     slope : float64 array, shape [point]
         First derivative along the track, [-].
+    finer : RailProfile or None
+        Short waves on a grid of their own, that add to it.
     """
 
     spacing: float
     height: Float
     slope: Float
+    finer: RailProfile | None = None
 
     @property
     def period(self) -> float:
@@ -107,7 +88,8 @@ class RailProfile:
         rise = self.height[right] - self.height[left]
         entry = self.slope[left] * self.spacing - rise
         leave = rise - self.slope[right] * self.spacing
-        return self.height[left] + s * (rise + (1.0 - s) * ((1.0 - s) * entry + s * leave))
+        height = self.height[left] + s * (rise + (1.0 - s) * ((1.0 - s) * entry + s * leave))
+        return height if self.finer is None else height + self.finer.height_at(position)
 
     def slope_at(self, position: ArrayLike) -> Float:
         """First derivative of `height_at`.
@@ -128,17 +110,22 @@ class RailProfile:
         rise = self.height[right] - self.height[left]
         entry = self.slope[left] * self.spacing - rise
         leave = rise - self.slope[right] * self.spacing
-        return (rise + (1.0 - s) * (1.0 - 3.0 * s) * entry + s * (2.0 - 3.0 * s) * leave) / self.spacing
+        slope = (rise + (1.0 - s) * (1.0 - 3.0 * s) * entry + s * (2.0 - 3.0 * s) * leave) / self.spacing
+        return slope if self.finer is None else slope + self.finer.slope_at(position)
 
 
 def rail_profile(
-    irregularity: Irregularity, distance: float, seed: int, direction: str = "vertical"
+    irregularity: Irregularity,
+    distance: float,
+    seed: int,
+    direction: str = "vertical",
+    patch: float = 0.0,
 ) -> RailProfile:
-    """Random-phase profile at least as long as the run.
+    """Profile at least as long as the run: random phases, or as measured.
 
     Every spectral line in the wavelength band gets the amplitude sqrt(2 S dOmega) and a random phase.
     The period is 4096 m times a power of two, so all runs shorter than that see the same rail for
-    the same seed, however long they last.
+    the same seed, however long they last. Short waves come back after 512 m.
 
     Parameters
     ----------
@@ -147,34 +134,152 @@ def rail_profile(
         Length of the run, [m].
     seed : int
     direction : str
-        ``vertical``, upwards, or ``lateral``, the alignment, along +y.
+        ``vertical``, upwards, or ``lateral``, the alignment, along +y; zero where the source has none.
+    patch : float
+        Length of the contact patch, over which short waves are smoothed, [m]; 0: a point.
 
     Returns
     -------
     RailProfile
+
+    Raises
+    ------
+    InputError
+        When a file is bad, or shorter than the run.
     """
+    if irregularity.kind == "csv":
+        profile = _measured(irregularity, distance, direction, patch)
+    else:
+        profile = _drawn(irregularity, distance, seed, direction, patch)
+    if irregularity.short_waves is None or direction == "lateral":
+        return profile
+    return RailProfile(
+        profile.spacing, profile.height, profile.slope, _short_waves(irregularity, seed, patch)
+    )
+
+
+def irregular_height(irregularity: Irregularity, position: Float, seed: int, patch: float) -> Float:
+    """Vertical irregularity under the wheel on its way.
+
+    Parameters
+    ----------
+    irregularity : Irregularity
+    position : float64 array
+        Along the track from the start of the run, [m].
+    seed : int
+    patch : float
+        Length of the contact patch, [m].
+
+    Returns
+    -------
+    float64 array
+        Upwards, [m].
+    """
+    if irregularity.kind == "csv" and float(np.min(position)) < 0.0:
+        raise InputError(
+            f"{irregularity.path}: the run goes back {-float(np.min(position)):g} m behind its start, where "
+            "the file has no rail: start forwards"
+        )
+    # a run that turns back needs the way between its ends
+    return rail_profile(irregularity, float(np.ptp(position)), seed, patch=patch).height_at(position)
+
+
+def _drawn(
+    irregularity: Irregularity, distance: float, seed: int, direction: str, patch: float
+) -> RailProfile:
     period = _SHORTEST_PERIOD
     while period < distance:
         period *= 2.0
-    points = 2 ** int(np.ceil(np.log2(period * _SAMPLES_PER_WAVE / irregularity.shortest_wavelength)))
-    spacing = period / points
+    shortest, longest = irregularity.shortest_wavelength, irregularity.longest_wavelength
+    points = _points(period, shortest)
     if irregularity.kind == "none":
-        return RailProfile(spacing, np.zeros(points), np.zeros(points))
-    first = int(np.ceil(period / irregularity.longest_wavelength))
-    last = int(np.floor(period / irregularity.shortest_wavelength))
-    line = np.arange(first, last + 1)
-    step = 2.0 * np.pi / period
-    wavenumber: Float = np.asarray(line * step, dtype=np.float64)
-    density = spectral_density(irregularity.kind, wavenumber)
-    stream = [_STREAM, seed]
-    if direction == "lateral":
-        density = density * _ALIGNMENT[irregularity.kind]
-        stream.append(1)
-    amplitude = np.sqrt(2.0 * density * step)
+        return RailProfile(period / points, np.zeros(points), np.zeros(points))
+    line, wavenumber = _lines(period, shortest, longest)
+    density = target_density(irregularity, wavenumber, direction)
+    stream = [_STREAM, seed] if direction == "vertical" else [_STREAM, seed, _FURTHER[direction]]
+    if direction == "vertical":
+        density = density * patch_gain(wavenumber, patch) ** 2
+    return _random_phases(period, points, line, wavenumber, density, stream)
+
+
+def _short_waves(irregularity: Irregularity, seed: int, patch: float) -> RailProfile:
+    """What the density lacks to that of the roughness limit."""
+    period = _SHORT_WAVE_PERIOD
+    line, wavenumber = _lines(period, *SHORT_WAVE_BAND)
+    density = iso_3095_density(wavenumber)
+    if irregularity.kind not in ("csv", "none"):
+        wavelength = 2.0 * np.pi / wavenumber
+        there = (wavelength >= irregularity.shortest_wavelength) & (
+            wavelength <= irregularity.longest_wavelength
+        )
+        density[there] -= target_density(irregularity, wavenumber[there])
+    density = np.maximum(density, 0.0) * patch_gain(wavenumber, patch) ** 2
+    points = _points(period, SHORT_WAVE_BAND[0])
+    return _random_phases(period, points, line, wavenumber, density, [_STREAM, seed, _FURTHER["short_waves"]])
+
+
+def _points(period: float, shortest: float) -> int:
+    return int(2 ** int(np.ceil(np.log2(period * _SAMPLES_PER_WAVE / shortest))))
+
+
+def _lines(period: float, shortest: float, longest: float) -> tuple[NDArray[np.int64], Float]:
+    """Spectral lines of a period within a band of wavelengths, and their angular wavenumbers."""
+    line = np.arange(int(np.ceil(period / longest)), int(np.floor(period / shortest)) + 1)
+    return line, np.asarray(line * (2.0 * np.pi / period), dtype=np.float64)
+
+
+def _random_phases(
+    period: float, points: int, line: NDArray[np.int64], wavenumber: Float, density: Float, stream: list[int]
+) -> RailProfile:
+    amplitude = np.sqrt(2.0 * density * (2.0 * np.pi / period))
     random = np.random.Generator(np.random.PCG64(np.random.SeedSequence(stream)))
     phase = random.uniform(0.0, 2.0 * np.pi, len(line))
     spectrum = np.zeros(points // 2 + 1, dtype=np.complex128)
     spectrum[line] = 0.5 * points * amplitude * np.exp(1j * phase)
     height = np.fft.irfft(spectrum, points)
     spectrum[line] *= 1j * wavenumber
-    return RailProfile(spacing, height, np.fft.irfft(spectrum, points))
+    return RailProfile(period / points, height, np.fft.irfft(spectrum, points))
+
+
+def read_rail(path: Path) -> dict[str, Float]:
+    """Read and check a measured irregularity.
+
+    Parameters
+    ----------
+    path : Path
+        CSV file with the columns ``distance_m``, ``vertical_mm`` and, where it was measured,
+        ``lateral_mm``; its first row is where the run starts.
+
+    Returns
+    -------
+    dict of str to float64 array
+
+    Raises
+    ------
+    InputError
+        With everything that is wrong with the file.
+    """
+    return read_table(path, RAIL_LAYOUT)
+
+
+def _measured(irregularity: Irregularity, distance: float, direction: str, patch: float) -> RailProfile:
+    assert irregularity.path is not None
+    table = read_rail(irregularity.path)
+    along = table["distance_m"] - table["distance_m"][0]
+    if along[-1] < distance - 1e-6:
+        raise InputError(
+            f"{irregularity.path}: covers {along[-1]:g} m; the run needs {distance:g} m: shorten the "
+            "duration, go slower or give a longer file"
+        )
+    # the usual step, or finer where the file is
+    spacing = float(max(np.min(np.diff(along)), along[-1] / _MOST_POINTS))
+    grid = np.arange(int(np.floor(along[-1] / spacing + 1e-6)) + 1) * spacing
+    column = f"{direction}_mm"
+    if column not in table:
+        return RailProfile(spacing, np.zeros(len(grid)), np.zeros(len(grid)))
+    height = 1e-3 * np.interp(grid, along, table[column])
+    reach = int(0.5 * patch / spacing)
+    if direction == "vertical" and reach > 0:
+        weight = 1.0 - (np.arange(-reach, reach + 1) * spacing / (0.5 * patch)) ** 2
+        height = np.convolve(np.pad(height, reach, mode="edge"), weight / weight.sum(), mode="valid")
+    return RailProfile(spacing, height, np.gradient(height, spacing))

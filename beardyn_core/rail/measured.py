@@ -1,28 +1,35 @@
-"""Load and speed from a CSV file.
+"""Load and speed from a CSV file or from a recording.
 
-Columns, in any order, named in the first line:
+Columns of a CSV file, in any order, named in the first line:
 
 | column | unit | |
 |---|---|---|
 | `time_s` | s | strictly increasing; the first row is time 0 of the run |
-| `speed_rpm` or `shaft_speed_rad_s` | rpm, rad/s | one of the two |
-| `fx_N`, `fy_N`, `fz_N` | N | force on the journal, world axes |
+| `speed_rpm` or `shaft_speed_rad_s` | rpm, rad/s | one of the two, unless only the force is taken |
+| `fx_N`, `fy_N`, `fz_N` | N | force on the journal, world axes, unless only the speed is taken |
 | `mx_Nm`, `my_Nm`, `mz_Nm` | N m | optional, moment on the journal |
 | `ux_m`, `uy_m`, `uz_m` | m | optional, displacement of the bogie end of the suspension |
 
-Lines that begin with `#` are comments.
+A second line may give the units. Lines that begin with `#` are comments.
+
+A recording (MCAP) gives its ``load/blocks``; else its ``load/wrench`` and ``load/shaft``; else what a twin
+measured, ``force`` and ``shaft``.
 """
 
 from __future__ import annotations
 
-import csv
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
+from beardyn_core.rail.table import Column, Layout, read_table
+from beardyn_core.scene.load import LoadHistory
 
 Float = NDArray[np.float64]
 
@@ -32,15 +39,16 @@ FORCES = ("fx_N", "fy_N", "fz_N")
 MOMENTS = ("mx_Nm", "my_Nm", "mz_Nm")
 BOGIE = ("ux_m", "uy_m", "uz_m")
 COLUMNS = (TIME, *SPEEDS, *FORCES, *MOMENTS, *BOGIE)
+GAP = (20.0, 0.05)
 
-_SHOWN = 5
-_GAP_RATIO = 20.0
-_GAP_LEAST = 0.05
+# who reads a file, by its ending: module and function of (path, take). Reading a recording belongs to
+# another room, which builds upon this one: it is named, not imported.
+_READERS = {".mcap": ("beardyn_core.record.load_reading", "read_recorded_load")}
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """What a CSV file holds, SI, time from its first row on.
+    """What a file holds, SI, time from its first sample on; zeros where something was not taken.
 
     Parameters
     ----------
@@ -52,20 +60,26 @@ class Measurement:
         [rad/s].
     bogie : float64 array, shape [sample, 3]
         [m].
+    stream : LoadHistory or None
+        The very samples, when they were a stream of load for the twin.
     """
 
     time: Float
     wrench: Float
     shaft_speed: Float
     bogie: Float
+    stream: LoadHistory | None = None
 
 
-def read_measurement(path: Path) -> Measurement:
-    """Read and check a CSV file of load and speed.
+def read_measurement(path: Path, take: str = "both") -> Measurement:
+    """Read and check a file of load and speed.
 
     Parameters
     ----------
     path : Path
+        A recording when it ends in ``.mcap``, else a CSV file.
+    take : str
+        ``both``, ``force`` or ``speed``: what must be there.
 
     Returns
     -------
@@ -77,23 +91,50 @@ def read_measurement(path: Path) -> Measurement:
         With everything that is wrong with the file, each with its line numbers.
     """
     path = Path(path)
-    names, lines, rows = _read_rows(path)
-    problems = _header_problems(path, names)
-    problems += _ragged_problems(path, names, lines, rows)
-    if not rows:
-        problems.append(f"{path}: no rows after the header; at least two are needed")
-    if problems:
-        raise InputError(problems)
-    table, problems = _numbers(path, names, lines, rows)
-    if not problems:
-        problems = _time_problems(path, np.asarray(lines), table[:, names.index(TIME)])
-    if problems:
-        raise InputError(problems)
+    try:
+        changed = path.stat().st_mtime_ns
+    except OSError:
+        changed = 0  # the reader says it better
+    return _read(path, take, changed)
+
+
+@lru_cache(maxsize=4)
+def _read(path: Path, take: str, changed: int) -> Measurement:
+    """A scene that is checked, chosen for and run reads its file once."""
+    if path.suffix.lower() in _READERS:
+        module, name = _READERS[path.suffix.lower()]
+        reader: Callable[[Path, str], Measurement] = getattr(import_module(module), name)
+        return reader(path, take)
+    return _read_csv(path, take)
+
+
+def layout_of(take: str) -> Layout:
+    """Columns of a CSV file of which both, only the force or only the speed is taken."""
+    wanted = take != "speed"
+    return Layout(
+        what="load and speed" if take == "both" else take,
+        columns=(
+            Column(TIME, "s"),
+            Column("speed_rpm", "rpm", needed=False),
+            Column("shaft_speed_rad_s", "rad/s", needed=False),
+            *(Column(name, "N", needed=wanted) for name in FORCES),
+            *(Column(name, "Nm", needed=False) for name in MOMENTS),
+            *(Column(name, "m", needed=False) for name in BOGIE),
+        ),
+        ascending=TIME,
+        gap=GAP,
+        one_of=() if take == "force" else (SPEEDS,),
+    )
+
+
+def _read_csv(path: Path, take: str) -> Measurement:
+    table = read_table(path, layout_of(take))
+    nothing = np.zeros(len(table[TIME]))
 
     def column(name: str) -> Float:
-        return table[:, names.index(name)] if name in names else np.zeros(len(table))
+        return table.get(name, nothing)
 
-    speed = column("speed_rpm") * (np.pi / 30.0) if "speed_rpm" in names else column("shaft_speed_rad_s")
+    speed = column("speed_rpm") * (np.pi / 30.0) if "speed_rpm" in table else column("shaft_speed_rad_s")
     return Measurement(
         time=column(TIME) - column(TIME)[0],
         wrench=np.column_stack([column(name) for name in (*FORCES, *MOMENTS)]),
@@ -102,105 +143,36 @@ def read_measurement(path: Path) -> Measurement:
     )
 
 
-def _read_rows(path: Path) -> tuple[list[str], list[int], list[list[str]]]:
-    lines: list[int] = []
-    rows: list[list[str]] = []
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
-            for row in reader:
-                if row and not row[0].lstrip().startswith("#"):
-                    lines.append(reader.line_num)
-                    rows.append(row)
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file; give the path of a CSV file of load and speed") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: the file is not UTF-8 text; save it as UTF-8") from None
-    except (OSError, csv.Error) as error:
-        raise InputError(f"{path}: cannot be read as CSV text: {error}") from None
-    if not rows:
-        raise InputError(f"{path}: the file is empty; the first line must name columns: {', '.join(COLUMNS)}")
-    return [name.strip() for name in rows[0]], lines[1:], rows[1:]
+def speed_points(path: Path, wheel_diameter: float, spacing: float = 0.02) -> tuple[tuple[float, float], ...]:
+    """Speed profile of a vehicle from the measured speed of its shaft.
 
+    Parameters
+    ----------
+    path : Path
+    wheel_diameter : float
+        [m].
+    spacing : float
+        Over which the measured speed is averaged, [s].
 
-def _header_problems(path: Path, names: list[str]) -> list[str]:
-    allowed = f"allowed are {', '.join(COLUMNS)}"
-    problems = [f"{path}: unknown column {name!r}; {allowed}" for name in names if name not in COLUMNS]
-    problems += [f"{path}: column {name!r} appears twice" for name in COLUMNS if names.count(name) > 1]
-    problems += [
-        f"{path}: column {name!r} is missing; {allowed}" for name in (TIME, *FORCES) if name not in names
-    ]
-    speeds = [name for name in SPEEDS if name in names]
-    if len(speeds) != 1:
-        problems.append(
-            f"{path}: {'both speed columns are' if speeds else 'no speed column is'} there; give exactly one "
-            f"of {', '.join(SPEEDS)}"
+    Returns
+    -------
+    tuple of (time, speed) pairs, [s], [m/s]
+
+    Raises
+    ------
+    InputError
+        The file is bad, or no railway is that fast.
+    """
+    measured = read_measurement(path, "speed")
+    speed = 0.5 * wheel_diameter * measured.shaft_speed
+    if np.abs(speed).max() > 400.0 / 3.6:
+        raise InputError(
+            f"{path}: the speed reaches {3.6 * np.abs(speed).max():.4g} km/h on a wheel of "
+            f"{1e3 * wheel_diameter:g} mm; allowed is up to 400 km/h: correct the file or the wheel"
         )
-    return problems
-
-
-def _ragged_problems(path: Path, names: list[str], lines: list[int], rows: list[list[str]]) -> list[str]:
-    ragged = [line for line, row in zip(lines, rows, strict=True) if len(row) != len(names)]
-    if not ragged:
-        return []
-    return [f"{path}, {_listed(ragged)}: not {len(names)} values as in the header"]
-
-
-def _numbers(
-    path: Path, names: list[str], lines: list[int], rows: list[list[str]]
-) -> tuple[Float, list[str]]:
-    try:
-        table = np.array(rows, dtype=np.float64)
-    except ValueError:
-        problems = []
-        for index, name in enumerate(names):
-            bad = [
-                (line, row[index])
-                for line, row in zip(lines, rows, strict=True)
-                if not _is_number(row[index])
-            ]
-            if bad:
-                found = _listed([line for line, _ in bad])
-                problems.append(f"{path}, {found}: {name} is {bad[0][1]!r}; it must be a number")
-        return np.empty((0, 0)), problems
-    problems = []
-    for index, name in enumerate(names):
-        bad_rows = np.flatnonzero(~np.isfinite(table[:, index]))
-        if len(bad_rows):
-            found = _listed([lines[row] for row in bad_rows])
-            value = table[bad_rows[0], index]
-            problems.append(f"{path}, {found}: {name} is {value}; every value must be finite")
-    return table, problems
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _time_problems(path: Path, lines: NDArray[np.int64], time: Float) -> list[str]:
-    if len(time) < 2:
-        return [f"{path}: only one row; at least two are needed"]
-    step = np.diff(time)
-    backward = np.flatnonzero(step <= 0.0)
-    if len(backward):
-        found = _listed([int(line) for line in lines[backward + 1]])
-        return [f"{path}, {found}: {TIME} does not increase; rows must be in order of time, none twice"]
-    usual = float(np.median(step))
-    gaps = np.flatnonzero((step > _GAP_RATIO * usual) & (step > _GAP_LEAST))
-    if len(gaps):
-        found = _listed([int(line) for line in lines[gaps + 1]])
-        return [
-            f"{path}, {found}: {TIME} jumps by {step[gaps[0]]:g} s where the usual step is {usual:g} s; "
-            f"fill the gap or split the file"
-        ]
-    return []
-
-
-def _listed(lines: list[int]) -> str:
-    shown = ", ".join(str(line) for line in lines[:_SHOWN])
-    more = f" and {len(lines) - _SHOWN} more" if len(lines) > _SHOWN else ""
-    return f"line{'s' if len(lines) > 1 else ''} {shown}{more}"
+    bin_of = np.floor(measured.time / spacing).astype(np.int64)
+    first = np.flatnonzero(np.concatenate(([True], np.diff(bin_of) > 0)))
+    count = np.diff(np.append(first, len(speed)))
+    mean_time = np.add.reduceat(measured.time, first) / count
+    mean_speed = np.add.reduceat(speed, first) / count
+    return tuple(zip(mean_time.tolist(), mean_speed.tolist(), strict=True))

@@ -8,6 +8,7 @@ messages           CDR bytes without ROS; templates for small messages; diagnost
 clouds             columns of samples as ``sensor_msgs/PointCloud2`` and back
 encoding           a `Block` as the messages of the topic table
 load_stream        load histories as messages of ``load/blocks`` and back
+load_reading       load and speed of a recording, for an operation from a file
 description        what a run says about itself (the content of ``truth``)
 sinks              where blocks go: memory, MCAP
 mcap_writing       crash-safe MCAP that rosbag2 reads

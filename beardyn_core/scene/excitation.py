@@ -1,4 +1,4 @@
-"""Discrete wheel-rail excitation: flats and polygons of the wheel, dips and corrugation of the rail."""
+"""Discrete wheel-rail excitation: flats and waves of the wheel; joints, welds, crossings, corrugation."""
 
 from __future__ import annotations
 
@@ -130,6 +130,39 @@ class WheelPolygon:
 
 
 @dataclass(frozen=True)
+class WheelOutOfRound:
+    """A wheel with a whole spectrum of waves, as a roundness measurement gives it.
+
+    Parameters
+    ----------
+    amplitudes : tuple of float
+        Of the orders 1, 2, 3 ..., about the mean radius, [m].
+    seed : int
+        Of the azimuths, which such a spectrum does not tell.
+
+    References
+    ----------
+    Nielsen, Johansson (2000), Out-of-round railway wheels, a literature survey, Proc. IMechE F 214.
+    """
+
+    amplitudes: tuple[float, ...]
+    seed: int = 1
+
+    def contradiction(self, wheel_radius: float) -> str | None:
+        """What is wrong between the highest order and the wheel."""
+        return WheelPolygon(len(self.amplitudes), 0.0).contradiction(wheel_radius)
+
+    def problems(self, wheel_radius: float) -> Iterator[str]:
+        """What is wrong with it on a wheel of this radius [m]."""
+        if not 1 <= len(self.amplitudes) <= 100:
+            yield f"out of round: {len(self.amplitudes)} amplitudes; allowed are 1 to 100, one an order"
+        for order, amplitude in enumerate(self.amplitudes, start=1):
+            yield from outside("out of round", f"amplitude of order {order}", amplitude, 0.0, 2e-3, "m")
+        if problem := self.contradiction(wheel_radius):
+            yield f"out of round: {len(self.amplitudes)} orders; {problem}"
+
+
+@dataclass(frozen=True)
 class DippedJoint:
     """A joint or weld whose two rail ends hang down and meet in a kink.
 
@@ -203,5 +236,96 @@ class Corrugation:
             )
 
 
-WheelDefect = WheelFlat | WheelPolygon
-RailDefect = DippedJoint | Corrugation
+@dataclass(frozen=True)
+class DippedWeld:
+    """A weld that has sunk: a long smooth hollow, and perhaps a short one in its middle.
+
+    Parameters
+    ----------
+    position : float
+        Of its middle, from the start of the run, [m].
+    depth, length : float
+        Of the long hollow, [m].
+    short_depth, short_length : float
+        Of the short hollow in the softened zone, which adds to it, [m].
+    spacing : float or None
+        To the next such weld, and so on; ``None``: there is only this one, [m].
+
+    References
+    ----------
+    Zhai (2020), Vehicle-Track Coupled Dynamics, chapter 3: a cosine of about 1 m with one of about 0.1 m
+    on it; Steenbergen, Esveld (2006), Rail weld geometry and assessment concepts, Proc. IMechE F 220.
+    """
+
+    position: float
+    depth: float
+    length: float = 1.0
+    short_depth: float = 0.0
+    short_length: float = 0.1
+    spacing: float | None = None
+
+    def problems(self) -> Iterator[str]:
+        """What is wrong with it."""
+        yield from outside("dipped weld", "position", self.position, 0.0, 1e6, "m")
+        yield from outside("dipped weld", "depth", self.depth, 0.0, 5e-3, "m")
+        yield from outside("dipped weld", "length", self.length, 0.2, 5.0, "m")
+        yield from outside("dipped weld", "short_depth", self.short_depth, 0.0, 1e-3, "m")
+        yield from outside("dipped weld", "short_length", self.short_length, 0.05, self.length, "m")
+        if self.spacing is not None and not self.length <= self.spacing < math.inf:
+            yield (
+                f"dipped weld: spacing is {self.spacing:g} m; it must be at least the length of the dip, "
+                f"{self.length:g} m"
+            )
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """The fixed crossing of a turnout: the wheel sinks along the wing rail and is lifted by the nose.
+
+    Parameters
+    ----------
+    position : float
+        Where the nose takes the wheel over, from the start of the run, [m].
+    depth : float
+        Of the way of the wheel at that place, [m].
+    wing_length, nose_length : float
+        From where it begins to sink, and to where it is up again, [m]. Run over against the nose; with
+        the two exchanged it is run over from the nose.
+
+    Notes
+    -----
+    The strike comes from the angle of the V, `angle`; the way across, and the change of the rail's
+    stiffness at the casting, are neglected.
+
+    References
+    ----------
+    Andersson, Dahlberg (1998), Wheel/rail impacts at a railway turnout crossing, Proc. IMechE F 212;
+    Pletz, Daves, Ossberger (2012), A wheel set/crossing model regarding impact, sliding and deformation,
+    Wear 294: V-shaped vertical way of the wheel, 1 to 4 mm deep.
+    """
+
+    position: float
+    depth: float
+    wing_length: float = 0.3
+    nose_length: float = 0.2
+
+    @property
+    def angle(self) -> float:
+        """Between falling and rising way of the wheel, [rad]."""
+        return self.depth / self.wing_length + self.depth / self.nose_length
+
+    def problems(self) -> Iterator[str]:
+        """What is wrong with it."""
+        yield from outside("crossing", "position", self.position, 0.0, 1e6, "m")
+        yield from outside("crossing", "depth", self.depth, 0.0, 0.01, "m")
+        yield from outside("crossing", "wing_length", self.wing_length, 0.05, 3.0, "m")
+        yield from outside("crossing", "nose_length", self.nose_length, 0.05, 3.0, "m")
+        if self.angle > 0.1:
+            yield (
+                f"crossing: the way of the wheel turns by {1e3 * self.angle:.3g} mrad; allowed are 100 mrad: "
+                "make it shallower or longer"
+            )
+
+
+WheelDefect = WheelFlat | WheelPolygon | WheelOutOfRound
+RailDefect = DippedJoint | DippedWeld | Crossing | Corrugation

@@ -6,18 +6,18 @@ import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from beardyn_core.scene.braking import Braking, Starting
 from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.excitation import RailDefect, WheelDefect
 from beardyn_core.scene.guidance import Guidance
+from beardyn_core.scene.irregularity import Irregularity
+from beardyn_core.scene.measured import MeasuredOperation
 from beardyn_core.scene.ranges import not_finite, outside, refuse
 from beardyn_core.scene.suspension import ProgressiveSuspension
 
 Vector = tuple[float, float, float]
 
-IRREGULARITY_KINDS = ("german_low", "german_high", "fra_6", "none")
 WHEEL_PROFILES = ("worn", "cone")
 LIMIT = 400 / 3.6  # speed of a vehicle, [m/s]
 
@@ -218,37 +218,6 @@ class Track:
 
 
 @dataclass(frozen=True)
-class Irregularity:
-    """Vertical irregularity of the rail, drawn from a power spectral density.
-
-    Parameters
-    ----------
-    kind : str
-        ``german_low``, ``german_high`` (low and high disturbance), ``fra_6`` or ``none``.
-    shortest_wavelength, longest_wavelength : float
-        Band of the spectrum that is synthesised, [m].
-    """
-
-    kind: str = "german_low"
-    shortest_wavelength: float = 0.1
-    longest_wavelength: float = 150.0
-
-    def __post_init__(self) -> None:
-        refuse(self._problems())
-
-    def _problems(self) -> Iterator[str]:
-        if self.kind not in IRREGULARITY_KINDS:
-            yield f"irregularity: kind is {self.kind!r}; allowed are {', '.join(IRREGULARITY_KINDS)}"
-        yield from outside("irregularity", "shortest_wavelength", self.shortest_wavelength, 0.02, 50.0, "m")
-        yield from outside("irregularity", "longest_wavelength", self.longest_wavelength, 1.0, 1000.0, "m")
-        if self.shortest_wavelength >= self.longest_wavelength:
-            yield (
-                f"irregularity: shortest_wavelength {self.shortest_wavelength:g} m must be less than "
-                f"longest_wavelength {self.longest_wavelength:g} m"
-            )
-
-
-@dataclass(frozen=True)
 class QuarterVehicleOperation:
     """An axlebox share of a vehicle running over an irregular track.
 
@@ -268,6 +237,8 @@ class QuarterVehicleOperation:
         Flats and polygons of the running surface; they come back every revolution.
     rail_defects : tuple of RailDefect
         Dips and corrugation at their places along the track, besides the irregularity.
+    contact_patch : float
+        Length of the wheel-rail contact along the rail, which smooths short waves, [m]; 0: a point.
     payload : float
         Besides what the vehicle's body mass has in it, whole car, [kg].
     lateral : bool or None
@@ -286,6 +257,7 @@ class QuarterVehicleOperation:
     track: Track = field(default_factory=Track)
     wheel_defects: tuple[WheelDefect, ...] = ()
     rail_defects: tuple[RailDefect, ...] = ()
+    contact_patch: float = 0.012
     payload: float = 0.0
     lateral: bool | None = None
     curves: tuple[Curve, ...] = ()
@@ -309,6 +281,7 @@ class QuarterVehicleOperation:
         owner = "operation (quarter_vehicle)"
         yield from outside(owner, "wheel_diameter", self.wheel_diameter, 0.3, 1.5, "m")
         yield from outside(owner, "lateral_force", self.lateral_force, -1e5, 1e5, "N")
+        yield from outside(owner, "contact_patch", self.contact_patch, 0.0, 0.03, "m")
         if not self.speed_profile:
             yield f"{owner}: speed_profile is empty; give at least one (time, speed) point"
         for index, (time, speed) in enumerate(self.speed_profile):
@@ -339,19 +312,6 @@ class QuarterVehicleOperation:
                     f"{owner}: curve {index} begins at {two.begin:g} m; it must begin at the end of curve "
                     f"{index - 1}, {one.end:g} m, or later"
                 )
-
-
-@dataclass(frozen=True)
-class MeasuredOperation:
-    """Load and speed read from a CSV file (columns: see `rail.measured`).
-
-    Parameters
-    ----------
-    path : Path
-        The file; the config room resolves a relative path against the folder of the scene file.
-    """
-
-    path: Path
 
 
 Operation = ConstantOperation | SteppedOperation | QuarterVehicleOperation | MeasuredOperation

@@ -125,7 +125,7 @@ def test_csv_finer_than_the_grid_is_filtered_before_it_is_thinned(tmp_path):
         ("time_s,fx_N,fy_N,fz_N\n0,1,2,3\n1,1,2,3\n", ["speed_rpm, shaft_speed_rad_s"]),
         (
             "time_s,speed_rpm,shaft_speed_rad_s,fx_N,fy_N,fz_N\n0,1,2,3,4,5\n1,1,2,3,4,5\n",
-            ["both speed columns", "exactly one"],
+            ["both speed_rpm and shaft_speed_rad_s are there", "exactly one"],
         ),
         (
             HEADER + "0,60,0,0,1\n1,60,0,nan,1\n2,inf,0,0,1\n",

@@ -16,7 +16,8 @@ from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, 
 from beardyn_core.scene.speed import distance_at
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
-SMOOTH = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 120 / 3.6),))
+# contact in a point, as in the heights that are computed here
+SMOOTH = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 120 / 3.6),), contact_patch=0.0)
 RADIUS = 0.5 * SMOOTH.wheel_diameter
 CIRCUMFERENCE = 2 * np.pi * RADIUS
 FLAT = WheelFlat(0.035)

@@ -1,0 +1,210 @@
+"""What a run meets on its way, as truth: irregularity, strikes of the wheel, joints passed, with times."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.rail.excitation import waves_of
+from beardyn_core.scene.excitation import (
+    Corrugation,
+    Crossing,
+    DippedJoint,
+    DippedWeld,
+    RailDefect,
+    WheelFlat,
+    WheelOutOfRound,
+    WheelPolygon,
+)
+from beardyn_core.scene.irregularity import Irregularity
+from beardyn_core.scene.measured import MeasuredOperation
+from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.speed import distance_at, speed_at
+
+Float = NDArray[np.float64]
+Event = dict[str, Any]
+
+MOST_TIMES = 200  # of one kind of event; more are only counted
+_SPACING = 2e-3  # between the instants at which the way is looked at, [s]
+_MOST_INSTANTS = 500_000
+
+
+class _Way:
+    """Way of the wheel along the track over the time."""
+
+    def __init__(self, operation: QuarterVehicleOperation, duration: float) -> None:
+        count = min(int(np.ceil(duration / _SPACING)), _MOST_INSTANTS) + 1
+        self.time = np.linspace(0.0, duration, count)
+        self.distance = distance_at(operation.speed_profile, self.time)
+        self.speed = speed_at(operation.speed_profile, self.time)
+
+    def over(self, first: float, spacing: float | None, endless: bool = False) -> dict[str, Any]:
+        """Times and distances of passing places: one, evenly spaced ones from it on, or endless both ways."""
+        if spacing is None:  # -1 before the place, 0 behind it
+            passed = (self.distance >= first).astype(np.int64) - 1
+        else:
+            passed = np.floor((self.distance - first) / spacing).astype(np.int64)
+        many = np.abs(np.diff(passed))
+        begin = np.repeat(np.arange(len(many)), many)
+        nth = np.arange(len(begin)) - np.repeat(np.cumsum(many) - many, many)
+        forwards = passed[begin + 1] > passed[begin]
+        number = np.where(forwards, passed[begin] + 1 + nth, passed[begin] - nth)
+        if not endless:
+            begin, number = begin[number >= 0], number[number >= 0]
+        place = first + (0.0 if spacing is None else spacing) * number
+        gone = self.distance[begin + 1] - self.distance[begin]
+        share = (place - self.distance[begin]) / gone
+        time = self.time[begin] + share * (self.time[begin + 1] - self.time[begin])
+        return {
+            "count": len(time),
+            "time_s": np.round(time[:MOST_TIMES], 6).tolist(),
+            "distance_m": np.round(place[:MOST_TIMES], 4).tolist(),
+        }
+
+
+def events_of(scene: Scene) -> dict[str, Any]:
+    """Everything that excites a run besides the bearing, JSON-able.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Returns
+    -------
+    dict
+        ``load``: where load and speed come from, a sentence; ``irregularity``: kind, band and seed, of a
+        run on a track; ``events``: one entry for each excitation with its ``kind``, its sizes in SI and
+        its times [s] and distances [m], of at most `MOST_TIMES` passes, ``count`` says how many there are.
+    """
+    operation = scene.operation
+    if isinstance(operation, QuarterVehicleOperation):
+        way = _Way(operation, scene.duration)
+        return {
+            "load": f"{operation.vehicle.name} on its track",
+            "distance_m": round(float(way.distance[-1]), 3),
+            "irregularity": _irregularity(operation.irregularity, scene.seed),
+            "events": [
+                *_wheel(operation, way),
+                *_rail(operation.rail_defects, way),
+                *_curves(operation, way),
+                *_runs(way),
+            ],
+        }
+    if isinstance(operation, MeasuredOperation):
+        taken = {"both": "force and speed", "force": "force", "speed": "speed"}[operation.take]
+        return {"load": f"{taken} measured, {operation.path.name}", "events": []}
+    return {"load": "as written in the scene", "events": []}
+
+
+def _irregularity(irregularity: Irregularity, seed: int) -> dict[str, Any]:
+    found: dict[str, Any] = {"kind": irregularity.kind}
+    if irregularity.path is not None:
+        found["file"] = irregularity.path.name
+    if irregularity.kind not in ("none", "csv"):
+        found["wavelength_m"] = [irregularity.shortest_wavelength, irregularity.longest_wavelength]
+    if irregularity.short_waves is not None:
+        found["short_waves"] = irregularity.short_waves
+    if irregularity.kind not in ("none", "csv") or irregularity.short_waves is not None:
+        found["seed"] = seed
+    return found
+
+
+def _wheel(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
+    radius = 0.5 * operation.wheel_diameter
+    round_ = 2.0 * pi * radius
+    top = float(np.abs(way.speed).max())
+    for defect in operation.wheel_defects:
+        if isinstance(defect, WheelFlat):
+            yield {
+                "kind": "wheel_flat",
+                "length_m": defect.length,
+                "depth_m": defect.depth_on(radius),
+                "shape": defect.shape,
+                "period_m": round_,
+                "top_frequency_Hz": top / round_,
+                **way.over((pi - defect.azimuth) * radius, round_, endless=True),
+            }
+        elif isinstance(defect, WheelPolygon):
+            yield {
+                **_waves((defect,), radius),
+                "kind": "polygon",
+                "top_frequency_Hz": defect.order * top / round_,
+            }
+        elif isinstance(defect, WheelOutOfRound):
+            waves = _waves(waves_of(defect), radius)
+            yield {"kind": "out_of_round", "seed": defect.seed, **waves}
+
+
+def _waves(waves: tuple[WheelPolygon, ...], radius: float) -> dict[str, Any]:
+    return {
+        "orders": [wave.order for wave in waves],
+        "amplitudes_m": [wave.amplitude for wave in waves],
+        "period_m": 2.0 * pi * radius,
+    }
+
+
+def _rail(defects: tuple[RailDefect, ...], way: _Way) -> Iterator[Event]:
+    for defect in defects:
+        if isinstance(defect, DippedJoint):
+            sizes: Event = {"kind": "dipped_joint", "angle_rad": defect.angle, "length_m": defect.length}
+            yield {**sizes, **way.over(defect.position, defect.spacing)}
+        elif isinstance(defect, DippedWeld):
+            sizes = {"kind": "dipped_weld", "depth_m": defect.depth, "length_m": defect.length}
+            yield {**sizes, **way.over(defect.position, defect.spacing)}
+        elif isinstance(defect, Crossing):
+            sizes = {"kind": "crossing", "depth_m": defect.depth, "angle_rad": defect.angle}
+            yield {**sizes, **way.over(defect.position, None)}
+        elif isinstance(defect, Corrugation):
+            yield {
+                "kind": "corrugation",
+                "wavelength_m": defect.wavelength,
+                "amplitude_m": defect.amplitude,
+                "top_frequency_Hz": float(np.abs(way.speed).max()) / defect.wavelength,
+                **_stretch(defect.begin, defect.end, way),
+            }
+
+
+def _stretch(begin: float, end: float, way: _Way) -> dict[str, Any]:
+    """Distances and times between which the wheel is on a stretch, `None` where it stays on it."""
+    inside = (way.distance >= begin) & (way.distance <= end)
+    if not inside.any():
+        return {"count": 0, "begin_s": None, "end_s": None, "begin_m": begin, "end_m": None}
+    met = np.flatnonzero(inside)
+    return {
+        "count": 1,
+        "begin_s": round(float(way.time[met[0]]), 3),
+        "end_s": round(float(way.time[met[-1]]), 3),
+        "begin_m": begin,
+        "end_m": end if np.isfinite(end) else None,
+    }
+
+
+def _curves(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
+    for curve in operation.curves:
+        yield {
+            "kind": "curve",
+            "radius_m": curve.radius,
+            "cant_m": curve.cant,
+            "hand": curve.hand,
+            "transition_m": curve.transition,
+            **_stretch(curve.begin, curve.begin + curve.length, way),
+        }
+
+
+def _runs(way: _Way) -> Iterator[Event]:
+    """Standstills, and starts after them in either direction."""
+    moving = np.sign(np.where(np.abs(way.speed) < 1e-6, 0.0, way.speed))
+    changes = np.flatnonzero(np.diff(moving) != 0.0) + 1
+    words = {0.0: "standstill", 1.0: "forwards", -1.0: "backwards"}
+    for at in changes:
+        yield {
+            "kind": words[float(moving[at])],
+            "count": 1,
+            "time_s": [round(float(way.time[at]), 3)],
+            "distance_m": [round(float(way.distance[at]), 3)],
+        }

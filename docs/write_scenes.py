@@ -1,0 +1,298 @@
+"""Write docs/scenes.md and its pictures from the shipped scenes: ``python docs/write_scenes.py``.
+
+``--check`` writes nothing and ends with 1 when the page is not that of the scenes or a picture is missing.
+``--measured`` makes the CSV file of the scene measured_run from the rail model.
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, get_args
+
+import numpy as np
+from pydantic import BaseModel
+
+from beardyn_core.config import load_scene, shipped_names
+from beardyn_core.config.excitation_file import IrregularityKeys, RailDefectKeys, WheelDefectKeys
+from beardyn_core.config.folders import find
+from beardyn_core.rail.build import load_history
+from beardyn_core.rail.events import events_of
+from beardyn_core.rail.spectra import spectral_density
+from beardyn_core.scene.irregularity import SPECTRA, VERTICAL_ONLY
+from beardyn_core.scene.measured import MeasuredOperation
+from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation
+from beardyn_core.scene.scene import Scene
+
+PAGE = Path(__file__).with_name("scenes.md")
+FOLDER = Path(__file__).with_name("pictures") / "scenes"
+LARGEST_PICTURE = 40_000
+COLOURS = 16
+
+HEAD = """# Scenes
+
+Written by `python docs/write_scenes.py` from the files in `config/scenes`.
+
+A scene is a YAML file: a bearing, a lubricant, an operation, faults, sensors. `beardyn simulate cup_spall`
+runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come first; the others turn a
+bearing under a constant load.
+
+Every railway scene is there to prove a monitor: some have a fault that must be found (*true*), some only
+something that looks like one (*false friend*), some both, and the healthy ones nothing at all. What a run
+meets on its way is part of its truth (topic `truth`, key `excitation`): the irregularity with its seed,
+strikes of a flat, joints passed, each with time and distance.
+
+## Railway scenes
+"""
+
+MEASURED = """
+## Measured input
+
+A CSV file names its columns in the first line; a second one may give their units; lines that begin with
+`#` are comments. Every mistake is told at once, with file, line and what is allowed: unknown or missing
+columns, other units, values that are no finite numbers, time that does not increase, gaps.
+
+| file | key | columns |
+|---|---|---|
+| load and speed | `operation: {kind: csv, path: run.csv}` | `time_s`, `speed_rpm` or `shaft_speed_rad_s`, \
+`fx_N`, `fy_N`, `fz_N`; perhaps `mx_Nm`, `my_Nm`, `mz_Nm`; \
+`ux_m`, `uy_m`, `uz_m` (bogie end of the suspension) |
+| only the load | `operation: {kind: csv, path: run.csv, take: force, speed_profile: [...]}` | without a \
+speed |
+| only the speed | `operation: {kind: csv, path: run.csv, take: speed, force_kN: [0, 0, 80]}` | `time_s` and \
+a speed |
+| speed under a vehicle model | `operation: {kind: quarter_vehicle, measured_speed: run.csv, ...}` | \
+`time_s` and a speed of the shaft |
+| the rail | `irregularity: {kind: csv, path: rail.csv}` | `distance_m`, `vertical_mm`, perhaps `lateral_mm` |
+| a spectrum of the rail | `irregularity: {kind: density_csv, path: density.csv}` | `wavelength_m`, \
+`vertical_mm2_m`, perhaps `lateral_mm2_m`: one-sided, over cycles per metre |
+
+`kind: mcap` takes a recording in place of the CSV file, and so does `measured_speed`: its `load/blocks`,
+sample by sample the same load; else `load/wrench` and `load/shaft`; else `force` and `shaft` of a twin,
+which is the load less the inertia of the journal.
+"""
+
+
+def railway(scene: Scene) -> bool:
+    """Whether a scene is an operation of a train."""
+    return isinstance(scene.operation, (QuarterVehicleOperation, MeasuredOperation))
+
+
+def friends(scene: Scene) -> str:
+    """What a monitor may take for a fault and is none."""
+    kinds = [event["kind"].replace("_", " ") for event in events_of(scene)["events"]]
+    strange = [kind for kind in dict.fromkeys(kinds) if kind not in ("standstill", "forwards", "backwards")]
+    return ", ".join(strange)
+
+
+def speeds(scene: Scene) -> str:
+    """Speeds of the profile, [km/h]."""
+    if isinstance(scene.operation, QuarterVehicleOperation):
+        found = [f"{3.6 * speed:.0f}" for _, speed in scene.operation.speed_profile]
+        steps = [one for one, before in zip(found, ["", *found], strict=False) if one != before]
+        return " → ".join(steps)
+    return "measured"
+
+
+def irregularity(scene: Scene) -> str:
+    """Name of the rail's irregularity."""
+    if not isinstance(scene.operation, QuarterVehicleOperation):
+        return ""
+    rail = scene.operation.irregularity
+    return f"`{rail.kind}`" + (f", `{rail.short_waves}`" if rail.short_waves else "")
+
+
+def page() -> str:
+    """The whole page."""
+    scenes = [load_scene(name) for name in shipped_names("scenes")]
+    lines = [HEAD, "| scene | km/h | rail | fault | false friends |", "|---|---|---|---|---|"]
+    for scene in filter(railway, scenes):
+        cells = (f"[{scene.name}](#{scene.name})", speeds(scene), irregularity(scene))
+        faults = "; ".join(scene.fault_sentences)
+        lines.append("| " + " | ".join((*cells, faults, friends(scene))) + " |")
+    lines.append("")
+    for scene in filter(railway, scenes):
+        lines += [
+            f"### {scene.name}",
+            "",
+            scene.purpose,
+            "",
+            f"![{scene.name}](pictures/scenes/{scene.name}.png)",
+        ]
+        lines.append("")
+    lines += ["## Scenes under a constant load", "", "| scene | purpose |", "|---|---|"]
+    lines += [f"| `{scene.name}` | {scene.purpose} |" for scene in scenes if not railway(scene)]
+    lines += ["", "## Irregularity", "", *_irregularities(), "", "## Defects of wheel and rail", ""]
+    lines += [*_defects(), MEASURED.strip("\n")]
+    return "\n".join(lines) + "\n"
+
+
+def _irregularities() -> Iterator[str]:
+    yield "Keys of `irregularity`. The sources hold for waves above some 2 m; below, their formulas go on."
+    yield "The SNCF spectra fall so slowly that they need `shortest_wavelength_m: 2`. `short_waves` adds what"
+    yield "a rail has below half a metre."
+    yield ""
+    yield from _options(IrregularityKeys)
+    yield ""
+    yield "Standard deviations over waves of 3 to 25 m and of 3 to 150 m:"
+    yield ""
+    yield "| kind | vertical, mm | lateral, mm |"
+    yield "|---|---|---|"
+    for kind in SPECTRA:
+        cells = []
+        for direction in ("vertical", "lateral"):
+            if direction == "lateral" and kind in VERTICAL_ONLY:
+                cells.append("the source has none")
+            else:
+                cells.append(", ".join(f"{_deviation(kind, direction, to):.2f}" for to in (25.0, 150.0)))
+        yield f"| `{kind}` | {' | '.join(cells)} |"
+
+
+def _deviation(kind: str, direction: str, longest: float) -> float:
+    """Standard deviation over 3 m to the longest wave, [mm]."""
+    wavenumber = np.geomspace(2.0 * np.pi / longest, 2.0 * np.pi / 3.0, 20_001)
+    density = spectral_density(kind, wavenumber, direction)
+    return float(1e3 * np.sqrt(np.sum(0.5 * (density[1:] + density[:-1]) * np.diff(wavenumber))))
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models(part)
+
+
+def _options(model: type[BaseModel]) -> Iterator[str]:
+    yield "| key | usual | |"
+    yield "|---|---|---|"
+    for name, field in model.model_fields.items():
+        if name == "kind" and len(get_args(field.annotation)) == 1:
+            continue
+        usual = "required" if field.is_required() else field.get_default(call_default_factory=True)
+        shown = "" if usual is None else f"`{usual}`" if usual != "required" else usual
+        yield f"| `{name}` | {shown} | {field.description or ''} |"
+
+
+def _defects() -> Iterator[str]:
+    for key, keys in (("wheel_defects", WheelDefectKeys), ("rail_defects", RailDefectKeys)):
+        for model in dict.fromkeys(_models(keys)):
+            kind = get_args(model.model_fields["kind"].annotation)[0]
+            yield f"### {key}: `{{kind: {kind}}}`"
+            yield ""
+            yield (model.__doc__ or "").strip().splitlines()[0]
+            yield ""
+            yield from _options(model)
+            yield ""
+
+
+def picture(scene: Scene) -> bytes:
+    """PNG of load and speed over the time, with what the run meets."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt
+    from PIL import Image
+
+    history = load_history(scene.operation, scene.mounting, scene.duration, scene.seed)
+    time = history.time_ns * 1e-9
+    size = {"height_ratios": [3, 1.2]}
+    figure, (load, speed) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 2.9), dpi=100, gridspec_kw=size)
+    low, mean, high = _envelope(history.wrench[:, 2] * 1e-3, 900)
+    at = np.linspace(0.0, time[-1], len(mean))
+    load.fill_between(at, low, high, color="#7aa6c2", linewidth=0)
+    load.plot(at, mean, color="#1f4e79", linewidth=0.8)
+    load.set_ylabel("load, kN")
+    speed.plot(time, history.shaft_speed * 30.0 / np.pi, color="#1f4e79", linewidth=1.0)
+    speed.set_ylabel("rpm")
+    speed.set_xlabel("time, s")
+    speed.margins(y=0.3)
+    for event in events_of(scene)["events"]:
+        _mark(load, event)
+    load.set_xlim(0.0, time[-1])
+    figure.align_ylabels()
+    figure.tight_layout(pad=0.4)
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format="png")
+    plt.close(figure)
+    small = io.BytesIO()
+    Image.open(drawn).convert("RGB").quantize(COLOURS).save(small, format="png", optimize=True)
+    return small.getvalue()
+
+
+def _envelope(signal: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Least, mean and greatest of equal stretches."""
+    parts = np.array_split(signal, min(count, len(signal)))
+    found = np.array([(part.min(), part.mean(), part.max()) for part in parts])
+    return found[:, 0], found[:, 1], found[:, 2]
+
+
+def _mark(axes: Any, event: dict[str, Any]) -> None:
+    if event.get("begin_s") is not None:
+        axes.axvspan(event["begin_s"], event["end_s"], color="#f2d9a0", linewidth=0, zorder=0)
+    marks = event.get("time_s", [])
+    if not marks:
+        return
+    axes.plot(marks, np.full(len(marks), 0.97), "v", color="#c0392b", markersize=4,
+              transform=axes.get_xaxis_transform(), clip_on=False)  # fmt: skip
+
+
+def problems() -> list[str]:
+    """What of the page and its pictures is not as the scenes have it."""
+    found = []
+    if not PAGE.exists() or PAGE.read_text(encoding="utf-8") != page():
+        found.append(f"{PAGE.name} is not what the scenes say: python docs/write_scenes.py")
+    for name in filter(lambda name: railway(load_scene(name)), shipped_names("scenes")):
+        path = FOLDER / f"{name}.png"
+        if not path.exists():
+            found.append(f"{path.name} is missing: python docs/write_scenes.py")
+        elif path.stat().st_size >= LARGEST_PICTURE:
+            found.append(
+                f"{path.name} has {path.stat().st_size} bytes; less than {LARGEST_PICTURE} are allowed"
+            )
+    return found
+
+
+def write_measured() -> None:
+    """Make the CSV file of measured_run: a coach on the rail model, filtered to 40 Hz, 100 rows a second."""
+    coach = load_scene("healthy_80").operation
+    assert isinstance(coach, QuarterVehicleOperation)
+    operation = QuarterVehicleOperation(
+        coach.vehicle, Irregularity("german_high", 0.5), ((0.0, 100 / 3.6), (1.0, 100 / 3.6), (5.0, 85 / 3.6))
+    )
+    history = load_history(operation, Mounting(), 5.5, 58)
+    kernel = np.hanning(41)
+    force = np.convolve(np.pad(history.wrench[:, 2], 20, mode="edge"), kernel / kernel.sum(), mode="valid")
+    rpm = history.shaft_speed * 30.0 / np.pi
+    rows = ["# load of a coach on track german_high, from the rail model, smoothed over 20 ms"]
+    rows += ["time_s,speed_rpm,fx_N,fy_N,fz_N", "s,rpm,N,N,N"]
+    for at in range(0, len(history), 20):
+        rows.append(f"{history.time_ns[at] * 1e-9:.2f},{rpm[at]:.2f},0,0,{force[at]:.0f}")
+    target = find("scenes", "healthy_80").with_name("measured_run.csv")
+    target.write_text("\n".join(rows) + "\n", encoding="utf-8")
+
+
+def main(arguments: list[str]) -> int:
+    """Write, or check."""
+    if arguments == ["--measured"]:
+        write_measured()
+        return 0
+    if arguments == ["--check"]:
+        found = problems()
+        print("\n".join(found), file=sys.stderr, end="\n" if found else "")
+        return 1 if found else 0
+    if arguments:
+        print(__doc__, file=sys.stderr)
+        return 2
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    for name in shipped_names("scenes"):
+        if railway(scene := load_scene(name)):
+            (FOLDER / f"{name}.png").write_bytes(picture(scene))
+    PAGE.write_text(page(), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
