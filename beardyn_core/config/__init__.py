@@ -16,6 +16,7 @@ scene_file     keys of a scene
 problems       refusals to sentences with file, key, value, what is allowed
 automatic      `auto` to what has been chosen
 load           references resolved, nouns made
+trial_file     keys of a trial; the scene of one of its runs
 schema         JSON schema for editors
 ============== ==========================================================
 """
@@ -31,6 +32,7 @@ from beardyn_core.config.load import (
     scene_from_text,
 )
 from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
+from beardyn_core.config.trial_file import load_trial, trial_scene
 
 __all__ = [
     "SCHEMA_KINDS",
@@ -41,7 +43,9 @@ __all__ = [
     "load_effects",
     "load_lubricant",
     "load_scene",
+    "load_trial",
     "load_vehicle",
     "scene_from_text",
     "shipped_names",
+    "trial_scene",
 ]

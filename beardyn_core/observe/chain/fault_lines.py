@@ -2,19 +2,22 @@
 
 The threshold follows from a stated false-alarm rate. In stationary noise the squared envelope has a smooth
 spectrum whose lines are independent and, over their local mean, exponentially distributed. The score of a
-fault adds the lines of its pattern but the strongest: one line alone, from whatever source, proves nothing.
-That sum of L - 1 out of L exponentials stays below a gamma variable of shape L - 1 (Renyi's representation:
-it is a sum of L - 1 exponentials with means (L - i) / (L - i + 1) < 1). It is sought over the tolerance of
-the fault frequency and for three faults, so the rate is shared among all independent places.
+fault adds the L lines of its pattern but the strongest: one line alone, from whatever source, proves nothing.
+By Renyi's representation that is a sum of L - 1 exponentials with means (L - i) / (L - i + 1), whose tail is
+known. It is sought over the tolerance of the fault frequency and for three faults, so the rate is shared among
+all independent places.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
+from math import log, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import gamma
+from scipy.optimize import brentq
+from scipy.stats import norm
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.settings import MonitorSettings
@@ -28,6 +31,7 @@ LINE_LEVEL = 9.0  # over the median background, from which a single line is list
 _LOWEST_ORDER = 0.3
 # lines a resolution apart are correlated by the window, and peaks lie between them
 _PLACES_PER_RESOLUTION = 3.0
+_LARGEST_TOTAL = 300.0  # passed by noise once in e^300 places
 _MEDIAN_OVER_MEAN = np.log(2.0)  # of an exponential distribution
 
 
@@ -190,6 +194,7 @@ def comb_score(
     )
 
 
+@cache
 def threshold(lines: int, places: float, rate: float) -> float:
     """Score that noise passes somewhere with a given rate.
 
@@ -206,12 +211,36 @@ def threshold(lines: int, places: float, rate: float) -> float:
     -------
     float
         [dB].
+    """
+    wanted = min(log(rate / places), log(trimmed_tail(lines, lines)))
+    total = brentq(lambda total: log(trimmed_tail(total, lines)) - wanted, lines, lines + _LARGEST_TOTAL)
+    return float(10.0 * np.log10(total / (lines - 1)))
+
+
+def trimmed_tail(total: float, lines: int) -> float:
+    """Probability that L exponentials of mean 1, less the largest, sum to more than a total.
+
+    Parameters
+    ----------
+    total : float
+        Beyond the mean of the sum.
+    lines : int
+        L.
 
     References
     ----------
-    Renyi (1953), On the theory of order statistics, Acta Math. Acad. Sci. Hung. 4.
+    Renyi (1953), On the theory of order statistics, Acta Math. Acad. Sci. Hung. 4: the representation.
+    Lugannani, Rice (1980), Saddle point approximation for the distribution of the sum of independent
+    random variables, Adv. Appl. Prob. 12: the tail.
     """
-    return float(10.0 * np.log10(gamma.isf(rate / places, lines - 1) / (lines - 1)))
+    means = 1.0 - 1.0 / np.arange(2.0, lines + 1.0)
+    saddle = float(
+        brentq(lambda t: np.sum(means / (1.0 - t * means)) - total, 1e-9, (1.0 - 1e-9) / means.max())
+    )
+    cumulant = -float(np.sum(np.log1p(-saddle * means)))
+    signed = sqrt(2.0 * (saddle * total - cumulant))
+    scaled = saddle * sqrt(float(np.sum((means / (1.0 - saddle * means)) ** 2)))
+    return float(norm.sf(signed) + norm.pdf(signed) * (1.0 / scaled - 1.0 / signed))
 
 
 def reach(order: float, resolution: float) -> float:
@@ -256,7 +285,7 @@ def _lay(
         pattern=pattern,
         order=order,
         score=float(10.0 * np.log10(max(1.0, summed[best] / (count - 1)))),
-        threshold=threshold(count, independent, rate),
+        threshold=threshold(count, round(independent, 1), rate),
         strongest=max(line.level for line in lines),
         lines=tuple(line for line in lines if line.level >= LINE_LEVEL),
     )
