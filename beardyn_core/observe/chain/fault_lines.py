@@ -10,7 +10,7 @@ all independent places.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from math import log, sqrt
 
@@ -31,6 +31,7 @@ LINE_LEVEL = 9.0  # over the median background, from which a single line is list
 _LOWEST_ORDER = 0.3
 # lines a resolution apart are correlated by the window, and peaks lie between them
 _PLACES_PER_RESOLUTION = 3.0
+_NOTHING = -300.0  # [dB]
 _LARGEST_TOTAL = 300.0  # passed by noise once in e^300 places
 _MEDIAN_OVER_MEAN = np.log(2.0)  # of an exponential distribution
 
@@ -127,7 +128,7 @@ class FaultLines:
     candidates : tuple of Candidate
         One for each of `FAULTS`.
     strongest_order, strongest_level : float
-        Strongest line in the band of the fault lines, [-], [dB].
+        Strongest line in the band of the fault lines, beside the whole orders, [-], [dB].
     chance_level : float
         Level that the strongest line of noise passes with the stated rate, [dB].
     """
@@ -149,8 +150,8 @@ def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
     """
     return (
         Pattern("cup", "BPFO", orders.bpfo, 1.0, "shaft", 0, 0),
-        Pattern("cone", "BPFI", orders.bpfi, 1.0, "shaft", 1, 2),
-        Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 2),
+        Pattern("cone", "BPFI", orders.bpfi, 1.0, "shaft", 1, 4),
+        Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4),
     )
 
 
@@ -183,11 +184,12 @@ def comb_score(
     low = _LOWEST_ORDER * roller_count
     high = max(p.order * settings.harmonics * (1.0 + settings.tolerance) + p.explained * p.sideband for p in patterns)
     spectrum = order_spectrum(tracked, settings.samples_per_revolution, high, settings.background_width)
-    strongest = line_at(spectrum, 0.5 * (low + high), 0.5 * (high - low))
+    beside = _beside_wheel(spectrum)
+    strongest = line_at(beside, 0.5 * (low + high), 0.5 * (high - low))
     places = _PLACES_PER_RESOLUTION * (high - low) / spectrum.resolution
     return FaultLines(
         spectrum=spectrum,
-        candidates=tuple(_lay(pattern, spectrum, shaft_frequency, rate, settings) for pattern in patterns),
+        candidates=tuple(_lay(pattern, beside, shaft_frequency, rate, settings) for pattern in patterns),
         strongest_order=strongest[0],
         strongest_level=strongest[1],
         chance_level=_level(np.log(places / settings.false_alarm_rate)),
@@ -289,6 +291,12 @@ def _lay(
         strongest=max(line.level for line in lines),
         lines=tuple(line for line in lines if line.level >= LINE_LEVEL),
     )
+
+
+def _beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
+    """Spectrum without its whole orders, where a wheel whose strikes wax and wane leaves a rest."""
+    whole = np.abs(spectrum.order - np.round(spectrum.order)) <= 2.0 * spectrum.resolution
+    return replace(spectrum, level=np.where(whole, _NOTHING, spectrum.level))
 
 
 def _name(pattern: Pattern, harmonic: int, side: int) -> str:

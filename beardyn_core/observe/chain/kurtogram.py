@@ -16,7 +16,6 @@ Float = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _EDGE = 0.1  # share of the band in each of its cosine edges
-_LEAST_REVOLUTIONS = 8  # of which a median tells strikes from noise
 _STANDS_OUT = 5.0  # standard deviations; of some 20 bands none does so by chance
 
 
@@ -55,13 +54,13 @@ def by_kurtogram(stretch: Stretch, settings: MonitorSettings) -> Band:
     narrowest = max(settings.narrowest_band, settings.orders_in_band * stretch.shaft_frequency)
     bands = [
         band
-        for band in fast_kurtogram(stretch, narrowest)
+        for band in fast_kurtogram(stretch, narrowest, settings)
         if band.low >= settings.lowest_band and band.kurtosis > _STANDS_OUT * band.scatter
     ]
     return max(bands, key=lambda band: band.kurtosis, default=Band(*settings.band))
 
 
-def fast_kurtogram(stretch: Stretch, narrowest: float) -> list[Band]:
+def fast_kurtogram(stretch: Stretch, narrowest: float, settings: MonitorSettings) -> list[Band]:
     """Spectral kurtosis in bands of the 1/3-binary tree: all of it, halves, thirds, quarters, sixths ...
 
     Sectors in which the wheel strikes the rail are left out.
@@ -71,6 +70,7 @@ def fast_kurtogram(stretch: Stretch, narrowest: float) -> list[Band]:
     stretch : Stretch
     narrowest : float
         Width below which nothing is divided further, [Hz].
+    settings : MonitorSettings
 
     Returns
     -------
@@ -92,24 +92,25 @@ def fast_kurtogram(stretch: Stretch, narrowest: float) -> list[Band]:
     half = 0.5 * stretch.rate
     spectrum = rfft(stretch.acceleration - stretch.acceleration.mean(axis=0), axis=0)
     turned = (stretch.shaft_angle - stretch.shaft_angle[0]) / (2.0 * np.pi)
+    quiet = ~struck_sectors(stretch, settings)[np.minimum((turned % 1.0 * SECTORS).astype(int), SECTORS - 1)]
     parts = sorted(
         count for power in range(16) for count in (2**power, 3 * 2**power) if half / count >= narrowest
     )
     return [
-        _band(spectrum, turned, half, part / count, (part + 1) / count)
+        _band(spectrum, quiet, half, part / count, (part + 1) / count)
         for count in parts
         for part in range(count)
     ]
 
 
-def _band(spectrum: Complex, turned: Float, half: float, low: float, high: float) -> Band:
+def _band(spectrum: Complex, quiet: NDArray[np.bool_], half: float, low: float, high: float) -> Band:
     """Kurtosis of the band between two shares of half the sampling rate."""
     first, last = (round(share * (len(spectrum) - 1)) for share in (low, high))
     inside = np.linspace(0.0, 1.0, last - first)[:, None]
     edges = np.sin(0.5 * np.pi * np.clip(np.minimum(inside, 1.0 - inside) / _EDGE, 0.0, 1.0)) ** 2
     coefficients = ifft(spectrum[first:last] * edges, axis=0)
     squared = np.sum(np.abs(coefficients) ** 2, axis=1)
-    kept = _between_strikes(squared, turned)
+    kept = quiet[np.arange(len(squared)) * len(quiet) // len(squared)]
     coefficients = coefficients[kept]
     covariance = coefficients.conj().T @ coefficients / len(coefficients)
     power = covariance.trace().real
@@ -118,15 +119,3 @@ def _band(spectrum: Complex, turned: Float, half: float, low: float, high: float
     spread = float(np.sum(np.abs(covariance) ** 2)) / power**2
     kurtosis = float(np.mean(squared[kept] ** 2)) / power**2 - 1.0 - spread
     return Band(low * half, high * half, kurtosis, float(np.sqrt(4.0 * spread / len(coefficients))))
-
-
-def _between_strikes(squared: Float, turned: Float) -> NDArray[np.bool_]:
-    """Which samples lie in sectors where the wheel does not strike."""
-    at = np.interp(np.linspace(0.0, 1.0, len(squared)), np.linspace(0.0, 1.0, len(turned)), turned)
-    revolutions = int(turned[-1])
-    if revolutions < _LEAST_REVOLUTIONS:
-        return np.ones(len(squared), dtype=bool)
-    grid = (np.arange(revolutions * SECTORS) + 0.5) / SECTORS
-    struck = struck_sectors(np.interp(grid, at, squared).reshape(revolutions, SECTORS))
-    sector = np.minimum((at % 1.0 * SECTORS).astype(int), SECTORS - 1)
-    return ~struck[sector]

@@ -20,6 +20,8 @@ class MonitorSettings:
     orders_in_band : float
         The spectrum of an envelope ends at the width of its band, which is at least this many times the
         shaft frequency: the last harmonics must fit, [-].
+    strike_band : tuple of 2 floats
+        In which strikes of the wheel are told, [Hz].
     window_revolutions : float
         Shaft revolutions in one analysis; 60 are some 25 of the cage, [-].
     least_revolutions : float
@@ -55,6 +57,7 @@ class MonitorSettings:
     lowest_band: float = 1500.0
     narrowest_band: float = 1500.0
     orders_in_band: float = 60.0
+    strike_band: tuple[float, float] = (1600.0, 3200.0)
     window_revolutions: float = 60.0
     least_revolutions: float = 15.0
     longest_window: float = 20.0

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from beardyn_core.observe.chain.kurtogram import Band
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
-from beardyn_core.observe.chain.wheel import without_wheel
+from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
 from beardyn_core.observe.features import envelope, resample_by_angle
 
 Float = NDArray[np.float64]
@@ -52,4 +52,5 @@ def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float
     count = settings.samples_per_revolution
     steps = resample_by_angle(power, stretch.shaft_angle, count)
     whole = len(steps) // count
-    return without_wheel(steps[: whole * count].reshape(whole, count)).reshape(-1)
+    struck = struck_sectors(stretch, settings)
+    return without_wheel(steps[: whole * count].reshape(whole, count), struck).reshape(-1)

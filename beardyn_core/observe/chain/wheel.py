@@ -5,39 +5,56 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.chain.stretch import Stretch
+from beardyn_core.observe.features import envelope
+
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
 
 SECTORS = 64
-_STRUCK = 2.0  # times the usual power
+# power of a sector over that of the usual one: a strike, and its ringing beside
+_STRIKE, _RINGING = 10.0, 1.3
+_LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
 
 
-def struck_sectors(power: Float) -> Bool:
-    """Sectors of the wheel in which it strikes the rail in most of its revolutions.
+def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
+    """Sectors of the wheel in which it strikes the rail in three of four revolutions.
 
     Parameters
     ----------
-    power : float64 array, shape [revolution, sector]
-        Squared envelope over the angle of the shaft.
+    stretch : Stretch
+    settings : MonitorSettings
 
     Returns
     -------
     bool array, shape [sector]
-        Where the median over the revolutions is twice that of the usual sector.
+        From the shaft angle at the start of the stretch on.
 
     Notes
     -----
-    A flat comes back at the same angle each time. A spall on the cone is loud in one half of the
-    revolution too, but its strikes lie elsewhere in each: their median stays that of the noise.
+    A sector is struck where the lower quartile of its power over the revolutions is ten times that of the
+    usual sector; sectors beside that still ring belong to it. A flat comes back at the same angle each time.
+    A spall on the cone is loud in one half of the revolution too, but its strikes lie elsewhere in each, and
+    between them is noise: the quartile stays low.
     """
-    usual = np.median(power, axis=0)
-    # a strike does not end at the border of a sector
-    wide = np.maximum(usual, np.maximum(np.roll(usual, 1), np.roll(usual, -1)))
-    struck: Bool = wide > _STRUCK * np.median(usual)
+    turned = (stretch.shaft_angle - stretch.shaft_angle[0]) / (2.0 * np.pi)
+    revolutions = int(turned[-1])
+    if revolutions < _LEAST_REVOLUTIONS:
+        return np.zeros(SECTORS, dtype=bool)
+    power = envelope(stretch.acceleration, stretch.rate, settings.strike_band) ** 2
+    sums = np.concatenate(([0.0], np.cumsum(power)))
+    edges = np.searchsorted(turned, np.arange(revolutions * SECTORS + 1) / SECTORS)
+    means = np.diff(sums[edges]) / np.maximum(np.diff(edges), 1)
+    quartile = np.quantile(means.reshape(revolutions, SECTORS), 0.25, axis=0)
+    usual = np.median(quartile)
+    struck, ringing = quartile > _STRIKE * usual, quartile > _RINGING * usual
+    for _ in range(SECTORS):
+        struck = struck | (ringing & (np.roll(struck, 1) | np.roll(struck, -1)))
     return struck
 
 
-def without_wheel(power: Float) -> Float:
+def without_wheel(power: Float, struck: Bool) -> Float:
     """Deviation from the wheel's own pattern, 0 where it strikes.
 
     The mean over the revolutions at each angle holds all that comes back with the shaft: every whole
@@ -47,6 +64,7 @@ def without_wheel(power: Float) -> Float:
     ----------
     power : float64 array, shape [revolution, step]
         Squared envelope over the angle of the shaft; a multiple of `SECTORS` steps.
+    struck : bool array, shape [sector]
 
     Returns
     -------
@@ -57,8 +75,6 @@ def without_wheel(power: Float) -> Float:
     Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal Process.
     25, section 3.1 (time synchronous averaging).
     """
-    revolutions, steps = power.shape
-    struck = struck_sectors(power.reshape(revolutions, SECTORS, -1).mean(axis=2))
     rest = power - power.mean(axis=0)
-    rest[:, np.repeat(struck, steps // SECTORS)] = 0.0
+    rest[:, np.repeat(struck, power.shape[1] // SECTORS)] = 0.0
     return rest
