@@ -44,7 +44,9 @@ INPUTS = ("vibration", "shaft", "load/blocks")
 PARAMETERS = (
     NodeParameter("bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"),
     NodeParameter(
-        "algorithm", "", "module:function in place of the reference chain, a beardyn_core.observe.chain.Chain for one"
+        "algorithm",
+        "",
+        "module:function in place of the reference chain, a beardyn_core.observe.chain.Chain for one",
     ),
     NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended"),
 )

@@ -15,11 +15,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("recording", metavar="run.mcap")
     parser.add_argument(
-        "--monitor", metavar="MODULE:FUNCTION", default="", help="your algorithm; its module may be in this folder"
+        "--monitor",
+        metavar="MODULE:FUNCTION",
+        default="",
+        help="your algorithm; its module may be in this folder",
     )
-    parser.add_argument(
-        "--bearing", help="name plate: shipped bearing or file (that of the recorded scene)"
-    )
+    parser.add_argument("--bearing", help="name plate: shipped bearing or file (that of the recorded scene)")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.set_defaults(run=run)
 

@@ -35,7 +35,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "matrix", metavar="TRIAL", nargs="?", default="default", help="shipped trial or YAML file (default)"
     )
     parser.add_argument(
-        "--monitor", metavar="MODULE:FUNCTION", default="", help="your algorithm; its module may be in this folder"
+        "--monitor",
+        metavar="MODULE:FUNCTION",
+        default="",
+        help="your algorithm; its module may be in this folder",
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, help="keep the runs here; write trial.json and trial.png"

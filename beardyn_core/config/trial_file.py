@@ -67,9 +67,13 @@ class TrialKeys(FileModel):
 
     trial: Name
     purpose: Text
-    scene: Name = Field("smooth_run", description="what every run starts from; its operation a quarter_vehicle")
+    scene: Name = Field(
+        "smooth_run", description="what every run starts from; its operation a quarter_vehicle"
+    )
     tier: Tier = "quasistatic"
-    effects: Text | dict[str, Any] | None = Field(None, description="as in a scene file; the scene's when not given")
+    effects: Text | dict[str, Any] | None = Field(
+        None, description="as in a scene file; the scene's when not given"
+    )
     faults: Annotated[tuple[Fault, ...], Field(min_length=1)] = FAULTS
     sizes_mm: Annotated[tuple[Annotated[Positive, Field(le=100.0)], ...], Field(min_length=1)] = Field(
         description="widths of the spalls"
@@ -80,7 +84,9 @@ class TrialKeys(FileModel):
     wheels: Annotated[tuple[WheelKeys, ...], Field(min_length=1)]
     repeats: Repeats = Field(1, description="runs of each combination with a fault")
     healthy_repeats: Repeats = Field(1, description="runs of each combination without")
-    revolutions: Annotated[Positive, Field(ge=16.0, le=10_000.0)] = Field(40.0, description="of the shaft, a run")
+    revolutions: Annotated[Positive, Field(ge=16.0, le=10_000.0)] = Field(
+        40.0, description="of the shaft, a run"
+    )
     interval_s: Annotated[Positive, Field(ge=0.1, le=60.0)] = Field(1.0, description="between two analyses")
     seed: Annotated[Count, Field(ge=0)] = 1
     check: CheckKeys | None = Field(None, description="repeat some runs in another tier")
@@ -95,7 +101,9 @@ class TrialKeys(FileModel):
         if len(set(names)) < len(names):
             raise problem("wheels has a name twice; each must stand once")
         if self.check is not None and self.check.tier == self.tier:
-            raise problem(f"check.tier is {self.check.tier!r}, the tier of the matrix itself; it must be another")
+            raise problem(
+                f"check.tier is {self.check.tier!r}, the tier of the matrix itself; it must be another"
+            )
         return self
 
     def noun(self, folder: Path) -> Trial:
@@ -201,7 +209,9 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
     }
     if isinstance(trial.effects, dict) and "preset" not in trial.effects:
         given = data.get("effects")
-        data["effects"] = overlay(given if isinstance(given, dict) else {"preset": given or "standard"}, trial.effects)
+        data["effects"] = overlay(
+            given if isinstance(given, dict) else {"preset": given or "standard"}, trial.effects
+        )
     elif trial.effects is not None:
         data["effects"] = trial.effects
     return scene_from_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)

@@ -56,7 +56,13 @@ def _draw_rates(axes: Axes, result: TrialResult) -> None:
         below = [max(0.0, row.found.value - row.found.low) for row in own]
         above = [max(0.0, row.found.high - row.found.value) for row in own]
         axes.errorbar(
-            width, value, (below, above), marker="o", capsize=3, color=_COLOURS[fault], label=f"spall on {fault}"
+            width,
+            value,
+            (below, above),
+            marker="o",
+            capsize=3,
+            color=_COLOURS[fault],
+            label=f"spall on {fault}",
         )
     axes.axhline(FOUND_AT, color="0.6", linewidth=0.8, linestyle="--")
     axes.set_ylim(-0.03, 1.03)

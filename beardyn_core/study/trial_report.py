@@ -36,9 +36,7 @@ def rate_text(rate: Rate) -> str:
     """``35/36  97 % (85 to 100)``."""
     if not rate.total:
         return "no runs"
-    return (
-        f"{rate.count}/{rate.total}  {100.0 * rate.value:.3g} % ({100.0 * rate.low:.2g} to {100.0 * rate.high:.3g})"
-    )
+    return f"{rate.count}/{rate.total}  {100.0 * rate.value:.3g} % ({100.0 * rate.low:.2g} to {100.0 * rate.high:.3g})"
 
 
 def smallest_text(smallest: Smallest) -> str:

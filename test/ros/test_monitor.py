@@ -10,9 +10,7 @@ from beardyn_core.record.messages import decode_diagnostics
 from beardyn_core.study.finding import Finding
 from test.ros.graph import Graph
 
-ALLOWED = {
-    f"/axlebox/{name}" for name in ("vibration", "shaft", "load/blocks", "load/wrench", "temperature")
-}
+ALLOWED = {f"/axlebox/{name}" for name in ("vibration", "shaft", "load/blocks", "load/wrench", "temperature")}
 HOUSEKEEPING = {"/diagnostics", "/parameter_events"}
 
 

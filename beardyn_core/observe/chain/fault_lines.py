@@ -182,7 +182,9 @@ def comb_score(
     patterns = fault_patterns(orders)
     rate = settings.false_alarm_rate / len(patterns)
     low = _LOWEST_ORDER * roller_count
-    high = max(p.order * settings.harmonics * (1.0 + settings.tolerance) + p.explained * p.sideband for p in patterns)
+    high = max(
+        p.order * settings.harmonics * (1.0 + settings.tolerance) + p.explained * p.sideband for p in patterns
+    )
     spectrum = order_spectrum(tracked, settings.samples_per_revolution, high, settings.background_width)
     beside = _beside_wheel(spectrum)
     strongest = line_at(beside, 0.5 * (low + high), 0.5 * (high - low))

@@ -52,9 +52,8 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
     Verdict
     """
     best = max(found.candidates, key=lambda candidate: candidate.score - candidate.threshold)
-    contradicted = (
-        found.strongest_level > max(found.chance_level, best.strongest)
-        and not explains(best, found.strongest_order, found.spectrum.resolution)
+    contradicted = found.strongest_level > max(found.chance_level, best.strongest) and not explains(
+        best, found.strongest_order, found.spectrum.resolution
     )
     state = temperature_state(stretch.temperature, stretch.heating, settings)
     if best.score >= best.threshold and not contradicted:
