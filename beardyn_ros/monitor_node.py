@@ -1,9 +1,9 @@
 """A monitoring algorithm as a node: it reads what a train has, and knows the bearing's name plate.
 
-Inputs are ``vibration``, ``shaft``, the load (``load/blocks`` or ``load/wrench``) and ``temperature`` of the
-axlebox. It never reads ``truth``, ``contacts``, ``bodies`` or ``joint_states``. The fault orders come from the
-parameter ``bearing``. The algorithm is the chain of `beardyn_core.observe.chain`, or yours by the parameter
-``algorithm``.
+Inputs are ``vibration``, ``shaft``, the load (``load/blocks`` or ``load/wrench``) and ``temperature`` of
+the axlebox. It never reads ``truth``, ``contacts``, ``bodies`` or ``joint_states``. The fault orders come
+from the parameter ``bearing``. The algorithm is the chain of `beardyn_core.observe.chain`, or yours by the
+parameter ``algorithm``.
 """
 
 from __future__ import annotations

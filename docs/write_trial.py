@@ -25,11 +25,17 @@ Five plain functions, put together by `beardyn_core.observe.chain.Chain`:
 
 | step | ours | what it does |
 |---|---|---|
-| `select_band` | `kurtogram.by_kurtogram` | band of largest spectral kurtosis in a 1/3-binary tree (Antoni 2007), outside the sectors in which the wheel strikes; 2 to 10 kHz when none stands out of noise |
+| `select_band` | `kurtogram.by_kurtogram` | largest spectral kurtosis, else 2 to 10 kHz |
 | `envelope` | `tracking.squared_envelope` | squared envelope, all axes added |
-| `track` | `tracking.by_angle` | over equal steps of the shaft angle; what comes back with the wheel is taken out: the mean over its revolutions, and the sectors in which it strikes |
-| `score` | `fault_lines.comb_score` | power on five harmonics of BPFO, BPFI and 2 BSF (with sidebands), less the strongest line, over that of noise |
-| `decide` | `verdict.strongest_pattern` | the part most over its threshold, unless a stronger line belongs to none; and a hot box |
+| `track` | `tracking.by_angle` | by shaft angle, less what the wheel does |
+| `score` | `fault_lines.comb_score` | power on the lines of each part, over noise |
+| `decide` | `verdict.strongest_pattern` | the part most over its threshold; a hot box |
+
+The kurtogram is the 1/3-binary tree of Antoni (2007). Order tracking takes out the mean over the revolutions
+at each angle of the wheel, which holds every whole order, and leaves out the sectors in which the wheel
+strikes in three of four revolutions: flats and polygons. A score adds five harmonics of BPFO, or of BPFI or
+2 BSF with a sideband on both sides, less the strongest line. A part is not called when a line that is no
+chance is stronger than all of its own and belongs to none of them.
 
 **The threshold is not tuned on this matrix.** In stationary noise the lines of a squared-envelope spectrum
 are independent and exponentially distributed over their local mean; the sum of L of them less the largest has
@@ -37,7 +43,8 @@ a known tail (Renyi's representation, saddle point of Lugannani and Rice). The t
 times the number of independent places searched and the three parts, comes to {rate:g} an analysis. What a
 bearing, track and wheel do beyond stationary noise is what the trial shows.
 
-The temperature rule calls a hot box from {hot:.0f} °C on, or from {heating:g} K a minute above {floor:.0f} °C.
+The temperature rule calls a hot box from {hot:.0f} °C on, or from {heating:g} K a minute
+above {floor:.0f} °C.
 EN 15437-2 leaves such levels to the vehicle; these are assumed.
 
 Replace one function with yours:
@@ -56,10 +63,11 @@ LIMITS = """
 ## What it does not say
 
 - **The spalls are round numbers**: a rectangular pit with sharp edges, twice as long as wide, a tenth as deep
-  as wide, at most 100 µm; on the cup within 30 degrees of the middle of the load zone. A larger one of another
-  shape may be quieter.
-- **The background is the sensor's noise, the track and the wheel.** There is no gear, motor or neighbour axle,
-  and the axlebox rings only with its suspension and its bearing: a real threshold of detection is higher.
+  as wide, at most 100 µm; on the cup within 30 degrees of the middle of the load zone. A larger one of
+  another shape may be quieter.
+- **The background is the sensor's noise, the track and the wheel.** There is no gear, motor or neighbour
+  axle, and the axlebox rings only with its suspension and its bearing: on a train
+  it takes larger spalls.
 - **Fast tiers** have no cage slip and no skid, so their lines are sharper than those of the full tier; the
   check says by how much scores and verdicts differ. [ladder.md](ladder.md) has the errors of the tiers.
 - A wheel that strikes for most of the load zone of the cone hides a spall there: its sectors are left out.
@@ -94,8 +102,8 @@ def page(found: dict[str, Any]) -> str:
         f"seed {found['seed']}. Brackets are exact 95 % intervals (Clopper and Pearson).",
         "",
         f"{found['purpose']} The matrix is [config/trials/{found['trial']}.yaml]"
-        f"(../config/trials/{found['trial']}.yaml); `beardyn trial MATRIX.yaml -o FOLDER` runs one of your own,",
-        "keeps every run as it ends and goes on where it was stopped.",
+        f"(../config/trials/{found['trial']}.yaml); `beardyn trial MATRIX.yaml -o FOLDER` runs one of your "
+        "own, keeps every run as it ends and goes on where it was stopped.",
         "",
         "![Detection rate over size, and scores](pictures/trial.png)",
         "",
@@ -111,8 +119,8 @@ def page(found: dict[str, Any]) -> str:
         "",
         "## Where, and false alarms",
         "",
-        "A run counts as found when most of its analyses name the part; a healthy run is a false alarm when a "
-        "single one of them calls a fault.",
+        "A run counts as found when most of its analyses name the part; a healthy run is a false alarm when "
+        "a single one of them calls a fault.",
         "",
         "| | found | healthy runs with a false alarm |",
         "|---|---|---|",
@@ -157,7 +165,8 @@ def _analyses(found: dict[str, Any]) -> str:
     if found["monitor"]:
         return said
     rate = found["stated_false_alarm_rate"]
-    return f"{said} In stationary noise the threshold allows {100 * rate:g} %: {rate * analyses['total']:.2g} of them."
+    allowed = f"{100 * rate:g} %: {rate * analyses['total']:.2g} of them"
+    return f"{said} In stationary noise the threshold allows {allowed}."
 
 
 def _check(found: dict[str, Any]) -> list[str]:

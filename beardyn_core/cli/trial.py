@@ -25,11 +25,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "trial",
         help="a monitor on trial: detection rate and false alarms over a matrix of scenes",
-        description="Run a monitor, ours or your own, over faults, sizes, speeds, tracks and wheels, and print "
-        "how often it finds the fault, how often it alarms on a healthy bearing, and the smallest spall it finds, "
-        "with 95 % intervals. `quick` takes under a minute, `default` some minutes on two cores, and a minute more "
-        "for every set of effects that is not compiled yet. With -o a run that is done is kept, and an "
-        "interrupted trial goes on where it was.",
+        description="Run a monitor, ours or your own, over faults, sizes, speeds, tracks and wheels, and "
+        "print how often it finds the fault, how often it alarms on a healthy bearing, and the smallest "
+        "spall it finds, with 95 % intervals. `quick` takes under a minute, `default` some minutes on two "
+        "cores, and a minute more for every set of effects that is not compiled yet. "
+        "With -o a run that is done is kept, and an interrupted trial goes on where it was.",
     )
     parser.add_argument(
         "matrix", metavar="TRIAL", nargs="?", default="default", help="shipped trial or YAML file (default)"

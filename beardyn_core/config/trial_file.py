@@ -20,7 +20,7 @@ from beardyn_core.config.units import KMH, MM, UM
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.errors import InputError
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Spall, Trial, TrialWheel
+from beardyn_core.scene.trial import HEALTHY, Cell, Spall, Trial, TrialWheel
 
 # a spall of the cup is where the load is
 _LOAD_ZONE_DEG = 30.0
@@ -74,7 +74,7 @@ class TrialKeys(FileModel):
     effects: Text | dict[str, Any] | None = Field(
         None, description="as in a scene file; the scene's when not given"
     )
-    faults: Annotated[tuple[Fault, ...], Field(min_length=1)] = FAULTS
+    faults: Annotated[tuple[Fault, ...], Field(min_length=1)] = ("cup", "cone", "roller")
     sizes_mm: Annotated[tuple[Annotated[Positive, Field(le=100.0)], ...], Field(min_length=1)] = Field(
         description="widths of the spalls"
     )
@@ -157,15 +157,20 @@ def load_trial(name: str | Path, *, tier: str | None = None, seed: int | None = 
         trial = TrialKeys.model_validate(data).noun(path.parent)
     except ValidationError as error:
         raise InputError(sentences(error, [Origin((), str(path))])) from None
-    problems: dict[str, None] = {}
-    for cell in _corners(trial):
-        try:
-            trial_scene(trial, cell)
-        except InputError as error:
-            problems |= dict.fromkeys(f"{path}: {problem}" for problem in error.problems)
+    problems = dict.fromkeys(
+        f"{path}: {problem}" for cell in _corners(trial) for problem in _scene_problems(trial, cell)
+    )
     if problems:
         raise InputError(list(problems))
     return trial
+
+
+def _scene_problems(trial: Trial, cell: Cell) -> tuple[str, ...]:
+    try:
+        trial_scene(trial, cell)
+    except InputError as error:
+        return tuple(error.problems)
+    return ()
 
 
 def trial_scene(trial: Trial, cell: Cell) -> Scene:
@@ -189,7 +194,7 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
     operation = data.get("operation")
     if not isinstance(operation, dict) or operation.get("kind") != "quarter_vehicle":
         raise InputError(
-            f"scene {trial.scene}: operation.kind must be 'quarter_vehicle': a trial sets speed, track and wheel"
+            f"scene {trial.scene}: operation.kind must be 'quarter_vehicle', whose speed a trial sets"
         )
     irregularity = operation.get("irregularity")
     diameter = float(operation.get("wheel_diameter_mm", USUAL_WHEEL_DIAMETER_MM)) / MM

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -75,13 +75,15 @@ def read_runs(path: Path) -> list[TrialRun]:
     path : Path
         Need not exist.
     """
-    runs = []
-    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
-        try:
-            runs.append(TrialRun.from_json(json.loads(line)))
-        except (ValueError, TypeError, KeyError):
-            continue
-    return runs
+    lines = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
+    return [run for run in map(_run_of, lines) if run is not None]
+
+
+def _run_of(line: str) -> TrialRun | None:
+    try:
+        return TrialRun.from_json(json.loads(line))
+    except (ValueError, TypeError, KeyError):
+        return None
 
 
 def warm(trial: Trial) -> None:
@@ -151,12 +153,12 @@ def _gather(
 class _Keeper:
     """Writes runs to the folder as they end."""
 
-    def __init__(self, folder: Path | None, earlier: Sequence[TrialRun] | object) -> None:
+    def __init__(self, folder: Path | None, earlier: Iterable[TrialRun]) -> None:
         self._file = None
         if folder is not None:
             path = folder / RUNS_FILE
             # what is out of date or was cut off goes
-            lines = [json.dumps(run.to_json()) + "\n" for run in earlier]  # type: ignore[attr-defined]
+            lines = [json.dumps(run.to_json()) + "\n" for run in earlier]
             fresh = path.with_suffix(".new")
             fresh.write_text("".join(lines), encoding="utf-8")
             fresh.replace(path)

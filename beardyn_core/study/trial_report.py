@@ -36,7 +36,8 @@ def rate_text(rate: Rate) -> str:
     """``35/36  97 % (85 to 100)``."""
     if not rate.total:
         return "no runs"
-    return f"{rate.count}/{rate.total}  {100.0 * rate.value:.3g} % ({100.0 * rate.low:.2g} to {100.0 * rate.high:.3g})"
+    interval = f"({100.0 * rate.low:.3g} to {100.0 * rate.high:.3g})"
+    return f"{rate.count}/{rate.total}  {100.0 * rate.value:.3g} % {interval}"
 
 
 def smallest_text(smallest: Smallest) -> str:

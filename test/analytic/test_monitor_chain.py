@@ -46,7 +46,7 @@ def test_kurtosis_of_noise_is_zero_within_its_scatter_however_the_axes_correlate
     noise = np.random.default_rng(3).normal(size=(50_000, 3)) @ np.array(
         [[1, 0.9, 0], [0, 1, 0.5], [0, 0, 2]]
     )
-    angle = 2.0 * np.pi * 19.0 * np.arange(50_000) / RATE
+    angle = np.asarray(2.0 * np.pi * 19.0 * np.arange(50_000) / RATE, np.float64)
     bands = fast_kurtogram(Stretch(RATE, noise, angle, 0.0, 0), 1500.0, SETTINGS)
     assert len(bands) > 10
     assert all(abs(band.kurtosis) < 5.0 * band.scatter for band in bands)
@@ -150,9 +150,10 @@ def test_temperature_rule(celsius: float, kelvin_a_minute: float, state: str) ->
 
 
 def test_a_hot_box_is_called_beside_the_lines() -> None:
-    hot = {"temperature": 400.0, "heating": 0.1}
-    assert REFERENCE(replace(_stretch(None, 40), **hot), ORDERS, ROLLERS, SETTINGS).verdict == "hot_box"
-    both = REFERENCE(replace(_stretch("cup", 40), **hot), ORDERS, ROLLERS, SETTINGS)
+    hot = replace(_stretch(None, 40), temperature=400.0, heating=0.1)
+    assert REFERENCE(hot, ORDERS, ROLLERS, SETTINGS).verdict == "hot_box"
+    spalled = replace(_stretch("cup", 40), temperature=400.0, heating=0.1)
+    both = REFERENCE(spalled, ORDERS, ROLLERS, SETTINGS)
     assert (both.verdict, both.temperature_state) == ("cup", "hot")
     assert both.reason.startswith("hot box: 127 °C, rising by 6.0 K a minute; cup fault")
 

@@ -4,8 +4,8 @@ The threshold follows from a stated false-alarm rate. In stationary noise the sq
 spectrum whose lines are independent and, over their local mean, exponentially distributed. The score of a
 fault adds the L lines of its pattern but the strongest: one line alone, from whatever source, proves nothing.
 By Renyi's representation that is a sum of L - 1 exponentials with means (L - i) / (L - i + 1), whose tail is
-known. It is sought over the tolerance of the fault frequency and for three faults, so the rate is shared among
-all independent places.
+known. It is sought over the tolerance of the fault frequency and for three faults, so the rate is shared
+among all independent places.
 """
 
 from __future__ import annotations

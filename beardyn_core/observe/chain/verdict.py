@@ -68,9 +68,10 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
 
 def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
     expected = best.pattern.order
+    deviation = 100.0 * (best.order / expected - 1.0)
     return (
         f"{best.pattern.fault} fault: {best.pattern.symbol} found at {best.order * shaft_frequency:.2f} Hz, "
-        f"{expected * shaft_frequency:.2f} Hz from geometry ({100.0 * (best.order / expected - 1.0):+.2f} %), "
+        f"{expected * shaft_frequency:.2f} Hz from geometry ({deviation:+.2f} %), "
         f"its lines {best.score:.1f} dB over noise, the alarm is at {best.threshold:.1f} dB"
     )
 
