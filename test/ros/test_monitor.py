@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
-import pytest
-
 from beardyn_core.record.messages import decode_diagnostics
 from beardyn_core.study.finding import Finding
 from test.ros.graph import Graph
@@ -37,16 +33,9 @@ def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_
 
 
 def test_algorithm_of_ones_own_takes_the_place_of_the_chain(graph: Graph) -> None:
-    (graph.folder / "always_roller.py").write_text(
-        "from beardyn_core.observe.chain import MonitorResult\n"
-        "def always(stretch, orders, roller_count, settings):\n"
-        "    return MonitorResult('roller', 'always says so', stretch.end_ns)\n"
-    )
     graph.listen("monitor/result")
     graph.fake_twin(speed_factor=4.0)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", f"{graph.folder}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
-        graph.node_process("monitor", bearing="HS130x230", algorithm="always_roller:always")
+    graph.node_process("monitor", bearing="HS130x230", algorithm="test.ros.always_roller:always")
     graph.until(
         lambda: any(status.value("connected") == "true" for status in graph.statuses("monitor")),
         "the monitor's connection",

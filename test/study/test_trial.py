@@ -55,7 +55,7 @@ def test_a_run_and_its_check_are_the_same_scene_in_another_tier(quick: Trial) ->
     assert (one.tier, two.tier) == ("quasistatic", "full")
     assert (one.defects, one.operation) == (two.defects, two.operation)
     assert (one.seed, one.duration) == (two.seed, two.duration)
-    assert one.defects[0].on == own.fault  # type: ignore[union-attr]
+    assert one.defects[0].on == own.fault
     assert one.defects[0].width == pytest.approx(own.size)  # type: ignore[union-attr]
 
 
