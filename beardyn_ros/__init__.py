@@ -20,7 +20,7 @@ twin_node      the lifecycle node around a session: topics, services, diagnostic
 twin_watch     is the twin there, has it ended, how
 recording      messages into files, one a run, with proof of what was lost
 recorder_node  every topic into a crash-safe MCAP file
-monitor_node   example of a monitoring algorithm: vibration, shaft and load, nothing else
+monitor_node   monitoring: vibration, shaft, load and temperature, nothing else
 viewer_node    live view in rerun
 diagnostics    reports as diagnostic_msgs
 processes      child processes that never outlive their parent

@@ -14,7 +14,7 @@ PROGRAMS = {
     "load": ("load_node", "replay a scene's operation or a CSV as load of the twin"),
     "recorder": ("recorder_node", "record every topic into a crash-safe MCAP file"),
     "viewer": ("viewer_node", "live view in rerun"),
-    "monitor": ("monitor_node", "example of a monitoring algorithm on vibration, shaft and load"),
+    "monitor": ("monitor_node", "monitoring algorithm on vibration, shaft, load and temperature"),
     "demo": ("demo", "all of them as separate processes on one scene"),
 }
 

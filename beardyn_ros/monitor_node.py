@@ -1,8 +1,9 @@
-"""An example of a monitoring algorithm: it reads what a train has, and knows the bearing's name plate.
+"""A monitoring algorithm as a node: it reads what a train has, and knows the bearing's name plate.
 
-Inputs are ``vibration``, ``shaft`` and the load (``load/blocks`` or ``load/wrench``). It never reads
-``truth``, ``contacts``, ``bodies`` or ``joint_states``. The fault orders come from the parameter
-``bearing``. `beardyn_core.observe.monitoring.Monitor` does the work: put your own algorithm there.
+Inputs are ``vibration``, ``shaft``, the load (``load/blocks`` or ``load/wrench``) and ``temperature`` of
+the axlebox. It never reads ``truth``, ``contacts``, ``bodies`` or ``joint_states``. The fault orders come
+from the parameter ``bearing``. The algorithm is the chain of `beardyn_core.observe.chain`, or yours by the
+parameter ``algorithm``.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from rclpy.node import Node
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_bearing
 from beardyn_core.errors import InputError
+from beardyn_core.observe.chain import algorithm_named
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.load_stream import decode_load
@@ -26,8 +28,8 @@ from beardyn_core.record.messages import (
     encode_diagnostics,
     header_stamp,
 )
-from beardyn_core.record.topics import FRAME, JOINTS, WRENCH, topic
-from beardyn_core.study.finding import Finding, conclude
+from beardyn_core.record.topics import FRAME, JOINTS, TEMPERATURE, WRENCH, topic
+from beardyn_core.study.finding import HOT_BOX, Finding, conclude
 from beardyn_ros.diagnostics import MONITOR, diagnostic_name
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node
@@ -36,10 +38,16 @@ from beardyn_ros.wire import RawIntake, TopicPublishers
 
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
+ZERO_CELSIUS = 273.15
 INPUTS = ("vibration", "shaft", "load/blocks")
 
 PARAMETERS = (
     NodeParameter("bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"),
+    NodeParameter(
+        "algorithm",
+        "",
+        "module:function in place of the reference chain, a beardyn_core.observe.chain.Chain for one",
+    ),
     NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended"),
 )
 
@@ -52,12 +60,17 @@ class MonitorNode(Node):
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
+        problems = []
         try:
             self._bearing = load_bearing(self._values.bearing)
         except InputError as error:
-            raise InputError(
-                [f"node monitor, parameter 'bearing': {each}" for each in error.problems]
-            ) from None
+            problems += [f"node monitor, parameter 'bearing': {each}" for each in error.problems]
+        try:
+            self._algorithm = algorithm_named(self._values.algorithm)
+        except InputError as error:
+            problems += [f"node monitor, parameter 'algorithm': {each}" for each in error.problems]
+        if problems:
+            raise InputError(problems)
         self._orders = fault_frequencies(self._bearing)
         self._out = TopicPublishers(self, "monitor/result", "/diagnostics")
         self._intake = RawIntake(self)
@@ -65,6 +78,7 @@ class MonitorNode(Node):
         self._intake.add(topic("shaft"), self._on_shaft)
         self._intake.add(topic("load/blocks"), self._on_load)
         self._intake.add(topic("load/wrench"), self._on_wrench)
+        self._intake.add(topic("temperature"), self._on_temperature)
         self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
         self._watch = TwinWatch(lambda: self.count_publishers(topic("vibration").path(self.get_namespace())))
         self._begin()
@@ -76,7 +90,7 @@ class MonitorNode(Node):
         )
 
     def _begin(self) -> None:
-        self._monitor = Monitor(self._orders, self._bearing.roller_count)
+        self._monitor = Monitor(self._orders, self._bearing.roller_count, algorithm=self._algorithm)
         self._findings: list[Finding] = []
         self._last_sample = -1
         self._shaft_time: list[int] = []
@@ -112,6 +126,11 @@ class MonitorNode(Node):
         vertical = float(decode(WRENCH, cdr).wrench.force.z)
         self._monitor.push_load(np.array([header_stamp(cdr)]), np.array([vertical]))
 
+    def _on_temperature(self, cdr: bytes) -> None:
+        message = decode(TEMPERATURE, cdr)
+        if message.header.frame_id.rpartition("/")[2] == "axlebox":
+            self._monitor.push_temperature(header_stamp(cdr), float(message.temperature) + ZERO_CELSIUS)
+
     def _on_diagnostics(self, cdr: bytes) -> None:
         self._watch.hear(decode_diagnostics(cdr)[1])
 
@@ -137,7 +156,7 @@ class MonitorNode(Node):
         self._findings.append(finding)
         self._publish(finding)
         if finding.verdict != earlier:
-            if finding.is_fault:
+            if finding.is_fault or finding.verdict == HOT_BOX:
                 self.get_logger().warning(finding.reason)
             else:
                 self.get_logger().info(finding.reason)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
-_ORDER = ("demo", "simulate", "explain", "bearing", "view", "report", "schema", "warmup")
+_ORDER = ("demo", "simulate", "trial", "explain", "bearing", "view", "report", "schema", "warmup")
 
 
 def command_names() -> list[str]:

@@ -1,26 +1,6 @@
 """The config room: YAML files in edge units become frozen nouns in SI, or every mistake at once.
 
-=============== ==========================================================
-module          responsibility, in the order of the data
-=============== ==========================================================
-folders         where configuration lies; a name becomes a file
-yaml_text       YAML text to a mapping and back
-units           units in key names, factors to SI
-file_model      base of the models: strict numbers, unknown keys explained
-bearing_file    keys of a bearing
-lubricant_file  keys of a lubricant
-vehicle_file    keys of a vehicle
-effects_file    keys of an effects preset
-excitation_file keys of irregularity and of defects of wheel and rail
-measured_file   keys of load and speed from a file
-operation_file  keys of an operation
-scene_file      keys of a scene
-problems        refusals to sentences with file, key, value, what is allowed
-automatic       `auto` to what has been chosen
-load            references resolved, nouns made
-schema          JSON schema for editors
-=============== ==========================================================
-"""
+=============== ==================================================="""
 
 from beardyn_core.config.folders import config_folder, shipped_names
 from beardyn_core.config.load import (
@@ -33,6 +13,7 @@ from beardyn_core.config.load import (
     scene_from_text,
 )
 from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
+from beardyn_core.config.trial_file import load_trial, trial_scene
 
 __all__ = [
     "SCHEMA_KINDS",
@@ -43,7 +24,9 @@ __all__ = [
     "load_effects",
     "load_lubricant",
     "load_scene",
+    "load_trial",
     "load_vehicle",
     "scene_from_text",
     "shipped_names",
+    "trial_scene",
 ]

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from beardyn_core.errors import InputError
 
-KINDS = ("bearings", "lubricants", "vehicles", "effects", "scenes")
+KINDS = ("bearings", "lubricants", "vehicles", "effects", "scenes", "trials")
 _SUFFIXES = (".yaml", ".yml")
 
 

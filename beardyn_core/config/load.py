@@ -140,6 +140,11 @@ def scene_from_text(text: str, label: str = "scene") -> Scene:
     return _Reading(read_mapping(text, label), label, Path()).scene({})
 
 
+def scene_from_mapping(data: dict[str, Any], label: str, folder: Path) -> Scene:
+    """Scene of the mapping in a scene file that lies in a folder; see `load_scene`."""
+    return _Reading(data, label, folder).scene({})
+
+
 def load_bearing(name: str | Path) -> Bearing:
     """Bearing of a shipped name or of a file; raises `InputError` with every mistake and contradiction."""
     path = find("bearings", str(name))

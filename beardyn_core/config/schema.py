@@ -9,6 +9,7 @@ from beardyn_core.config.effects_file import EffectsKeys
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.lubricant_file import LubricantKeys
 from beardyn_core.config.scene_file import SceneKeys
+from beardyn_core.config.trial_file import TrialKeys
 from beardyn_core.config.vehicle_file import VehicleKeys
 
 _MODELS: dict[str, type[FileModel]] = {
@@ -17,6 +18,7 @@ _MODELS: dict[str, type[FileModel]] = {
     "lubricant": LubricantKeys,
     "vehicle": VehicleKeys,
     "effects": EffectsKeys,
+    "trial": TrialKeys,
 }
 SCHEMA_KINDS = tuple(_MODELS)
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.diagnosis import MonitorResult, MonitorSettings, Stretch, analyse
+from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings, Stretch
+from beardyn_core.observe.chain.levels import Levels
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
-Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorResult]
+_REMEMBERED = 1000  # results whose levels are kept for the trend
+_HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
+_LEAST_HEATING_NS = 10_000_000_000
 
 
 class Monitor:
@@ -25,11 +26,11 @@ class Monitor:
         Of one row, per shaft revolution, from geometry.
     roller_count : int
         Rollers of one row.
-    rate : float
-        Of the vibration, [Hz].
+    rate : float, optional
+        Of the vibration, by default as its first block is stamped, [Hz].
     settings : MonitorSettings, optional
     algorithm : function, optional
-        In place of `analyse`.
+        In place of the reference chain.
 
     Attributes
     ----------
@@ -43,9 +44,9 @@ class Monitor:
         self,
         orders: FaultFrequencies,
         roller_count: int,
-        rate: float = 25_600.0,
+        rate: float | None = None,
         settings: MonitorSettings | None = None,
-        algorithm: Algorithm = analyse,
+        algorithm: Algorithm = REFERENCE,
     ) -> None:
         self.orders = orders
         self.roller_count = roller_count
@@ -60,6 +61,8 @@ class Monitor:
         self._shaft_angle = np.empty(0)
         self._load_time = np.empty(0, dtype=np.int64)
         self._load = np.empty(0)
+        self._temperatures: list[tuple[int, float]] = []
+        self._levels: list[Levels] = []
         self._next_ns: int | None = None
 
     def push_vibration(self, time_ns: Int, acceleration: Float) -> None:
@@ -77,7 +80,9 @@ class Monitor:
         if behind or not np.isfinite(acceleration).all() or (np.diff(time_ns) <= 0).any():
             self.refused += 1
             return
-        if len(self._time) and (time_ns[0] - self._time[-1]) * 1e-9 * self.rate > 1.5:
+        if self.rate is None and len(time_ns) > 1:
+            self.rate = (len(time_ns) - 1) * 1e9 / float(time_ns[-1] - time_ns[0])
+        if len(self._time) and self.rate and (time_ns[0] - self._time[-1]) * 1e-9 * self.rate > 1.5:
             self.lost += 1
             self._time, self._acceleration = self._time[:0], self._acceleration[:0]
         self._time = np.concatenate((self._time, time_ns))
@@ -106,6 +111,11 @@ class Monitor:
         self._load_time = np.concatenate((self._load_time, time_ns))
         self._load = np.concatenate((self._load, vertical))
 
+    def push_temperature(self, time_ns: int, temperature: float) -> None:
+        """Add the temperature of the axlebox at one time, [K]."""
+        if np.isfinite(temperature) and (not self._temperatures or time_ns > self._temperatures[-1][0]):
+            self._temperatures.append((time_ns, temperature))
+
     def update(self) -> MonitorResult | None:
         """A new result when one is due, else None."""
         if not len(self._time) or not len(self._shaft_time):
@@ -121,7 +131,7 @@ class Monitor:
 
     def result(self) -> MonitorResult:
         """Analyse what is there now, due or not."""
-        if not len(self._time) or not len(self._shaft_time):
+        if not len(self._time) or not len(self._shaft_time) or self.rate is None:
             return MonitorResult("waiting", "no vibration or no shaft angle yet", 0)
         last = int(min(self._time[-1], self._shaft_time[-1]))
         first = max(
@@ -153,8 +163,26 @@ class Monitor:
             shaft_angle=angle,
             load=float(load.mean()) if len(load) else np.nan,
             end_ns=last,
+            temperature=self._temperatures[-1][1] if self._temperatures else np.nan,
+            heating=self._heating(),
+            earlier=tuple(self._levels),
         )
-        return self.algorithm(stretch, self.orders, self.roller_count, self.settings)
+        result = self.algorithm(stretch, self.orders, self.roller_count, self.settings)
+        self._levels.append(Levels(result.rms, result.kurtosis, result.crest, stretch.shaft_frequency))
+        del self._levels[:-_REMEMBERED]
+        return result
+
+    def _heating(self) -> float:
+        """Rise of the temperature over the last minute, NaN with less than ten seconds of it, [K/s]."""
+        if not self._temperatures:
+            return np.nan
+        end = self._temperatures[-1][0]
+        while self._temperatures[0][0] < end - _HEATING_NS:
+            del self._temperatures[0]
+        time, temperature = np.array(self._temperatures).T
+        if time[-1] - time[0] < _LEAST_HEATING_NS:
+            return np.nan
+        return float(np.polyfit((time - time[0]) * 1e-9, temperature, 1)[0])
 
     def _forget(self, before_ns: int) -> None:
         """Drop what no later window needs; the shaft keeps one sample before."""

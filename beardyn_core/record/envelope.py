@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.observe.diagnosis import MonitorSettings
+from beardyn_core.observe.chain import MonitorSettings
 from beardyn_core.observe.features import OrderSpectrum, envelope, order_spectrum, resample_by_angle
 from beardyn_core.record.reading import Joints, Samples
 

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from math import isfinite, nan
 
-from beardyn_core.observe.diagnosis import MonitorResult
+from beardyn_core.observe.chain import MonitorResult
 from beardyn_core.record.messages import Diagnostic
 
 WAITING, HEALTHY = "waiting", "healthy"
+HOT_BOX = "hot_box"
 FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
 
 
@@ -21,7 +22,7 @@ class Finding:
     Parameters
     ----------
     verdict : str
-        ``waiting``, ``healthy``, ``cup``, ``cone`` or ``roller``.
+        ``waiting``, ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``.
     reason : str
         The verdict in a sentence.
     time : float
@@ -38,8 +39,16 @@ class Finding:
         [Hz].
     load : float
         Mean vertical load, [N].
-    rms, kurtosis : float
-        Of the band-passed vibration, [m/s^2], [-].
+    rms, kurtosis, crest : float
+        Of the band-passed vibration, [m/s^2], [-], [-].
+    threshold : float
+        Score from which a fault is called, [dB].
+    band_low, band_high : float
+        Of the envelope, [Hz].
+    rms_rise : float
+        Over earlier results at a like speed, [dB].
+    temperature : float
+        Of the axlebox, [K].
     """
 
     verdict: str
@@ -55,6 +64,12 @@ class Finding:
     load: float = nan
     rms: float = nan
     kurtosis: float = nan
+    crest: float = nan
+    threshold: float = nan
+    band_low: float = nan
+    band_high: float = nan
+    rms_rise: float = nan
+    temperature: float = nan
 
     @classmethod
     def of(cls, result: MonitorResult) -> Finding:
@@ -74,6 +89,12 @@ class Finding:
             load=result.load,
             rms=result.rms,
             kurtosis=result.kurtosis,
+            crest=result.crest,
+            threshold=result.threshold,
+            band_low=result.band[0],
+            band_high=result.band[1],
+            rms_rise=result.rms_rise,
+            temperature=result.temperature,
         )
 
     @property
@@ -92,12 +113,13 @@ class Finding:
         return self.found_order / self.expected_order - 1.0
 
     def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
-        """Status for ``monitor/result``: a fault is a warning."""
+        """Status for ``monitor/result``: a fault is a warning, a hot box an error."""
         values = [("verdict", self.verdict)]
         for member in fields(self)[2:]:
             number = float(getattr(self, member.name))
             values.append((member.name, f"{number:.9g}" if isfinite(number) else "nan"))
-        return Diagnostic(name, 1 if self.is_fault else 0, self.reason, (*values, *extra))
+        level = 2 if self.verdict == HOT_BOX else int(self.is_fault)
+        return Diagnostic(name, level, self.reason, (*values, *extra))
 
     @classmethod
     def from_diagnostic(cls, status: Diagnostic) -> Finding | None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.model.build import WAVEFORM_RATE
-from beardyn_core.observe.diagnosis import MonitorSettings
+from beardyn_core.observe.chain import MonitorSettings
 from beardyn_core.observe.features import envelope, order_spectrum, resample_by_angle
 from beardyn_core.scene.excitation import WheelPolygon
 from beardyn_core.scene.operation import QuarterVehicleOperation

@@ -34,7 +34,7 @@ BESIDE = Mounting(
 )
 
 
-def loaded(**options: object) -> tuple[int, int]:
+def loaded(**options: object) -> tuple[int, ...]:
     bearing = standard_scene().bearing
     return solve(bearing, (0.0, 1.5e4, 8e4), end_play=2e-4, laminae=6, **options).loaded_roller_count  # type: ignore[arg-type]
 

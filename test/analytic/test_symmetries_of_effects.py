@@ -38,7 +38,7 @@ from beardyn_core.effects import (
 )
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
-from beardyn_core.scene.defect import Growth, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import Defect, Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
@@ -112,7 +112,7 @@ def mirrored(scene: Scene, mirror: Float) -> Scene:
     def number(given: int) -> int:
         return -given % count if backwards else given
 
-    def defect(given: Patch | RollerError | WornPocket) -> Patch | RollerError | WornPocket:
+    def defect(given: Defect) -> Defect:
         row = given.row if backwards else 1 - given.row
         if isinstance(given, Patch):
             azimuth = -given.azimuth if backwards else given.azimuth

@@ -12,7 +12,7 @@ from scipy.signal import butter, hilbert, sosfiltfilt
 
 from beardyn_core.bearing.kinematics import FaultFrequencies, fault_frequencies
 from beardyn_core.config import load_scene
-from beardyn_core.observe.diagnosis import MonitorResult
+from beardyn_core.observe.chain import MonitorResult
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.rail.build import load_history
 from beardyn_core.twin import Twin

@@ -6,7 +6,7 @@ from beardyn_core.record.messages import decode_diagnostics
 from beardyn_core.study.finding import Finding
 from test.ros.graph import Graph
 
-ALLOWED = {"/axlebox/vibration", "/axlebox/shaft", "/axlebox/load/blocks", "/axlebox/load/wrench"}
+ALLOWED = {f"/axlebox/{name}" for name in ("vibration", "shaft", "load/blocks", "load/wrench", "temperature")}
 HOUSEKEEPING = {"/diagnostics", "/parameter_events"}
 
 
@@ -30,6 +30,30 @@ def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_
     assert abs(last.deviation) < 0.01
     assert last.signal_to_background > 10.0
     assert statuses[0].value("verdict") == "waiting"
+
+
+def test_algorithm_of_ones_own_takes_the_place_of_the_chain(graph: Graph) -> None:
+    graph.listen("monitor/result")
+    graph.fake_twin(speed_factor=4.0)
+    graph.node_process("monitor", bearing="HS130x230", algorithm="test.ros.always_roller:always")
+    graph.until(
+        lambda: any(status.value("connected") == "true" for status in graph.statuses("monitor")),
+        "the monitor's connection",
+    )
+    graph.fake_load(duration=2.0)
+    assert graph.exit_code("monitor") == 0
+    last = decode_diagnostics(graph.messages["monitor/result"][-1])[1][0]
+    assert (last.value("verdict"), last.message) == ("roller", "always says so")
+
+
+def test_unknown_algorithm_and_bearing_are_refused_together(graph: Graph) -> None:
+    graph.node_process("monitor", bearing="HS999", algorithm="no_such_module:chain")
+    assert graph.exit_code("monitor") == 2
+    log = graph.processes.log("monitor")
+    assert "parameter 'bearing'" in log
+    assert "parameter 'algorithm'" in log
+    assert "no_such_module" in log
+    assert "Traceback" not in log
 
 
 def test_unknown_bearing_is_refused_with_the_known_ones(graph: Graph) -> None:

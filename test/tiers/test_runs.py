@@ -12,7 +12,7 @@ import pytest
 from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
 from beardyn_core.config import load_scene
 from beardyn_core.config.load import scene_from_text
-from beardyn_core.observe.diagnosis import MonitorResult
+from beardyn_core.observe.chain import MonitorResult
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene

@@ -1,0 +1,148 @@
+"""``beardyn trial``: a monitor put on trial over a matrix of scenes."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from beardyn_core.errors import InputError
+
+if TYPE_CHECKING:
+    from beardyn_core.scene.trial import Trial
+    from beardyn_core.study.trial_result import TrialResult
+    from beardyn_core.study.trial_run import TrialRun
+
+DONE, INTERRUPTED = 0, 130
+_MOST_JOBS = 256
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "trial",
+        help="a monitor on trial: detection rate and false alarms over a matrix of scenes",
+        description="Run a monitor, ours or your own, over faults, sizes, speeds, tracks and wheels, and "
+        "print how often it finds the fault, how often it alarms on a healthy bearing, and the smallest "
+        "spall it finds, with 95 % intervals. `quick` takes under a minute, `default` some minutes on two "
+        "cores, and a minute more for every set of effects that is not compiled yet. "
+        "With -o a run that is done is kept, and an interrupted trial goes on where it was.",
+    )
+    parser.add_argument(
+        "matrix", metavar="TRIAL", nargs="?", default="default", help="shipped trial or YAML file (default)"
+    )
+    parser.add_argument(
+        "--monitor",
+        metavar="MODULE:FUNCTION",
+        default="",
+        help="your algorithm; its module may be in this folder",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="keep the runs here; write trial.json and trial.png"
+    )
+    parser.add_argument("--jobs", metavar="N", type=int, help="processes (one a core)")
+    parser.add_argument("--tier", help="instead of the trial's: lumped, quasistatic or full")
+    parser.add_argument("--seed", metavar="N", type=int, help="instead of the trial's")
+    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from beardyn_core.config.trial_file import load_trial
+    from beardyn_core.study.trial import conduct, plan_of, warm
+    from beardyn_core.study.trial_report import json_object, table
+    from beardyn_core.study.trial_result import TrialResult
+
+    problems = option_problems(args)
+    try:
+        trial = load_trial(args.matrix, tier=args.tier, seed=args.seed)
+    except InputError as error:
+        raise InputError([*error.problems, *problems]) from None
+    if problems:
+        raise InputError(problems)
+    plan = plan_of(trial, args.monitor, args.output)
+    folder = _made(args.output)
+    jobs = args.jobs or len(os.sched_getaffinity(0))
+    if plan.kept:
+        print(f"beardyn: {len(plan.kept)} of {len(trial.cells())} runs were done before", file=sys.stderr)
+    if plan.missing:
+        warm(trial)
+    progress = _Bar(trial, len(plan.kept))
+    interrupted = False
+    try:
+        runs = conduct(plan, folder, jobs, progress)
+    except KeyboardInterrupt:
+        interrupted = True
+        runs = [*plan.kept.values(), *progress.runs]
+    finally:
+        progress.close()
+    result = TrialResult.of(trial, args.monitor, runs)
+    found = json_object(result)
+    if folder is not None and not interrupted:
+        _write(result, found, folder)
+    print(json.dumps(found) if args.json else table(result))
+    if interrupted:
+        again = "the same command goes on from here" if folder else "with -o a trial can be taken up again"
+        print(f"beardyn: interrupted after {len(runs)} runs; {again}", file=sys.stderr)
+    return INTERRUPTED if interrupted else DONE
+
+
+def option_problems(args: argparse.Namespace) -> list[str]:
+    """What is wrong with the options; nothing is created."""
+    problems = []
+    if args.jobs is not None and not 1 <= args.jobs <= _MOST_JOBS:
+        problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")
+    folder = args.output
+    if folder is None:
+        return problems
+    if folder.exists() and not folder.is_dir():
+        problems.append(f"--output {folder}: is a file; give the name of a folder")
+    elif not folder.is_dir() and not folder.parent.is_dir():
+        problems.append(f"--output {folder}: the folder {folder.parent} does not exist; create it first")
+    elif not os.access(folder if folder.is_dir() else folder.parent, os.W_OK):
+        problems.append(f"--output {folder}: cannot be written; choose a folder you may write to")
+    return problems
+
+
+def _made(folder: Path | None) -> Path | None:
+    if folder is not None:
+        folder.mkdir(exist_ok=True)
+    return folder
+
+
+def _write(result: TrialResult, found: dict[str, object], folder: Path) -> None:
+    from beardyn_core.study.trial_picture import trial_picture
+
+    try:
+        (folder / "trial.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        trial_picture(result, folder / "trial.png")
+    except OSError as error:
+        raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None
+
+
+class _Bar:
+    """Progress with the time left; told of every run that ends."""
+
+    def __init__(self, trial: Trial, kept: int) -> None:
+        from tqdm import tqdm
+
+        self.runs: list[TrialRun] = []
+        self._bar = tqdm(
+            total=len(trial.cells()),
+            initial=kept,
+            bar_format="{bar:30} {n_fmt}/{total_fmt} runs{postfix} [{elapsed}<{remaining}]",
+            disable=None,
+            leave=False,
+        )
+
+    def __call__(self, run: TrialRun) -> None:
+        self.runs.append(run)
+        self._bar.set_postfix_str(run.key.rpartition(", run")[0], refresh=False)
+        self._bar.update(1)
+
+    def close(self) -> None:
+        self._bar.close()

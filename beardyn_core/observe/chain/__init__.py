@@ -1,0 +1,40 @@
+"""The reference monitoring chain, one step a module, in the order of the data.
+
+settings     what can be tuned
+stretch      what an algorithm is given: vibration, shaft angle, load, temperature
+kurtogram    select_band: where the spectral kurtosis is largest
+tracking     envelope, and track: order tracking by the shaft angle
+wheel        what turns with the wheel (flats, polygons) is taken out
+fault_lines  score: power on the lines of each fault against noise, and the threshold
+levels       RMS, kurtosis, crest factor and their trend
+hot_box      the temperature rule
+verdict      decide
+result       what an algorithm answers
+chain        `Chain`: the steps put together, each replaceable
+named        an algorithm by its name ``module:function``
+"""
+
+from beardyn_core.observe.chain.chain import REFERENCE, Algorithm, Chain
+from beardyn_core.observe.chain.fault_lines import FAULTS, FaultLines, Line
+from beardyn_core.observe.chain.kurtogram import Band
+from beardyn_core.observe.chain.named import algorithm_named
+from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
+from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.chain.stretch import Stretch
+from beardyn_core.observe.chain.verdict import Verdict
+
+__all__ = [
+    "FAULTS",
+    "REFERENCE",
+    "VERDICTS",
+    "Algorithm",
+    "Band",
+    "Chain",
+    "FaultLines",
+    "Line",
+    "MonitorResult",
+    "MonitorSettings",
+    "Stretch",
+    "Verdict",
+    "algorithm_named",
+]

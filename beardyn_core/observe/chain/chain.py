@@ -1,0 +1,114 @@
+"""The chain: five plain functions in the order of the data, each of which can be replaced."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
+from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
+from beardyn_core.observe.chain.levels import levels_in_band, rise
+from beardyn_core.observe.chain.result import MonitorResult
+from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.chain.stretch import Stretch
+from beardyn_core.observe.chain.tracking import by_angle, squared_envelope
+from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
+
+Float = NDArray[np.float64]
+
+Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorResult]
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A monitoring algorithm in five steps; calling it analyses a stretch.
+
+    Parameters
+    ----------
+    select_band : function (stretch, settings) -> Band
+        Where to listen.
+    envelope : function (stretch, band) -> float64 array, shape [sample]
+        How loud it is there.
+    track : function (power, stretch, settings) -> float64 array, shape [step]
+        The same evenly over the angle of the shaft.
+    score : function (tracked, orders, roller_count, shaft_frequency, settings) -> FaultLines
+        How much of it is on the lines of each fault.
+    decide : function (found, stretch, settings) -> Verdict
+        What to call.
+
+    References
+    ----------
+    Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
+    Process. 25: the same order of steps.
+    """
+
+    select_band: Callable[[Stretch, MonitorSettings], Band] = by_kurtogram
+    envelope: Callable[[Stretch, Band], Float] = squared_envelope
+    track: Callable[[Float, Stretch, MonitorSettings], Float] = by_angle
+    score: Callable[[Float, FaultFrequencies, int, float, MonitorSettings], FaultLines] = comb_score
+    decide: Callable[[FaultLines, Stretch, MonitorSettings], Verdict] = strongest_pattern
+
+    def __call__(
+        self, stretch: Stretch, orders: FaultFrequencies, roller_count: int, settings: MonitorSettings
+    ) -> MonitorResult:
+        """Analyse one stretch of vibration.
+
+        Parameters
+        ----------
+        stretch : Stretch
+        orders : FaultFrequencies
+            Of one row, per shaft revolution, from geometry.
+        roller_count : int
+            Rollers of one row.
+        settings : MonitorSettings
+
+        Returns
+        -------
+        MonitorResult
+        """
+        speed = stretch.shaft_frequency
+        band = self.select_band(stretch, settings)
+        power = self.envelope(stretch, band)
+        tracked = self.track(power, stretch, settings)
+        found = self.score(tracked, orders, roller_count, speed, settings)
+        verdict = self.decide(found, stretch, settings)
+        levels = levels_in_band(stretch.acceleration, stretch.rate, settings.band, speed)
+        best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
+        return MonitorResult(
+            verdict=verdict.name,
+            reason=verdict.reason,
+            end_ns=stretch.end_ns,
+            fault_order=best.order if called else np.nan,
+            fault_frequency=best.order * speed if called else np.nan,
+            expected_order=best.pattern.order if called else np.nan,
+            expected_frequency=best.pattern.order * speed if called else np.nan,
+            score=best.score,
+            threshold=best.threshold,
+            scores=_three([candidate.score for candidate in found.candidates]),
+            lines=best.lines,
+            strongest_order=found.strongest_order,
+            strongest_level=found.strongest_level,
+            band=(band.low, band.high),
+            rms=levels.rms,
+            kurtosis=levels.kurtosis,
+            crest=levels.crest,
+            rms_rise=rise(levels, stretch.earlier),
+            shaft_frequency=speed,
+            revolutions=stretch.revolutions,
+            load=stretch.load,
+            temperature=stretch.temperature,
+            temperature_state=verdict.temperature_state,
+            spectrum=found.spectrum,
+        )
+
+
+def _three(scores: list[float]) -> tuple[float, float, float]:
+    cup, cone, roller = scores
+    return cup, cone, roller
+
+
+REFERENCE = Chain()

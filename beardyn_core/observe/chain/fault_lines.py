@@ -1,0 +1,311 @@
+"""Fault-line scoring: how much power stands on the lines of each fault, against what noise has there.
+
+The threshold follows from a stated false-alarm rate. In stationary noise the squared envelope has a smooth
+spectrum whose lines are independent and, over their local mean, exponentially distributed. The score of a
+fault adds the L lines of its pattern but the strongest: one line alone, from whatever source, proves nothing.
+By Renyi's representation that is a sum of L - 1 exponentials with means (L - i) / (L - i + 1), whose tail is
+known. It is sought over the tolerance of the fault frequency and for three faults, so the rate is shared
+among all independent places.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from math import log, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.stats import norm
+
+from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.features import OrderSpectrum, line_at, order_spectrum
+
+Float = NDArray[np.float64]
+
+FAULTS = ("cup", "cone", "roller")
+LINE_LEVEL = 9.0  # over the median background, from which a single line is listed, [dB]
+# of the search for the strongest line, in multiples of the roller count: above the cage's own orders
+_LOWEST_ORDER = 0.3
+# lines a resolution apart are correlated by the window, and peaks lie between them
+_PLACES_PER_RESOLUTION = 3.0
+_NOTHING = -300.0  # [dB]
+_LARGEST_TOTAL = 300.0  # passed by noise once in e^300 places
+_MEDIAN_OVER_MEAN = np.log(2.0)  # of an exponential distribution
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line that was looked for and found in the envelope order spectrum.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``2 x BPFO`` or ``BPFI - shaft``.
+    order, expected_order : float
+        Cycles per shaft revolution, found and from geometry, [-].
+    frequency : float
+        At the mean shaft speed, [Hz].
+    level : float
+        Over the background, [dB].
+    """
+
+    name: str
+    order: float
+    expected_order: float
+    frequency: float
+    level: float
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """Where a fault puts its lines: harmonics of one order, with sidebands.
+
+    Parameters
+    ----------
+    fault, symbol : str
+    order : float
+        [-].
+    sideband : float
+        Distance of the sidebands, [-].
+    sideband_symbol : str
+    sidebands : int
+        How many on each side are added up.
+    explained : int
+        How many on each side may belong to the fault.
+    """
+
+    fault: str
+    symbol: str
+    order: float
+    sideband: float
+    sideband_symbol: str
+    sidebands: int
+    explained: int
+
+    def lines(self, harmonics: int) -> list[tuple[int, int]]:
+        """Harmonic and sideband number of each line."""
+        beside = range(-self.sidebands, self.sidebands + 1)
+        return [(h, k) for h in range(1, harmonics + 1) for k in beside]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A pattern laid over a spectrum.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    order : float
+        Where its fundamental fits best, [-].
+    score : float
+        Mean power of its lines but the strongest, over that of noise, not below 0, [dB].
+    threshold : float
+        Score that noise passes with the stated rate, [dB].
+    strongest : float
+        Level of its strongest line, [dB].
+    lines : tuple of Line
+        Those that stand out one by one.
+    """
+
+    pattern: Pattern
+    order: float
+    score: float
+    threshold: float
+    strongest: float
+    lines: tuple[Line, ...]
+
+
+@dataclass(frozen=True)
+class FaultLines:
+    """What the spectrum holds.
+
+    Parameters
+    ----------
+    spectrum : OrderSpectrum
+    candidates : tuple of Candidate
+        One for each of `FAULTS`.
+    strongest_order, strongest_level : float
+        Strongest line in the band of the fault lines, beside the whole orders, [-], [dB].
+    chance_level : float
+        Level that the strongest line of noise passes with the stated rate, [dB].
+    """
+
+    spectrum: OrderSpectrum
+    candidates: tuple[Candidate, ...]
+    strongest_order: float
+    strongest_level: float
+    chance_level: float
+
+
+def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
+    """Patterns of cup, cone and roller faults.
+
+    References
+    ----------
+    Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
+    Process. 25, section 2 (signatures).
+    """
+    return (
+        Pattern("cup", "BPFO", orders.bpfo, 1.0, "shaft", 0, 0),
+        Pattern("cone", "BPFI", orders.bpfi, 1.0, "shaft", 1, 4),
+        Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4),
+    )
+
+
+def comb_score(
+    tracked: Float,
+    orders: FaultFrequencies,
+    roller_count: int,
+    shaft_frequency: float,
+    settings: MonitorSettings,
+) -> FaultLines:
+    """Score of every fault in power over the angle of the shaft.
+
+    Parameters
+    ----------
+    tracked : float64 array, shape [step]
+        Evenly in angle.
+    orders : FaultFrequencies
+        Of one row, per shaft revolution, from geometry.
+    roller_count : int
+    shaft_frequency : float
+        [Hz].
+    settings : MonitorSettings
+
+    Returns
+    -------
+    FaultLines
+    """
+    patterns = fault_patterns(orders)
+    rate = settings.false_alarm_rate / len(patterns)
+    low = _LOWEST_ORDER * roller_count
+    high = max(
+        p.order * settings.harmonics * (1.0 + settings.tolerance) + p.explained * p.sideband for p in patterns
+    )
+    spectrum = order_spectrum(tracked, settings.samples_per_revolution, high, settings.background_width)
+    beside = _beside_wheel(spectrum)
+    strongest = line_at(beside, 0.5 * (low + high), 0.5 * (high - low))
+    places = _PLACES_PER_RESOLUTION * (high - low) / spectrum.resolution
+    return FaultLines(
+        spectrum=spectrum,
+        candidates=tuple(_lay(pattern, beside, shaft_frequency, rate, settings) for pattern in patterns),
+        strongest_order=strongest[0],
+        strongest_level=strongest[1],
+        chance_level=_level(np.log(places / settings.false_alarm_rate)),
+    )
+
+
+@cache
+def threshold(lines: int, places: float, rate: float) -> float:
+    """Score that noise passes somewhere with a given rate.
+
+    Parameters
+    ----------
+    lines : int
+        Of the pattern, L.
+    places : float
+        Independent places where the pattern is sought.
+    rate : float
+        [-].
+
+    Returns
+    -------
+    float
+        [dB].
+    """
+    wanted = min(log(rate / places), log(trimmed_tail(lines, lines)))
+    total = brentq(lambda total: log(trimmed_tail(total, lines)) - wanted, lines, lines + _LARGEST_TOTAL)
+    return float(10.0 * np.log10(total / (lines - 1)))
+
+
+def trimmed_tail(total: float, lines: int) -> float:
+    """Probability that L exponentials of mean 1, less the largest, sum to more than a total.
+
+    Parameters
+    ----------
+    total : float
+        Beyond the mean of the sum.
+    lines : int
+        L.
+
+    References
+    ----------
+    Renyi (1953), On the theory of order statistics, Acta Math. Acad. Sci. Hung. 4: the representation.
+    Lugannani, Rice (1980), Saddle point approximation for the distribution of the sum of independent
+    random variables, Adv. Appl. Prob. 12: the tail.
+    """
+    means = 1.0 - 1.0 / np.arange(2.0, lines + 1.0)
+    saddle = float(
+        brentq(lambda t: np.sum(means / (1.0 - t * means)) - total, 1e-9, (1.0 - 1e-9) / means.max())
+    )
+    cumulant = -float(np.sum(np.log1p(-saddle * means)))
+    signed = sqrt(2.0 * (saddle * total - cumulant))
+    scaled = saddle * sqrt(float(np.sum((means / (1.0 - saddle * means)) ** 2)))
+    return float(norm.sf(signed) + norm.pdf(signed) * (1.0 / scaled - 1.0 / signed))
+
+
+def reach(order: float, resolution: float) -> float:
+    """How far from its place a line of a found pattern may lie: resolution and slow cage slip."""
+    return min(resolution + 0.003 * order, 0.25)
+
+
+def explains(candidate: Candidate, order: float, resolution: float) -> bool:
+    """Whether a line belongs to the pattern with its sidebands."""
+    pattern = candidate.pattern
+    for k in range(-pattern.explained, pattern.explained + 1):
+        carrier = order - k * pattern.sideband
+        h = max(1, round(carrier / candidate.order))
+        if abs(carrier - h * candidate.order) <= reach(order, resolution):
+            return True
+    return False
+
+
+def _lay(
+    pattern: Pattern, spectrum: OrderSpectrum, shaft_frequency: float, rate: float, settings: MonitorSettings
+) -> Candidate:
+    """Slide the pattern over the tolerance, keep the best place and list its lines."""
+    harmonics, resolution = settings.harmonics, spectrum.resolution
+    places = np.array(pattern.lines(harmonics))
+    half = settings.tolerance * pattern.order
+    trial = np.arange(pattern.order - half, pattern.order + half, 0.25 * resolution / harmonics)
+    wanted = trial[:, None] * places[:, 0] + pattern.sideband * places[:, 1]
+    index = np.rint(wanted / spectrum.order[1]).astype(int)
+    power = _MEDIAN_OVER_MEAN * 10.0 ** (0.1 * spectrum.level[np.minimum(index, len(spectrum.level) - 1)])
+    summed = power.sum(axis=1) - power.max(axis=1)
+    best = int(np.argmax(summed))
+    order = float(trial[best])
+    count = len(places)
+    independent = max(1.0, _PLACES_PER_RESOLUTION * 2.0 * half * harmonics / resolution)
+    lines = []
+    for h, k in places.tolist():
+        where = h * order + k * pattern.sideband
+        found, level = line_at(spectrum, where, reach(where, resolution))
+        expected = h * pattern.order + k * pattern.sideband
+        lines.append(Line(_name(pattern, h, k), found, expected, found * shaft_frequency, level))
+    return Candidate(
+        pattern=pattern,
+        order=order,
+        score=float(10.0 * np.log10(max(1.0, summed[best] / (count - 1)))),
+        threshold=threshold(count, round(independent, 1), rate),
+        strongest=max(line.level for line in lines),
+        lines=tuple(line for line in lines if line.level >= LINE_LEVEL),
+    )
+
+
+def _beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
+    """Spectrum without its whole orders, where a wheel whose strikes wax and wane leaves a rest."""
+    whole = np.abs(spectrum.order - np.round(spectrum.order)) <= 2.0 * spectrum.resolution
+    return replace(spectrum, level=np.where(whole, _NOTHING, spectrum.level))
+
+
+def _name(pattern: Pattern, harmonic: int, side: int) -> str:
+    carrier = pattern.symbol if harmonic == 1 else f"{harmonic} x {pattern.symbol}"
+    return f"{carrier} {'-' if side < 0 else '+'} {pattern.sideband_symbol}" if side else carrier
+
+
+def _level(power_over_mean: float) -> float:
+    """Level over the median background of a power over the mean one, [dB]."""
+    return float(10.0 * np.log10(power_over_mean / _MEDIAN_OVER_MEAN))

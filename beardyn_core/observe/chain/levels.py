@@ -1,0 +1,84 @@
+"""RMS, kurtosis and crest factor, and how the RMS rose against the stretches before."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.observe.features import analytic_band, kurtosis
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Levels of the vibration in a fixed band.
+
+    Parameters
+    ----------
+    rms : float
+        Of all axes together, [m/s^2].
+    kurtosis : float
+        The largest of the axes, 3 for noise, [-].
+    crest : float
+        Peak over RMS, the largest of the axes, [-].
+    shaft_frequency : float
+        Mean, [Hz].
+    """
+
+    rms: float = np.nan
+    kurtosis: float = np.nan
+    crest: float = np.nan
+    shaft_frequency: float = np.nan
+
+
+def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], speed: float) -> Levels:
+    """Levels of a signal.
+
+    Parameters
+    ----------
+    acceleration : float64 array, shape [sample, axis]
+        [m/s^2].
+    rate : float
+        [Hz].
+    band : tuple of 2 floats
+        [Hz].
+    speed : float
+        Of the shaft, [Hz].
+
+    Returns
+    -------
+    Levels
+    """
+    passed = analytic_band(acceleration, rate, band).real
+    power = np.mean(passed**2, axis=0)
+    peak = np.abs(passed).max(axis=0)
+    return Levels(
+        rms=float(np.sqrt(power.sum())),
+        kurtosis=max(kurtosis(axis) for axis in passed.T),
+        crest=float(np.max(peak / np.sqrt(np.maximum(power, 1e-300)))),
+        shaft_frequency=speed,
+    )
+
+
+def rise(levels: Levels, earlier: Sequence[Levels], like: float = 0.1) -> float:
+    """RMS over the median of earlier stretches at a like speed; NaN with fewer than three, [dB].
+
+    Parameters
+    ----------
+    levels : Levels
+    earlier : sequence of Levels
+    like : float
+        Difference of speed within which stretches are compared, [-].
+    """
+    comparable = [
+        other.rms
+        for other in earlier
+        if abs(other.shaft_frequency - levels.shaft_frequency) <= like * levels.shaft_frequency
+    ]
+    if len(comparable) < 3 or not levels.rms > 0.0:
+        return float("nan")
+    return float(20.0 * np.log10(levels.rms / np.median(comparable)))

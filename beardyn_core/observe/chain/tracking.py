@@ -1,0 +1,56 @@
+"""Envelope and order tracking: from vibration in time to power over the angle of the shaft."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.observe.chain.kurtogram import Band
+from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.chain.stretch import Stretch
+from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
+from beardyn_core.observe.features import envelope, resample_by_angle
+
+Float = NDArray[np.float64]
+
+
+def squared_envelope(stretch: Stretch, band: Band) -> Float:
+    """Squared envelope of the band, summed over the axes.
+
+    Parameters
+    ----------
+    stretch : Stretch
+    band : Band
+
+    Returns
+    -------
+    float64 array, shape [sample]
+        [m^2/s^4].
+
+    References
+    ----------
+    Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
+    Process. 25, section 4.3: the squared envelope has no harmonics of its own making.
+    """
+    return envelope(stretch.acceleration, stretch.rate, (band.low, band.high)) ** 2
+
+
+def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float:
+    """Power over equal steps of the shaft angle, whole revolutions, less what the wheel itself does.
+
+    Parameters
+    ----------
+    power : float64 array, shape [sample]
+        Squared envelope.
+    stretch : Stretch
+    settings : MonitorSettings
+
+    Returns
+    -------
+    float64 array, shape [step]
+    """
+    count = settings.samples_per_revolution
+    steps = resample_by_angle(power, stretch.shaft_angle, count)
+    whole = len(steps) // count
+    struck = struck_sectors(stretch, settings)
+    return without_wheel(steps[: whole * count].reshape(whole, count), struck).reshape(-1)

@@ -1,0 +1,90 @@
+"""The verdict: which fault is called, and the sentence that says why."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines, explains
+from beardyn_core.observe.chain.hot_box import HOT, UNKNOWN, temperature_state
+from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.chain.stretch import Stretch
+
+HEALTHY, HOT_BOX = "healthy", "hot_box"
+_ZERO_CELSIUS = 273.15
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is called.
+
+    Parameters
+    ----------
+    name : str
+        ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``.
+    reason : str
+        In a sentence.
+    best : Candidate
+        The strongest candidate, or the one that is called.
+    temperature_state : str
+        ``unknown``, ``normal``, ``warm`` or ``hot``.
+    """
+
+    name: str
+    reason: str
+    best: Candidate
+    temperature_state: str = UNKNOWN
+
+
+def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
+    """Call the fault whose score is most over its threshold, if any is and nothing stronger contradicts.
+
+    A contradiction is a line that is no chance, stronger than all of the fault's and not one of them: then
+    something else is periodic. A hot box is called whatever the lines say; it leaves a fault its name.
+
+    Parameters
+    ----------
+    found : FaultLines
+    stretch : Stretch
+    settings : MonitorSettings
+
+    Returns
+    -------
+    Verdict
+    """
+    best = max(found.candidates, key=lambda candidate: candidate.score - candidate.threshold)
+    contradicted = found.strongest_level > max(found.chance_level, best.strongest) and not explains(
+        best, found.strongest_order, found.spectrum.resolution
+    )
+    state = temperature_state(stretch.temperature, stretch.heating, settings)
+    if best.score >= best.threshold and not contradicted:
+        name, reason = best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency)
+    else:
+        name, reason = HEALTHY, _healthy_sentence(best, contradicted, found.strongest_order)
+    if state == HOT:
+        name = HOT_BOX if name == HEALTHY else name
+        reason = f"{_hot_sentence(stretch)}; {reason}"
+    return Verdict(name, reason, best, state)
+
+
+def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
+    expected = best.pattern.order
+    deviation = 100.0 * (best.order / expected - 1.0)
+    return (
+        f"{best.pattern.fault} fault: {best.pattern.symbol} found at {best.order * shaft_frequency:.2f} Hz, "
+        f"{expected * shaft_frequency:.2f} Hz from geometry ({deviation:+.2f} %), "
+        f"its lines {best.score:.1f} dB over noise, the alarm is at {best.threshold:.1f} dB"
+    )
+
+
+def _healthy_sentence(best: Candidate, contradicted: bool, strongest_order: float) -> str:
+    said = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
+    if contradicted and best.score >= best.threshold:
+        return f"no fault: {said}, but order {strongest_order:.3f} is stronger and belongs to none"
+    return f"no fault: {said}"
+
+
+def _hot_sentence(stretch: Stretch) -> str:
+    return (
+        f"hot box: {stretch.temperature - _ZERO_CELSIUS:.0f} °C, "
+        f"rising by {60.0 * stretch.heating:.1f} K a minute"
+    )

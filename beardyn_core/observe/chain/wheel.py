@@ -1,0 +1,80 @@
+"""What the wheel does at each of its angles: flats, polygons and whatever else turns with the shaft."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.chain.stretch import Stretch
+from beardyn_core.observe.features import envelope
+
+Float = NDArray[np.float64]
+Bool = NDArray[np.bool_]
+
+SECTORS = 64
+# power of a sector over that of the usual one: a strike, and its ringing beside
+_STRIKE, _RINGING = 10.0, 1.3
+_LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
+
+
+def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
+    """Sectors of the wheel in which it strikes the rail in three of four revolutions.
+
+    Parameters
+    ----------
+    stretch : Stretch
+    settings : MonitorSettings
+
+    Returns
+    -------
+    bool array, shape [sector]
+        From the shaft angle at the start of the stretch on.
+
+    Notes
+    -----
+    A sector is struck where the lower quartile of its power over the revolutions is ten times that of the
+    usual sector; sectors beside that still ring belong to it. A flat comes back at the same angle each time.
+    A spall on the cone is loud in one half of the revolution too, but its strikes lie elsewhere in each, and
+    between them is noise: the quartile stays low.
+    """
+    turned = (stretch.shaft_angle - stretch.shaft_angle[0]) / (2.0 * np.pi)
+    revolutions = int(turned[-1])
+    if revolutions < _LEAST_REVOLUTIONS:
+        return np.zeros(SECTORS, dtype=bool)
+    power = envelope(stretch.acceleration, stretch.rate, settings.strike_band) ** 2
+    sums = np.concatenate(([0.0], np.cumsum(power)))
+    edges = np.searchsorted(turned, np.arange(revolutions * SECTORS + 1) / SECTORS)
+    means = np.diff(sums[edges]) / np.maximum(np.diff(edges), 1)
+    quartile = np.quantile(means.reshape(revolutions, SECTORS), 0.25, axis=0)
+    usual = np.median(quartile)
+    struck, ringing = quartile > _STRIKE * usual, quartile > _RINGING * usual
+    for _ in range(SECTORS):
+        struck = struck | (ringing & (np.roll(struck, 1) | np.roll(struck, -1)))
+    return struck
+
+
+def without_wheel(power: Float, struck: Bool) -> Float:
+    """Deviation from the wheel's own pattern, 0 where it strikes.
+
+    The mean over the revolutions at each angle holds all that comes back with the shaft: every whole
+    order. No bearing fault has one.
+
+    Parameters
+    ----------
+    power : float64 array, shape [revolution, step]
+        Squared envelope over the angle of the shaft; a multiple of `SECTORS` steps.
+    struck : bool array, shape [sector]
+
+    Returns
+    -------
+    float64 array, shape [revolution, step]
+
+    References
+    ----------
+    Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal Process.
+    25, section 3.1 (time synchronous averaging).
+    """
+    rest = power - power.mean(axis=0)
+    rest[:, np.repeat(struck, power.shape[1] // SECTORS)] = 0.0
+    return rest

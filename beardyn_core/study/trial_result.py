@@ -1,0 +1,243 @@
+"""What a trial came to: rates with their intervals, smallest sizes, and the tiers side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from statistics import median
+
+from scipy.stats import binomtest
+
+from beardyn_core.observe.chain import FAULTS as PARTS
+from beardyn_core.scene.trial import HEALTHY, Cell, Trial
+from beardyn_core.study.trial_run import TrialRun
+
+CONFIDENCE = 0.95
+FOUND_AT = 0.9  # detection rate from which a size counts as found
+
+
+@dataclass(frozen=True)
+class Rate:
+    """How often something happened, with the interval of its probability.
+
+    Parameters
+    ----------
+    count, total : int
+    low, high : float
+        95 % interval, [-].
+
+    References
+    ----------
+    Clopper, Pearson (1934), The use of confidence or fiducial limits illustrated in the case of the
+    binomial, Biometrika 26: the exact interval.
+    """
+
+    count: int
+    total: int
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, count: int, total: int) -> Rate:
+        """Rate of a count; everything is possible when there was nothing to count."""
+        if total == 0:
+            return cls(0, 0, 0.0, 1.0)
+        interval = binomtest(count, total).proportion_ci(CONFIDENCE, method="exact")
+        return cls(count, total, float(interval.low), float(interval.high))
+
+    @property
+    def value(self) -> float:
+        """Count over total, NaN without any."""
+        return self.count / self.total if self.total else float("nan")
+
+
+@dataclass(frozen=True)
+class SizeRow:
+    """Runs with a spall of one size on one part.
+
+    Parameters
+    ----------
+    fault : str
+    size : float
+        [m].
+    found : Rate
+        The right part named.
+    wrong : int
+        Another part named.
+    score : tuple of 3 floats
+        Smallest, median and largest of the part's own score, [dB].
+    """
+
+    fault: str
+    size: float
+    found: Rate
+    wrong: int
+    score: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Smallest:
+    """Smallest size of a fault that is found.
+
+    Parameters
+    ----------
+    fault : str
+    size : float or None
+        From which on every size is found in at least 90 % of the runs, [m].
+    low, high : float or None
+        The same for the upper and the lower limits of the rates: the interval of the size, [m]; ``None``:
+        beyond the largest of the trial.
+    """
+
+    fault: str
+    size: float | None
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True)
+class TrialResult:
+    """What a trial came to.
+
+    Parameters
+    ----------
+    trial : Trial
+    algorithm : str
+    runs : tuple of (Cell, TrialRun)
+        Those of the matrix.
+    checks : tuple of (Cell, TrialRun)
+        Those in the tier of the check.
+    """
+
+    trial: Trial
+    algorithm: str
+    runs: tuple[tuple[Cell, TrialRun], ...]
+    checks: tuple[tuple[Cell, TrialRun], ...]
+
+    @classmethod
+    def of(cls, trial: Trial, algorithm: str, runs: Sequence[TrialRun]) -> TrialResult:
+        """Result of the runs there are."""
+        by_key = {run.key: run for run in runs}
+        pairs = [(cell, by_key[cell.key]) for cell in trial.cells() if cell.key in by_key]
+        return cls(
+            trial,
+            algorithm,
+            tuple(pair for pair in pairs if not pair[0].checks),
+            tuple(pair for pair in pairs if pair[0].checks),
+        )
+
+    @property
+    def invalid(self) -> tuple[tuple[Cell, TrialRun], ...]:
+        """Runs that left the model's validity; no rate counts them."""
+        return tuple(pair for pair in (*self.runs, *self.checks) if not pair[1].complete)
+
+    def false_alarms(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
+        """Healthy runs in which at least one analysis called a fault."""
+        return false_alarms(_chosen(self.runs, where))
+
+    def false_analyses(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
+        """Analyses of healthy runs that called a fault."""
+        healthy = [run for cell, run in _chosen(self.runs, where) if cell.fault == HEALTHY]
+        return Rate.of(sum(run.alarms for run in healthy), sum(run.analyses for run in healthy))
+
+    def detection(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
+        """Faulty runs whose verdict names the part."""
+        return detection(_chosen(self.runs, where))
+
+    def sizes(self) -> list[SizeRow]:
+        """A row for every part and size."""
+        return [
+            _size_row(fault, size, [(c, r) for c, r in self.runs if (c.fault, c.size) == (fault, size)])
+            for fault in self.trial.faults
+            for size in self.trial.sizes
+        ]
+
+    def smallest(self) -> list[Smallest]:
+        """Smallest size found of every part."""
+        rows = self.sizes()
+        return [_smallest(fault, [row for row in rows if row.fault == fault]) for fault in self.trial.faults]
+
+    def agreement(self) -> Rate:
+        """Checked runs with the same verdict in both tiers."""
+        pairs = self.pairs()
+        return Rate.of(sum(own.verdict == other.verdict for _, own, other in pairs), len(pairs))
+
+    def score_differences(self) -> tuple[float, float, float]:
+        """Smallest, median and largest of score in the check less score in the matrix, faults found, [dB]."""
+        differences = [
+            own_score(cell, other) - own_score(cell, own)
+            for cell, own, other in self.pairs()
+            if cell.fault != HEALTHY and own.verdict == other.verdict == cell.fault
+        ]
+        return _spread(differences)
+
+    def pairs(self) -> list[tuple[Cell, TrialRun, TrialRun]]:
+        """Run of the matrix and run of the check, where there are both."""
+        own = {cell.conditions: run for cell, run in self.runs if run.complete}
+        return [
+            (cell, own[cell.conditions], run)
+            for cell, run in self.checks
+            if run.complete and cell.conditions in own
+        ]
+
+
+Pairs = Sequence[tuple[Cell, TrialRun]]
+
+
+def false_alarms(pairs: Pairs) -> Rate:
+    """Healthy runs in which at least one analysis called a fault."""
+    healthy = [run for cell, run in pairs if cell.fault == HEALTHY and run.complete]
+    return Rate.of(sum(run.alarms > 0 for run in healthy), len(healthy))
+
+
+def detection(pairs: Pairs) -> Rate:
+    """Faulty runs whose verdict names the part."""
+    faulty = [(cell, run) for cell, run in pairs if cell.fault != HEALTHY and run.complete]
+    return Rate.of(sum(run.verdict == cell.fault for cell, run in faulty), len(faulty))
+
+
+def own_score(cell: Cell, run: TrialRun) -> float:
+    """Score of the part that is spalled, [dB]."""
+    return run.scores[PARTS.index(cell.fault)]
+
+
+def _chosen(pairs: Pairs, where: Callable[[Cell], bool]) -> list[tuple[Cell, TrialRun]]:
+    return [(cell, run) for cell, run in pairs if run.complete and where(cell)]
+
+
+def _size_row(fault: str, size: float, pairs: Pairs) -> SizeRow:
+    complete = [(cell, run) for cell, run in pairs if run.complete]
+    scores = [own_score(cell, run) for cell, run in complete]
+    return SizeRow(
+        fault,
+        size,
+        detection(complete),
+        sum(run.verdict in PARTS and run.verdict != fault for _, run in complete),
+        _spread(scores),
+    )
+
+
+def _smallest(fault: str, rows: Sequence[SizeRow]) -> Smallest:
+    return Smallest(
+        fault,
+        _from_on(rows, lambda rate: rate.value),
+        _from_on(rows, lambda rate: rate.high),
+        _from_on(rows, lambda rate: rate.low),
+    )
+
+
+def _from_on(rows: Sequence[SizeRow], limit: Callable[[Rate], float]) -> float | None:
+    """Smallest size from which on a limit of the rate stays at or above 90 %."""
+    size = None
+    for row in sorted(rows, key=lambda row: -row.size):
+        if not limit(row.found) >= FOUND_AT:
+            break
+        size = row.size
+    return size
+
+
+def _spread(values: Sequence[float]) -> tuple[float, float, float]:
+    if not values:
+        nan = float("nan")
+        return nan, nan, nan
+    return min(values), median(values), max(values)

@@ -1,0 +1,181 @@
+"""Each step of the monitoring chain against signals whose answer is known."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.stats import binomtest
+
+from beardyn_core.errors import InputError
+from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
+from beardyn_core.observe.chain.fault_lines import comb_score, trimmed_tail
+from beardyn_core.observe.chain.hot_box import temperature_state
+from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram
+from beardyn_core.observe.chain.levels import levels_in_band, rise
+from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors, without_wheel
+from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
+
+
+def _stretch(fault: str | None, seed: int, **situation: object) -> Stretch:
+    _, angle, acceleration = _signal(fault, seed, **situation)
+    return Stretch(RATE, acceleration, angle, 8e4, 0)
+
+
+def _with_flat(stretch: Stretch) -> Stretch:
+    """A strike once a revolution through a resonance at 2.4 kHz, ten times the noise."""
+    revolution = stretch.shaft_angle / (2.0 * np.pi)
+    strikes = np.zeros(len(revolution))
+    strikes[np.searchsorted(revolution, np.arange(0.3, revolution[-1], 1.0))] = 1.0
+    decay = np.arange(200) / RATE
+    ringing = 100.0 * np.exp(-800.0 * decay) * np.sin(2.0 * np.pi * 2400.0 * decay)
+    added = np.convolve(strikes, ringing)[: len(strikes), None] * [0.3, 0.1, 1.0]
+    return replace(stretch, acceleration=stretch.acceleration + added)
+
+
+@pytest.mark.parametrize("fault", ["cup", "cone", "roller"])
+def test_kurtogram_finds_the_resonance_that_the_fault_excites(fault: str) -> None:
+    band = by_kurtogram(_stretch(fault, 20), SETTINGS)
+    assert band.low < 4500.0 < band.high
+    assert band.high - band.low < 5000.0
+    assert band.kurtosis > 5.0 * band.scatter
+
+
+def test_kurtosis_of_noise_is_zero_within_its_scatter_however_the_axes_correlate() -> None:
+    noise = np.random.default_rng(3).normal(size=(50_000, 3)) @ np.array(
+        [[1, 0.9, 0], [0, 1, 0.5], [0, 0, 2]]
+    )
+    angle = np.asarray(2.0 * np.pi * 19.0 * np.arange(50_000) / RATE, np.float64)
+    bands = fast_kurtogram(Stretch(RATE, noise, angle, 0.0, 0), 1500.0, SETTINGS)
+    assert len(bands) > 10
+    assert all(abs(band.kurtosis) < 5.0 * band.scatter for band in bands)
+    assert by_kurtogram(Stretch(RATE, noise, angle, 0.0, 0), SETTINGS) == Band(*SETTINGS.band)
+
+
+def test_strikes_of_a_flat_are_told_from_a_spalled_cone() -> None:
+    flat = struck_sectors(_with_flat(_stretch(None, 21)), SETTINGS)
+    assert flat[int(0.3 * SECTORS)]
+    assert 1 <= flat.sum() < SECTORS // 4
+    for fault in (None, "cup", "cone", "roller"):
+        assert not struck_sectors(_stretch(fault, 21), SETTINGS).any()
+
+
+def test_what_comes_back_with_the_shaft_is_taken_out_and_a_fault_stays() -> None:
+    turned = np.arange(50 * 256) / 256
+    wheel = 5.0 + 3.0 * np.cos(2.0 * np.pi * 20.0 * turned) + (turned % 1.0 < 0.1)
+    fault = np.cos(2.0 * np.pi * ORDERS.bpfo * turned)
+    rest = without_wheel((wheel + fault).reshape(50, 256), np.zeros(SECTORS, dtype=bool)).reshape(-1)
+    assert np.std(rest - fault) < 0.15
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_flat_wheel_raises_no_alarm_and_hides_no_spall(seed: int) -> None:
+    healthy = REFERENCE(_with_flat(_stretch(None, 30 + seed)), ORDERS, ROLLERS, SETTINGS)
+    assert healthy.verdict == "healthy", healthy.reason
+    assert healthy.crest > 10.0  # it is anything but quiet
+    spalled = REFERENCE(_with_flat(_stretch("cup", 30 + seed)), ORDERS, ROLLERS, SETTINGS)
+    assert spalled.verdict == "cup", spalled.reason
+
+
+@pytest.mark.parametrize("lines", [5, 15])
+def test_tail_of_the_trimmed_sum_is_that_of_drawn_exponentials(lines: int) -> None:
+    drawn = np.random.default_rng(1).exponential(size=(200_000, lines))
+    trimmed = drawn.sum(axis=1) - drawn.max(axis=1)
+    for share in (1e-1, 1e-2, 1e-3):
+        # the quantile of 200 and more draws scatters by 7 %
+        assert trimmed_tail(float(np.quantile(trimmed, 1.0 - share)), lines) == pytest.approx(share, rel=0.3)
+
+
+@pytest.mark.parametrize("revolutions", [15, 60])
+def test_false_alarms_in_noise_stay_below_the_stated_rate(revolutions: int) -> None:
+    """Upper 99.9 % limit; the statistic knows nothing of these draws."""
+    settings = MonitorSettings(samples_per_revolution=128, false_alarm_rate=0.1)
+    random = np.random.default_rng(revolutions)
+    alarms = 0
+    for _ in range(200):
+        found = comb_score(random.exponential(size=revolutions * 128), ORDERS, ROLLERS, 19.0, settings)
+        alarms += any(candidate.score >= candidate.threshold for candidate in found.candidates)
+    assert binomtest(alarms, 200, 0.1, alternative="greater").pvalue > 1e-3
+
+
+def test_threshold_rises_as_the_stated_rate_falls() -> None:
+    tracked = np.random.default_rng(0).exponential(size=30 * 128)
+    thresholds = []
+    for rate in (1e-2, 1e-4, 1e-6):
+        settings = MonitorSettings(samples_per_revolution=128, false_alarm_rate=rate)
+        found = comb_score(tracked, ORDERS, ROLLERS, 19.0, settings)
+        thresholds.append([candidate.threshold for candidate in found.candidates])
+    assert (np.diff(thresholds, axis=0) > 0.5).all()
+
+
+def test_one_line_alone_is_no_fault() -> None:
+    turned = np.arange(50 * 1024) / 1024
+    tracked = np.random.default_rng(2).exponential(size=len(turned)) + 3.0 * np.cos(
+        2 * np.pi * ORDERS.bpfo * turned
+    )
+    found = comb_score(tracked, ORDERS, ROLLERS, 19.0, SETTINGS)
+    cup = found.candidates[0]
+    assert found.strongest_level > 30.0
+    assert cup.score < cup.threshold
+
+
+def test_levels_of_a_sine_and_their_rise() -> None:
+    time = np.arange(25_600) / RATE
+    signal = np.column_stack([3.0 * np.sin(2 * np.pi * 5000.0 * time), np.zeros(25_600)])
+    levels = levels_in_band(signal, RATE, (2000.0, 10_000.0), 19.0)
+    assert levels.rms == pytest.approx(3.0 / np.sqrt(2.0), rel=1e-3)
+    assert levels.crest == pytest.approx(np.sqrt(2.0), rel=1e-2)
+    assert levels.kurtosis == pytest.approx(1.5, rel=1e-2)
+    half = replace(levels, rms=0.5 * levels.rms)
+    slow = replace(levels, rms=9.0, shaft_frequency=10.0)
+    assert rise(levels, [half, half, half, slow, slow]) == pytest.approx(6.02, abs=0.01)
+    assert np.isnan(rise(levels, [half, half, slow]))
+
+
+@pytest.mark.parametrize(
+    ("celsius", "kelvin_a_minute", "state"),
+    [
+        (np.nan, np.nan, "unknown"),
+        (50.0, np.nan, "normal"),
+        (50.0, 9.0, "normal"),  # it warms up
+        (89.9, 4.9, "normal"),
+        (65.0, 5.1, "hot"),
+        (90.1, 0.0, "warm"),
+        (120.1, 0.0, "hot"),
+    ],
+)
+def test_temperature_rule(celsius: float, kelvin_a_minute: float, state: str) -> None:
+    assert temperature_state(celsius + 273.15, kelvin_a_minute / 60.0, SETTINGS) == state
+
+
+def test_a_hot_box_is_called_beside_the_lines() -> None:
+    hot = replace(_stretch(None, 40), temperature=400.0, heating=0.1)
+    assert REFERENCE(hot, ORDERS, ROLLERS, SETTINGS).verdict == "hot_box"
+    spalled = replace(_stretch("cup", 40), temperature=400.0, heating=0.1)
+    both = REFERENCE(spalled, ORDERS, ROLLERS, SETTINGS)
+    assert (both.verdict, both.temperature_state) == ("cup", "hot")
+    assert both.reason.startswith("hot box: 127 °C, rising by 6.0 K a minute; cup fault")
+
+
+def test_a_step_of_ones_own_takes_its_place_in_the_chain() -> None:
+    chain = Chain(select_band=lambda stretch, settings: Band(3000.0, 6000.0))
+    result = chain(_stretch("cup", 41), ORDERS, ROLLERS, SETTINGS)
+    assert result.band == (3000.0, 6000.0)
+    assert result.verdict == "cup"
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("chain", "write module:function"),
+        ("no_such_module:chain", "there is no module no_such_module"),
+        ("json:nothing", "has no nothing"),
+        ("json:decoder", "is a module"),
+        ("beardyn_core.observe.chain:Chain", "is a type"),
+    ],
+)
+def test_a_name_that_is_no_algorithm_is_refused(name: str, told: str) -> None:
+    with pytest.raises(InputError, match=told):
+        algorithm_named(name)
+    assert algorithm_named("") is REFERENCE

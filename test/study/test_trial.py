@@ -1,0 +1,191 @@
+"""A trial: its matrix, its statistics, and scores that grow with the spall."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.stats import beta
+
+from beardyn_core.config import load_trial, trial_scene
+from beardyn_core.errors import InputError
+from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Trial
+from beardyn_core.study import trial as trial_module
+from beardyn_core.study.trial import RUNS_FILE, conduct, plan_of, read_runs
+from beardyn_core.study.trial_report import json_object, table
+from beardyn_core.study.trial_result import Rate, TrialResult
+from beardyn_core.study.trial_run import TrialRun, conduct_run
+
+
+def run_of(cell: Cell, verdict: str, scores: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> TrialRun:
+    alarms = 3 if verdict in ("cup", "cone", "roller") else 0
+    return TrialRun(cell.key, "d", verdict, 3, alarms, scores, 4.0, 19.0, "complete", 0.1)
+
+
+@pytest.fixture
+def quick() -> Trial:
+    return load_trial("quick")
+
+
+def test_the_matrix_has_every_combination_once_and_the_check_its_share(quick: Trial) -> None:
+    cells = quick.cells()
+    own = [cell for cell in cells if not cell.checks]
+    healthy = 5 * 1 * 1 * 3
+    assert len(own) == healthy + 3 * 3 * 1 * 1 * 3
+    assert len({cell.key for cell in cells}) == len(cells)
+    assert {cell.wheel for cell in own} == {"round", "flat", "polygon"}
+    assert len(cells) - len(own) == -(-len(own) // 5)
+
+
+def test_a_run_has_its_own_seed_which_no_order_of_the_matrix_changes(quick: Trial) -> None:
+    own = [cell for cell in quick.cells() if not cell.checks]
+    assert len({cell.seed(1) for cell in own}) == len(own)
+    other = replace(quick, speeds=(*quick.speeds, 20.0), wheels=quick.wheels[::-1])
+    assert {cell.seed(1) for cell in own} < {cell.seed(1) for cell in other.cells()}
+    assert own[0].seed(1) != own[0].seed(2)
+
+
+def test_a_run_and_its_check_are_the_same_scene_in_another_tier(quick: Trial) -> None:
+    check = next(cell for cell in quick.cells() if cell.checks and cell.fault != "none")
+    own = next(cell for cell in quick.cells() if cell.conditions == check.conditions and not cell.checks)
+    one, two = trial_scene(quick, own), trial_scene(quick, check)
+    assert (one.tier, two.tier) == ("quasistatic", "full")
+    assert (one.defects, one.operation) == (two.defects, two.operation)
+    assert (one.seed, one.duration) == (two.seed, two.duration)
+    assert one.defects[0].on == own.fault
+    assert one.defects[0].width == pytest.approx(own.size)  # type: ignore[union-attr]
+
+
+def test_the_shipped_trials_have_flats_and_polygons_with_every_fault_and_without() -> None:
+    for name in ("default", "quick"):
+        cells = load_trial(name).cells()
+        assert {(cell.fault, cell.wheel) for cell in cells} == {
+            (fault, wheel) for fault in (HEALTHY, *FAULTS) for wheel in ("round", "flat", "polygon")
+        }
+
+
+BAD = """trial: bad
+purpose: Nothing is right.
+scene: smooth_runs
+tier: fast
+sizes_mm: [2, 2]
+speeds_kmh: []
+tracks: [german_low]
+wheels: [{name: round, defects: [{kind: oval}]}]
+repeat: 3
+"""
+
+
+def test_every_mistake_in_a_trial_is_told_at_once(tmp_path: Path) -> None:
+    path = tmp_path / "bad.yaml"
+    path.write_text(BAD)
+    with pytest.raises(InputError) as refused:
+        load_trial(path)
+    told = "\n".join(refused.value.problems)
+    for mistake in ("'fast'", "speeds_kmh", "'oval'", "did you mean `repeats`"):
+        assert mistake in told
+    assert all(problem.startswith(str(path)) for problem in refused.value.problems)
+
+
+def test_mistakes_that_only_the_scenes_show_are_told_with_the_trial(tmp_path: Path, quick: Trial) -> None:
+    path = tmp_path / "wide.yaml"
+    text = (Path(quick.folder) / "quick.yaml").read_text(encoding="utf-8")
+    path.write_text(text.replace("[2, 6, 12]", "[2, 60]").replace("german_low", "german_lower"))
+    with pytest.raises(InputError) as refused:
+        load_trial(path)
+    told = "\n".join(refused.value.problems)
+    assert "german_lower" in told
+    path.write_text(text.replace("scene: smooth_run", "scene: static_80kN"))
+    with pytest.raises(InputError, match="quarter_vehicle"):
+        load_trial(path)
+
+
+def test_interval_of_a_rate_is_that_of_clopper_and_pearson() -> None:
+    rate = Rate.of(17, 20)
+    assert rate.low == pytest.approx(beta.ppf(0.025, 17, 4), rel=1e-6)
+    assert rate.high == pytest.approx(beta.ppf(0.975, 18, 3), rel=1e-6)
+    assert (Rate.of(0, 0).low, Rate.of(0, 0).high) == (0.0, 1.0)
+    # the rule of three, one-sided 97.5 %
+    assert Rate.of(0, 100).high == pytest.approx(0.0362, abs=1e-4)
+
+
+def test_rates_and_smallest_size_are_counted_from_the_runs(quick: Trial) -> None:
+    runs = []
+    for cell in quick.cells():
+        found = cell.fault != "none" and (cell.size > 5e-3 or (cell.fault == "cup" and cell.wheel == "round"))
+        verdict = cell.fault if found else "healthy"
+        if cell.fault == "none" and cell.wheel == "flat" and cell.repeat == 0 and not cell.checks:
+            verdict = "cone"
+        if cell.fault == "roller" and cell.size > 1e-2:
+            verdict = "cup"
+        runs.append(run_of(cell, verdict))
+    result = TrialResult.of(quick, "", runs)
+    assert (result.false_alarms().count, result.false_alarms().total) == (1, 15)
+    assert result.false_alarms(lambda cell: cell.wheel == "flat").count == 1
+    assert (result.false_analyses().count, result.false_analyses().total) == (3, 45)
+    rows = {(row.fault, row.size): row for row in result.sizes()}
+    assert rows["cup", 0.002].found.count == 1
+    assert rows["roller", 0.012].wrong == 3
+    smallest = {found.fault: found for found in result.smallest()}
+    assert smallest["cup"].size == pytest.approx(0.006)
+    assert smallest["cup"].low == pytest.approx(0.002)  # one of three may still be 90 %
+    assert smallest["cup"].high is None  # three of three are not yet 90 %
+    assert smallest["roller"].size is None
+    told = table(result)
+    assert "tier quasistatic" in told
+    assert "against full" in told
+    assert "cup: 6 mm (2 mm to beyond the largest)" in told
+    json.dumps(json_object(result), allow_nan=False)
+
+
+def test_an_interrupted_trial_goes_on_where_it_was(
+    quick: Trial, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trial = replace(quick, check_tier=None, sizes=(0.006,), faults=("cup",), healthy_repeats=1)
+    done: list[str] = []
+
+    def stand_in(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialRun:
+        if len(done) == 3:
+            raise KeyboardInterrupt
+        done.append(cell.key)
+        return replace(run_of(cell, "healthy"), digest=digest)
+
+    monkeypatch.setattr(trial_module, "conduct_run", stand_in)
+    with pytest.raises(KeyboardInterrupt):
+        conduct(plan_of(trial, "", tmp_path), tmp_path, 1, lambda run: None)
+    kept = tmp_path / RUNS_FILE
+    assert [run.key for run in read_runs(kept)] == done
+    kept.write_text(kept.read_text() + '{"key": "cut o')  # killed in the middle of a line
+    plan = plan_of(trial, "", tmp_path)
+    assert set(plan.kept) == set(done)
+    first = list(done)
+    done.clear()
+    runs = conduct(plan, tmp_path, 1, lambda run: None)
+    assert [run.key for run in runs] == [cell.key for cell in trial.cells()]
+    assert not set(first) & set(done)
+    assert not plan_of(trial, "", tmp_path).missing
+    # another monitor, another interval: nothing of it is valid any more
+    assert not plan_of(trial, "beardyn_core.observe.chain:REFERENCE", tmp_path).kept
+    assert not plan_of(replace(trial, interval=0.5), "", tmp_path).kept
+
+
+def test_scores_grow_with_the_spall_and_runs_repeat_bit_by_bit(quick: Trial) -> None:
+    """In the quasistatic tier, every part, round wheel; a healthy run stays below all thresholds."""
+    trial = replace(quick, revolutions=30.0, wheels=quick.wheels[:1], healthy_repeats=1, check_tier=None)
+    scores: dict[str, list[float]] = {}
+    for cell in trial.cells():
+        run = conduct_run(trial, cell, "", "d")
+        assert run.complete, run.status
+        if cell.fault == "none":
+            assert run.alarms == 0
+            assert run.verdict == "healthy"
+            again = conduct_run(trial, cell, "", "d")
+            assert replace(again, wall=0.0) == replace(run, wall=0.0)
+        else:
+            scores.setdefault(cell.fault, []).append(run.scores[("cup", "cone", "roller").index(cell.fault)])
+    for fault, values in scores.items():
+        assert (np.diff(values) > 1.0).all(), f"{fault}: {values}"
+        assert values[-1] > 12.0
