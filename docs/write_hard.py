@@ -17,8 +17,10 @@ PAGE = Path(__file__).with_name("hard.md")
 HEAD = """# Hard cases
 
 Written by `python docs/write_hard.py hard.json` from the numbers of `make hard`: {count} situations in which
-codes of this kind break, {kernels} kernels, {fast} of them also in the fast tests. `make hard` runs them side by
-side, prints this table, goes on where it was interrupted, and fails when a case fails that is not listed below
+codes of this kind break, {kernels} kernels, {fast} of them also in the fast tests. `make hard` runs them
+side by
+side, prints this table, goes on where it was interrupted, and fails when a case fails that is not listed
+below
 with its reason. `make hard ARGS="load --jobs 1"` runs a topic or a case.
 
 **{summary}.**
@@ -34,18 +36,21 @@ with its reason. `make hard ARGS="load --jobs 1"` runs a topic or a case.
 
 ## What is measured
 
-- **Energy residual**: |work in - all losses - numerical dissipation - change of stored energy| over the losses
+- **Energy residual**: |work in - all losses - numerical dissipation - change of stored energy| over the
+  losses
   (or 0.1 J), every term integrated from its own force times velocity; at most 1e-2.
 - **Penetration**: largest approach of a roller and a raceway; at most {penetration:.0f} um, beyond which the
   contact law does not hold.
-- **Chatter index**: largest over raceway contacts and blocks of rms(f_n - (f_(n-1) + f_(n+1))/2) / (mu N), f the
+- **Chatter index**: largest over raceway contacts and blocks of rms(f_n - (f_(n-1) + f_(n+1))/2) / (mu N),
+  f the
   friction at every step; reported above {chatter:g}. Friction that flips between its limits has the index 2.
 - **Frame error**: largest deviation of a roller axis or a body's quaternion from length 1; at most 1e-12.
 - **Momentum residual**: change of the momentum of journal, rollers and cages in a block that load, weight and
   the force on the cup do not account for, over force times time; at most 1e-9.
 - **Status**: bits 1 not finite, 2 penetration, 4 chatter, 8 off the rib, 16 film out of range, 32 rib edge.
 - **Half the step**: what it changes in mean force, force scatter, mean torque, cage speed and largest roller
-  load; the one that fills most of its band is shown. The band is the limit of convergence (0.5 % of the means,
+  load; the one that fills most of its band is shown. The band is the limit of convergence (0.5 % of the
+  means,
   20 % of the scatter) and the scatter between blocks, at most 5 %. The bearing is chaotic, so where two runs
   differ, three of each step begun a nanometre of end play apart decide, and the band is that between runs.
 
@@ -53,9 +58,12 @@ with its reason. `make hard ARGS="load --jobs 1"` runs a topic or a case.
 
 CHATTER = """## Finite is not stable
 
-One roller of this bearing between two raceways, 10 kN, friction 0.1 rounded over 10 mm/s, pulled back by a cage
-with 20 N: half of that is the right friction on the cup. Explicit steps follow up to 1.1 us. Beyond, everything
-stays finite **and the mean stays right**, while the friction flips between its limits from step to step. Whoever
+One roller of this bearing between two raceways, 10 kN, friction 0.1 rounded over 10 mm/s, pulled back by a
+cage
+with 20 N: half of that is the right friction on the cup. Explicit steps follow up to 1.1 us. Beyond,
+everything
+stays finite **and the mean stays right**, while the friction flips between its limits from step to step.
+Whoever
 logs every second step sees a calm run. The twin's monitor looks at every step, and tells.
 
 | method | step us | mean friction N | scatter N | scatter of every second step N | chatter index | monitor |
@@ -86,8 +94,10 @@ def page(data: dict[str, Any]) -> str:
         *known(cases),
         CHATTER + "\n".join(chatter_row(row) for row in data["hidden_chatter"]) + "\n\n",
     ]
-    for topic in dict.fromkeys(case["topic"] for case in cases):
-        parts.append(section(topic, [case for case in cases if case["topic"] == topic]))
+    parts += [
+        section(topic, [case for case in cases if case["topic"] == topic])
+        for topic in dict.fromkeys(case["topic"] for case in cases)
+    ]
     return "".join(parts).rstrip("\n") + "\n"
 
 
@@ -100,12 +110,12 @@ def counted(cases: list[dict[str, Any]]) -> str:
 
 def known(cases: list[dict[str, Any]]) -> list[str]:
     """What fails or was skipped, and why."""
-    lines = []
-    for case in cases:
-        outcome = case["outcome"]
-        if outcome["verdict"] in (KNOWN, SKIPPED, FAILED):
-            why = f" {case['known_failure']}" if case["known_failure"] else ""
-            lines.append(f"- `{case['name']}`, {outcome['verdict']}: {'; '.join(outcome['reasons'])}.{why}\n")
+    lines = [
+        f"- `{case['name']}`, {case['outcome']['verdict']}: {'; '.join(case['outcome']['reasons'])}."
+        f"{' ' if case['known_failure'] else ''}{case['known_failure']}\n"
+        for case in cases
+        if case["outcome"]["verdict"] in (KNOWN, SKIPPED, FAILED)
+    ]
     return ["## What does not pass\n\n", *lines, "\n"] if lines else []
 
 

@@ -16,7 +16,6 @@ from beardyn_core.study.hard.explicit_contact import hidden_chatter
 from beardyn_core.study.hard.report import HEAD, details, line, summary, write_json
 from beardyn_core.study.hard.verdict import FAILED, Outcome
 
-
 ROLLER_OF = "HS130x230"
 
 

@@ -6,10 +6,12 @@ checkpoint there and are continued from it.
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import logging
 import pickle
 import traceback
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from multiprocessing import get_context
@@ -52,24 +54,33 @@ def run_battery(
     done = {case.name: found for case in cases if (found := _kept(case, folder)) is not None}
     for number, outcome in enumerate(list(done.values()), start=1):
         told(outcome, number, len(cases))
-    todo = [case for case in cases if case.name not in done]
-    # two processes that compile the same kernel do the work twice: the first case of each kernel goes first,
-    # and the long ones early, for they decide how long the whole takes
-    first, others = _firsts(todo)
-    others.sort(key=lambda case: not case.long)
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_quiet) as pool:
-        for part in (first, others):
-            for outcome in _as_done(pool, part, folder):
-                done[outcome.name] = outcome
-                told(outcome, len(done), len(cases))
+        for outcome in _as_done(pool, [case for case in cases if case.name not in done], folder, jobs):
+            done[outcome.name] = outcome
+            told(outcome, len(done), len(cases))
     return [done[case.name] for case in cases]
 
 
-def _as_done(pool: ProcessPoolExecutor, cases: list[HardCase], folder: Path) -> Iterator[Outcome]:
-    waiting: set[Future[Outcome]] = {pool.submit(_one, case, _place(case, folder)) for case in cases}
-    while waiting:
-        ready, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-        for future in ready:
+def _as_done(pool: ProcessPoolExecutor, cases: list[HardCase], folder: Path, jobs: int) -> Iterator[Outcome]:
+    """Outcomes as they come; two processes never compile the same kernel."""
+    kernels = {case.name: kernel_of(case) for case in cases}
+    size = Counter(kernels.values())
+    # kernels of many cases first; of each a short case first, then the long ones
+    waiting = sorted(cases, key=lambda case: (-size[kernels[case.name]], not case.long))
+    ready: set[str] = set(_NO_KERNEL)
+    running: dict[Future[Outcome], str] = {}
+    while waiting or running:
+        for case in list(waiting):
+            kernel = kernels[case.name]
+            alone = kernel not in ready
+            if len(running) < jobs and not (alone and (kernel in running.values() or case.long)):
+                running[pool.submit(_one, case, _place(case, folder))] = kernel
+                waiting.remove(case)
+        if not running:  # only long ones of a new kernel are left
+            ready.update(kernels.values())
+            continue
+        for future in wait(running, return_when=FIRST_COMPLETED).done:
+            ready.add(running.pop(future))
             yield future.result()
 
 
@@ -117,7 +128,7 @@ def _sources() -> str:
         rooms = [path for path in sorted(_CORE.rglob("*.py")) if path.parent.name not in ("cli", "record")]
         for path in rooms:
             if path.name not in cases and not path.name.startswith("cases_"):
-                digest.update(path.read_bytes())
+                digest.update(ast.dump(ast.parse(path.read_bytes())).encode())
         _SOURCES.append(digest.hexdigest())
     return _SOURCES[0]
 
@@ -128,29 +139,12 @@ def kernel_of(case: HardCase) -> str:
         return case.way
     try:
         scene = scene_of(case)
-        parameters = build_parameters(
-            scene, Arrangement(scene.bearing.roller_count, LANE_WIDTH), np.zeros(6)
-        )
+        parameters = build_parameters(scene, Arrangement(scene.bearing.roller_count, LANE_WIDTH), np.zeros(6))
         return f"{scene.tier}: {numba.typeof(TIERS[scene.tier].parameters(scene, parameters))}"
     except (InputError, ValidityError):
         return "none"
 
 
-def _firsts(cases: list[HardCase]) -> tuple[list[HardCase], list[HardCase]]:
-    """One short case of every kernel, and all the others."""
-    seen: set[str] = set()
-    first, others = [], []
-    for case in sorted(cases, key=lambda case: case.long):
-        kernel = kernel_of(case)
-        if kernel in seen or case.long:
-            others.append(case)
-        else:
-            first.append(case)
-        seen.add(kernel)
-    return first, others
-
-
 def kernels_of(cases: Iterable[HardCase]) -> int:
     """How many kernels cases need."""
     return len({kernel_of(case) for case in cases if case.way not in _NO_KERNEL} - {"none"})
-

@@ -1,4 +1,4 @@
-"""What a hard case is: a scene with changes, a load, limits and what it must report. Data, no verdict."""
+"""What a hard case is: a scene with changes, a load, limits, what it must report. Data, no verdict."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ WAYS = {
     "run": "the twin runs the scene to its end",
     "end": "the run, or its start, must end with a sentence",
     "refused scene": "the configuration must refuse it with a sentence",
-    "refused load": "a bad piece arrives in mid-run: refused with a sentence, and the run is bit-identical to "
-    "one without it",
+    "refused load": "a bad piece arrives in mid-run: refused with a sentence, and the run is bit-identical "
+    "to one without it",
     "restart": "half a run, a snapshot through bytes, the other half three times: straight on, after "
     "restoring, in a fresh twin; compared bit by bit",
     "coarse step": "500 steps of the twin's own kernel with the step multiplied; it must report",
@@ -140,7 +140,9 @@ class HardCase:
 
     def __post_init__(self) -> None:
         if self.way not in WAYS or self.topic not in TOPICS:
-            raise ValueError(f"hard case {self.name!r}: way {self.way!r} or topic {self.topic!r} is not known")
+            raise ValueError(
+                f"hard case {self.name!r}: way {self.way!r} or topic {self.topic!r} is not known"
+            )
 
     @property
     def all_limits(self) -> tuple[Limit, ...]:

@@ -16,7 +16,9 @@ WANDERING = through(
 )
 HOUR = through(
     *(
-        Point(60.0 * minute, (0.0, 3e3 * (minute % 3 - 1), 6e4 + 1e4 * (minute % 4)), 60.0 + 20.0 * (minute % 5))
+        Point(
+            60.0 * minute, (0.0, 3e3 * (minute % 3 - 1), 6e4 + 1e4 * (minute % 4)), 60.0 + 20.0 * (minute % 5)
+        )
         for minute in range(61)
     )
 )
@@ -47,10 +49,16 @@ CASES = (
     _restart(
         "growing_spall",
         defects=[
-            {"kind": "spall", "on": "cup", "row": 0, "width_mm": 6, "depth_um": 100,
-             "growth": {"from_s": 0.05, "to_s": 0.15}}
+            {
+                "kind": "spall",
+                "on": "cup",
+                "row": 0,
+                "width_mm": 6,
+                "depth_um": 100,
+                "growth": {"from_s": 0.05, "to_s": 0.15},
+            }
         ],
-    ),  # fmt: skip
+    ),
     HardCase(
         "hour_lumped",
         "endurance",

@@ -110,6 +110,10 @@ CASES = (
         duration=0.3,
         limits=(Limit("skew", high=math.radians(2.0)),),
         may_report=Status.RIB_EDGE,
+        known_failure=(
+            "An impossible bearing whose rollers slide on their rims: the audit books a tenth more rib loss "
+            "than there is, and torque moves by 4 % with half the step. The rib edge is reported."
+        ),
     ),
     HardCase(
         "broken_rib_skew",

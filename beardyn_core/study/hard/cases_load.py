@@ -180,7 +180,8 @@ CASES = (
         "implicit normal contact, damping in the audit",
         changes=PLAY,
         load=through(
-            Point(0.0, (0.0, 0.0, 1e4), SPEED), Point(0.06, (0.0, 0.0, 1e4), SPEED),
+            Point(0.0, (0.0, 0.0, 1e4), SPEED),
+            Point(0.06, (0.0, 0.0, 1e4), SPEED),
             Point(0.062, (0.0, 0.0, 1e6), SPEED),
         ),
         duration=0.2,

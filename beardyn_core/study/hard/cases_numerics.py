@@ -115,7 +115,7 @@ CASES = (
     HardCase(
         "explicit_2_us",
         "numerics",
-        "finite is not stable: explicit steps of 2 us, mean force right, friction flipping between two values",
+        "finite is not stable: explicit steps of 2 us, mean force right, friction flipping every step",
         "the chatter monitor; a log of every second step shows nothing",
         way="explicit",
         factor=2e-6,

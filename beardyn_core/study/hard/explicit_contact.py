@@ -156,8 +156,8 @@ class HiddenChatter:
 def hidden_chatter(bearing: Bearing) -> tuple[HiddenChatter, ...]:
     """Explicit steps across their limit, and the twin's way with longer ones."""
     rows = []
-    ways = (("explicit", 1e-7), ("explicit", 5e-7), ("explicit", 1e-6), ("explicit", 2e-6), ("explicit", 5e-6),
-            ("implicit", 1e-5), ("implicit", 4e-5))  # fmt: skip
+    ways = [("explicit", step) for step in (1e-7, 5e-7, 1e-6, 2e-6, 5e-6)]
+    ways += [("implicit", step) for step in (1e-5, 4e-5)]
     for method, step in ways:
         run = step_roller(bearing, step, method)
         rows.append(

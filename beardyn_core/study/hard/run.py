@@ -70,7 +70,7 @@ def _run(case: HardCase, checkpoint: Path | None) -> Finding:
     try:
         scene = scene_of(case)
         watch = _watched(scene, load_of(case, scene), case.duration, checkpoint if case.long else None)
-    except _Ended as ended:
+    except _EndedError as ended:
         return Finding(ended.watch.measures(), sentence=str(ended))
     except (InputError, ValidityError) as error:
         return Finding(Measures(), sentence=str(error), refused=True)
@@ -79,7 +79,7 @@ def _run(case: HardCase, checkpoint: Path | None) -> Finding:
     load = load_of(case, scene)
     try:
         return Finding(watch.measures(), _refined(scene, load, case.duration, watch.statistics()))
-    except _Ended as ended:
+    except _EndedError as ended:
         return Finding(watch.measures(), sentence=f"with half the step or a nanometre apart: {ended}")
 
 
@@ -102,7 +102,7 @@ def _refined(scene: Scene, load: LoadHistory, duration: float, first: Float) -> 
     return changes_of_runs(coarse, fine)
 
 
-class _Ended(Exception):
+class _EndedError(Exception):
     """A run left its validity; carries what was seen until then."""
 
     def __init__(self, sentence: str, watch: Watch) -> None:
@@ -127,7 +127,7 @@ def _watched(scene: Scene, load: LoadHistory, duration: float, checkpoint: Path 
             last = error.block
             assert isinstance(last, Block)
             watch.see(twin, last, before)
-            raise _Ended(str(error), watch) from None
+            raise _EndedError(str(error), watch) from None
         watch.see(twin, block, before)
         if checkpoint is not None and time.monotonic() - kept > CHECKPOINT_EVERY_S:
             keep(checkpoint, (twin.snapshot(), watch))
