@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, LARGEST_PENETRATION
+from beardyn_core.study.hard.case import WAYS
 from beardyn_core.study.hard.report import cells, outcome_from
 from beardyn_core.study.hard.verdict import FAILED, GOOD, KNOWN, SKIPPED
 
@@ -16,12 +17,10 @@ PAGE = Path(__file__).with_name("hard.md")
 
 HEAD = """# Hard cases
 
-Written by `python docs/write_hard.py hard.json` from the numbers of `make hard`: {count} situations in which
-codes of this kind break, {kernels} kernels, {fast} of them also in the fast tests. `make hard` runs them
-side by
-side, prints this table, goes on where it was interrupted, and fails when a case fails that is not listed
-below
-with its reason. `make hard ARGS="load --jobs 1"` runs a topic or a case.
+Written by `python docs/write_hard.py hard.json` from the numbers of `make hard`: {count} situations in
+which codes of this kind break, on {kernels} kernels; {fast} of them are also in the fast tests. `make hard`
+runs them side by side, prints this table, goes on where it was interrupted, and fails when a case fails that
+is not listed below with its reason. `make hard ARGS="load --jobs 1"` runs a topic or a case.
 
 **{summary}.**
 
@@ -34,39 +33,38 @@ with its reason. `make hard ARGS="load --jobs 1"` runs a topic or a case.
 | known failure | fails, for the reason given |
 | FAILED | fails |
 
+| run as | means |
+|---|---|
+{ways}
+
 ## What is measured
 
 - **Energy residual**: |work in - all losses - numerical dissipation - change of stored energy| over the
-  losses
-  (or 0.1 J), every term integrated from its own force times velocity; at most 1e-2.
-- **Penetration**: largest approach of a roller and a raceway; at most {penetration:.0f} um, beyond which the
-  contact law does not hold.
+  losses (or 0.1 J), every term integrated from its own force times velocity; at most 1e-2.
+- **Penetration**: largest approach of a roller and a raceway; at most {penetration:.0f} um, beyond which
+  the contact law does not hold.
 - **Chatter index**: largest over raceway contacts and blocks of rms(f_n - (f_(n-1) + f_(n+1))/2) / (mu N),
-  f the
-  friction at every step; reported above {chatter:g}. Friction that flips between its limits has the index 2.
-- **Frame error**: largest deviation of a roller axis or a body's quaternion from length 1; at most 1e-12.
-- **Momentum residual**: change of the momentum of journal, rollers and cages in a block that load, weight and
-  the force on the cup do not account for, over force times time; at most 1e-9.
+  f the friction at every step; reported above {chatter:g}. Friction that flips between its limits has 2.
+- **Frame error**: largest deviation of a roller axis or a quaternion from length 1; at most 1e-12.
+- **Momentum residual**: change of the momentum of journal, rollers and cages in a block that load, weight
+  and the force on the cup do not account for, over force times time; at most 1e-9.
 - **Status**: bits 1 not finite, 2 penetration, 4 chatter, 8 off the rib, 16 film out of range, 32 rib edge.
-- **Half the step**: what it changes in mean force, force scatter, mean torque, cage speed and largest roller
-  load; the one that fills most of its band is shown. The band is the limit of convergence (0.5 % of the
-  means,
-  20 % of the scatter) and the scatter between blocks, at most 5 %. The bearing is chaotic, so where two runs
-  differ, three of each step begun a nanometre of end play apart decide, and the band is that between runs.
+- **Half the step**: what it changes in mean force, force scatter, mean torque, cage speed and largest
+  roller load; the one that fills most of its band is shown. The band is the limit of convergence (0.5 % of
+  the means, 20 % of the scatter) and the scatter between blocks, at most 5 %. The bearing is chaotic: where
+  two runs differ, three of each step, begun a nanometre of end play apart, decide, and the band is that
+  between runs.
 
 """
 
 CHATTER = """## Finite is not stable
 
 One roller of this bearing between two raceways, 10 kN, friction 0.1 rounded over 10 mm/s, pulled back by a
-cage
-with 20 N: half of that is the right friction on the cup. Explicit steps follow up to 1.1 us. Beyond,
-everything
-stays finite **and the mean stays right**, while the friction flips between its limits from step to step.
-Whoever
-logs every second step sees a calm run. The twin's monitor looks at every step, and tells.
+cage with 20 N: half of that is the right friction on the cup. Explicit steps follow up to 1.1 us. Beyond,
+everything stays finite **and the mean stays right**, while the friction flips between its limits from step
+to step. Whoever logs every second step sees a calm run. The twin's monitor looks at every step, and tells.
 
-| method | step us | mean friction N | scatter N | scatter of every second step N | chatter index | monitor |
+| method | step us | mean friction N | scatter N | scatter, every second step N | chatter index | monitor |
 |---|--:|--:|--:|--:|--:|---|
 """
 
@@ -88,6 +86,7 @@ def page(data: dict[str, Any]) -> str:
             kernels=data["kernels"],
             fast=sum(case["fast"] for case in cases),
             summary=counted(cases),
+            ways="\n".join(f"| {way} | {how} |" for way, how in WAYS.items()),
             penetration=LARGEST_PENETRATION * 1e6,
             chatter=LARGEST_CHATTER_INDEX,
         ),
@@ -130,8 +129,8 @@ def chatter_row(row: dict[str, Any]) -> str:
 
 def section(topic: str, cases: list[dict[str, Any]]) -> str:
     """The cases of a topic: what would break, and what was measured."""
-    why = ["| case | what would break | guard |", "|---|---|---|"]
-    why += [f"| `{case['name']}` | {case['breaks']} | {case['guard']} |" for case in cases]
+    why = ["| case | what would break | guard | run as |", "|---|---|---|---|"]
+    why += [f"| `{case['name']}` | {case['breaks']} | {case['guard']} | {case['way']} |" for case in cases]
     rows = [
         "| case | verdict | energy | um | chatter | frame | momentum | status | half the step |",
         "|---|---|--:|--:|--:|--:|--:|--:|---|",
@@ -144,10 +143,7 @@ def section(topic: str, cases: list[dict[str, Any]]) -> str:
         if outcome.sentence and outcome.verdict in GOOD:
             says.append(f"- `{name}`: {outcome.sentence}")
     told = ["", "Sentences:", "", *says] if says else []
-    how = sorted({case["how"] for case in cases})
-    return "\n".join(
-        [f"## {topic.capitalize()}", "", *(f"- {each}" for each in how), "", *why, "", *rows, *told, "", ""]
-    )
+    return "\n".join([f"## {topic.capitalize()}", "", *why, "", *rows, *told, "", ""])
 
 
 if __name__ == "__main__":

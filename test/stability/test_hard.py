@@ -11,15 +11,19 @@ import pytest
 
 from beardyn_core.config import load_bearing
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, Status
-from beardyn_core.study.hard.case import WAYS, HardCase, Limit
+from beardyn_core.observe.block import Block
+from beardyn_core.study.hard import battery, run
+from beardyn_core.study.hard.battery import run_battery
+from beardyn_core.study.hard.case import WAYS, HardCase, Limit, steady
 from beardyn_core.study.hard.case_scene import merged
 from beardyn_core.study.hard.catalogue import CASES
 from beardyn_core.study.hard.explicit_contact import hidden_chatter, largest_explicit_step, step_roller
 from beardyn_core.study.hard.refinement import changes, changes_of_runs
 from beardyn_core.study.hard.report import outcome_from, write_json
 from beardyn_core.study.hard.run import run_case
-from beardyn_core.study.hard.verdict import FAILED, GOOD, HOLDS, KNOWN, REPORTS, Finding, judged
+from beardyn_core.study.hard.verdict import FAILED, GOOD, HOLDS, KNOWN, REPORTS, Finding, Outcome, judged
 from beardyn_core.study.hard.watch import STATISTICS, Measures
+from beardyn_core.twin import Twin
 
 # Transients need their whole time; what is steady shows itself in a few blocks.
 SHORTEST_S = 0.16
@@ -48,6 +52,44 @@ def test_every_limit_names_a_measure() -> None:
 
 def test_every_way_of_running_is_used() -> None:
     assert {case.way for case in CASES} == set(WAYS)
+
+
+def test_interrupted_long_case_goes_on_from_its_checkpoint(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Interrupted after 5 of 8 blocks: the other 3 are run, and the measures are those of a straight run."""
+    case = HardCase(
+        "endless", "endurance", "", "", changes={"tier": "lumped"}, load=steady((0.0, 0.0, 8e4), 122.0),
+        duration=0.16, refined=False, long=True,
+    )  # fmt: skip
+    straight = run_case(case).measures
+    monkeypatch.setattr(run, "CHECKPOINT_EVERY_S", 0.0)
+    advance, advanced = Twin.advance, 0
+
+    def interrupted(twin: Twin) -> Block:
+        nonlocal advanced
+        advanced += 1
+        if advanced == 6:
+            raise KeyboardInterrupt
+        return advance(twin)
+
+    monkeypatch.setattr(Twin, "advance", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        run_case(case, tmp_path / "endless.checkpoint")
+    assert run_case(case, tmp_path / "endless.checkpoint").measures == straight
+    assert advanced == 6 + 3
+
+
+def test_battery_keeps_what_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A refusal needs no kernel; the second time it is not run but read."""
+    cases = [case for case in CASES if case.name == "sphere_beyond_apex"]
+    told: list[Outcome] = []
+    first = run_battery(cases, tmp_path, 1, lambda outcome, _there, _of: told.append(outcome))
+    assert [outcome.verdict for outcome in first] == ["refused"]
+    monkeypatch.setattr(battery, "ProcessPoolExecutor", None)
+    again = run_battery(cases, tmp_path, 1, lambda outcome, _there, _of: told.append(outcome))
+    assert again[0].sentence == first[0].sentence
+    assert len(told) == 2
 
 
 # --- finite is not stable

@@ -54,8 +54,11 @@ def run_battery(
     done = {case.name: found for case in cases if (found := _kept(case, folder)) is not None}
     for number, outcome in enumerate(list(done.values()), start=1):
         told(outcome, number, len(cases))
+    todo = [case for case in cases if case.name not in done]
+    if not todo:
+        return [done[case.name] for case in cases]
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_quiet) as pool:
-        for outcome in _as_done(pool, [case for case in cases if case.name not in done], folder, jobs):
+        for outcome in _as_done(pool, todo, folder, jobs):
             done[outcome.name] = outcome
             told(outcome, len(done), len(cases))
     return [done[case.name] for case in cases]

@@ -98,6 +98,7 @@ def write_json(path: Path, cases: Sequence[HardCase], outcomes: Sequence[Outcome
             "topic": case.topic,
             "breaks": case.breaks,
             "guard": case.guard,
+            "way": case.way,
             "how": WAYS[case.way],
             "fast": case.fast,
             "simulated_s": case.duration,
@@ -123,7 +124,7 @@ def _plain(value: Any) -> Any:
 
 def outcome_from(stored: Mapping[str, Any]) -> Outcome:
     """An outcome of `write_json`; null becomes NaN where a measure needs a number."""
-    measures = {
+    measures: dict[str, Any] = {
         name: math.nan if value is None and name in _NUMBERS else value
         for name, value in stored["measures"].items()
     }

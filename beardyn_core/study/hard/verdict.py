@@ -82,7 +82,8 @@ def _complaints(case: HardCase, finding: Finding) -> list[str]:
         found.append(f"reports {surplus!r}: {'; '.join(SENTENCES[f] for f in SENTENCES if f in surplus)}")
     if not measures.finite and not status & Status.NOT_FINITE:
         found.append("has numbers that are not finite and does not report them")
-    if not case.sentence:
+    blown_up = case.must_report & status & Status.NOT_FINITE  # nothing is left to be measured
+    if not case.sentence and not blown_up:
         found += _beyond_limits(case, measures, chatters=bool(status & Status.CHATTER))
     if not status & Status.CHATTER:  # a run that says its friction is not converged is not asked again
         found += [

@@ -177,7 +177,7 @@ class Watch:
         rows = np.array(self.rows)
         late = rows[len(rows) // 2 :]
         last = rows[-max(1, len(rows) // 4) :]
-        speed = last[:, 7].mean()
+        speed = float(last[:, 7].mean())
         nominal = fault_frequencies(self.scene.bearing).ftf * speed
         cage = float(last[:, 3].mean())
         known: dict[str, Any] = dict(self.largest)
