@@ -71,7 +71,7 @@ TIERS = {
             smallest_laminae=2,
             absent=_FAST_ABSENT,
         ),
-        TierNoun("full", "every body with 6 degrees of freedom", None, 4, False, 1, ()),
+        TierNoun("full", "every body with 6 degrees of freedom", None, 4, False, 2, ()),
     )
 }
 TIER_NAMES = tuple(TIERS)
