@@ -15,7 +15,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow bench performance costs ladder automatic validation lint format clean
+.PHONY: help demo test slow hard bench performance costs ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -29,6 +29,9 @@ test: $(VENV)/.ready-test ## set up, then the tests
 
 slow: $(VENV)/.ready-test ## set up, then the long tests as well
 	@$(BIN)/python -m pytest -m "slow or not slow" $(ARGS)
+
+hard: $(VENV)/.ready-test ## set up, then the battery of hard cases side by side: table, hard.json; goes on where it was interrupted
+	@$(BIN)/python -m beardyn_core.study.hard $(ARGS)
 
 bench: $(VENV)/.ready-test ## set up, then every speed in one run: tables, and bench.json
 	@$(BIN)/python -m benchmarks $(ARGS)

@@ -106,6 +106,11 @@ class Twin:
         return ("cup", "cone", "cage_0", "cage_1", *rollers)
 
     @property
+    def signals(self) -> Float:
+        """Every step of the last block, shape [step, SIGNAL_CHANNELS]; the next block overwrites it."""
+        return self._signals
+
+    @property
     def next_end_ns(self) -> int:
         """Simulated time at the end of the next block, [ns]."""
         return (self._index + 1) * BLOCK_NS

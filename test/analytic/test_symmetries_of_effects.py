@@ -38,7 +38,7 @@ from beardyn_core.effects import (
 )
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
-from beardyn_core.scene.defect import Defect, Growth, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import Defect, Growth, MissingRoller, Patch, RollerError, WornPocket
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
@@ -117,7 +117,7 @@ def mirrored(scene: Scene, mirror: Float) -> Scene:
         if isinstance(given, Patch):
             azimuth = -given.azimuth if backwards else given.azimuth
             return replace(given, row=row, azimuth=azimuth, roller=number(given.roller))
-        if isinstance(given, RollerError):
+        if isinstance(given, RollerError | MissingRoller):
             return replace(given, row=row, roller=number(given.roller))
         return replace(given, row=row, pocket=number(given.pocket))
 
