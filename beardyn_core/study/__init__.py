@@ -11,5 +11,6 @@ demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 rating_life         rating life under a load history
 life_text           rating life in words
+hard                the battery of hard cases
 =================== =========================================
 """
