@@ -41,7 +41,9 @@ chance is stronger than all of its own and belongs to none of them.
 are independent and exponentially distributed over their local mean; the sum of L of them less the largest has
 a known tail (Renyi's representation, saddle point of Lugannani and Rice). The threshold is where that tail,
 times the number of independent places searched and the three parts, comes to {rate:g} an analysis. What a
-bearing, track and wheel do beyond stationary noise is what the trial shows.
+bearing, track and wheel do beyond stationary noise is what the trial shows. What counts as a strike of the
+wheel (`wheel.py`) was set by eye on runs of the same twin with fresh 35 mm flats and on some runs of `quick`;
+`default` has other speeds and seeds, but no other twin.
 
 The temperature rule calls a hot box from {hot:.0f} °C on, or from {heating:g} K a minute
 above {floor:.0f} °C.
@@ -70,7 +72,8 @@ LIMITS = """
   it takes larger spalls.
 - **Fast tiers** have no cage slip and no skid, so their lines are sharper than those of the full tier; the
   check says by how much scores and verdicts differ. [ladder.md](ladder.md) has the errors of the tiers.
-- A wheel that strikes for most of the load zone of the cone hides a spall there: its sectors are left out.
+- **A flat can hide a spall on the cone**, also a large one: the sectors in which the wheel strikes and rings
+  are left out, and with them the cone's part of the load zone.
 """
 
 

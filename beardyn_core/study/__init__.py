@@ -4,12 +4,17 @@
 module              responsibility, in the order of the data
 =================== =========================================
 desk_run            a scene from start to end, with its means
-monitored_recording a recording with a monitor listening
+monitored_recording a monitor beside a recording, or over one
 finding             a monitor's result in words and messages
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
+trial_run           one run of a trial of a monitor
+trial               all its runs, kept and taken up again
+trial_result        rates with intervals, smallest sizes
+trial_report        table and JSON; trial_picture draws it
 rating_life         rating life under a load history
 life_text           rating life in words
+hard                the battery of hard cases
 =================== =========================================
 """
