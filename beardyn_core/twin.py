@@ -123,6 +123,11 @@ class Twin:
         return ("cup", "cone", "cage_0", "cage_1", *rollers)
 
     @property
+    def step_signals(self) -> Float:
+        """Signals of the newest block at every step, see `model.layout`; the next block overwrites them."""
+        return self._signals
+
+    @property
     def next_end_ns(self) -> int:
         """Simulated time at the end of the next block, [ns]."""
         return (self._index + 1) * BLOCK_NS
