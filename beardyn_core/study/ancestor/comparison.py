@@ -202,8 +202,8 @@ def _friction(runs: AncestorRuns) -> Iterator[Row]:
         "film parameter with the oil EP 220 under 5 kN",
         'not printed; "dry", the oil "not suitable" (Section 7.1)',
         f"{_least_film(oil):.1f} to {max(float(each.film_parameter.max()) for each in oil):.1f} at 70 °C",
-        f"above the {_FULL_FILM:g} from which its own Eq. (8) takes the full film: at this load and speed the "
-        "oil separates the surfaces, and the dry result is a defect of the computation",
+        f"above the {_FULL_FILM:g} from which its own Eq. (8) takes the full film: at this load and speed "
+        "the oil separates the surfaces; by this the dry result is a defect of the computation",
     )
     yield Row(
         "tangential over normal force, lubricated, raceways",
@@ -220,8 +220,8 @@ def _force(runs: AncestorRuns) -> Iterator[Row]:
         "an axial force on the inner raceway, no value (Section 7.1)",
         f"{runs.thrust / 1e3:.2f} kN carried by the prop; a constant {AXIAL_FORCE / 1e3:g} kN instead holds "
         f"the ring within {runs.held.axial_range * 1e6:.1f} µm",
-        f"there is no balance without support, nor with {TOO_LITTLE / 1e3:g} kN; such scenes are refused with "
-        "a sentence",
+        f"there is no balance without support, nor with {TOO_LITTLE / 1e3:g} kN; such scenes are refused "
+        "with a sentence",
     )
     force = runs.step.radial_after(STEP_AT + SETTLED)
     yield Row(
@@ -266,8 +266,9 @@ def _wall_time(runs: AncestorRuns) -> Iterator[Row]:
         f"{times} (Table 1)",
         f"{seconds:.2f} s",
         f"{_round(min(HOURS.values()) * 3600.0 / seconds)} to "
-        f"{_round(max(HOURS.values()) * 3600.0 / seconds)} times less; other computer and language, closed forms instead of a search for each contact, fixed "
-        "step instead of ODE45, and friction solved implicitly",
+        f"{_round(max(HOURS.values()) * 3600.0 / seconds)} times less; other computer and language, "
+        "closed forms instead of a search for each contact, fixed step instead of ODE45, friction solved "
+        "implicitly",
     )
     run = runs.double_row
     yield Row(

@@ -91,7 +91,7 @@ def record(scene: Scene, load: LoadHistory | None = None) -> StepRecord:
     wall = time.perf_counter() - began
     force = np.concatenate(signals)[:, SIGNAL_FORCE : SIGNAL_FORCE + 3]
     force[:, 2] += weight_carried(scene)
-    instants = np.arange(1, len(force) + 1) * (blocks[-1].end_ns * 1e-9 / len(force))
+    instants = np.linspace(0.0, blocks[-1].end_ns * 1e-9, len(force) + 1)[1:]
     return StepRecord(scene, instants, force, tuple(blocks), wall)
 
 
