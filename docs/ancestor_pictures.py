@@ -20,7 +20,7 @@ from beardyn_core.study.ancestor.runs import SETTLED, STEP_AT
 from beardyn_core.study.ancestor.spectrum import ANCESTOR_BAND, Bands, smoothed
 
 DPI = 80
-COLOURS = 64
+COLOURS = 256
 
 
 def _save(figure: Figure, path: Path) -> None:
