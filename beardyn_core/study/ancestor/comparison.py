@@ -164,8 +164,7 @@ def _motion(runs: AncestorRuns) -> Iterator[Row]:
     yield Row(
         "where unloaded rollers go",
         "to the outer raceway, then until the large end meets the right flange (Section 7.1)",
-        f"all {bearing.roller_count} on cup and rib: {cup.normal.mean():.0f} N and "
-        f"{rib.normal.mean():.0f} N each",
+        f"on cup and rib, {cup.normal.mean():.0f} N and {rib.normal.mean():.0f} N each",
         f"centrifugal force, {weights:.0f} times the weight, seats them from the first step",
     )
     turn = runs.loaded.cage_turn(LONGEST_RUN) / (2.0 * np.pi)
