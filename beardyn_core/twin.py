@@ -106,7 +106,7 @@ class Twin:
         return ("cup", "cone", "cage_0", "cage_1", *rollers)
 
     @property
-    def signals(self) -> Float:
+    def step_signals(self) -> Float:
         """Every step of the last block, shape [step, SIGNAL_CHANNELS]; the next block overwrites it."""
         return self._signals
 

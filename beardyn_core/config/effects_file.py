@@ -25,7 +25,7 @@ from beardyn_core.config.effect_keys.traction import Traction
 from beardyn_core.config.file_model import FileModel, Name, Switch, Text, problem
 from beardyn_core.effects import EffectSet
 
-_SWITCHED: dict[bool, Any] = {True: {}, False: None}
+_EFFECTS = frozenset(field.name for field in fields(EffectSet))
 
 
 class EffectsKeys(FileModel):
@@ -57,11 +57,14 @@ class EffectsKeys(FileModel):
 
     @classmethod
     def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:
-        # Written out, so that a recorded scene says every number.
-        return {
-            key: _SWITCHED.get(value, value) if isinstance(value, bool) else value
-            for key, value in data.items()
-        }
+        # Written out, so that a recorded scene says every number; `false` as the key that is not there.
+        return {key: cls._switched(key, value) for key, value in data.items()}
+
+    @classmethod
+    def _switched(cls, key: str, value: Any) -> Any:
+        if value is True:
+            return {}
+        return cls.model_fields[key].default if value is False and key in _EFFECTS else value
 
     def noun(self) -> EffectSet:
         """The effect set, SI."""

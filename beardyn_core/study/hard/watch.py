@@ -136,7 +136,7 @@ class Watch:
         self.finite &= all(bool(np.isfinite(getattr(block, name)).all()) for name in _CHANNELS)
         size = np.linalg.norm(block.force_waveform[:, :3], axis=1)
         loads = np.linalg.norm(block.contacts[:, :, :, 0, 3:6], axis=-1).max(axis=(1, 2))
-        signals = twin.signals
+        signals = twin.step_signals
         torque, bodies = signals[:, SIGNAL_TORQUE], after.state.bodies
         self.rows.append(
             [size.mean(), size.var(), torque.mean(), bodies[CAGE_BODY:, RATE].mean(), loads.mean(),
