@@ -181,12 +181,12 @@ class Twin:
             oversize=roller_oversize(scene),
             bending_stiffness=self._bending_stiffness,
             tilt_stiffness=restraint,
-            axial_stiffness=scene.mounting.axial_prop[0],
+            axial_stiffness=scene.mounting.axial_prop_stiffness,
             rows=scene.rows,
             missing=scene.missing_places,
         )
         on_cup = first[:3].copy()
-        on_cup[1] -= scene.mounting.axial_prop[0] * static.displacement[1]
+        on_cup[1] -= scene.mounting.axial_prop_stiffness * static.displacement[1]
         moment[[0, 2]] -= restraint * static.tilt
         carried = self._weight_of_rollers_and_cages()
         preload = np.concatenate([-on_cup, -moment])

@@ -83,7 +83,7 @@ class Statics:
                 oversize=roller_oversize(scene),
                 bending_stiffness=self._bending if bending else (),
                 tilt_stiffness=self._restraint(),
-                axial_stiffness=scene.mounting.axial_prop[0],
+                axial_stiffness=scene.mounting.axial_prop_stiffness,
                 rows=scene.rows,
                 missing=scene.missing_places,
             )
@@ -125,7 +125,7 @@ class Statics:
         ]
         normal = np.concatenate(normals)[there]
         offset = np.concatenate(tilting)[there] - 0.5 * self.scene.end_play * sine
-        springs = np.array([0.0, self.scene.mounting.axial_prop[0], 0.0])
+        springs = np.array([0.0, self.scene.mounting.axial_prop_stiffness, 0.0])
         found, load = exact.displacement.copy(), np.asarray(case.force)
         idle = spring.idle * _centrifugal(bearing, case.speed)
         force = np.zeros(len(normal))

@@ -145,6 +145,12 @@ class TrackKeys(FileModel):
         )
 
 
+def _one_or_list(schema: dict[str, Any]) -> None:
+    """In the schema of a list: one item alone will do."""
+    several = {"type": schema.pop("type"), "items": schema.pop("items")}
+    schema["anyOf"] = [several["items"], several]
+
+
 class QuarterVehicleKeys(FileModel):
     """The axlebox share of a vehicle on an irregular track."""
 
@@ -172,7 +178,9 @@ class QuarterVehicleKeys(FileModel):
         0.0, description="of the whole car, besides what its body_mass_t has in it"
     )
     lateral: bool | None = Field(None, description="sideways motion; where there are curves when not given")
-    curve: tuple[CurveKeys, ...] = Field((), description="one curve or a list in order of place")
+    curve: tuple[CurveKeys, ...] = Field(
+        (), description="one curve or a list in order of place", json_schema_extra=_one_or_list
+    )
     braking: BrakingKeys | None = None
     starting: StartingKeys | None = None
 

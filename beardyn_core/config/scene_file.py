@@ -101,10 +101,8 @@ class MountingKeys(FileModel):
             box_centre=_metres(self.box_centre_mm),
             suspension_centre=_metres(self.suspension_centre_mm),
             load_offset=_metres(self.load_offset_mm),
-            axial_prop=(
-                self.axial_prop_stiffness_MN_per_m * MEGA,
-                self.axial_prop_damping_kN_s_per_m * KN,
-            ),
+            axial_prop_stiffness=self.axial_prop_stiffness_MN_per_m * MEGA,
+            axial_prop_damping=self.axial_prop_damping_kN_s_per_m * KN,
         )
 
 

@@ -44,8 +44,8 @@ def mounting_params(bearing: Bearing, mounting: Mounting, preload: NDArray[np.fl
         damping=np.array([*mounting.damping, *mounting.rotational_damping], dtype=float),
         preload=np.array(preload, dtype=float),
         coupling=box_coupling(bearing, mounting),
-        prop_stiffness=mounting.axial_prop[0],
-        prop_damping=mounting.axial_prop[1],
+        prop_stiffness=mounting.axial_prop_stiffness,
+        prop_damping=mounting.axial_prop_damping,
     )
 
 

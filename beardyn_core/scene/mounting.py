@@ -37,9 +37,9 @@ class Mounting:
     load_offset : tuple of 3 floats
         Where the load acts on the journal, from the bearing centre: its force also turns the journal
         with the moment offset x force, [m]. A journal that is locked holds all but its first value.
-    axial_prop : tuple of 2 floats
-        Stiffness and damping between journal and ground along y, [N/m], [N s/m]; zeros for none. A single
-        row, which thrusts the journal out, needs it.
+    axial_prop_stiffness, axial_prop_damping : float
+        Between journal and ground along y, [N/m], [N s/m]; zeros for none. A single row, which thrusts the
+        journal out, needs it.
     """
 
     cup: str = "suspended"
@@ -55,7 +55,8 @@ class Mounting:
     box_centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
     suspension_centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
     load_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    axial_prop: tuple[float, float] = (0.0, 0.0)
+    axial_prop_stiffness: float = 0.0
+    axial_prop_damping: float = 0.0
 
     def about_bearing_centre(self, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
         """Loads where they act on the journal, reduced to the bearing centre.

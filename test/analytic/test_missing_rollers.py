@@ -48,7 +48,7 @@ def without_rollers(tier: str = "full") -> Scene:
 
 def one_row(tier: str = "full") -> Scene:
     """The standard scene with the inboard row alone on a journal that is propped axially."""
-    scene = scene_with(axial_prop=PROP)
+    scene = scene_with(axial_prop_stiffness=PROP[0], axial_prop_damping=PROP[1])
     numerics = replace(scene.numerics, steps_per_sample=4 if tier == "full" else 1)
     return replace(scene, rows=1, tier=tier, numerics=numerics)
 
@@ -175,7 +175,7 @@ def test_prop_takes_the_thrust_of_the_single_row() -> None:
 def test_prop_is_a_spring_with_a_damper_along_the_axle() -> None:
     """A journal that touches nothing swings with sqrt(k/m) and the prop's decay; the audit knows."""
     stiffness, damping = 4.0e7, 6.0e3
-    scene = scene_with(axial_prop=(stiffness, damping), end_play=4e-3)
+    scene = scene_with(axial_prop_stiffness=stiffness, axial_prop_damping=damping, end_play=4e-3)
     rig = Rig.at_equilibrium(scene, (0.0, 0.0, 0.0), 0.0)
     rig.state.rollers[:, LINEAR] *= 0.0
     p = rig.parameters

@@ -36,7 +36,8 @@ def test_missing_rollers_and_one_row_are_read_and_written_back(tmp_path: Path) -
     text += "mounting: {axial_prop_stiffness_MN_per_m: 500, axial_prop_damping_kN_s_per_m: 20}\n"
     scene = load_scene(written(tmp_path, text))
     assert (scene.rows, scene.missing_places, scene.roller_total) == (1, ((0, 3), (0, 16)), 15)
-    assert scene.mounting.axial_prop == (5.0e8, 2.0e4)
+    assert scene.mounting.axial_prop_stiffness == 5.0e8
+    assert scene.mounting.axial_prop_damping == 2.0e4
     assert "faults" in scene.effect_names
     assert scene.fault_sentences == ("roller 3, row 0, missing", "roller 16, row 0, missing")
     again = tmp_path / "again.yaml"

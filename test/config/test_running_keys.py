@@ -84,10 +84,10 @@ def test_a_train_may_run_backwards(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ("  payload_t: 1", ["neither of speed_profile and timetable", "exactly one"]),
+        ("  payload_t: 1", ["speed_profile is missing", "exactly one"]),
         (
             SPEED + "  timetable: {stops: [{distance_m: 900, top_speed_kmh: 72}]}",
-            ["both of speed_profile and timetable"],
+            ["speed_profile and timetable are given"],
         ),
         (SPEED + "  curve: {radius_m: 20, length_m: 200, transition_m: 50}", ["radius_m is 20", "50"]),
         (SPEED + "  curve: {radius_m: 500, length_m: 80, transition_m: 50}", ["transition_m is 50", "40"]),

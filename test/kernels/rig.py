@@ -112,7 +112,7 @@ class Rig:
             coupling=scene.effects.lamina_coupling,
             oversize=roller_oversize(scene),
             bending_stiffness=bending,
-            axial_stiffness=scene.mounting.axial_prop[0],
+            axial_stiffness=scene.mounting.axial_prop_stiffness,
             rows=scene.rows,
             missing=scene.missing_places,
         )

@@ -127,7 +127,7 @@ def test_prop_carries_the_thrust_that_a_force_can_carry_instead() -> None:
     propped = run("loaded", 0.04)
     thrust = propped.force[propped.time >= SETTLED, 1].mean()
     place = np.concatenate([block.body_pose[:, 1, 1] for block in propped.blocks])[2:].mean()
-    assert thrust == pytest.approx(-scene.mounting.axial_prop[0] * place, rel=0.01)
+    assert thrust == pytest.approx(-scene.mounting.axial_prop_stiffness * place, rel=0.01)
     assert 0.2 * LOAD < thrust < AXIAL_FORCE
     held = record(replace(held_by_a_force(scene, AXIAL_FORCE), duration=0.04))
     assert held.axial_range < 1e-6
@@ -137,7 +137,7 @@ def test_prop_carries_the_thrust_that_a_force_can_carry_instead() -> None:
 def double_row_holds(name: str, load: float, duration: float) -> None:
     double = run(name, duration)
     assert double.scene.rows == 2
-    assert double.scene.mounting.axial_prop == (0.0, 0.0)
+    assert double.scene.mounting.axial_prop_stiffness == 0.0
     force = double.radial_after(SETTLED)
     assert force.mean() == pytest.approx(load, rel=2e-3)
     assert abs(double.force[double.time >= SETTLED, 1].mean()) < 1e-3 * load
@@ -216,7 +216,7 @@ def test_pictures_are_small() -> None:
 def test_scene_says_what_it_is_for(name: str) -> None:
     scene: Scene = load_scene(name)
     assert scene.purpose.endswith(".")
-    assert (scene.rows == 1) == (scene.mounting.axial_prop[0] > 0.0)
+    assert (scene.rows == 1) == (scene.mounting.axial_prop_stiffness > 0.0)
     assert scene.numerics.laminae == 6
     assert weight_carried(scene) == pytest.approx(
         9.80665 * scene.rows * (17 * scene.bearing.roller_mass + scene.bearing.cage.mass)

@@ -120,7 +120,10 @@ def held_by_a_force(scene: Scene, axial: float) -> Scene:
     assert isinstance(scene.operation, ConstantOperation)
     operation = replace(scene.operation, force=(0.0, axial, RADIAL_LOAD))
     return replace(
-        scene, operation=operation, mounting=replace(scene.mounting, axial_prop=(0.0, 0.0)), duration=0.06
+        scene,
+        operation=operation,
+        mounting=replace(scene.mounting, axial_prop_stiffness=0.0, axial_prop_damping=0.0),
+        duration=0.06,
     )
 
 

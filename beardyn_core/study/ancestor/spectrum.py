@@ -158,7 +158,7 @@ def bounce(scene: Scene, force: float = RADIAL_LOAD) -> tuple[float, float]:
     bearing, laminae = scene.bearing, scene.numerics.laminae
     static = solve(
         bearing, (0.0, 0.0, force), end_play=scene.end_play, laminae=laminae, speed=SHAFT_SPEED,
-        axial_stiffness=scene.mounting.axial_prop[0], rows=scene.rows,
+        axial_stiffness=scene.mounting.axial_prop_stiffness, rows=scene.rows,
     )  # fmt: skip
     factor = line_contact_factor(bearing.material, bearing.effective_length) / laminae
     stiffness = np.zeros(static.cup_load.shape)
