@@ -72,7 +72,7 @@ setup(
     install_requires=[
         "matplotlib>=3.8",
         "mcap>=1.6",
-        "numba>=0.61",
+        "numba>=0.68,<0.69",
         "numpy>=1.26",
         "pydantic>=2.7",
         "pyyaml>=6.0",

@@ -140,9 +140,9 @@ class _Part(CPUDispatcher):
         """Keep a version for other compiled functions and not for Python, which could not call it."""
         self.overloads[tuple(compiled.signature.args)] = compiled
 
-    def _compile_for_args(self, *arguments: Any, **named: Any) -> Any:
-        """Python calls it after all, in a test: as a function of its own."""
-        return _whole(self.py_func)(*arguments, **named)
+    def _compile_for_args(self, *_arguments: Any, **_named: Any) -> Any:
+        """What is called when Python calls it after all, in a test: a function of its own."""
+        return _whole(self.py_func)
 
 
 @cache
