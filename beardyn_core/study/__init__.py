@@ -1,8 +1,8 @@
 """What is done with a twin on the desk.
 
-=================== =========================================
+=================== ==========================================================================================
 module              responsibility, in the order of the data
-=================== =========================================
+=================== ==========================================================================================
 desk_run            a scene from start to end, with its means
 monitored_recording a monitor beside a recording, or over one
 finding             a monitor's result in words and messages
@@ -16,5 +16,8 @@ trial_report        table and JSON; trial_picture draws it
 rating_life         rating life under a load history
 life_text           rating life in words
 hard                the battery of hard cases
-=================== =========================================
+ancestor            the runs of BearDyn (2017) again
+contacts_tables     the contact laboratory as tables; contacts_report and contacts_picture show them
+ladder              tiers, effects, laminae and steps against a reference; ladder_* judge, print and draw it
+=================== ==========================================================================================
 """

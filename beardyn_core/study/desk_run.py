@@ -181,7 +181,12 @@ def run(
 
 
 def _life(scene: Scene, load: LoadHistory) -> RatingLife | None:
-    """Rating life under the load of the run; a load that nothing can carry has none."""
+    """Rating life under the load of the run; a load that nothing can carry has none.
+
+    The standards rate the whole bearing: neither has one that lacks rollers.
+    """
+    if scene.rows != 2 or scene.missing_rollers:
+        return None
     try:
         return scene_life(scene, load)
     except ValidityError:
