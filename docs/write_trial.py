@@ -42,9 +42,9 @@ are independent and exponentially distributed over their local mean; the sum of 
 a known tail (Renyi's representation, saddle point of Lugannani and Rice). The threshold is where that tail,
 times the number of independent places searched and the three parts, comes to {rate:g} an analysis. What a
 bearing, track and wheel do beyond stationary noise is what the trial shows. The chain before it was
-not blind to this twin: what counts as a strike of the wheel (`wheel.py`), which whole orders are left out, how
-sidebands count, the limits of the band and when a part is not called were set by eye on its runs, some of them
-of `quick`; `default` has other speeds and seeds, but no other twin.
+not blind to this twin: what counts as a strike of the wheel (`wheel.py`), which whole orders are left out,
+how sidebands count, the limits of the band and when a part is not called were set by eye on its runs, some
+of them of `quick`; `default` has other speeds and seeds, but no other twin.
 
 The temperature rule calls a hot box from {hot:.0f} °C on, or from {heating:g} K a minute
 above {floor:.0f} °C.
