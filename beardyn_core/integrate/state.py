@@ -129,8 +129,8 @@ def initial_state(
     bodies[CONE_BODY, RATE] = shaft_speed
     bodies[CAGE_BODY:, RATE] = cage_speed
     # through the end play rollers move further than their pockets allow, and take the cage with them
-    shift, room = static.roller_axial.mean(axis=1), 0.5 * bearing.cage.axial_clearance
-    outward = np.array([-1.0, 1.0])
+    rows, room = arrangement.rows, 0.5 * bearing.cage.axial_clearance
+    shift, outward = static.roller_axial.mean(axis=1)[:rows], np.array([-1.0, 1.0])[:rows]
     bodies[CAGE_BODY:, POSITION + 1] = outward * (shift - np.clip(shift, -room, room))
     flex = np.zeros((*static.bending.shape, 2))
     flex[..., 0] = static.bending
