@@ -300,7 +300,9 @@ class _Trend:
             status=status,
             mean_force=force,
             shaft_torque=torque,
-            cage_speed_ratio=tuple(speed / epicyclic if epicyclic else math.nan for speed in cage),
+            cage_speed_ratio=tuple(
+                speed / epicyclic if epicyclic else math.nan for speed in cage[: scene.rows]
+            ),
             energy_residual=self._residual,
             budget=budget,
             averaged=averaged,
