@@ -154,8 +154,6 @@ def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
     numerical = 0.5 * (power(sums[2], d_around, middle_around) + power(sums[2], d_along, middle_along))
     damped, extra = damping_loss(sums, slip[0], d_rate, damping)
     damped = damped + sums[5]
-    # the part of the spring force that makes it implicit does work where stiffness comes and goes
-    numerical = numerical + 0.25 * step * power(sums[1], d_rate, shifted(slip[0], d_rate, 0.5))
     return force, moment, normal, friction_around[0], step * slid, step * damped, step * (numerical + extra)
 
 
