@@ -15,6 +15,8 @@ from beardyn_core.kernels.lane_math import at_least, ninth_root, where_greater
 from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 SMALLEST_APPROACH = 1e-15
+# A spring of less of its lamina is rounding of one that is not there.
+SMALLEST_SHARE = 1e-6
 
 
 @inline
@@ -23,6 +25,39 @@ def spring_push(approach: Any, rate: Any, damping: Any) -> Any:
     if damping is None:
         return 0.9 * approach
     return 0.9 * approach + damping.time_constant * rate
+
+
+@inline
+def let_go(power: Any, whole: Any, elastic: Any, rate: Any, damping: Any, audit: Any) -> Any:
+    """Add what the damper of one spring takes where the contact opens faster than the spring follows, [W].
+
+    Parameters
+    ----------
+    power : lane value
+        Sum so far, [W].
+    whole, elastic : lane value
+        Elastic force that belongs to the stored energy, and the part of it that is pressed with: all, or
+        nothing where spring and damper together would pull, [N].
+    rate : lane value
+        Of the approach, [m/s].
+
+    Notes
+    -----
+    A contact does not pull: the spring then expands against its own damper, and its energy ends there.
+    """
+    if damping is None:
+        return power
+    if audit is None:
+        return power
+    return power - (whole - elastic) * rate
+
+
+@inline
+def deepest_so_far(deepest: Any, share: Any, depth: Any, damage: Any) -> Any:
+    """Largest penetration of the springs near a patch; a sound contact is measured at its middle, [m]."""
+    if damage is None:
+        return deepest
+    return at_least(deepest, where_greater(share + 0.0 * depth, SMALLEST_SHARE, depth, 0.0 * depth))
 
 
 @inline

@@ -17,6 +17,8 @@ from beardyn_core.kernels.lamina_spring import (
     SMALLEST_APPROACH,
     add_lean,
     contact_spring,
+    deepest_so_far,
+    let_go,
     prepare_coupling,
     share_of,
     spring_push,
@@ -161,10 +163,12 @@ def lamina_sums(
 
     Returns
     -------
-    tuple of 12 lane values and a bool
+    tuple of 14 lane values and a bool
         Elastic force with x^0, x^1, x^2; tangent stiffness likewise; friction over slip likewise;
         elastic energy; elastic force times the slope of the gap over the azimuth in ring and roller;
-        whether any roller of the block may touch. Where none does, all sums are exactly zero.
+        whether any roller of the block may touch; power that the dampers take where the contact opens
+        faster than its springs follow, [W]; largest penetration, [m]. Where no roller may touch, all sums
+        are exactly zero.
 
     References
     ----------
@@ -214,7 +218,7 @@ def _sums_of_sound(
         return spring_sums(lanes, line, slip, log2_speed, ring, laminae, None, work, effects)
     zero = lanes.constant(0.0)
     nothing = (zero, zero, zero)
-    return nothing, nothing, nothing, zero, (zero, zero), False
+    return nothing, nothing, nothing, zero, (zero, zero), False, zero, line[5][0]
 
 
 @inline
@@ -246,6 +250,8 @@ def spring_sums(
     friction_0, friction_1, friction_2 = zero, zero, zero
     energy = zero
     lean = (zero, zero)
+    released = zero
+    deepest = approach[0] if damage is None else zero
     count = laminae.shape[1]
     prepare_coupling(lanes, approach, laminae, damage, effects.coupling)
     springs = spring_count(laminae, damage, effects.coupling)
@@ -255,12 +261,16 @@ def spring_sums(
         share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)
         touching = at_least(depth, SMALLEST_APPROACH)
         energy = energy + share * stored
-        push = spring_push(touching, rate[0] + x * rate[1], effects.damping)
-        lean = add_lean(lanes, lean, share * (0.9 * tangent * touching), k, count, damage, effects.coupling)
+        opening = rate[0] + x * rate[1]
+        push = spring_push(touching, opening, effects.damping)
+        whole = share * (0.9 * tangent * touching)
+        lean = add_lean(lanes, lean, whole, k, count, damage, effects.coupling)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
         elastic = 0.9 * tangent * touching
         lanes.store(work, _LOADS, k, tangent * push)
         elastic, tangent = share * elastic, share * tangent
+        released = let_go(released, whole, elastic, opening, effects.damping, effects.audit)
+        deepest = deepest_so_far(deepest, share, depth, damage)
         force_0 = force_0 + elastic
         force_1 = force_1 + elastic * x
         force_2 = force_2 + elastic * (x * x)
@@ -289,6 +299,8 @@ def spring_sums(
         energy,
         lean,
         True,
+        released,
+        deepest,
     )
 
 

@@ -42,7 +42,8 @@ def raceway_contact(
     Returns
     -------
     tuple
-        Line, slip, sums, speed part of the film, centre, and whether any roller of the block may touch.
+        Line, slip, sums, speed part of the film, centre, whether any roller of the block may touch, and the
+        largest penetration.
     """
     place, axis, velocity, omega, orbit_rate = body
     centre = subtract(place, view[0])
@@ -63,7 +64,8 @@ def raceway_contact(
     leaning = leaning_wrench(
         lanes, place, axis, sums[4], sums[0][0], (ring_climb, roller_climb), damage, waves, roller_waves
     )
-    return line, slip, (sums[0], sums[1], sums[2], sums[3], leaning), log2_speed, centre, sums[5]
+    sums_and_lean = (sums[0], sums[1], sums[2], sums[3], leaning, sums[6])
+    return line, slip, sums_and_lean, log2_speed, centre, sums[5], sums[7]
 
 
 @inline
@@ -151,6 +153,7 @@ def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
     slid = power(sums[2], middle_around, middle_around) + power(sums[2], middle_along, middle_along)
     numerical = 0.5 * (power(sums[2], d_around, middle_around) + power(sums[2], d_along, middle_along))
     damped, extra = damping_loss(sums, slip[0], d_rate, damping)
+    damped = damped + sums[5]
     return force, moment, normal, friction_around[0], step * slid, step * damped, step * (numerical + extra)
 
 
@@ -190,7 +193,7 @@ def finish_raceway(
     output_contact(lanes, rollers, block, ring, force, arm, sliding_speed, film)
     capacity = traction_capacity(normal[0], p.effects.coulomb, p.effects.mixed, p.effects.load_sharing)
     watch_chatter(lanes, rollers, block, ring, friction, capacity)
-    deepest = at_least(lanes.load(rollers, block, PENETRATION), line[5][0])
+    deepest = at_least(lanes.load(rollers, block, PENETRATION), contact[6])
     lanes.store(rollers, block, PENETRATION, deepest)
     return force, moment
 

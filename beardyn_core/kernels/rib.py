@@ -56,7 +56,8 @@ def rib_contact(
     load, tangent, friction : lane value
         Normal force [N], tangent stiffness [N/m], friction over slip speed [N s/m].
     elastic, energy : lane value
-        Elastic part of the force [N] and elastic energy [J].
+        Elastic force that belongs to the stored energy, also where the contact opens faster than the spring
+        follows and nothing presses [N]; elastic energy [J].
     slip : vector
         Velocity of the roller against the rib, [m/s].
     drilling, spin : lane value
@@ -78,9 +79,9 @@ def rib_contact(
     tangent = 1.5 * rib.stiffness * root
     push = _push(touching, dot(slip, normal), damping)
     energy = 0.4 / 1.5 * tangent * touching * touching
+    elastic = tangent * touching * (1.0 / 1.5)
     tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
     load = tangent * push
-    elastic = tangent * touching * (1.0 / 1.5)
     tangential = add_scaled(slip, -dot(slip, normal), normal)
     spin = dot(subtract(omega, ring_omega), normal)
     reach = spin_reach(touching, rib.drilling)

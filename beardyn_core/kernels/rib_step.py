@@ -6,7 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account, account_loss, implicit_time, output_contact, react
-from beardyn_core.kernels.lane_math import sqrt
+from beardyn_core.kernels.lane_math import sqrt, where_greater
 from beardyn_core.kernels.rib import rib_contact
 from beardyn_core.kernels.solve import add_couple, add_point, add_point_everywhere
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
@@ -112,7 +112,8 @@ def settle_point(
         On the roller at the end of the step.
     """
     centre = contact[0]
-    normal, arm, _load, tangent, friction, elastic, energy, slip, resistance, spin, _film = contact[1]
+    normal, arm, _load, tangent, friction, whole, energy, slip, resistance, spin, _film = contact[1]
+    elastic = where_greater(tangent, 0.0, whole, 0.0 * whole)
     d_spin = dot(change[1], normal)
     d_slip = add(change[0], cross(change[1], arm))
     d_rate = dot(d_slip, normal)
@@ -133,7 +134,9 @@ def settle_point(
     lost = friction * dot(middle, middle) + drilled
     audit = p.effects.audit
     account_loss(lanes, sums, mask, source, p.step * lost, audit)
-    account_loss(lanes, sums, mask, LOSS_DAMPING, p.step * damping * middle_rate * middle_rate, audit)
+    # a spring that may not pull expands against its own damper
+    damped = damping * middle_rate * middle_rate - (whole - elastic) * middle_rate
+    account_loss(lanes, sums, mask, LOSS_DAMPING, p.step * damped, audit)
     account(lanes, sums, mask, p.step * numerical, energy, audit)
     return force, moment
 

@@ -73,8 +73,8 @@ def about_rigid_cup(contact: Any, shift: Any, flexibility: Any) -> Any:
     """The contact with its place from the origin of the rigid cup, about which reactions are summed."""
     if flexibility is None:
         return contact
-    line, slip, sums, log2_speed, centre, touching = contact
-    return line, slip, sums, log2_speed, add(centre, shift), touching
+    line, slip, sums, log2_speed, centre, touching, deepest = contact
+    return line, slip, sums, log2_speed, add(centre, shift), touching, deepest
 
 
 @inline

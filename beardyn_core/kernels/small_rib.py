@@ -49,9 +49,10 @@ def small_rib_contact(
     tangential = add_scaled(slip, -rate, normal)
     speed = sqrt(dot(tangential, tangential) + rib.regularisation * rib.regularisation)
     zero = 0.0 * depth
+    elastic = rib.stiffness * touching
     energy = 0.5 * rib.stiffness * touching * touching
     friction = rib.friction * load / speed
-    return normal, arm, load, tangent, friction, tangent * touching, energy, slip, zero, zero, zero
+    return normal, arm, load, tangent, friction, elastic, energy, slip, zero, zero, zero
 
 
 @inline

@@ -75,6 +75,7 @@ CUT = {
     "spring_count": ("laminae, damage, coupling", "laminae.shape[1]"),
     "spring_damage": ("lanes, spring, damage", "(1.0, 0.0)"),
     "add_lean": ("lanes, lean, elastic, k, count, damage, coupling", "lean"),
+    "deepest_so_far": ("deepest, share, depth, damage", "deepest"),
     "leaning_wrench": (
         "lanes, place, axis, lean, force, climbs, damage, waves, roller_waves",
         "0.0",

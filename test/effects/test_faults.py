@@ -205,6 +205,15 @@ def test_energy_balances_over_faults(defects: tuple[Defect, ...], waviness: tupl
     assert residual(faulty(*defects, waviness=waviness), 5) < 1e-3
 
 
+def test_energy_balances_where_rollers_fall_in_and_strike() -> None:
+    """A contact that opens faster than its springs follow leaves 2 % of the losses in its dampers.
+
+    What is left falls with the square of the step: 0.7 % at 4 steps a sample, 0.15 % at 8.
+    """
+    pit = Patch("cup", 0, 0.0, 6e-3, 2e-3, 0.05)
+    assert residual(faulty(pit, steps_per_sample=8), 10) < 5e-3
+
+
 def test_growing_patch_continues_from_a_snapshot_bit_for_bit_and_its_truth_tells_the_size() -> None:
     grown = replace(SPALL, azimuth=0.0, depth=5e-5, growth=Growth(0.0, 0.1))
     scene = faulty(grown)

@@ -84,3 +84,22 @@ def damaged_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
         lanes.store(out, case, 0, contact[2][3])
         store_vector(lanes, out, case, 1, contact[2][4][0])
         store_vector(lanes, out, case, 4, contact[2][4][1])
+
+
+@entry
+def moving_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
+    """Inputs of `damaged_contacts` and the velocity: energy, power let go, stiffness, largest penetration."""
+    for case in range(cases.shape[0]):
+        zero = lanes.constant(0.0)
+        nothing = (zero, zero, zero)
+        view = (nothing, (zero, zero, zero + 1.0), nothing, nothing)
+        place, axis = load_vector(lanes, cases, case, 2), load_vector(lanes, cases, case, 5)
+        body = (place, axis, load_vector(lanes, cases, case, 8), nothing, zero)
+        azimuths = (lanes.load(cases, case, 0), lanes.load(cases, case, 1))
+        faults = p.effects.faults
+        of_cup = (faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves)
+        contact = raceway_contact(lanes, 0, 0, view, body, zero, azimuths, p.cup, of_cup, p)
+        lanes.store(out, case, 0, contact[2][3])
+        lanes.store(out, case, 1, contact[2][5])
+        lanes.store(out, case, 2, contact[2][1][0])
+        lanes.store(out, case, 3, contact[6])

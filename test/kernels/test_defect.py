@@ -18,7 +18,13 @@ from beardyn_core.scene.defect import PATCH_KINDS, Patch, WornPocket
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.kernels import naive
 from test.kernels.casting import Float, through
-from test.kernels.fault_entries import damaged_contacts, patch_springs, wave_gaps, worn_pockets
+from test.kernels.fault_entries import (
+    damaged_contacts,
+    moving_contacts,
+    patch_springs,
+    wave_gaps,
+    worn_pockets,
+)
 from test.kernels.rig import scene_with
 
 CUP_RADIUS = surface_radius(scene_with().bearing, "cup")
@@ -230,6 +236,54 @@ def test_work_of_the_leaning_normal_is_what_the_elastic_energy_loses(lanes: Any)
     assert scale > 10.0
     np.testing.assert_allclose(spin_moment, by_roller / (2.0 * step), atol=1e-3 * scale)
     np.testing.assert_allclose(orbit_torque, -by_ring / (2.0 * step), atol=1e-3 * scale)
+
+
+NEAR, FAR = 0.3, 1.3
+
+
+def moving(lanes: Any, azimuths: Any, depth: float, rate: float, patch: Patch) -> Float:
+    """`moving_contacts` of a roller pressed into the sound cup by a depth, and energy over depth."""
+    scene = scene_with(defects=(patch,))
+    p = build_parameters(scene, Arrangement(17, lanes.width), np.zeros(6))
+    bearing = scene.bearing
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    axis = np.array([sine, 0.0, cosine])
+    centre = np.array([0.5 * bearing.pitch_diameter, 0.0, 0.5 * bearing.row_spacing])
+    # the contact point lies half a cone angle beyond the roller axis
+    outer = bearing.contact_angle + bearing.half_angle
+    normal = np.array([math.cos(outer), 0.0, -math.sin(outer)])
+    middle = centre + bearing.roller_mass_offset * axis
+
+    def at(shift: float) -> Float:
+        place = middle + shift * normal
+        cases = np.array([[a, 0.0, *place, *axis, *(rate * normal)] for a in azimuths])
+        return through(lanes, moving_contacts, np.repeat(cases, lanes.width, axis=0), 4, p)[:: lanes.width]
+
+    shift, step = depth - at(0.0)[azimuths.index(FAR), 3], 1e-9
+    found = at(shift)
+    slope = (at(shift + step)[:, 0] - at(shift - step)[:, 0]) / (2.0 * step)
+    return np.column_stack([found, slope])
+
+
+@pytest.mark.parametrize(("rate", "gone"), [(-0.5, 1.0), (-1e-3, 0.0), (0.5, 0.0)])
+def test_energy_of_springs_that_open_too_fast_goes_to_their_dampers(
+    lanes: Any, rate: float, gone: float
+) -> None:
+    """Opening at 0.5 m/s a spring less than 2.8 um deep would pull: all of them; at 1 mm/s none."""
+    found = moving(lanes, [NEAR, FAR], 2e-6, rate, replace(SPALL, depth=1e-6))
+    assert found[:, 0].min() > 1e-5
+    np.testing.assert_allclose(found[:, 1], -gone * found[:, 4] * rate, rtol=1e-5, atol=1e-9)
+    np.testing.assert_array_equal(found[:, 2] == 0.0, bool(gone))
+
+
+def test_penetration_near_a_patch_is_that_of_its_springs(lanes: Any) -> None:
+    """On the floor 100 um down a roller is pressed by 3 um; where sound laminae hold it, by their depth."""
+    depth = 3e-6 + FULL.depth
+    floor, sound = moving(lanes, [NEAR, FAR], depth, 0.0, FULL)[:, 3]
+    assert sound == pytest.approx(depth, rel=1e-9)
+    assert floor == pytest.approx(3e-6, abs=5e-7)
+    held = moving(lanes, [NEAR, FAR], depth, 0.0, SPALL)[0, 3]
+    assert held == pytest.approx(depth, rel=0.05)
 
 
 def test_worn_pocket_is_a_pocket_with_more_clearance_and_its_neighbours_are_not(lanes: Any) -> None:
