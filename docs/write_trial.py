@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import argparse
 import json
-import shutil
 from pathlib import Path
 from typing import Any
+
+from PIL import Image
 
 from beardyn_core.observe.chain import MonitorSettings
 
 DOCS = Path(__file__).parent
 PAGE = DOCS / "trial.md"
 PICTURE = DOCS / "pictures" / "trial.png"
+COLOURS = 64
 EXAMPLE = DOCS / "examples" / "my_monitor.py"
 
 ABOUT = """
@@ -85,7 +87,8 @@ def main() -> None:
     folder = parser.parse_args().folder
     found = json.loads((folder / "trial.json").read_text(encoding="utf-8"))
     PAGE.write_text(page(found), encoding="utf-8")
-    shutil.copyfile(folder / "trial.png", PICTURE)
+    drawn = Image.open(folder / "trial.png").convert("RGB")
+    drawn.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(PICTURE, optimize=True)
 
 
 def page(found: dict[str, Any]) -> str:
