@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from beardyn_core.errors import InputError
+from beardyn_core.study.output_folder import folder_problems
 
 DONE = 0
 _BEARING = "HS130x230"
@@ -85,20 +86,12 @@ def run(args: argparse.Namespace) -> int:
 
 def option_problems(args: argparse.Namespace) -> list[str]:
     """What is wrong with the options; nothing is created."""
-    problems = []
-    folder = args.output
-    if folder is not None:
-        if folder.exists() and not folder.is_dir():
-            problems.append(f"--output {folder}: is a file; give the name of a folder")
-        elif not folder.is_dir() and not folder.parent.is_dir():
-            problems.append(f"--output {folder}: the folder {folder.parent} does not exist; create it first")
-        elif not os.access(folder if folder.is_dir() else folder.parent, os.W_OK):
-            problems.append(f"--output {folder}: cannot be written; choose a folder you may write to")
+    problems = folder_problems(args.output)
     file = args.rrd
     if file is not None:
         if file.is_dir():
             problems.append(f"--rrd {file}: is a folder; give the name of a file")
-        elif file.parent == folder:
+        elif file.parent == args.output:
             pass  # made before it is written
         elif not file.parent.is_dir():
             problems.append(f"--rrd {file}: the folder {file.parent} does not exist; create it first")

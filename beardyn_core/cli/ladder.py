@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import logging
-import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.errors import InputError
+from beardyn_core.study.output_folder import folder_problems
 
 if TYPE_CHECKING:
     from beardyn_core.study.ladder_result import Ladder
@@ -126,16 +126,7 @@ def option_problems(args: argparse.Namespace) -> list[str]:
     problems += [
         f"--quantities: {name!r} is not known; known are {', '.join(QUANTITIES)}" for name in unknown
     ]
-    folder = args.output
-    if folder is None:
-        return problems
-    if folder.exists() and not folder.is_dir():
-        problems.append(f"--output {folder}: is a file; give the name of a folder")
-    elif not folder.is_dir() and not folder.parent.is_dir():
-        problems.append(f"--output {folder}: the folder {folder.parent} does not exist; create it first")
-    elif not os.access(folder if folder.is_dir() else folder.parent, os.W_OK):
-        problems.append(f"--output {folder}: cannot be written; choose a folder you may write to")
-    return problems
+    return problems + folder_problems(args.output)
 
 
 def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from beardyn_core.errors import InputError
+from beardyn_core.study.output_folder import folder_problems
 
 if TYPE_CHECKING:
     from beardyn_core.scene.trial import Trial
@@ -96,16 +97,7 @@ def option_problems(args: argparse.Namespace) -> list[str]:
     problems = []
     if args.jobs is not None and not 1 <= args.jobs <= _MOST_JOBS:
         problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")
-    folder = args.output
-    if folder is None:
-        return problems
-    if folder.exists() and not folder.is_dir():
-        problems.append(f"--output {folder}: is a file; give the name of a folder")
-    elif not folder.is_dir() and not folder.parent.is_dir():
-        problems.append(f"--output {folder}: the folder {folder.parent} does not exist; create it first")
-    elif not os.access(folder if folder.is_dir() else folder.parent, os.W_OK):
-        problems.append(f"--output {folder}: cannot be written; choose a folder you may write to")
-    return problems
+    return problems + folder_problems(args.output)
 
 
 def _made(folder: Path | None) -> Path | None:

@@ -15,6 +15,7 @@ trial_result        rates with intervals, smallest sizes
 trial_report        table and JSON; trial_picture draws it
 rating_life         rating life under a load history
 life_text           rating life in words
+output_folder       whether the folder of --output can be written to
 hard                the battery of hard cases
 ancestor            the runs of BearDyn (2017) again
 contacts_tables     the contact laboratory as tables; contacts_report and contacts_picture show them
