@@ -17,7 +17,6 @@ from beardyn_core.record.messages import Diagnostic, Template, header, make
 from beardyn_core.record.topics import FRAME, IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
 
-LOST = "lost_"
 ZERO_CELSIUS = 273.15
 TEMPERATURE_EVERY = 10  # blocks
 POSE_AXES = ("x", "y", "z", "qx", "qy", "qz", "qw")
@@ -231,7 +230,7 @@ def block_diagnostic(block: Block) -> Diagnostic:
 
 def loss_key(source: str) -> str:
     """Diagnostic key of the energy lost in a source since the start of the run."""
-    return f"{LOST}{source}_J"
+    return f"lost_{source}_J"
 
 
 def _losses(audit: EnergyAudit) -> list[tuple[str, str]]:

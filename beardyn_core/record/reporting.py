@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.torque_budget import NUMERICAL, TorqueBudget, torque_budget
-from beardyn_core.record.encoding import LOST, loss_key
+from beardyn_core.record.encoding import loss_key
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.reading import Run, read_run
@@ -232,12 +232,12 @@ def _diagnosed(run: Run, key: str) -> list[float]:
 
 def _budget(run: Run) -> TorqueBudget | None:
     """Torque budget from the energies that the diagnostics carry, without the first part of the run."""
-    sources = (*LOSS_NAMES, NUMERICAL)
+    wanted = [loss_key(source) for source in (*LOSS_NAMES, NUMERICAL)]
     rows = [
-        (stamp * 1e-9, *(float(status.value(loss_key(source)) or 0.0) for source in sources))
+        (stamp * 1e-9, *(float(status.value(key) or 0.0) for key in wanted))
         for stamp, statuses in run.diagnostics
         for status in statuses
-        if any(key.startswith(LOST) for key, _ in status.values)
+        if not set(wanted).isdisjoint(key for key, _ in status.values)
     ]
     if len(rows) < 2:
         return None
