@@ -191,7 +191,7 @@ class NumericsKeys(FileModel):
 
     laminae: Annotated[Count, Field(ge=1, le=100), _or_auto(1, 100)] = 6
     steps_per_sample: Annotated[Count, Field(ge=1, le=64), _or_auto(1, 64)] = Field(
-        4, description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers"
+        3, description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers"
     )
 
     def noun(self) -> Numerics:

@@ -11,7 +11,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.balanced_springs import lamina_springs
-from beardyn_core.kernels.exchange import implicit_time
+from beardyn_core.kernels.exchange import damper_time
 from beardyn_core.kernels.lane_math import (
     at_least,
     at_most,
@@ -250,7 +250,7 @@ def balance(
     """
     base, effects = p.base, p.base.effects
     roller, faults, zero = base.roller, effects.faults, lanes.constant(0.0)
-    factor = implicit_time(4.0 * p.step, effects.damping) / p.step
+    factor = 1.0 + damper_time(effects.damping) / p.step
     radius = roller.radius + azimuths[3]
     cup_approach, cup_tilt, lever = cup_line(place, axis, radius, base.cup, roller)
     cup_wave = wave_gap(lanes, block, azimuths[0], faults.cup_waves)[0]

@@ -125,8 +125,14 @@ def watch_chatter(lanes: Any, rollers: Any, block: Any, ring: Any, friction: Any
 
 
 @inline
-def implicit_time(step: Any, damping: Any) -> Any:
-    """Time that makes tangent stiffness an implicit resistance: h/4 for spring, all for damper, [s]."""
+def implicit_time(spring_time: Any, damping: Any) -> Any:
+    """Time that makes tangent stiffness an implicit resistance: the damper acts in mid-step, [s]."""
+    return spring_time + 0.5 * damper_time(damping)
+
+
+@inline
+def damper_time(damping: Any) -> Any:
+    """Damping of a contact over its tangent stiffness, [s]."""
     if damping is None:
-        return 0.25 * step
-    return 0.25 * step + damping.time_constant
+        return 0.0
+    return damping.time_constant

@@ -83,12 +83,12 @@ def normal_sums(sums: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def raceway_matrix(matrix: Any, contact: Any, step: Any, damping: Any) -> Any:
+def raceway_matrix(matrix: Any, contact: Any, p: Any) -> Any:
     """Add the implicit part of one raceway contact to the roller's matrix."""
     if not contact[5]:
         return matrix
-    line, sums = contact[0], contact[2]
-    time = step * implicit_time(step, damping)
+    line, sums, step = contact[0], contact[2], p.step
+    time = step * implicit_time(p.spring_time, p.effects.damping)
     rough = (step * sums[2][0], step * sums[2][1], step * sums[2][2])
     # friction resists in the tangent plane: in every direction less along the normal
     stiff = (time * sums[1][0] - rough[0], time * sums[1][1] - rough[1], time * sums[1][2] - rough[2])
@@ -120,8 +120,11 @@ def shifted(affine: Any, change: Any, part: Any) -> Any:
 
 
 @inline
-def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
-    """Force and moment on the roller at the end of the step, with their energy terms.
+def settled_wrench(contact: Any, change: Any, step: Any, spring_time: Any, damping: Any) -> Any:
+    """Force and moment on the roller that the step ends with, with their energy terms.
+
+    Friction is that of the end of the step, contact damping that of its middle, and the spring takes in a
+    share of what it changes by.
 
     Returns
     -------
@@ -135,14 +138,14 @@ def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
     d_rate = affine_change(line, line[2], change)
     d_around = affine_change(line, line[3], change)
     d_along = affine_change(line, line[4], change)
-    rate = shifted(slip[0], d_rate, 1.0)
+    middle_rate = shifted(slip[0], d_rate, 0.5)
     spring = weighted(sums[1], d_rate)
     settled = (
-        sums[0][0] + 0.25 * step * spring[0],
-        sums[0][1] + 0.25 * step * spring[1],
+        sums[0][0] + spring_time * spring[0],
+        sums[0][1] + spring_time * spring[1],
         sums[0][2],
     )
-    normal = normal_sums((settled, sums[1]), rate, damping)
+    normal = normal_sums((settled, sums[1]), middle_rate, damping)
     around = shifted(slip[1], d_around, 1.0)
     along = shifted(slip[2], d_along, 1.0)
     friction_around = weighted(sums[2], around)
@@ -152,19 +155,16 @@ def settled_wrench(contact: Any, change: Any, step: Any, damping: Any) -> Any:
     middle_along = shifted(slip[2], d_along, 0.5)
     slid = power(sums[2], middle_around, middle_around) + power(sums[2], middle_along, middle_along)
     numerical = 0.5 * (power(sums[2], d_around, middle_around) + power(sums[2], d_along, middle_along))
-    damped, extra = damping_loss(sums, slip[0], d_rate, damping)
-    damped = damped + sums[5]
-    return force, moment, normal, friction_around[0], step * slid, step * damped, step * (numerical + extra)
+    damped = damping_loss(sums, middle_rate, damping) + sums[5]
+    return force, moment, normal, friction_around[0], step * slid, step * damped, step * numerical
 
 
 @inline
-def damping_loss(sums: Any, rate: Any, change: Any, damping: Any) -> Any:
-    """Power of the contact damping, and of its implicit step, [W]."""
+def damping_loss(sums: Any, rate: Any, damping: Any) -> Any:
+    """Power of the contact damping at a rate of approach, [W]."""
     if damping is None:
-        return 0.0, 0.0
-    middle = shifted(rate, change, 0.5)
-    lost = damping.time_constant * power(sums[1], middle, middle)
-    return lost, 0.5 * damping.time_constant * power(sums[1], change, middle)
+        return 0.0
+    return damping.time_constant * power(sums[1], rate, rate)
 
 
 @inline
@@ -216,7 +216,7 @@ def _settle(
         nothing = (zero, zero, zero)
         return nothing, nothing, nothing, zero
     force, moment, normal, friction, slid, damped, numerical = settled_wrench(
-        contact, change, p.step, p.effects.damping
+        contact, change, p.step, p.spring_time, p.effects.damping
     )
     react(lanes, sums, ring, mask, contact[4], force, moment, cosine, sine)
     account_loss(lanes, sums, mask, LOSS_SLIDING, slid, p.effects.audit)

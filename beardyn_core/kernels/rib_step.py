@@ -5,7 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.exchange import account, account_loss, implicit_time, output_contact, react
+from beardyn_core.kernels.exchange import (
+    account,
+    account_loss,
+    damper_time,
+    implicit_time,
+    output_contact,
+    react,
+)
 from beardyn_core.kernels.lane_math import sqrt, where_greater
 from beardyn_core.kernels.rib import rib_contact
 from beardyn_core.kernels.solve import add_couple, add_point, add_point_everywhere
@@ -25,15 +32,16 @@ def rib_before(body: Any, view: Any, zero: Any, rib: Any, damping: Any) -> Any:
 
 
 @inline
-def rib_matrix(matrix: Any, contact: Any, step: Any, rib: Any, damping: Any) -> Any:
+def rib_matrix(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
     """Add the implicit part of the rib contact."""
     if rib is None:
         return matrix
     normal, arm, _load, tangent, friction, _elastic, _energy, _slip, drilling, _spin, _film = contact[1]
-    rough = step * friction
+    rough = p.step * friction
     matrix = add_point_everywhere(matrix, arm, rough)
-    matrix = add_point(matrix, normal, arm, step * implicit_time(step, damping) * tangent - rough)
-    return _resist_spin(matrix, normal, step * drilling, rib.drilling)
+    stiff = p.step * implicit_time(p.spring_time, p.effects.damping) * tangent
+    matrix = add_point(matrix, normal, arm, stiff - rough)
+    return _resist_spin(matrix, normal, p.step * drilling, rib.drilling)
 
 
 @inline
@@ -109,7 +117,7 @@ def settle_point(
     Returns
     -------
     force, moment : vector
-        On the roller at the end of the step.
+        On the roller that the step ends with.
     """
     centre = contact[0]
     normal, arm, _load, tangent, friction, whole, energy, slip, resistance, spin, _film = contact[1]
@@ -118,19 +126,18 @@ def settle_point(
     d_slip = add(change[0], cross(change[1], arm))
     d_rate = dot(d_slip, normal)
     rate = dot(slip, normal)
-    load = elastic + 0.25 * p.step * tangent * d_rate + time_constant * tangent * (rate + d_rate)
+    middle_rate = rate + 0.5 * d_rate
+    load = elastic + p.spring_time * tangent * d_rate + time_constant * tangent * middle_rate
     before = add_scaled(slip, -rate, normal)
     d_sliding = add_scaled(d_slip, -d_rate, normal)
     sliding_after = add(before, d_sliding)
     middle = add_scaled(before, 0.5, d_sliding)
-    middle_rate = rate + 0.5 * d_rate
     force = add_scaled(scale(-load, normal), -friction, sliding_after)
     moment = _drilled(cross(arm, force), resistance, spin + d_spin, normal, drilling)
     react(lanes, sums, CONE, mask, centre, force, moment, cosine, sine)
     damping = time_constant * tangent
     drilled, extra = _drilling_loss(resistance, spin, d_spin, drilling)
-    numerical = 0.5 * (friction * dot(d_sliding, middle) + damping * d_rate * middle_rate)
-    numerical = numerical + extra
+    numerical = 0.5 * friction * dot(d_sliding, middle) + extra
     lost = friction * dot(middle, middle) + drilled
     audit = p.effects.audit
     account_loss(lanes, sums, mask, source, p.step * lost, audit)
@@ -160,7 +167,7 @@ def finish_rib(
     """Settle the rib contact after the solve and add its wrench to the roller's."""
     if rib is None:
         return force, moment
-    time_constant = implicit_time(p.step, p.effects.damping) - 0.25 * p.step
+    time_constant = damper_time(p.effects.damping)
     rib_force, rib_moment = settle_point(
         lanes, sums, contact, change, mask, cosine, sine, LOSS_RIB, time_constant, rib.drilling, p
     )

@@ -2,8 +2,9 @@
 
 Positions live at whole steps, velocities half a step later. A step moves the rollers along their
 velocities, evaluates every contact, solves one 6x6 system per roller for the velocity change under
-linearly implicit contacts, and applies to roller and ring the very same forces: those of the end of the
-step. Momentum is therefore exchanged exactly and the energy audit closes.
+linearly implicit contacts, and applies to roller and ring the very same forces: friction of the end of
+the step, contact damping of its middle, springs with a share of what they change by, which makes all but
+friction second order in the step. Momentum is therefore exchanged exactly and the energy audit closes.
 """
 
 from __future__ import annotations
@@ -106,13 +107,13 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
 
     mark(timers, CAGE)
     matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, axis, zero)
-    matrix = raceway_matrix(matrix, cup, step, effects.damping)
-    matrix = raceway_matrix(matrix, cone, step, effects.damping)
+    matrix = raceway_matrix(matrix, cup, p)
+    matrix = raceway_matrix(matrix, cone, p)
     matrix = rolling_matrix(matrix, cup_rolling, step, effects.rolling)
     matrix = rolling_matrix(matrix, cone_rolling, step, effects.rolling)
     matrix = drag_matrix(matrix, drag, step, effects.drag)
-    matrix = rib_matrix(matrix, rib, step, effects.rib, effects.damping)
-    matrix = small_rib_matrix(matrix, small_rib, step, effects.small_rib)
+    matrix = rib_matrix(matrix, rib, effects.rib, p)
+    matrix = small_rib_matrix(matrix, small_rib, effects.small_rib, p)
 
     cup_force, cup_moment = raceway_wrench(cup, effects.damping)
     cone_force, cone_moment = raceway_wrench(cone, effects.damping)

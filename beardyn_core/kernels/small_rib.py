@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.exchange import implicit_time
 from beardyn_core.kernels.lane_math import at_least, sqrt, where_greater
 from beardyn_core.kernels.rib_step import settle_point
 from beardyn_core.kernels.solve import add_point, add_point_everywhere
@@ -67,13 +68,13 @@ def small_rib_before(body: Any, view: Any, zero: Any, rib: Any) -> Any:
 
 
 @inline
-def small_rib_matrix(matrix: Any, contact: Any, step: Any, rib: Any) -> Any:
+def small_rib_matrix(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
     """Add the implicit part of the small-rib contact."""
     if rib is None:
         return matrix
     normal, arm, tangent, friction = contact[1][0], contact[1][1], contact[1][3], contact[1][4]
-    rough = step * friction
-    stiff = step * (0.25 * step + rib.damping.time_constant) * tangent
+    rough = p.step * friction
+    stiff = p.step * implicit_time(p.spring_time, rib.damping) * tangent
     return add_point(add_point_everywhere(matrix, arm, rough), normal, arm, stiff - rough)
 
 

@@ -111,6 +111,7 @@ class Parameters(NamedTuple):
     """Everything constant during a run."""
 
     step: float  # [s]
+    spring_time: float  # share of the step over which a contact's spring is implicit [s]
     roller: RollerParams
     cup: RacewayParams
     cone: RacewayParams

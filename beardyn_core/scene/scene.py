@@ -36,7 +36,7 @@ class Numerics:
     """
 
     laminae: int = 6
-    steps_per_sample: int = 4
+    steps_per_sample: int = 3
 
 
 @dataclass(frozen=True)

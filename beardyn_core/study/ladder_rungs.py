@@ -96,7 +96,7 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
         steps |= {
             "standard": (
                 standard,
-                ((3, usual), (6, usual // 2), (6, usual), (6, 2 * usual), (20, usual)),
+                ((3, usual), (6, usual - 1), (6, usual), (6, 2 * usual), (20, usual)),
             ),
             "standard + losses": (lossy, ((6, usual),)),
             "standard + losses + ring_flexibility": (
@@ -108,7 +108,7 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
                 full,
                 (
                     (3, usual),
-                    (6, usual // 2),
+                    (6, usual - 1),
                     (6, usual),
                     (6, 2 * usual),
                     (6, 4 * usual),

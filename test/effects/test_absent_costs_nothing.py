@@ -43,7 +43,7 @@ CUT = {
     ),
     # small rib
     "small_rib_before": ("body, view, zero, rib", "0.0"),
-    "small_rib_matrix": ("matrix, contact, step, rib", "matrix"),
+    "small_rib_matrix": ("matrix, contact, rib, p", "matrix"),
     "add_small_rib": ("force, moment, contact, rib", "(force, moment)"),
     "finish_small_rib": (
         "lanes, sums, contact, change, force, moment, mask, cosine, sine, rib, p",

@@ -247,7 +247,7 @@ def raceway_wrench(
     *,
     friction: Any = None,
     damping_time: float = 0.0,
-    step: float = 0.0,
+    spring_time: float = 0.0,
     oversize: float = 0.0,
     exact_search: bool = False,
 ) -> Wrench:
@@ -275,7 +275,7 @@ def raceway_wrench(
         if load <= 0.0:
             continue
         total.push(-load * normal, arm)
-        total.resist(normal, arm, (0.25 * step + damping_time) * tangent)
+        total.resist(normal, arm, (spring_time + 0.5 * damping_time) * tangent)
         if friction is None:
             continue
         sliding = slip - rate * normal
@@ -312,7 +312,7 @@ def rib_depth_by_search(centre: Float, axis: Float, ring_axis: Float, rib: Any) 
     return -1e-6 * float(found.fun)
 
 
-def rib_wrench(motion: Motion, rib: Any, *, damping_time: float = 0.0, step: float = 0.0) -> Wrench:
+def rib_wrench(motion: Motion, rib: Any, *, damping_time: float = 0.0, spring_time: float = 0.0) -> Wrench:
     """Sphere against cone: the sphere's deepest point lies on the cone normal through its centre."""
     total = Wrench.none()
     sphere = motion.centre + rib.sphere_place * motion.axis
@@ -338,7 +338,7 @@ def rib_wrench(motion: Motion, rib: Any, *, damping_time: float = 0.0, step: flo
     speed = float(np.linalg.norm(sliding))
     per_speed = coulomb_friction(load, 1.0, rib.friction, 0.0) / math.hypot(speed, rib.regularisation)
     total.push(-load * normal - per_speed * sliding, arm)
-    total.resist(normal, arm, (0.25 * step + damping_time) * tangent)
+    total.resist(normal, arm, (spring_time + 0.5 * damping_time) * tangent)
     around = np.cross(motion.ring_axis, normal)
     around /= np.linalg.norm(around)
     total.resist(around, arm, per_speed)

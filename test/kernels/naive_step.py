@@ -100,11 +100,19 @@ def step_roller(
         speed = entrainment(motion, raceway, roller, turn / h)
         contacts.append(
             raceway_wrench(
-                motion, raceway, roller, p.laminae, friction=law(speed), damping_time=damping_time, step=h
+                motion,
+                raceway,
+                roller,
+                p.laminae,
+                friction=law(speed),
+                damping_time=damping_time,
+                spring_time=p.spring_time,
             )
         )
     contacts.append(
-        rib_wrench(motion_against(cone, cone.axis), effects.rib, damping_time=damping_time, step=h)
+        rib_wrench(
+            motion_against(cone, cone.axis), effects.rib, damping_time=damping_time, spring_time=p.spring_time
+        )
     )
     third = np.array([0.0, 0.0, 1.0])
     pocket_motion = motion_against(cage, third)
