@@ -11,12 +11,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.box_coupling import box_coupling
 from beardyn_core.model.cage_params import cage_params
-from beardyn_core.model.contact_parameters import (
-    LAMINA_STIFFNESS,
-    DampingParams,
-    RacewayParams,
-    RollerParams,
-)
+from beardyn_core.model.contact_parameters import DampingParams, RacewayParams, RollerParams
 from beardyn_core.model.coupling_params import coupling_params
 from beardyn_core.model.fault_params import fault_params, roller_oversize
 from beardyn_core.model.flexibility_params import flexibility_params
@@ -26,7 +21,7 @@ from beardyn_core.model.loss_params import drag_params, rolling_params, seal_par
 from beardyn_core.model.parameters import AuditParams, EffectParams, GravityParams, MountingParams, Parameters
 from beardyn_core.model.rib_params import rib_params
 from beardyn_core.model.small_rib_params import small_rib_params
-from beardyn_core.model.spring_share import highest_bounce, implicit_spring_share
+from beardyn_core.model.spring_share import spring_time
 from beardyn_core.model.stages import new_timers
 from beardyn_core.model.traction_params import raceway_film_params, traction_params
 from beardyn_core.scene.mounting import Mounting
@@ -85,10 +80,9 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
     cup_angle, cone_angle = bearing.cup_angle, bearing.cone_angle
     laminae = lamina_table(scene)
     step = 1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample)
-    bounce = highest_bounce(bearing, float(laminae[LAMINA_STIFFNESS].sum()))
     return Parameters(
         step=step,
-        spring_time=step * implicit_spring_share(bounce, step),
+        spring_time=spring_time(bearing, laminae, step),
         roller=RollerParams(
             mass=bearing.roller_mass,
             axial_inertia=bearing.roller_axial_inertia,

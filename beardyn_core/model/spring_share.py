@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from beardyn_core.bearing.contact_law import LINE_EXPONENT
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.model.contact_parameters import LAMINA_STIFFNESS
 
 _LEAST = 1.0 / 12.0
 _PRESSURE = 4e9  # the static rating's limit of roller bearings, ISO 76 [Pa]
@@ -30,6 +34,12 @@ def highest_bounce(bearing: Bearing, stiffness: float) -> float:
     load = 2.0 * math.pi * length * radius * _PRESSURE**2 / bearing.material.contact_modulus
     one = LINE_EXPONENT * stiffness ** (1.0 / LINE_EXPONENT) * load ** (1.0 - 1.0 / LINE_EXPONENT)
     return math.sqrt(2.0 * one / bearing.roller_mass)
+
+
+def spring_time(bearing: Bearing, laminae: NDArray[np.float64], step: float) -> float:
+    """Share of the step over which contact springs are implicit, from the lamina table, [s]."""
+    bounce = highest_bounce(bearing, float(laminae[LAMINA_STIFFNESS].sum()))
+    return step * implicit_spring_share(bounce, step)
 
 
 def implicit_spring_share(bounce: float, step: float) -> float:

@@ -21,7 +21,7 @@ def scene(numerics: Any, **changes: Any) -> Scene:
     return scene_from_text(yaml.safe_dump({**data, **changes, "numerics": numerics}))
 
 
-@pytest.mark.parametrize(("quantities", "steps"), [(["torque"], 2), (["vibration"], 5)])
+@pytest.mark.parametrize(("quantities", "steps"), [(["torque"], 2), (["vibration"], 3)])
 def test_steps_follow_what_is_asked_for(quantities: list[str], steps: int) -> None:
     found = scene(AUTO, mounting=SUSPENDED, quantities=quantities)
     assert found.numerics.steps_per_sample == steps

@@ -207,7 +207,7 @@ def test_one_lamina_is_refused_or_reported() -> None:
 
 @pytest.mark.parametrize("factor", [8, 16, 32, 128])
 def test_step_far_too_large_is_reported(factor: int) -> None:
-    """8 times the production step chatters, more than that blows up; neither passes as fine."""
+    """8 times the production step and more blow up, and nothing passes as fine."""
     rig = Rig.at_equilibrium(standard_scene())
     rig.parameters = rig.parameters._replace(step=rig.parameters.step * factor)
     rig.run(500)

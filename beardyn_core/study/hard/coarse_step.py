@@ -13,6 +13,7 @@ from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.layout import ENERGY_TERMS, PENETRATION, SIGNAL_CHANNELS
+from beardyn_core.model.spring_share import spring_time
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.hard.case import Point
 from beardyn_core.study.hard.watch import Measures
@@ -25,7 +26,8 @@ def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
     """500 steps under one load with the scene's step times `factor`."""
     bearing, arrangement = scene.bearing, Arrangement(scene.bearing.roller_count, LANE_WIDTH)
     parameters = build_parameters(scene, arrangement, np.zeros(6))
-    parameters = parameters._replace(step=parameters.step * factor)
+    step = parameters.step * factor
+    parameters = parameters._replace(step=step, spring_time=spring_time(bearing, parameters.laminae, step))
     static = solve(
         bearing, point.force, end_play=scene.end_play, laminae=scene.numerics.laminae, speed=point.speed
     )
