@@ -69,6 +69,7 @@ def pocket_contact(
     height = cage.bar_sine * (dot(outward, centre) - cage.roller_height)
     offset = cage.bar_cosine * dot(ahead, centre)
     skew = cage.bar_cosine * dot(ahead, axis)
+    lift = cage.bar_sine * (dot(outward, axis) - cage.axis_radial)
     front = add_scaled(scale(cage.bar_cosine, ahead), cage.bar_sine, outward)
     behind = add_scaled(scale(-cage.bar_cosine, ahead), cage.bar_sine, outward)
     clearance = cage.bar_cosine * (cage.half_clearance + wear)
@@ -78,29 +79,30 @@ def pocket_contact(
     large_radius = roller.radius + cage.bar_place * roller.taper
     small_front = touch_wall(
         centre, add_scaled(scale(small, axis), small_radius, front), front,
-        height + offset + small * skew - clearance, motion, cage,
+        height + offset + small * (lift + skew) - clearance, motion, cage,
         (axis, small_radius), cage.film,
     )  # fmt: skip
     large_front = touch_wall(
         centre, add_scaled(scale(large, axis), large_radius, front), front,
-        height + offset + large * skew - clearance, motion, cage,
+        height + offset + large * (lift + skew) - clearance, motion, cage,
         (axis, large_radius), cage.film,
     )  # fmt: skip
     small_behind = touch_wall(
         centre, add_scaled(scale(small, axis), small_radius, behind), behind,
-        height - offset - small * skew - clearance, motion, cage,
+        height - offset + small * (lift - skew) - clearance, motion, cage,
         (axis, small_radius), cage.film,
     )  # fmt: skip
     large_behind = touch_wall(
         centre, add_scaled(scale(large, axis), large_radius, behind), behind,
-        height - offset - large * skew - clearance, motion, cage,
+        height - offset + large * (lift - skew) - clearance, motion, cage,
         (axis, large_radius), cage.film,
     )  # fmt: skip
     slide = dot(pocket_axis, centre) - cage.roller_place
     side = where_greater(slide, 0.0, 1.0 + still, -1.0 + still)
+    shorter = roller.half_length * (1.0 - dot(pocket_axis, axis))
     end = touch_wall(
         centre, scale(side * roller.half_length, axis), scale(side, pocket_axis),
-        magnitude(slide) - cage.half_end_clearance, motion, cage, (axis, roller.radius), None,
+        magnitude(slide) - shorter - cage.half_end_clearance, motion, cage, (axis, roller.radius), None,
     )  # fmt: skip
     touches = (small_front, large_front, small_behind, large_behind, end)
     bar = scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)

@@ -369,17 +369,19 @@ def pocket_wrench(
     for sense in (1.0, -1.0):
         normal = sense * cage.bar_cosine * ahead + cage.bar_sine * outward
         for x in (-cage.bar_place, cage.bar_place):
-            # the nominal disc at x, centre `roller_height` out; its play along the normal is measured ahead
+            # the nominal disc at x, its centre `height` out; its play along the normal is measured ahead
             radius = roller.radius + x * roller.taper
-            across = cage.bar_sine * (float(outward @ motion.centre) - cage.roller_height)
-            offset = sense * cage.bar_cosine * float(ahead @ (motion.centre + x * motion.axis))
+            disc = motion.centre + x * motion.axis
+            height = cage.roller_height + x * cage.axis_radial
+            across = cage.bar_sine * (float(outward @ disc) - height)
+            offset = sense * cage.bar_cosine * float(ahead @ disc)
             depth = across + offset - cage.bar_cosine * cage.half_clearance
             walls.append((normal, x * motion.axis + radius * normal, depth))
-    slide = float(pocket_axis @ motion.centre) - cage.roller_place
-    side = 1.0 if slide > 0.0 else -1.0
-    walls.append(
-        (side * pocket_axis, side * roller.half_length * motion.axis, abs(slide) - cage.half_end_clearance)
-    )
+    side = 1.0 if float(pocket_axis @ motion.centre) > cage.roller_place else -1.0
+    end = side * roller.half_length * motion.axis
+    nominal = cage.roller_place + side * roller.half_length
+    stands_in = side * (float(pocket_axis @ (motion.centre + end)) - nominal)
+    walls.append((side * pocket_axis, end, stands_in - cage.half_end_clearance))
     for normal, arm, depth in walls:
         if depth <= 0.0:
             continue

@@ -98,20 +98,23 @@ def pocket_wrench(
 
     senses: tuple[float, ...] = (1.0, -1.0)
     for x in (-cage.bar_place, cage.bar_place):
-        offset = float(ahead @ (motion.centre + x * motion.axis))
+        disc = motion.centre + x * motion.axis
+        offset = float(ahead @ disc)
         if cage.rotating is not None:
             senses = (1.0,) if offset > 0.0 else (-1.0,)
         for sense in senses:
             normal = sense * cage.bar_cosine * ahead + cage.bar_sine * outward
             radius = roller.radius + x * roller.taper
-            across = cage.bar_sine * (float(outward @ motion.centre) - cage.roller_height)
+            across = cage.bar_sine * (float(outward @ disc) - cage.roller_height - x * cage.axis_radial)
             depth = across + sense * cage.bar_cosine * offset - cage.bar_cosine * cage.half_clearance
             touch(normal, x * motion.axis + radius * normal, depth, radius, cage.film)
     if cage.rotating is None:
-        slide = float(pocket_axis @ motion.centre) - cage.roller_place
-        side = 1.0 if slide > 0.0 else -1.0
+        side = 1.0 if float(pocket_axis @ motion.centre) > cage.roller_place else -1.0
         arm = side * roller.half_length * motion.axis
-        touch(side * pocket_axis, arm, abs(slide) - cage.half_end_clearance, roller.radius, None)
+        reach = side * (float(pocket_axis @ (motion.centre + arm)) - cage.roller_place)
+        touch(
+            side * pocket_axis, arm, reach - roller.half_length - cage.half_end_clearance, roller.radius, None
+        )
     return total
 
 

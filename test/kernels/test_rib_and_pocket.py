@@ -150,6 +150,44 @@ def test_pocket_wrench_is_the_sum_of_its_five_walls(lanes: Any) -> None:
     assert pressed > 40
 
 
+def test_elastic_pocket_force_and_moment_are_the_gradient_of_the_energy() -> None:
+    """At rest, so without friction and damping; moved and turned rollers in moved and turned cages.
+
+    Truncation of the difference at 5 um of depth. A leaning bar has to feel the roller tilt.
+    """
+    cases, advances = pocket_cases(60, 9, still=True)
+    found = pocket_results(cases, advances)
+    step, lever = 1e-8, 0.02
+    size = np.linalg.norm(found[:, :3], axis=1)
+    assert (size > 10.0).sum() > 20
+
+    def energy(move: Float, turn: Float) -> Float:
+        moved = []
+        for motion in cases:
+            azimuth = in_orbit_frame(motion)[1]
+            # the orbit frame is held, as the advance is given in it
+            shift, angle = naive_step.turned(azimuth, move), naive_step.turned(azimuth, turn)
+            axis = motion.axis + np.cross(angle, motion.axis)
+            moved.append(replace(motion, centre=motion.centre + shift, axis=axis / np.linalg.norm(axis)))
+        p = parameters()
+        states = []
+        for motion, before, advance in zip(moved, cases, advances, strict=True):
+            azimuth = in_orbit_frame(before)[1]
+            names = motion.__dataclass_fields__
+            local = naive.Motion(
+                **{name: naive_step.turned(-azimuth, getattr(motion, name)) for name in names}
+            )
+            states.append(packed(local, advance))
+        return through(LANES8, pockets, np.array(states), 7, p.roller, p.effects.cage)[:, 6]
+
+    for i in range(3):
+        unit, still = step * np.eye(3)[i], np.zeros(3)
+        force = -(energy(unit, still) - energy(-unit, still)) / (2.0 * step)
+        assert np.all(np.abs(force - found[:, i]) <= 2e-4 * size + 1e-2)
+        moment = -(energy(still, unit / lever) - energy(still, -unit / lever)) / (2.0 * step / lever)
+        assert np.all(np.abs(moment - found[:, 3 + i]) <= lever * (2e-4 * size + 1e-2))
+
+
 def test_bar_is_as_deep_as_the_exact_disc_against_a_plane() -> None:
     """g = (C - p0).n - r sqrt(1 - (n.a)^2): the kernel keeps the lean n.a of the nominal roller.
 
