@@ -13,9 +13,9 @@ def integrator_problems(integrator: str, tier: str, steps_given: bool, automatic
     ----------
     integrator : str
         ``implicit``: each roller's velocities are solved for under its contacts, linearised. ``explicit``:
-        contact forces of the beginning of the step on roller and ring alike, symplectic Euler. With steps above
-        0.5 us (dry friction at 150 kN) to 5 us (films) slips flip from step to step while mean forces stay
-        about right: it is nothing but a reference for the other.
+        contact forces of the beginning of the step on roller and ring alike, symplectic Euler. With steps
+        above 0.5 us (dry friction at 150 kN) to 5 us (films) slips flip from step to step while mean forces
+        stay about right: it is nothing but a reference for the other.
     tier : str
     steps_given : bool
         Whether the scene gives `steps_per_sample` as a number.

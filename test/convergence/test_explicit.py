@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -69,7 +70,7 @@ def test_explicit_and_implicit_steps_meet_as_the_step_goes_to_zero(quantity: str
         gaps.append(float(np.abs(explicit[quantity] - implicit[quantity]).max()))
     size = float(np.abs(end_of_short_run("implicit", 1600)[quantity]).max())
     assert gaps[0] < 1e-3 * size
-    for coarse, fine in zip(gaps, gaps[1:], strict=False):
+    for coarse, fine in pairwise(gaps):
         assert fine == pytest.approx(0.5 * coarse, rel=0.15, abs=TINY * size)
 
 

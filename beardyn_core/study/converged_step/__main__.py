@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from beardyn_core.study.converged_step.study import QUICK, Extent, run_study
-from beardyn_core.study.converged_step.table import point_table
+from beardyn_core.study.converged_step.table import point_tables, trap_table, verdict_text
 from beardyn_core.study.converged_step.way import POINTS
 
 
@@ -43,7 +43,10 @@ def main(words: list[str] | None = None) -> int:
     found = run_study(extent, points, arguments.jobs, lambda text: print(text, flush=True))
     arguments.output.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
     for point in found["points"]:
-        print(f"\n{point_table(point).text()}")
+        for table in point_tables(point, found):
+            print(f"\n{table.text()}")
+        print("\n".join(verdict_text(point, asked) for asked in point["chosen"]))
+    print(f"\n{trap_table(found).text()}")
     print(f"\n{time.monotonic() - began:.0f} s; written to {arguments.output}")
     return 0
 

@@ -1,10 +1,10 @@
 """Differences from the reference, how well they are known, and what runs of the reference differ by.
 
-The bearing is chaotic: runs that begin a hair apart share statistics, not trajectories. A statistic of a run
-has a variance, the larger of two: between whole runs, and between all parts of them over the number of parts.
-From it come the uncertainty of the difference of two means of runs (95 %, Welch), and the run-to-run band:
-what the difference of two single runs of the reference stays in (95 %). Spectra take both for all their bands
-together (Bonferroni).
+The bearing is chaotic: runs that begin a hair apart share statistics, not trajectories. The variance of a
+statistic of a run is that among all equal parts of all runs over the number of parts; where whole runs
+scatter by more than that, in the mean over a spectrum, it is raised as much. From it come the uncertainty of
+the difference of two means of runs (95 %, Welch), and the run-to-run band: what the difference of two single
+runs of the reference stays in (95 %). Spectra take both for all their bands together (Bonferroni).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from scipy.stats import t as student
 Float = NDArray[np.float64]
 
 WITHIN, NOT, OPEN = "within", "not", "open"
-MEAN_LIMIT, SCATTER_LIMIT = 5.0e-3, 0.2
+MEAN_LIMIT, SCATTER_LIMIT, LEVEL_LIMIT = 5.0e-3, 0.2, 1.5
 _TAIL = 0.025
 
 
@@ -81,7 +81,10 @@ def run_variance(runs: Sequence[Float]) -> Float:
     """Variance of a statistic of one run; runs as of `difference`, two or more."""
     between = np.var([run[0] for run in runs], axis=0, ddof=1)
     parts = np.concatenate([run[1:] for run in runs])
-    return np.asarray(np.maximum(between, parts.var(axis=0, ddof=1) / (len(runs[0]) - 1)))
+    within = parts.var(axis=0, ddof=1) / (len(runs[0]) - 1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = float(np.nanmean(between / within)) if np.any(within > 0.0) else 1.0
+    return np.asarray(max(ratio, 1.0) * within)
 
 
 def _freedom(variances: Float, parts: Float) -> Float:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX
 from beardyn_core.integrate.step_choice import StepChoice
 from beardyn_core.study.converged_step.comparison import (
+    LEVEL_LIMIT,
     MEAN_LIMIT,
     NOT,
     SCATTER_LIMIT,
@@ -22,13 +23,15 @@ from beardyn_core.study.converged_step.comparison import (
     difference,
 )
 from beardyn_core.study.converged_step.run import LINES, StepRun, attempt
+from beardyn_core.study.converged_step.trap import TRAP_EFFECTS, traps
 from beardyn_core.study.converged_step.way import (
+    BRIDGE,
     COMPARED_STEPS,
     EFFECTS,
     LAMINAE,
+    LONG_EXPLICIT,
     POINTS,
     REFERENCE,
-    LONG_EXPLICIT,
     Point,
     Way,
     chosen,
@@ -51,8 +54,9 @@ class Extent:
     ----------
     settling, duration : float
         Of each run, [s].
-    reference_runs, runs : int
-        Of the reference, and of each implicit step; explicit steps that are too long run once.
+    reference_runs, bridge_runs, runs : int
+        Of the reference, of the explicit step beside it, and of each implicit step; explicit steps that are
+        too long run once.
     steps : tuple of int
         Implicit steps per sample beside the chosen ones.
     """
@@ -60,11 +64,12 @@ class Extent:
     settling: float = 0.3
     duration: float = 1.7
     reference_runs: int = 3
-    runs: int = 4
+    bridge_runs: int = 6
+    runs: int = 8
     steps: tuple[int, ...] = COMPARED_STEPS
 
 
-QUICK = Extent(0.1, 0.4, 2, 2)
+QUICK = Extent(0.1, 0.4, 2, 2, 2)
 
 
 def run_study(
@@ -82,8 +87,11 @@ def run_study(
         Told a line after each run.
     """
     jobs_of = [job for point in points for job in _jobs(point, extent)]
-    for way in (REFERENCE, Way("implicit", 4)):
-        Twin(scene_of(points[0], way)).warm()  # no two processes compile the same
+    for effects in TRAP_EFFECTS:
+        for way in (REFERENCE, Way("implicit", 4)):
+            Twin(scene_of(points[0], way, effects=effects)).warm()  # no two processes compile the same
+    told("explicit steps across their limit")
+    trapped = traps(points)
     runs: Runs = {}
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         waiting = {
@@ -99,9 +107,15 @@ def run_study(
         "effects": EFFECTS,
         "laminae": LAMINAE,
         "extent": asdict(extent),
-        "limits": {"mean": MEAN_LIMIT, "scatter": SCATTER_LIMIT, "chatter": LARGEST_CHATTER_INDEX},
+        "limits": {
+            "mean": MEAN_LIMIT,
+            "scatter": SCATTER_LIMIT,
+            "level_dB": LEVEL_LIMIT,
+            "chatter": LARGEST_CHATTER_INDEX,
+        },
         "bands_Hz": list(NOMINAL_BANDS),
         "lines_Hz": LINES.tolist(),
+        "traps": trapped,
         "points": [point_mapping(point, extent, runs) for point in points],
     }
 
@@ -115,17 +129,19 @@ def _said(found: StepRun | str) -> str:
 def _jobs(point: Point, extent: Extent) -> list[Job]:
     """The long ones first."""
     repeats = [(REFERENCE, extent.reference_runs)]
-    repeats += [(way, 1 if way in LONG_EXPLICIT else extent.runs) for way in compared(point, extent.steps)]
+    counts = {BRIDGE: extent.bridge_runs, **dict.fromkeys(LONG_EXPLICIT, 1)}
+    repeats += [(way, counts.get(way, extent.runs)) for way in compared(point, extent.steps)]
     return [(point, way, number) for way, count in repeats for number in range(count)]
 
 
 def point_mapping(point: Point, extent: Extent, runs: Runs) -> dict[str, Any]:
     """One load: reference, rows, what is chosen and the verdict on it."""
     reference = [run for run in runs[point, REFERENCE] if isinstance(run, StepRun)]
-    rows = [row_mapping(way, runs[point, way], reference) for way in compared(point, extent.steps)]
+    pooled = [*reference, *(run for run in runs[point, BRIDGE] if isinstance(run, StepRun))]
+    rows = [row_mapping(way, runs[point, way], reference, pooled) for way in compared(point, extent.steps)]
     choices = chosen(point)
     mean, scatter = (_mean(reference, key) for key in ("mean", "scatter"))
-    own = difference([run.mean[:, None] / abs(mean) for run in reference], _relative(reference, "mean", mean))
+    own = difference(_relative(reference, "mean", mean), _relative(reference, "mean", mean))
     bands, lines = (_spectra(reference, reference, key) for key in ("bands", "lines"))
     return {
         "name": point.name,
@@ -135,7 +151,9 @@ def point_mapping(point: Point, extent: Extent, runs: Runs) -> dict[str, Any]:
             "name": REFERENCE.name,
             "runs": len(reference),
             "torque_Nm": mean,
-            "torque_doubt": float(own.doubt[0]) / np.sqrt(2.0),
+            "torque_doubt": float(own.doubt[0] / np.sqrt(2.0)),
+            "pooled_runs": len(pooled),
+            "pooled_torque_Nm": _mean(pooled, "mean"),
             "scatter_Nm": scatter,
             "heard_scatter_Nm": _mean(reference, "heard_scatter"),
             "chatter": max(run.chatter for run in reference),
@@ -150,8 +168,21 @@ def point_mapping(point: Point, extent: Extent, runs: Runs) -> dict[str, Any]:
     }
 
 
-def row_mapping(way: Way, runs: Sequence[StepRun | str], reference: Sequence[StepRun]) -> dict[str, Any]:
-    """One time step against the reference; only its name and the reason when a run of it ended early."""
+def row_mapping(
+    way: Way, runs: Sequence[StepRun | str], reference: Sequence[StepRun], pooled: Sequence[StepRun]
+) -> dict[str, Any]:
+    """One time step against the reference; only its name and the reason when a run of it ended early.
+
+    Parameters
+    ----------
+    way : Way
+    runs : sequence
+        As of `attempt`.
+    reference : sequence of StepRun
+        What all is compared with.
+    pooled : sequence of StepRun
+        The same together with the runs of `BRIDGE`, for the mean torque, which takes the longest to be known.
+    """
     row: dict[str, Any] = {**asdict(way), "name": way.name, "step_us": 1e6 * way.step, "runs": len(runs)}
     whole = [run for run in runs if isinstance(run, StepRun)]
     if len(whole) < len(runs):
@@ -161,6 +192,8 @@ def row_mapping(way: Way, runs: Sequence[StepRun | str], reference: Sequence[Ste
         key: difference(_relative(whole, key, size), _relative(reference, key, size))
         for key, size in (("mean", mean), ("scatter", scatter), ("heard_scatter", heard))
     }
+    size = _mean(pooled, "mean")
+    found["pooled_mean"] = difference(_relative(whole, "mean", size), _relative(pooled, "mean", size))
     bands, lines = (_spectra(whole, reference, key) for key in ("bands", "lines"))
     return {
         **row,
@@ -170,9 +203,11 @@ def row_mapping(way: Way, runs: Sequence[StepRun | str], reference: Sequence[Ste
         "torque_Nm": _mean(whole, "mean"),
         "scatter_Nm": _mean(whole, "scatter"),
         "mean": _single(found["mean"], MEAN_LIMIT),
+        "pooled_mean": _single(found["pooled_mean"], MEAN_LIMIT),
         "scatter": _single(found["scatter"], SCATTER_LIMIT),
         "heard_scatter": _single(found["heard_scatter"], SCATTER_LIMIT),
         "bands": _many(bands),
+        "bands_limit": {"verdict": bands.against(LEVEL_LIMIT)},
         "lines": _many(lines),
     }
 
@@ -180,8 +215,9 @@ def row_mapping(way: Way, runs: Sequence[StepRun | str], reference: Sequence[Ste
 def _judged(choice: StepChoice, asked: str, rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """What is chosen, and the worst verdict on what was asked."""
     row = next(r for r in rows if (r["integrator"], r["steps"]) == ("implicit", choice.steps_per_sample))
-    criteria = ("mean", "scatter", "bands", "lines") if asked == "vibration" else ("mean", "scatter")
-    verdicts = {key: row[key]["verdict"] if "ended" not in row else NOT for key in criteria}
+    spectra = ("bands", "bands_limit", "lines") if asked == "vibration" else ()
+    criteria = ("mean", "pooled_mean", "scatter", *spectra)
+    verdicts: dict[str, str] = {key: row[key]["verdict"] if "ended" not in row else NOT for key in criteria}
     worst = next((v for v in (NOT, "open") if v in verdicts.values()), WITHIN)
     return {**asdict(choice), "verdicts": verdicts, "verdict": worst}
 
@@ -191,7 +227,7 @@ def _mean(runs: Sequence[StepRun], key: str) -> float:
 
 
 def _relative(runs: Sequence[StepRun], key: str, size: float) -> list[Float]:
-    return [getattr(run, key)[:, None] / abs(size) for run in runs]
+    return [getattr(run, key)[:, None] / size for run in runs]
 
 
 def _spectra(runs: Sequence[StepRun], reference: Sequence[StepRun], key: str) -> Difference:
@@ -207,5 +243,6 @@ def _many(found: Difference) -> dict[str, Any]:
     return {
         "difference_dB": found.value.tolist(),
         "doubt_dB": found.doubt.tolist(),
+        "rms_dB": float(np.sqrt(np.mean(found.value**2))),
         "verdict": found.against_band(),
     }
