@@ -124,6 +124,7 @@ def synthetic(rng: np.random.Generator, mean: float, scatter: float, level: floa
         heard_scatter=scatter + 1e-2 * rng.normal(size=1 + PARTS),
         bands=level_of(len(NOMINAL_BANDS)),
         lines=level_of(len(LINES)),
+        begun=mean,
         chatter=0.01,
         status="fine",
         wall=1.0,

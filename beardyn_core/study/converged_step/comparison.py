@@ -56,7 +56,7 @@ class Difference:
         return NOT if np.any(size - self.doubt > self.band) else OPEN
 
 
-def difference(found: Sequence[Float], reference: Sequence[Float]) -> Difference:
+def difference(found: Sequence[Float], reference: Sequence[Float], neighbours: int = 1) -> Difference:
     """Difference of runs from the reference.
 
     Parameters
@@ -65,15 +65,19 @@ def difference(found: Sequence[Float], reference: Sequence[Float]) -> Difference
         The whole run and its parts; with one run its scatter is taken to be the reference's.
     reference : sequence of such arrays
         Two or more.
+    neighbours : int
+        Components side by side whose variance is alike: it is averaged over so many, odd.
     """
     here, there = np.array([run[0] for run in found]), np.array([run[0] for run in reference])
     scatterers = found if len(found) > 1 else reference
     parts = np.array([len(scatterers), len(reference)]) * (len(reference[0]) - 1)
-    single = np.array([run_variance(scatterers), run_variance(reference)])
+    single = np.array([_averaged(run_variance(runs), neighbours) for runs in (scatterers, reference)])
+    # under a Hann window every second line is independent
+    degrees = (parts - 1) * (neighbours + 1) / 2.0
     means = single / np.array([[len(found)], [len(reference)]])
     tail = _TAIL / here.shape[1]
-    doubt = student.isf(tail, _freedom(means, parts)) * np.sqrt(means.sum(axis=0))
-    band = student.isf(tail, parts[1] - 1) * np.sqrt(2.0 * single[1])
+    doubt = student.isf(tail, _freedom(means, degrees)) * np.sqrt(means.sum(axis=0))
+    band = student.isf(tail, degrees[1]) * np.sqrt(2.0 * single[1])
     return Difference(here.mean(axis=0) - there.mean(axis=0), doubt, band)
 
 
@@ -87,9 +91,16 @@ def run_variance(runs: Sequence[Float]) -> Float:
     return np.asarray(max(ratio, 1.0) * within)
 
 
-def _freedom(variances: Float, parts: Float) -> Float:
+def _averaged(values: Float, count: int) -> Float:
+    """Running mean over neighbours; at the ends over those that exist."""
+    window = np.ones(count)
+    whole = np.convolve(values, window, mode="same")
+    return np.asarray(whole / np.convolve(np.ones(len(values)), window, mode="same"))
+
+
+def _freedom(variances: Float, degrees: Float) -> Float:
     """Degrees of freedom of a sum of variances (Welch and Satterthwaite)."""
     total = variances.sum(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        found = total**2 / (variances**2 / (parts - 1)[:, None]).sum(axis=0)
+        found = total**2 / (variances**2 / degrees[:, None]).sum(axis=0)
     return np.where(total > 0.0, found, math.inf)

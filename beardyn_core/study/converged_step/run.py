@@ -25,6 +25,7 @@ LINE_WIDTH = WAVEFORM_RATE / SEGMENT
 HIGHEST = 10_000.0
 LINES = LINE_WIDTH * np.arange(1, round(HIGHEST / LINE_WIDTH) + 1)
 PARTS = 5
+BEGIN = 5.0e-3
 _ZERO_LEVEL = 1.0e-6  # ISO 1683, [m/s^2]
 
 
@@ -42,6 +43,9 @@ class StepRun:
         Third octaves of the housing acceleration, re 1 um/s^2, [dB].
     lines : float64 array, shape [1 + part, line]
         Power of the housing acceleration in `LINES`, all axes together, re 1 um/s^2, [dB].
+    begun : float
+        Mean torque of the first `BEGIN` seconds, in which runs that begin alike still follow one another at
+        any step, [N m].
     chatter : float
         Largest chatter index of a block, [-].
     status : str
@@ -55,6 +59,7 @@ class StepRun:
     heard_scatter: Float
     bands: Float
     lines: Float
+    begun: float
     chatter: float
     status: str
     wall: float
@@ -84,12 +89,15 @@ def run_once(point: Point, way: Way, number: int, settling: float, duration: flo
     scene = twin.scene
     twin.start(load_history(scene.operation, scene.mounting, (settled + blocks + 1) * block_s, scene.seed))
     heard = Decimator(way.steps, 1)
-    moments, torque, housing, chatter, status = [], [], [], 0.0, 0
+    moments, torque, housing = [], [], []
+    begun, chatter, status = 0.0, 0.0, 0
     began = time.perf_counter()
     for index in range(settled + blocks):
         block = twin.advance()
         every = twin.step_signals[:, SIGNAL_TORQUE]
         wave = heard.push(every[:, None])[:, 0]
+        if index == 0:
+            begun = float(every[: round(BEGIN / block_s * len(every))].mean())
         if index >= settled:
             status |= block.status
             moments.append((every.mean(), np.mean(every**2)))
@@ -107,6 +115,7 @@ def run_once(point: Point, way: Way, number: int, settling: float, duration: flo
         heard_scatter=np.array([signal[stretch].std() for stretch in stretches]),
         bands=np.array([third_octave_levels(accelerations[stretch]) for stretch in stretches]),
         lines=np.array([line_levels(accelerations[stretch]) for stretch in stretches]),
+        begun=begun,
         chatter=chatter,
         status=describe(status),
         wall=wall,

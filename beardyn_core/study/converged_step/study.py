@@ -42,6 +42,7 @@ from beardyn_core.study.measures import NOMINAL_BANDS
 from beardyn_core.twin import Twin
 
 Float = NDArray[np.float64]
+_ALIKE = 9  # lines side by side, of which one variance is taken
 Job = tuple[Point, Way, int]
 Runs = dict[tuple[Point, Way], list[StepRun | str]]
 
@@ -92,7 +93,7 @@ def run_study(
             Twin(scene_of(points[0], way, effects=effects)).warm()  # no two processes compile the same
     told("explicit steps across their limit")
     trapped = traps(points)
-    runs: Runs = {}
+    results: dict[Job, StepRun | str] = {}
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         waiting = {
             pool.submit(attempt, point, way, number, extent.settling, extent.duration): (point, way, number)
@@ -100,9 +101,11 @@ def run_study(
         }
         for done, future in enumerate(as_completed(waiting), start=1):
             point, way, number = waiting[future]
-            found = future.result()
-            runs.setdefault((point, way), []).append(found)
+            found = results[point, way, number] = future.result()
             told(f"{done:3}/{len(waiting)}  {point.name}, {way.name}, run {number + 1}: {_said(found)}")
+    runs: Runs = {}
+    for point, way, number in jobs_of:
+        runs.setdefault((point, way), []).append(results[point, way, number])
     return {
         "effects": EFFECTS,
         "laminae": LAMINAE,
@@ -200,6 +203,7 @@ def row_mapping(
         "wall": float(np.median([run.wall for run in whole])),
         "status": next((run.status for run in whole if run.status != "fine"), "fine"),
         "chatter": max(run.chatter for run in whole),
+        "begun": _paired(whole, reference),
         "torque_Nm": _mean(whole, "mean"),
         "scatter_Nm": _mean(whole, "scatter"),
         "mean": _single(found["mean"], MEAN_LIMIT),
@@ -222,6 +226,13 @@ def _judged(choice: StepChoice, asked: str, rows: Sequence[dict[str, Any]]) -> d
     return {**asdict(choice), "verdicts": verdicts, "verdict": worst}
 
 
+def _paired(runs: Sequence[StepRun], reference: Sequence[StepRun]) -> float:
+    """Relative difference of the torque at the beginning, of runs that begin alike."""
+    return float(
+        np.mean([run.begun / other.begun - 1.0 for run, other in zip(runs, reference, strict=False)])
+    )
+
+
 def _mean(runs: Sequence[StepRun], key: str) -> float:
     return float(np.mean([getattr(run, key)[0] for run in runs]))
 
@@ -231,7 +242,8 @@ def _relative(runs: Sequence[StepRun], key: str, size: float) -> list[Float]:
 
 
 def _spectra(runs: Sequence[StepRun], reference: Sequence[StepRun], key: str) -> Difference:
-    return difference([getattr(run, key) for run in runs], [getattr(run, key) for run in reference])
+    here, there = ([getattr(run, key) for run in group] for group in (runs, reference))
+    return difference(here, there, _ALIKE if key == "lines" else 1)
 
 
 def _single(found: Difference, limit: float) -> dict[str, Any]:

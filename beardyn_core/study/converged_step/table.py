@@ -33,25 +33,33 @@ def verdict_text(point: dict[str, Any], asked: str) -> str:
 
 def trap_table(data: dict[str, Any]) -> Table:
     """Explicit steps across their limit."""
-    head = ("effects, load, step", "mean N m", "scatter N m", "every second step N m", "chatter")
+    head = (
+        "effects, load, step", "first 5 ms N m", "mean N m", "scatter N m", "every second step N m",
+        "chatter",
+    )  # fmt: skip
     rows = []
     for row in data["traps"]:
         numbers = [row[key] for key in ("mean", "scatter", "scatter_every_second", "chatter")]
-        cells = ("ended",) * 4 if row["ended"] else tuple(f"{value:.3f}" for value in numbers)
+        cells = (
+            ("ended", *(4 * ("",)))
+            if row["ended"]
+            else (f"{row['begun']:.4f}", *(f"{value:.3f}" for value in numbers))
+        )
         rows.append((f"{row['effects']}, {row['load']}, {row['way']}", *cells))
     return Table("Torque over 20 ms, 20 ms after equilibrium", head, tuple(rows))
 
 
 def _torque(point: dict[str, Any]) -> Table:
     head = (
-        "step", "steps a sample", "s/s", "mean N m", "% of reference", "", "% of pooled", "", "scatter N m",
-        "%", "", "% at 25.6 kHz", "chatter",
+        "step", "steps a sample", "s/s", "% in 5 ms", "mean N m", "% of reference", "", "% of pooled", "",
+        "scatter N m", "%", "", "% at 25.6 kHz", "chatter",
     )  # fmt: skip
     rows = []
     for row in point["rows"]:
         cells = (
             (
                 f"{row['wall']:.2g}",
+                f"{100.0 * row['begun']:+.2f}",
                 f"{row['torque_Nm']:.3f}",
                 *_percent(row["mean"]),
                 *_percent(row["pooled_mean"]),
@@ -61,7 +69,7 @@ def _torque(point: dict[str, Any]) -> Table:
                 f"{row['chatter']:.3f}",
             )
             if "ended" not in row
-            else ("ended", *(10 * ("",)))
+            else ("ended", *(11 * ("",)))
         )
         rows.append((_name(row, point), str(row["steps"]), *cells))
     reference = point["reference"]

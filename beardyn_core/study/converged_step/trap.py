@@ -10,6 +10,7 @@ from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import chatter_index
 from beardyn_core.model.layout import SIGNAL_TORQUE
 from beardyn_core.rail.build import load_history
+from beardyn_core.study.converged_step.run import BEGIN
 from beardyn_core.study.converged_step.way import REFERENCE, Point, Way, scene_of
 from beardyn_core.twin import Twin
 
@@ -28,6 +29,8 @@ class Trapped:
     Parameters
     ----------
     effects, load, way : str
+    begun : float
+        Mean torque of the first `run.BEGIN` seconds, [N m].
     mean, scatter, scatter_every_second : float
         Torque at every step, its standard deviation, and that of every second step, [N m].
     chatter : float
@@ -39,6 +42,7 @@ class Trapped:
     effects: str
     load: str
     way: str
+    begun: float
     mean: float
     scatter: float
     scatter_every_second: float
@@ -51,15 +55,17 @@ def trapped(effects: str, point: Point, way: Way) -> Trapped:
     twin = Twin(scene_of(point, way, effects=effects))
     twin.start(load_history(twin.scene.operation, twin.scene.mounting, 0.1, 1))
     try:
-        for _ in range(2):
-            twin.advance()
+        twin.advance()
+        every = twin.step_signals[:, SIGNAL_TORQUE]
+        begun = float(every[: round(1e9 * BEGIN / twin.block_ns * len(every))].mean())
+        twin.advance()
     except ValidityError:
-        return Trapped(effects, point.name, way.name, *(4 * (float("nan"),)), ended=True)
+        return Trapped(effects, point.name, way.name, *(5 * (float("nan"),)), ended=True)
     torque = twin.step_signals[:, SIGNAL_TORQUE]
     index = float(chatter_index(twin.snapshot().state, len(torque)).max())
     return Trapped(
-        effects, point.name, way.name, float(torque.mean()), float(torque.std()), float(torque[::2].std()),
-        index, ended=False,
+        effects, point.name, way.name, begun, float(torque.mean()), float(torque.std()),
+        float(torque[::2].std()), index, ended=False,
     )  # fmt: skip
 
 
