@@ -40,7 +40,11 @@ def main(words: list[str] | None = None) -> int:
         parser.error(f"--jobs is {arguments.jobs}; at least 1 is needed")
     points = [point for point in POINTS if arguments.load in (None, point.name)]
     began = time.monotonic()
-    found = run_study(extent, points, arguments.jobs, lambda text: print(text, flush=True))
+    try:
+        found = run_study(extent, points, arguments.jobs, lambda text: print(text, flush=True))
+    except KeyboardInterrupt:
+        print("\ninterrupted: nothing is written", file=sys.stderr)
+        return 130
     arguments.output.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
     for point in found["points"]:
         for table in point_tables(point, found):

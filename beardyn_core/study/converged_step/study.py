@@ -99,10 +99,14 @@ def run_study(
             pool.submit(attempt, point, way, number, extent.settling, extent.duration): (point, way, number)
             for point, way, number in jobs_of
         }
-        for done, future in enumerate(as_completed(waiting), start=1):
-            point, way, number = waiting[future]
-            found = results[point, way, number] = future.result()
-            told(f"{done:3}/{len(waiting)}  {point.name}, {way.name}, run {number + 1}: {_said(found)}")
+        try:
+            for done, future in enumerate(as_completed(waiting), start=1):
+                point, way, number = waiting[future]
+                found = results[point, way, number] = future.result()
+                told(f"{done:3}/{len(waiting)}  {point.name}, {way.name}, run {number + 1}: {_said(found)}")
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
     runs: Runs = {}
     for point, way, number in jobs_of:
         runs.setdefault((point, way), []).append(results[point, way, number])
