@@ -18,17 +18,25 @@ PAGE = DOCS / "step.md"
 PICTURE = DOCS / "pictures" / "step.png"
 COLOURS = 32
 
+SHORT_S = 1.0
+SHORT = """**These numbers are from short runs (`--quick`), beside other work on the machine.** They show what the
+study does; their bands are several dB wide, so that *within the band* says little. `make step` makes the real
+ones.
+
+"""
+
 HEAD = """# Is the time step converged?
 
 Written by `python docs/write_step.py step.json` from the numbers of `make step`: the steps that `numerics:
-auto` chooses, and others, against an **explicit reference of 0.1 us of the whole bearing**, at {loads}.
+auto` chooses, and others, against an **explicit reference of 0.1 us of the whole bearing**,
+at {loads}.
 Effects `{effects}`, {laminae} laminae; {duration:g} s a run after {settling:g} s of settling;
 {reference_runs} runs of the reference, {runs} of each implicit step, each begun a hair apart.
 
 The criteria: mean torque of the shaft within {mean:g} % and its scatter within {scatter:.0f} % of the
 reference, and the spectrum of the housing acceleration within the run-to-run band up to 10 kHz.
 
-{verdicts}
+{short}{verdicts}
 
 ## How it is judged
 
@@ -85,6 +93,7 @@ def page(data: dict[str, Any]) -> str:
         scatter=100.0 * limits["scatter"],
         chatter=limits["chatter"],
         verdicts=verdicts(points),
+        short=SHORT if extent["duration"] < SHORT_S else "",
         steps=REFERENCE.steps,
         wall=points[0]["reference"]["wall"],
         traps=trap_table(data).markdown(),
