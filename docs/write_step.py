@@ -19,9 +19,9 @@ PICTURE = DOCS / "pictures" / "step.png"
 COLOURS = 32
 
 SHORT_S = 1.0
-SHORT = """**These numbers are from short runs (`--quick`), beside other work on the machine.** They show what the
-study does; their bands are several dB wide, so that *within the band* says little. `make step` makes the real
-ones.
+SHORT = """**These numbers are from short runs (`--quick`), beside other work on the machine.** They show what
+the study does; their bands are several dB wide, so that *within the band* says little. `make step` makes the
+real ones.
 
 """
 
