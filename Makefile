@@ -15,7 +15,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow hard bench performance costs ladder automatic validation lint format clean
+.PHONY: help demo test slow hard bench performance costs step ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -41,6 +41,10 @@ performance: ## write docs/performance.md from bench.json
 
 costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (compiles 30 sets the first time)
 	@$(BIN)/python benchmarks/effect_costs.py $(ARGS)
+
+step: $(VENV)/.ready-test ## set up, then time steps against an explicit reference of 0.1 us: tables, step.json, docs/step.md
+	@$(BIN)/python -m beardyn_core.study.converged_step $(ARGS)
+	@$(BIN)/python docs/write_step.py step.json
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python docs/write_ladder.py $(ARGS)

@@ -33,6 +33,7 @@ from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
 from beardyn_core.rail.table import read_table
+from beardyn_core.scene.integrator import integrator_problems
 from beardyn_core.scene.irregularity import MEASURED
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.scene import Scene
@@ -214,6 +215,7 @@ class _Reading:
         except ValidationError as error:
             self.problems += sentences(error, self.origins)
         self._check_contradictions()
+        self._check_integrator(free)
         if self.problems:
             raise InputError(list(dict.fromkeys(self.problems)))
         return keys, free
@@ -341,6 +343,13 @@ class _Reading:
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.noun().rib is not None
             self._complain(("tier",), contradictions(tier, has_rib, numerics.laminae))
+
+    def _check_integrator(self, free: Free) -> None:
+        numerics = self.data.get("numerics")
+        if isinstance(numerics, dict):
+            tier, given = self.data.get("tier", "full"), "steps_per_sample" in numerics
+            problems = integrator_problems(str(numerics.get("integrator")), tier, given, free.anything)
+            self._complain(("numerics", "integrator"), problems)
 
     def _check_pockets(self) -> None:
         effects, entries = _valid(EffectsKeys, self.data.get("effects")), self.data.get("defects")

@@ -5,7 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated, Any, Literal, cast
 
-from pydantic import Discriminator, Field, Tag, WithJsonSchema, model_validator
+from pydantic import (
+    Discriminator,
+    Field,
+    Tag,
+    ValidationInfo,
+    WithJsonSchema,
+    field_validator,
+    model_validator,
+)
+from pydantic_core import PydanticKnownError
 from typing_extensions import Self
 
 from beardyn_core.bearing.geometry import Bearing
@@ -30,6 +39,7 @@ from beardyn_core.config.file_model import (
 from beardyn_core.config.lubricant_file import LubricantKeys
 from beardyn_core.config.operation_file import OperationKeys, scaled
 from beardyn_core.config.units import KN, MEGA, MM, UM, ZERO_CELSIUS
+from beardyn_core.scene.integrator import LARGEST_STEPS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Numerics, Scene
 from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, steps_do_not_fit
@@ -190,13 +200,28 @@ class NumericsKeys(FileModel):
     """Discretisation of the run."""
 
     laminae: Annotated[Count, Field(ge=1, le=100), _or_auto(1, 100)] = 6
-    steps_per_sample: Annotated[Count, Field(ge=1, le=64), _or_auto(1, 64)] = Field(
-        3, description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers"
+    integrator: Literal["implicit", "explicit"] = Field(
+        "implicit",
+        description="explicit takes the contact forces of the beginning of a step: for references only, in "
+        "tier full; friction hides an oscillation in it with steps above 0.5 us (dry) to 5 us (films)",
     )
+    steps_per_sample: Annotated[Count, Field(ge=1, le=LARGEST_STEPS["explicit"]), _or_auto(1, 64)] = Field(
+        3,
+        description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers; to be given with "
+        f"integrator: explicit, up to {LARGEST_STEPS['explicit']}",
+    )
+
+    @field_validator("steps_per_sample")
+    @classmethod
+    def _few_enough(cls, steps: int, info: ValidationInfo) -> int:
+        most = LARGEST_STEPS[info.data.get("integrator", "explicit")]
+        if steps > most:
+            raise PydanticKnownError("less_than_equal", {"le": most})
+        return steps
 
     def noun(self) -> Numerics:
         """The numerics."""
-        return Numerics(self.laminae, self.steps_per_sample)
+        return Numerics(self.laminae, self.steps_per_sample, self.integrator)
 
 
 NumericsOrAuto = Annotated[

@@ -18,7 +18,14 @@ from beardyn_core.model.flexibility_params import flexibility_params
 from beardyn_core.model.lamina_table import lamina_table
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
 from beardyn_core.model.loss_params import drag_params, rolling_params, seal_params
-from beardyn_core.model.parameters import AuditParams, EffectParams, GravityParams, MountingParams, Parameters
+from beardyn_core.model.parameters import (
+    AuditParams,
+    EffectParams,
+    ExplicitParams,
+    GravityParams,
+    MountingParams,
+    Parameters,
+)
 from beardyn_core.model.rib_params import rib_params
 from beardyn_core.model.small_rib_params import small_rib_params
 from beardyn_core.model.spring_share import spring_time
@@ -119,5 +126,10 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             faults=fault_params(scene, arrangement, laminae),
             audit=AuditParams(1.0) if effects.audit else None,
             timers=new_timers(),
+        ),
+        explicit=(
+            ExplicitParams(float(scene.numerics.steps_per_sample))
+            if scene.numerics.integrator == "explicit"
+            else None
         ),
     )

@@ -58,6 +58,12 @@ class AuditParams(NamedTuple):
     kept: float
 
 
+class ExplicitParams(NamedTuple):
+    """Contact forces of the beginning of the step instead of implicit ones: for references only."""
+
+    steps_per_sample: float
+
+
 class EffectParams(NamedTuple):
     """All switchable effects; ``None`` is absent."""
 
@@ -120,3 +126,4 @@ class Parameters(NamedTuple):
     rollers: Any  # [block, ROLLER_CONSTANTS, lane]
     mounting: MountingParams
     effects: EffectParams
+    explicit: ExplicitParams | None = None

@@ -14,7 +14,7 @@ Float = NDArray[np.float64]
 
 DELAY = 12  # output samples: the shortest that gives 70 dB with a passband to 0.4
 _KAISER_BETA = 7.2
-LARGEST_FACTOR = 128
+LARGEST_FACTOR = 512
 
 
 @cache
@@ -34,7 +34,7 @@ class Decimator:
     Parameters
     ----------
     factor : int
-        Old over new rate, 1 to 128. With 1 the stream passes unchanged, without delay.
+        Old over new rate, 1 to 512. With 1 the stream passes unchanged, without delay.
     channels : int
     initial : array, shape [channel], optional
         What the stream held before its first sample; 0 by default.

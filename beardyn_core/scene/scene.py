@@ -33,10 +33,13 @@ class Numerics:
         Laminae of each roller.
     steps_per_sample : int
         Time steps per waveform sample (25.6 kHz): the step is 1 / (25 600 x this), [-].
+    integrator : str
+        See `scene.integrator`.
     """
 
     laminae: int = 6
     steps_per_sample: int = 3
+    integrator: str = "implicit"
 
 
 @dataclass(frozen=True)

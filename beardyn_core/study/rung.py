@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.sensor import RATES
 
 
@@ -46,6 +46,6 @@ class Rung:
         -------
         Scene
         """
-        numerics = replace(scene.numerics, laminae=self.laminae, steps_per_sample=self.steps_per_sample)
+        numerics = Numerics(self.laminae, self.steps_per_sample)
         sensors = tuple(replace(sensor, rate=RATES[0]) for sensor in scene.sensors)
         return replace(scene, tier=self.tier, effects=self.effects, numerics=numerics, sensors=sensors)

@@ -88,8 +88,8 @@ def test_a_block_of_2048_by_9_takes_less_than_half_a_millisecond(factor):
 def test_wrong_shapes_and_factors_are_refused():
     with pytest.raises(ValueError, match="multiple of 4"):
         Decimator(4, 2).push(np.zeros((6, 2)))
-    with pytest.raises(ValueError, match="1 to 128"):
-        Decimator(129, 2)
+    with pytest.raises(ValueError, match="1 to 512"):
+        Decimator(513, 2)
     with pytest.raises(ValueError, match="state has shape"):
         Decimator(4, 2).restore(np.zeros((3, 3)))
 
