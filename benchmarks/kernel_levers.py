@@ -1,0 +1,117 @@
+"""What makes the time step fast: the step without one of its levers at a time, in turns with it."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import statistics
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+import numba
+
+from beardyn_core import kernels
+from beardyn_core.config import load_effects, load_scene
+from beardyn_core.integrate import imex
+from beardyn_core.jit import OPTIONS, inline
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import LANE_WIDTH
+from benchmarks.runs import Table
+from test.kernels.rig import Rig
+
+SETS = ("standard", "full")
+STEPS = 512
+Kernel = Callable[..., None]
+
+
+def _always(_value: Any) -> Any:
+    return True
+
+
+@contextmanager
+def _anew(name: str, replacement: Callable[..., Any]) -> Iterator[Kernel]:
+    """`advance` with all kernels built anew around another function of a name; the first call compiles."""
+    modules = [
+        importlib.import_module(found.name)
+        for found in pkgutil.iter_modules(kernels.__path__, f"{kernels.__name__}.")
+    ]
+    kept: list[tuple[Any, str, Any]] = []
+    built: dict[int, Any] = {}
+    try:
+        for module in (*modules, imex):
+            for each, value in list(vars(module).items()):
+                if each == name:
+                    new = inline(replacement)
+                elif isinstance(value, numba.core.registry.CPUDispatcher) and value is not imex.advance:
+                    new = built.setdefault(id(value), inline(value.py_func))
+                else:
+                    continue
+                kept.append((module, each, value))
+                setattr(module, each, new)
+        yield numba.njit(**OPTIONS)(imex.advance.py_func)
+    finally:
+        for module, each, value in kept:
+            setattr(module, each, value)
+
+
+def _rig(scene: Scene, width: int, explicit: bool = False) -> Rig:
+    numerics = replace(scene.numerics, integrator="explicit") if explicit else scene.numerics
+    rig = Rig.at_equilibrium(replace(scene, numerics=numerics), width=width)
+    # the stage timers wait for values in one register, which 16 lanes do not fit into
+    rig.parameters = rig.parameters._replace(effects=rig.parameters.effects._replace(timers=None))
+    return rig
+
+
+def kernel_levers(turns: int) -> Table:
+    """Time of a step without each lever over that of the step as it is, 80 kN, 6 laminae.
+
+    Parameters
+    ----------
+    turns : int
+        Stretches of 512 steps of each, in turns.
+    """
+    rows: list[tuple[str | float, ...]] = []
+    scenes = {name: replace(load_scene("static_80kN"), effects=load_effects(name)) for name in SETS}
+    ratios = {name: _ratios(scene, turns) for name, scene in scenes.items()}
+    for lever in ratios[SETS[0]]:
+        rows.append((lever, *(ratios[name][lever] for name in SETS)))
+    return Table(
+        "levers",
+        "Time of a step without a lever over that of the step as it is",
+        ("the step with", *SETS),
+        rows,
+        f"Medians over {turns} stretches of {STEPS} steps in turns. Explicit: without the 6 x 6 system of "
+        "each roller, with the same step, which no run bears for long.",
+    )
+
+
+def _ratios(scene: Scene, turns: int) -> dict[str, float]:
+    runs: dict[str, tuple[Rig, Kernel]] = {"as it is": (_rig(scene, LANE_WIDTH), imex.advance)}
+    for width in (1, 4, 16):
+        name = "scalars" if width == 1 else f"{width} lanes"
+        runs[f"{name} instead of {LANE_WIDTH} lanes"] = (_rig(scene, width), imex.advance)
+    runs["contacts computed that no roller of a block reaches"] = (_rig(scene, LANE_WIDTH), _unskipped(scene))
+    runs["explicit contacts"] = (_rig(scene, LANE_WIDTH, explicit=True), imex.advance)
+    times: dict[str, list[float]] = {name: [] for name in runs}
+    for turn in range(turns + 1):
+        for name in runs if turn % 2 else reversed(runs):
+            rig, kernel = runs[name]
+            began = time.perf_counter()
+            rig.run(STEPS, kernel=kernel)
+            if turn > 0:  # the first compiles
+                times[name].append(time.perf_counter() - began)
+    base = times["as it is"]
+    return {
+        name: statistics.median(a / b for a, b in zip(found, base, strict=True))
+        for name, found in times.items()
+    }
+
+
+def _unskipped(scene: Scene) -> Kernel:
+    """`advance` that looks at every contact, compiled for a scene."""
+    with _anew("any_positive", _always) as kernel:
+        _rig(scene, LANE_WIDTH).run(1, kernel=kernel)
+    return kernel
