@@ -7,10 +7,13 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account, account_loss, implicit_time, output_contact, react
 from beardyn_core.kernels.lane_math import sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.rib import rib_contact
 from beardyn_core.kernels.solve import add_couple, add_point, add_point_everywhere
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.layout import CONE, LOSS_DAMPING, LOSS_RIB, RIB
+
+_NOTHING = 1e-300
 
 
 @inline
@@ -25,9 +28,17 @@ def rib_before(body: Any, view: Any, zero: Any, rib: Any, damping: Any) -> Any:
 
 
 @inline
+def is_pressed(contact: Any) -> Any:
+    """Whether a point contact of any roller of the block is pressed; a NaN is, too."""
+    return any_positive(where_greater(_NOTHING, contact[1][5], 0.0, 1.0))
+
+
+@inline
 def rib_matrix(matrix: Any, contact: Any, step: Any, rib: Any, damping: Any) -> Any:
     """Add the implicit part of the rib contact."""
     if rib is None:
+        return matrix
+    if not is_pressed(contact):
         return matrix
     normal, arm, _load, tangent, friction, _elastic, _energy, _slip, drilling, _spin, _film = contact[1]
     rough = step * friction
@@ -74,6 +85,8 @@ def add_rib(force: Any, moment: Any, contact: Any, rib: Any) -> Any:
     """Add the rib's wrench to a sum."""
     if rib is None:
         return force, moment
+    if not is_pressed(contact):
+        return force, moment
     rib_force, rib_moment = rib_wrench(contact, rib.drilling)
     return add(force, rib_force), add(moment, rib_moment)
 
@@ -111,6 +124,9 @@ def settle_point(
     force, moment : vector
         On the roller at the end of the step.
     """
+    if not is_pressed(contact):
+        still = 0.0 * contact[1][5]
+        return (still, still, still), (still, still, still)
     centre = contact[0]
     normal, arm, _load, tangent, friction, whole, energy, slip, resistance, spin, _film = contact[1]
     elastic = where_greater(tangent, 0.0, whole, 0.0 * whole)
