@@ -16,6 +16,7 @@ from beardyn_core.kernels.bodies import (
 from beardyn_core.kernels.box import box_energy, kick_box
 from beardyn_core.kernels.cage_bodies import cage_energy, move_cages, pass_on, place_cages
 from beardyn_core.kernels.land import push_lands, settle_lands
+from beardyn_core.kernels.lanes import align_stack
 from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
 from beardyn_core.kernels.roller import step_rollers
 from beardyn_core.kernels.seal import add_seals
@@ -164,6 +165,7 @@ def advance(
         Written: works up to, and energy stored at, the middle of the first step.
     p : Parameters
     """
+    align_stack(lanes)
     steps = signals.shape[0]
     stride = steps // roller_trend.shape[0]
     groups = rings.shape[0]

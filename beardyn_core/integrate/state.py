@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.model.aligned import aligned_zeros
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import (
     ANGLE,
@@ -70,8 +71,8 @@ def work_space(arrangement: Arrangement, modes: int = 0) -> WorkSpace:
     """Work space for the rollers' arrangement and the bending modes of the cup."""
     groups, width = arrangement.group_count, arrangement.width
     return WorkSpace(
-        np.zeros((groups, 3, RING_FIELDS, width)),
-        np.zeros((groups, 1, SUM_FIELDS + 2 * modes, width)),
+        aligned_zeros(groups, 3, RING_FIELDS, width),
+        aligned_zeros(groups, 1, SUM_FIELDS + 2 * modes, width),
         np.zeros((CAGE_BODY + arrangement.rows, 6)),
         np.zeros(12),
     )
@@ -105,7 +106,7 @@ def initial_state(
     State
     """
     lanes = arrangement.to_lanes
-    rollers = np.zeros((arrangement.block_count, ROLLER_FIELDS, arrangement.width))
+    rollers = aligned_zeros(arrangement.block_count, ROLLER_FIELDS, arrangement.width)
     angle = bearing.contact_angle + lanes(static.roller_tilt)
     offset = bearing.roller_mass_offset
     radius = 0.5 * bearing.pitch_diameter + lanes(static.roller_radial) + offset * np.sin(angle)

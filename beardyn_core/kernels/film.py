@@ -8,6 +8,7 @@ from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude
 from beardyn_core.model.contact_parameters import LAMINA_FILM
 
+_LOG2_LIGHTEST = -9.965784284662087  # 1 mN
 _LOG2_THICKEST_RIGID_FILM = -13.287712379549449  # 0.1 mm, where an unloaded roller has no contact any more
 
 
@@ -39,7 +40,15 @@ def log2_thermal_factor(log2_rolling: Any, thermal: Any) -> Any:
 
 
 @inline
-def log2_film_thickness(load: Any, log2_speed: Any, lamina: Any, ring: Any, laminae: Any, film: Any) -> Any:
+def log2_load(load: Any) -> Any:
+    """Binary logarithm of the load of a lamina, not below that of 1e-12 N, [log2 N]."""
+    return log2(at_least(load, 1e-12))
+
+
+@inline
+def log2_film_thickness(
+    log2_force: Any, log2_speed: Any, lamina: Any, ring: Any, laminae: Any, film: Any
+) -> Any:
     """Binary logarithm of the film thickness of one lamina, [log2 m].
 
     Power law in speed and load, the rest of the formula is in the lamina table; with the guard of rigid
@@ -52,13 +61,13 @@ def log2_film_thickness(load: Any, log2_speed: Any, lamina: Any, ring: Any, lami
     """
     if film is None:
         return 0.0
-    bounded = at_least(load, 1e-3)
-    elastic = log2_speed[0] + film.load_exponent * log2(bounded) + laminae[LAMINA_FILM + ring, lamina]
+    bounded = at_least(log2_force, _LOG2_LIGHTEST)
+    elastic = log2_speed[0] + film.load_exponent * bounded + laminae[LAMINA_FILM + ring, lamina]
     return thicker_film(elastic, bounded, log2_speed[1], lamina, ring, film.rigid)
 
 
 @inline
-def thicker_film(elastic: Any, load: Any, log2_rolling: Any, lamina: Any, ring: Any, rigid: Any) -> Any:
+def thicker_film(elastic: Any, load_log2: Any, log2_rolling: Any, lamina: Any, ring: Any, rigid: Any) -> Any:
     """The elastohydrodynamic film, or that of rigid surfaces where it is thicker, [log2 m].
 
     References
@@ -67,7 +76,7 @@ def thicker_film(elastic: Any, load: Any, log2_rolling: Any, lamina: Any, ring: 
     """
     if rigid is None:
         return elastic
-    film = log2_rolling - log2(load) + rigid.log2_factor[ring, lamina]
+    film = log2_rolling - load_log2 + rigid.log2_factor[ring, lamina]
     return at_least(elastic, at_most(film, _LOG2_THICKEST_RIGID_FILM))
 
 
@@ -77,4 +86,5 @@ def film_output(load: Any, log2_speed: Any, ring: Any, laminae: Any, film: Any) 
     if film is None:
         return 0.0
     middle = laminae.shape[1] // 2
-    return exp2(log2_film_thickness(load / laminae.shape[1], log2_speed, middle, ring, laminae, film))
+    share = log2_load(load / laminae.shape[1])
+    return exp2(log2_film_thickness(share, log2_speed, middle, ring, laminae, film))

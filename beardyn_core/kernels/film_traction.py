@@ -12,17 +12,17 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, sqrt, where_greater
-from beardyn_core.kernels.saturation import asinh_over, decay_over
+from beardyn_core.kernels.saturation import asinh_over, decay_over, decay_rate
 from beardyn_core.model.contact_parameters import LAMINA_PRESSURE
 
 _LOG2_E = 1.4426950408889634
 _LARGEST_LOG2_THICKENING = 30.0
 _SMALLEST_PRESSURE = 1e-3
-# Aihara's units: largest Hertz pressure in kgf/mm^2 from the mean one in Pa, speed in mm/s from m/s
-_LOG2_PRESSURE_UNIT = math.log2(4.0 / (math.pi * 9.80665e6))
+# Aihara's units: largest Hertz pressure in kgf/mm^2, speed in mm/s from m/s
 _LOG2_SPEED_UNIT = math.log2(1000.0)
 _LOG2_PRESSURE_BEND = math.log2(94.404)
 _LOG2_AT_HIGH_PRESSURE = math.log2(4.078e-2)
+_LOG2_STEEPNESS = math.log2(2.6)
 _LOG2_AT_LOW_PRESSURE = math.log2(1.008e-4)
 
 
@@ -54,14 +54,21 @@ def _log2_thickening(pressure: Any, pressure_viscosity: Any, roelands: Any) -> A
 
 @inline
 def aihara_rate(
-    load: Any, slip: Any, log2_rolling: Any, lamina: Any, ring: Any, laminae: Any, aihara: Any
+    load: Any,
+    log2_force: Any,
+    slip: Any,
+    inverse_slip: Any,
+    log2_rolling: Any,
+    lamina: Any,
+    ring: Any,
+    aihara: Any,
 ) -> Any:
     """Traction fitted to tests of rolling contacts, [N s/m].
 
     mu = mu_max (1 - exp(-2.6 s / s_max)), s slip over entrainment speed, with eta in cP, u in mm/s and the
     largest Hertz pressure p in kgf/mm^2: s_max = 1.2448e7 eta^-1.5 u^-0.75 p^-1.5, mu_max = 4.078e-2 eta^0.1
     u^-0.12 p^0.18 above 94.4 kgf/mm^2 and 1.008e-4 eta^0.1 u^-0.12 p^1.5 below. Where thin or light films
-    put s_max beyond the fit it is limited to ``aihara.largest_slide``.
+    put s_max beyond the fit it is limited to the largest slide.
 
     References
     ----------
@@ -70,20 +77,19 @@ def aihara_rate(
     """
     if aihara is None:
         return 0.0
-    squared = at_least(load, 1e-12) * laminae[LAMINA_PRESSURE + ring, lamina]
-    log2_pressure = 0.5 * log2(squared) + _LOG2_PRESSURE_UNIT
+    log2_pressure = 0.5 * log2_force + aihara.log2_pressure[ring, lamina]
     log2_speed = log2_rolling + _LOG2_SPEED_UNIT
-    log2_slide = aihara.log2_slide - 0.75 * log2_speed - 1.5 * log2_pressure
-    slide = at_most(exp2(log2_slide), aihara.largest_slide)
+    log2_slide = (aihara.log2_slide - 0.75 * log2_speed) - 1.5 * log2_pressure
+    log2_slide = at_most(log2_slide, aihara.log2_largest_slide)
     log2_friction = where_greater(
         log2_pressure,
         _LOG2_PRESSURE_BEND,
         _LOG2_AT_HIGH_PRESSURE + 0.18 * log2_pressure,
         _LOG2_AT_LOW_PRESSURE + 1.5 * log2_pressure,
     )
-    friction = exp2(aihara.log2_friction - 0.12 * log2_speed + log2_friction)
-    per_slip = 2.6 * exp2(-log2_rolling) / slide
-    return load * friction * per_slip * decay_over(per_slip * slip)
+    friction = exp2((aihara.log2_friction - 0.12 * log2_speed) + log2_friction)
+    per_slip = exp2((_LOG2_STEEPNESS - log2_rolling) - log2_slide)
+    return load * friction * decay_rate(per_slip, slip, inverse_slip)
 
 
 @inline

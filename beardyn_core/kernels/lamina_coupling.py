@@ -11,10 +11,11 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.model.contact_parameters import LAMINA_STIFFNESS
+from beardyn_core.model.contact_parameters import COUPLING_ROWS, LAMINA_STIFFNESS
 
 # rows of the work space
-DEPTH, SURFACE, SPRING, FORCE = range(4)
+DEPTH, SURFACE, SPRING, FORCE, SHARE = range(COUPLING_ROWS)
+BALANCE = SPRING  # of which the sweeps have no need yet
 _SMALLEST = 1e-15
 _NOTHING = 1e-300
 
@@ -34,8 +35,8 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
     Notes
     -----
     Two sweeps of single laminae under a linear law, forth and back, then one step of all free laminae under
-    the true law. Where every lamina is pressed the surface is the roller's and the result exact: the first
-    sweep then moves nothing, and a block of such rollers stops there. Else loads
+    the true law. Where every lamina is pressed the surface is the roller's and the result exact: the sweeps
+    would move nothing, and a block of such rollers goes without. Else loads
     are within 0.1 % of the largest for 6 laminae, 0.6 % for 20 and 1.2 % for 40, and so is the total. A
     free lamina that is not yet in balance keeps what it is pressed with beyond its own spring, so that loads
     change continuously as laminae come free.
@@ -44,70 +45,129 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
     for j in range(count):
         lanes.store(work, SURFACE, j, at_least(lanes.load(work, DEPTH, j), 0.0))
     change = lanes.constant(0.0)
-    for j in range(count):
-        balance = _product(lanes, coupling.follow, j, work, SURFACE)
-        surface = at_least(lanes.load(work, DEPTH, j), balance)
-        change = change + magnitude(surface - lanes.load(work, SURFACE, j))
-        lanes.store(work, SURFACE, j, surface)
+    for j in range(0, count, 2):
+        other = min(j + 1, count - 1)
+        balance, next_balance = _products(lanes, coupling.follow, j, other, work, SURFACE)
+        lanes.store(work, BALANCE, j, balance)
+        lanes.store(work, BALANCE, other, next_balance)
+        change = change + _moved(lanes, work, j, balance) + _moved(lanes, work, other, next_balance)
     if any_positive(where_greater(_NOTHING, change, 0.0, lanes.constant(1.0))):  # or a NaN
-        _free_laminae(lanes, laminae, coupling)
+        _sweep(lanes, count, coupling)
+        _load_springs(lanes, laminae, coupling)
+        _free_laminae(lanes, count, coupling)
     _load_springs(lanes, laminae, coupling)
+    for j in range(0, count, 2):
+        other = min(j + 1, count - 1)
+        load, next_load = _products(lanes, coupling.root, j, other, work, FORCE)
+        tangent = _tangent(lanes, coupling, j, load)
+        # SURFACE is still needed where both are the same; FORCE by the other laminae
+        lanes.store(work, SURFACE, other, _tangent(lanes, coupling, other, next_load))
+        lanes.store(work, SURFACE, j, tangent)
     for j in range(count):
-        depth = lanes.load(work, DEPTH, j)
-        left_behind = at_least(lanes.load(work, SURFACE, j) - depth, 0.0)
-        load = _product(lanes, coupling.root, j, work, FORCE)
-        load = at_least(load - _own_tangent(lanes, coupling, j) * left_behind, 0.0)
-        tangent = (10.0 / 9.0) * load / at_least(depth, _SMALLEST)
-        # FORCE and SPRING are still needed by the other laminae
-        lanes.store(work, SURFACE, j, where_greater(depth, 0.0, tangent, 0.0 * depth))
-    for j in range(count):
-        force = lanes.load(work, FORCE, j)
-        lanes.store(work, FORCE, j, (9.0 / 19.0) * force * force / lanes.load(work, SPRING, j))
+        energy = (9.0 / 19.0) * lanes.load(work, FORCE, j) * lanes.load(work, SHARE, j)
+        lanes.store(work, FORCE, j, energy)
 
 
 @inline
-def _free_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
-    """The sweep back, and the step of the free laminae under the true law; where none is free, nothing."""
-    work, count = coupling.work, laminae.shape[1]
-    for i in range(count):
-        j = count - 1 - i
-        balance = _product(lanes, coupling.follow, j, work, SURFACE)
-        lanes.store(work, SURFACE, j, at_least(lanes.load(work, DEPTH, j), balance))
-    _load_springs(lanes, laminae, coupling)
-    for j in range(count):
-        surface = lanes.load(work, SURFACE, j)
-        depth = lanes.load(work, DEPTH, j)
-        rise = _product(lanes, coupling.root, j, work, FORCE) / _own_tangent(lanes, coupling, j)
-        moved = where_greater(surface, depth, at_least(surface - rise, depth), surface)
-        lanes.store(work, SURFACE, j, moved)
+def _moved(lanes: Any, work: Any, lamina: Any, balance: Any) -> Any:
+    """By how much the others move the surface at a lamina, [m]."""
+    surface = at_least(lanes.load(work, DEPTH, lamina), balance)
+    return magnitude(surface - lanes.load(work, SURFACE, lamina))
 
 
 @inline
-def _product(lanes: Any, matrix: Any, row: Any, work: Any, field: Any) -> Any:
-    """One row of a matrix times a row of the work space; four sums need not wait on each other."""
+def _tangent(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
+    """Ten ninths of the load of a lamina over its penetration, [N/m]."""
+    depth = lanes.load(coupling.work, DEPTH, lamina)
+    left_behind = at_least(lanes.load(coupling.work, SURFACE, lamina) - depth, 0.0)
+    load = at_least(load - _own_tangent(lanes, coupling, lamina) * left_behind, 0.0)
+    tangent = (10.0 / 9.0) * load / at_least(depth, _SMALLEST)
+    return where_greater(depth, 0.0, tangent, 0.0 * depth)
+
+
+@inline
+def _sweep(lanes: Any, count: Any, coupling: Any) -> None:
+    """The two sweeps: a lamina that moves tells those that come after it, so that none waits for a sum.
+
+    BALANCE holds on entry what the pressed surfaces ask of every lamina. On the way back it holds what the
+    laminae before have become and those behind were at first.
+    """
+    work = coupling.work
+    for j in range(count):
+        surface = at_least(lanes.load(work, DEPTH, j), lanes.load(work, BALANCE, j))
+        moved = surface - lanes.load(work, SURFACE, j)
+        lanes.store(work, SURFACE, j, surface)
+        for i in range(j + 1, count):
+            balance = lanes.load(work, BALANCE, i) + coupling.follow[i, j] * moved
+            lanes.store(work, BALANCE, i, balance)
+    for back in range(count):
+        j = count - 1 - back
+        depth = lanes.load(work, DEPTH, j)
+        surface = at_least(depth, lanes.load(work, BALANCE, j))
+        moved = surface - at_least(depth, 0.0)
+        lanes.store(work, SURFACE, j, surface)
+        for i in range(j):
+            balance = lanes.load(work, BALANCE, i) + coupling.follow[i, j] * moved
+            lanes.store(work, BALANCE, i, balance)
+
+
+@inline
+def _free_laminae(lanes: Any, count: Any, coupling: Any) -> None:
+    """The step of the free laminae under the true law."""
+    work = coupling.work
+    for j in range(0, count, 2):
+        other = min(j + 1, count - 1)
+        load, next_load = _products(lanes, coupling.root, j, other, work, FORCE)
+        freed = _freed(lanes, coupling, j, load)
+        lanes.store(work, SURFACE, other, _freed(lanes, coupling, other, next_load))
+        lanes.store(work, SURFACE, j, freed)
+
+
+@inline
+def _freed(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
+    """Surface at a lamina after its step, [m]."""
+    surface = lanes.load(coupling.work, SURFACE, lamina)
+    depth = lanes.load(coupling.work, DEPTH, lamina)
+    rise = load / _own_tangent(lanes, coupling, lamina)
+    return where_greater(surface, depth, at_least(surface - rise, depth), surface)
+
+
+@inline
+def _products(lanes: Any, matrix: Any, row: Any, other: Any, work: Any, field: Any) -> Any:
+    """Two rows of a matrix times a row of the work space; four sums need not wait on each other."""
     count = matrix.shape[1]
-    whole = count - count % 4
     first, second = lanes.constant(0.0), lanes.constant(0.0)
     third, fourth = lanes.constant(0.0), lanes.constant(0.0)
-    for k in range(0, whole, 4):
-        first = first + matrix[row, k] * lanes.load(work, field, k)
-        second = second + matrix[row, k + 1] * lanes.load(work, field, k + 1)
-        third = third + matrix[row, k + 2] * lanes.load(work, field, k + 2)
-        fourth = fourth + matrix[row, k + 3] * lanes.load(work, field, k + 3)
-    for k in range(whole, count):
-        first = first + matrix[row, k] * lanes.load(work, field, k)
-    return (first + second) + (third + fourth)
+    for k in range(0, count - 1, 2):
+        even, odd = lanes.load(work, field, k), lanes.load(work, field, k + 1)
+        first = first + matrix[row, k] * even
+        second = second + matrix[row, k + 1] * odd
+        third = third + matrix[other, k] * even
+        fourth = fourth + matrix[other, k + 1] * odd
+    if count % 2 == 1:
+        last = lanes.load(work, field, count - 1)
+        first = first + matrix[row, count - 1] * last
+        third = third + matrix[other, count - 1] * last
+    return first + second, third + fourth
 
 
 @inline
 def _load_springs(lanes: Any, laminae: Any, coupling: Any) -> None:
-    """Secant stiffness and force of every lamina's own spring at its share of the surface."""
-    work = coupling.work
-    for j in range(laminae.shape[1]):
-        depth = _product(lanes, coupling.root, j, work, SURFACE)
-        spring = laminae[LAMINA_STIFFNESS, j] * ninth_root(at_least(magnitude(depth), _SMALLEST))
-        lanes.store(work, SPRING, j, spring)
-        lanes.store(work, FORCE, j, spring * depth)
+    """Share of the surface of every lamina's own spring, its secant stiffness and force there."""
+    count = laminae.shape[1]
+    for j in range(0, count, 2):
+        other = min(j + 1, count - 1)
+        depth, next_depth = _products(lanes, coupling.root, j, other, coupling.work, SURFACE)
+        _load_spring(lanes, laminae, coupling, j, depth)
+        _load_spring(lanes, laminae, coupling, other, next_depth)
+
+
+@inline
+def _load_spring(lanes: Any, laminae: Any, coupling: Any, lamina: Any, depth: Any) -> None:
+    spring = laminae[LAMINA_STIFFNESS, lamina] * ninth_root(at_least(magnitude(depth), _SMALLEST))
+    lanes.store(coupling.work, SPRING, lamina, spring)
+    lanes.store(coupling.work, SHARE, lamina, depth)
+    lanes.store(coupling.work, FORCE, lamina, spring * depth)
 
 
 @inline

@@ -243,6 +243,30 @@ def _lanes_constant(lanes, number):
     return lambda lanes, number: _constant(lanes, number)
 
 
+@_typed_intrinsic
+def _align_stack(_typing: Any, lanes: Any) -> Any:
+    def generate(context: Any, builder: Any, _signature: Any, _args: Any) -> Any:
+        builder.function.attributes.alignstack = 8 * max(lanes.width, 2)
+        builder.function.attributes.add("norecurse")  # llvmlite drops an alignment that stands alone
+        return context.get_dummy_value()
+
+    return types.void(lanes), generate
+
+
+def align_stack(lanes: Lanes) -> None:
+    """Keep the lane values that find no register where none lies across two cache lines.
+
+    For entry points. LLVM knows of such values too late to align the stack by itself; on the 16 bytes that
+    it is given three of four stores and loads of them take two cache lines, also in a step that spills
+    hundreds of times.
+    """
+
+
+@overload(align_stack, inline="always")
+def _overload_align_stack(lanes):
+    return lambda lanes: _align_stack(lanes)
+
+
 def _is_lane_value(candidate: types.Type) -> bool:
     return isinstance(candidate, VectorType | types.Float | types.Integer)
 

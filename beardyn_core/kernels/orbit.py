@@ -46,6 +46,8 @@ def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: A
         Cosine and sine of half the turn.
     orbit_rate : lane value
         Turn over the step, [rad/s].
+    direction : tuple of 2 lane values
+        Cosine and sine of the azimuth.
     """
     radius = lanes.load(rollers, block, RADIUS)
     azimuth = lanes.load(rollers, block, ANGLE)
@@ -78,7 +80,11 @@ def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: A
     place = (new_radius, azimuth + turn, axial)
     velocity = turn_in(velocity, half_cosine, half_sine)
     momentum = turn_in(momentum, half_cosine, half_sine)
-    return place, velocity, momentum, axis, (half_cosine, half_sine), turn / step
+    azimuth_cosine = cosine * half_cosine - sine * half_sine
+    azimuth_sine = sine * half_cosine + cosine * half_sine
+    cosine = azimuth_cosine * half_cosine - azimuth_sine * half_sine
+    sine = azimuth_sine * half_cosine + azimuth_cosine * half_sine
+    return place, velocity, momentum, axis, (half_cosine, half_sine), turn / step, (cosine, sine)
 
 
 @inline

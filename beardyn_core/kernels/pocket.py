@@ -51,9 +51,12 @@ def pocket_contact(
 
     Returns
     -------
-    touches : tuple of 5 tuples
-        Per wall (front and back bar at the small and large end, pocket end): force on the roller, arm,
-        lost part of the force negated, slip, elastic energy.
+    touches : tuple
+        Sums over front and back bar at the small and large end and the pocket end: force on the roller and
+        moment about its centre of mass, elastic energy, power lost at the present slip, lost part of the
+        force negated, its moment.
+    slip_squared : lane value
+        At the bar that presses more, [m^2/s^2].
     bar : vector
         Contact with the nearer bar from the centre of mass, [m].
     """
@@ -77,68 +80,74 @@ def pocket_contact(
     small, large = -cage.bar_place, cage.bar_place
     small_radius = roller.radius - cage.bar_place * roller.taper
     large_radius = roller.radius + cage.bar_place * roller.taper
-    small_front = touch_wall(
-        centre, add_scaled(scale(small, axis), small_radius, front), front,
-        height + offset + small * (lift + skew) - clearance, motion, cage,
+    small_arm, large_arm = scale(small, axis), scale(large, axis)
+    small_front = add_scaled(small_arm, small_radius, front)
+    small_behind = add_scaled(small_arm, small_radius, behind)
+    zero = 0.0 * still
+    nothing = (zero, zero, zero)
+    touches = (nothing, nothing, zero, zero, nothing, nothing)
+    touches = touch_wall(
+        touches, centre, small_front, front, height + offset + small * (lift + skew) - clearance, motion, cage,
         (axis, small_radius), cage.film,
     )  # fmt: skip
-    large_front = touch_wall(
-        centre, add_scaled(scale(large, axis), large_radius, front), front,
-        height + offset + large * (lift + skew) - clearance, motion, cage,
-        (axis, large_radius), cage.film,
+    touches = touch_wall(
+        touches, centre, add_scaled(large_arm, large_radius, front), front,
+        height + offset + large * (lift + skew) - clearance, motion, cage, (axis, large_radius), cage.film,
     )  # fmt: skip
-    small_behind = touch_wall(
-        centre, add_scaled(scale(small, axis), small_radius, behind), behind,
-        height - offset + small * (lift - skew) - clearance, motion, cage,
+    pushed_back = touches[0]
+    touches = touch_wall(
+        touches, centre, small_behind, behind, height - offset + small * (lift - skew) - clearance, motion, cage,
         (axis, small_radius), cage.film,
     )  # fmt: skip
-    large_behind = touch_wall(
-        centre, add_scaled(scale(large, axis), large_radius, behind), behind,
-        height - offset + large * (lift - skew) - clearance, motion, cage,
-        (axis, large_radius), cage.film,
+    touches = touch_wall(
+        touches, centre, add_scaled(large_arm, large_radius, behind), behind,
+        height - offset + large * (lift - skew) - clearance, motion, cage, (axis, large_radius), cage.film,
     )  # fmt: skip
+    pushed_on = subtract(touches[0], pushed_back)
+    slip_squared = where_greater(
+        dot(pushed_on, pushed_on),
+        dot(pushed_back, pushed_back),
+        _slip_squared(centre, small_behind, motion),
+        _slip_squared(centre, small_front, motion),
+    )
     slide = dot(pocket_axis, centre) - cage.roller_place
     side = where_greater(slide, 0.0, 1.0 + still, -1.0 + still)
     shorter = roller.half_length * (1.0 - dot(pocket_axis, axis))
-    end = touch_wall(
-        centre, scale(side * roller.half_length, axis), scale(side, pocket_axis),
+    touches = touch_wall(
+        touches, centre, scale(side * roller.half_length, axis), scale(side, pocket_axis),
         magnitude(slide) - shorter - cage.half_end_clearance, motion, cage, (axis, roller.radius), None,
     )  # fmt: skip
-    touches = (small_front, large_front, small_behind, large_behind, end)
     bar = scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)
-    return touches, bar
+    return touches, slip_squared, bar
 
 
 @inline
-def pocket_sum(touches: Any) -> Any:
-    """Force, moment about the roller's centre of mass and elastic energy of all walls of a pocket."""
-    a, b, c, d, e = touches
-    force = add(add(add(a[0], b[0]), add(c[0], d[0])), e[0])
-    moment = add(
-        add(add(cross(a[1], a[0]), cross(b[1], b[0])), add(cross(c[1], c[0]), cross(d[1], d[0]))),
-        cross(e[1], e[0]),
-    )
-    return force, moment, a[4] + b[4] + c[4] + d[4] + e[4]
+def add_touch(touches: Any, arm: Any, slip: Any, force: Any, lost: Any, energy: Any) -> Any:
+    """Add one wall to the sums over the walls of a pocket.
 
-
-@inline
-def pocket_loss(touches: Any, change: Any) -> Any:
-    """Power lost in a pocket at the middle of a step that changes the roller's velocities, [W]."""
-    a, b, c, d, e = touches
+    Only sums are kept until the step is settled: five walls with all they have would take more of the
+    cache than all else that a roller keeps.
+    """
     return (
-        touch_loss(a, change)
-        + touch_loss(b, change)
-        + touch_loss(c, change)
-        + touch_loss(d, change)
-        + touch_loss(e, change)
+        add(touches[0], force),
+        add(touches[1], cross(arm, force)),
+        touches[2] + energy,
+        touches[3] + dot(lost, slip),
+        add(touches[4], lost),
+        add(touches[5], cross(arm, lost)),
     )
 
 
 @inline
-def touch_loss(touch: Any, change: Any) -> Any:
-    """Power lost at one wall at the middle of a step that changes the roller's velocities, [W]."""
-    middle = add_scaled(touch[3], 0.5, add(change[0], cross(change[1], touch[1])))
-    return dot(touch[2], middle)
+def touch_loss(touches: Any, change: Any) -> Any:
+    """Power lost in a pocket at the middle of a step that changes the roller's velocities, [W]."""
+    return touches[3] + 0.5 * (dot(touches[4], change[0]) + dot(touches[5], change[1]))
+
+
+@inline
+def _slip_squared(centre: Any, arm: Any, motion: Any) -> Any:
+    slip = wall_slip(centre, arm, motion)
+    return dot(slip, slip)
 
 
 @inline
@@ -152,30 +161,41 @@ def wall_slip(centre: Any, arm: Any, motion: Any) -> Any:
 
 @inline
 def touch_wall(
-    centre: Any, arm: Any, direction: Any, depth: Any, motion: Any, cage: Any, shape: Any, film: Any
+    touches: Any,
+    centre: Any,
+    arm: Any,
+    direction: Any,
+    depth: Any,
+    motion: Any,
+    cage: Any,
+    shape: Any,
+    film: Any,
 ) -> Any:
-    """One spring-damper with friction; force, arm, lost part of the force, slip, elastic energy.
+    """Add one wall to the sums: a spring-damper with friction.
 
     ``shape`` is the roller's axis and its radius at the wall, for the film if there is one. A wall that no
-    roller of the block reaches costs its slip only.
+    roller of the block reaches costs nothing.
     """
-    slip = wall_slip(centre, arm, motion)
     if _is_reached(depth, film):
-        return _press_wall(arm, slip, direction, depth, cage, shape, film)
-    zero = 0.0 * depth  # a NaN stays one
-    return (zero, zero, zero), arm, (zero, zero, zero), slip, zero
+        slip = wall_slip(centre, arm, motion)
+        return _press_wall(touches, arm, slip, direction, depth, cage, shape, film)
+    force = touches[0]
+    force = (force[0] + 0.0 * depth, force[1], force[2])  # a NaN stays one
+    return force, touches[1], touches[2], touches[3], touches[4], touches[5]
 
 
 @inline
 def _is_reached(depth: Any, film: Any) -> Any:
-    """Whether the wall acts on any lane; a film acts at a distance."""
+    """Whether the wall acts on any lane; a film acts within the thickness of its layer."""
     if film is None:
         return any_positive(depth)
-    return True
+    return any_positive(1.0 + film.inverse_layer * depth)
 
 
 @inline
-def _press_wall(arm: Any, slip: Any, direction: Any, depth: Any, cage: Any, shape: Any, film: Any) -> Any:
+def _press_wall(
+    touches: Any, arm: Any, slip: Any, direction: Any, depth: Any, cage: Any, shape: Any, film: Any
+) -> Any:
     inside = at_least(depth, 0.0)
     rate = dot(slip, direction)
     spring = cage.stiffness * inside
@@ -186,4 +206,4 @@ def _press_wall(arm: Any, slip: Any, direction: Any, depth: Any, cage: Any, shap
     friction = cage.friction * solid / speed + shear
     force = add_scaled(scale(-load, direction), -friction, tangential)
     lost = add_scaled(scale(load - spring, direction), friction, tangential)
-    return force, arm, lost, slip, 0.5 * spring * inside
+    return add_touch(touches, arm, slip, force, lost, 0.5 * spring * inside)

@@ -6,8 +6,8 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import cos_sin, magnitude, where_greater
-from beardyn_core.kernels.pocket import touch_loss, touch_wall, wall_slip
-from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale
+from beardyn_core.kernels.pocket import add_touch, touch_wall, wall_slip
+from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 
 
 @inline
@@ -29,18 +29,21 @@ def rotating_pocket(
     small_radius = roller.radius + small_place * roller.taper
     large_radius = roller.radius + large_place * roller.taper
     small_normal, large_normal = scale(small_side, ahead), scale(large_side, ahead)
+    small_arm = add_scaled(scale(small_place, axis), small_radius, small_normal)
     small = touch_wall(
-        centre, add_scaled(scale(small_place, axis), small_radius, small_normal), small_normal,
-        magnitude(small_offset) - clearance, motion, cage, (axis, small_radius), None,
+        _untouched(offset), centre, small_arm, small_normal, magnitude(small_offset) - clearance, motion,
+        cage, (axis, small_radius), None,
     )  # fmt: skip
-    large = touch_wall(
-        centre, add_scaled(scale(large_place, axis), large_radius, large_normal), large_normal,
-        magnitude(large_offset) - clearance, motion, cage, (axis, large_radius), None,
+    large_arm = add_scaled(scale(large_place, axis), large_radius, large_normal)
+    both = touch_wall(
+        small, centre, large_arm, large_normal, magnitude(large_offset) - clearance, motion, cage,
+        (axis, large_radius), None,
     )  # fmt: skip
+    slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small[0], both[0])
     bar = scale(
         where_greater(offset, 0.0, roller.radius + 0.0 * offset, -roller.radius + 0.0 * offset), ahead
     )
-    return _as_five(small, large), bar
+    return both, slip_squared, bar
 
 
 @inline
@@ -52,19 +55,36 @@ def kinematic_pocket(
     They hold the skew too; arguments and results as `pocket_contact`.
     """
     ahead, offset, skew = _along_pitch_circle(centre, axis, advance, tilt)
+    small_arm, large_arm = scale(-cage.bar_place, axis), scale(cage.bar_place, axis)
     small = _hold(
-        centre, scale(-cage.bar_place, axis), ahead, offset - cage.bar_place * skew, motion, kinematic
+        _untouched(offset), centre, small_arm, ahead, offset - cage.bar_place * skew, motion, kinematic
     )
-    large = _hold(
-        centre, scale(cage.bar_place, axis), ahead, offset + cage.bar_place * skew, motion, kinematic
-    )
-    return _as_five(small, large), scale(0.0, ahead)
+    both = _hold(small, centre, large_arm, ahead, offset + cage.bar_place * skew, motion, kinematic)
+    slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small[0], both[0])
+    return both, slip_squared, scale(0.0, ahead)
 
 
 @inline
-def _as_five(small: Any, large: Any) -> Any:
-    """Both touches in the shape that `pocket_contact` gives; nobody looks at the other three."""
-    return small, large, large, large, large
+def _untouched(offset: Any) -> Any:
+    """Sums over no walls; a NaN stays one."""
+    zero = 0.0 * offset
+    nothing = (zero, zero, zero)
+    return nothing, nothing, zero, zero, nothing, nothing
+
+
+@inline
+def _pair_slip_squared(
+    centre: Any, small_arm: Any, large_arm: Any, motion: Any, small_force: Any, both_force: Any
+) -> Any:
+    """Slip at the large end where more than half of the force is there, else at the small end, squared."""
+    large_force = subtract(both_force, small_force)
+    small_slip, large_slip = wall_slip(centre, small_arm, motion), wall_slip(centre, large_arm, motion)
+    return where_greater(
+        4.0 * dot(large_force, large_force),
+        dot(both_force, both_force),
+        dot(large_slip, large_slip),
+        dot(small_slip, small_slip),
+    )
 
 
 @inline
@@ -77,23 +97,12 @@ def _along_pitch_circle(centre: Any, axis: Any, advance: Any, tilt: Any) -> Any:
 
 
 @inline
-def _hold(centre: Any, arm: Any, direction: Any, offset: Any, motion: Any, kinematic: Any) -> Any:
-    """One spring-damper that pulls as well as it pushes; results as `touch_wall`."""
+def _hold(
+    touches: Any, centre: Any, arm: Any, direction: Any, offset: Any, motion: Any, kinematic: Any
+) -> Any:
+    """Add one spring-damper that pulls as well as it pushes; results as `touch_wall`."""
     slip = wall_slip(centre, arm, motion)
     damper = kinematic.damping * dot(slip, direction)
     spring = kinematic.stiffness * offset
-    return scale(-spring - damper, direction), arm, scale(damper, direction), slip, 0.5 * spring * offset
-
-
-@inline
-def pair_sum(touches: Any) -> Any:
-    """Force, moment about the roller's centre of mass and elastic energy of both touches."""
-    a, b, _, _, _ = touches
-    return add(a[0], b[0]), add(cross(a[1], a[0]), cross(b[1], b[0])), a[4] + b[4]
-
-
-@inline
-def pair_loss(touches: Any, change: Any) -> Any:
-    """Power lost at the middle of a step that changes the roller's velocities, [W]."""
-    a, b, _, _, _ = touches
-    return touch_loss(a, change) + touch_loss(b, change)
+    force, lost = scale(-spring - damper, direction), scale(damper, direction)
+    return add_touch(touches, arm, slip, force, lost, 0.5 * spring * offset)

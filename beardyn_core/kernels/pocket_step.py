@@ -7,11 +7,11 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import pocket_wear
 from beardyn_core.kernels.exchange import account, account_loss, output_contact, react
-from beardyn_core.kernels.lane_math import sqrt, where_greater
+from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.orbit import ring_view
-from beardyn_core.kernels.pocket import pocket_contact, pocket_loss, pocket_sum
-from beardyn_core.kernels.pocket_simple import kinematic_pocket, pair_loss, pair_sum, rotating_pocket
-from beardyn_core.kernels.vectors import add, dot, subtract
+from beardyn_core.kernels.pocket import pocket_contact, touch_loss
+from beardyn_core.kernels.pocket_simple import kinematic_pocket, rotating_pocket
+from beardyn_core.kernels.vectors import add, subtract
 from beardyn_core.model.layout import CAGE_BODY, LOSS_POCKET, POCKET, POCKET_ANGLE, RING_TURN
 
 
@@ -29,22 +29,21 @@ def cage_before(
     worn: Any,
     cage: Any,
 ) -> Any:
-    """Pocket contact of one block: centre, wrench with energy, touches with bar; zeros without a cage."""
+    """Pocket contact of one block: centre, sums over the walls, slip with bar; zeros without a cage."""
     if cage is None:
         zero = lanes.constant(0.0)
         nothing = (zero, zero, zero)
-        touch = (nothing, nothing, nothing, nothing, zero)
-        return nothing, (nothing, nothing, zero), ((touch, touch, touch, touch, touch), nothing)
+        return nothing, (nothing, nothing, zero, zero, nothing, nothing), (zero, nothing)
     place, axis, velocity, omega, _rate = body
     origin, tilt, ring_velocity, ring_omega = ring_view(lanes, rings, CAGE_BODY, cosine, sine)
     pocket = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(constants, block, POCKET_ANGLE)
     centre = subtract(place, origin)
     motion = (velocity, omega, ring_velocity, ring_omega)
     wear = pocket_wear(lanes, block, worn)
-    touches, bar = _touches(
+    touches, slip_squared, bar = _touches(
         centre, axis, motion, azimuth - pocket, tilt, wear, roller, cage, cage.rotating, cage.kinematic
     )
-    return centre, _sum(touches, cage.rotating, cage.kinematic), (touches, bar)
+    return centre, touches, (slip_squared, bar)
 
 
 @inline
@@ -71,30 +70,11 @@ def _touches(
 
 
 @inline
-def _sum(touches: Any, rotating: Any, kinematic: Any) -> Any:
-    if kinematic is not None:
-        return pair_sum(touches)
-    if rotating is not None:
-        return pair_sum(touches)
-    return pocket_sum(touches)
-
-
-@inline
-def _loss(touches: Any, change: Any, rotating: Any, kinematic: Any) -> Any:
-    if kinematic is not None:
-        return pair_loss(touches, change)
-    if rotating is not None:
-        return pair_loss(touches, change)
-    return pocket_loss(touches, change)
-
-
-@inline
 def add_cage(force: Any, moment: Any, contact: Any, cage: Any) -> Any:
     """Add the pocket's wrench to a sum."""
     if cage is None:
         return force, moment
-    pocket_force, pocket_moment, _energy = contact[1]
-    return add(force, pocket_force), add(moment, pocket_moment)
+    return add(force, contact[1][0]), add(moment, contact[1][1])
 
 
 @inline
@@ -114,20 +94,11 @@ def finish_cage(
     """Reaction, output and audit of the pocket contact, which is explicit."""
     if cage is None:
         return
-    centre = contact[0]
-    force, moment, energy = contact[1]
-    touches, bar = contact[2]
+    centre, touches = contact[0], contact[1]
+    force, moment, energy = touches[0], touches[1], touches[2]
+    slip_squared, bar = contact[2]
     react(lanes, sums, CAGE_BODY, mask, centre, force, moment, cosine, sine)
-    slip = sqrt(_slip_squared(touches))
-    output_contact(lanes, rollers, block, POCKET, force, bar, slip, lanes.constant(0.0))
-    lost = p.step * _loss(touches, change, cage.rotating, cage.kinematic)
+    output_contact(lanes, rollers, block, POCKET, force, bar, sqrt(slip_squared), lanes.constant(0.0))
+    lost = p.step * touch_loss(touches, change)
     account_loss(lanes, sums, mask, LOSS_POCKET, lost, p.effects.audit)
     account(lanes, sums, mask, lanes.constant(0.0), energy, p.effects.audit)
-
-
-@inline
-def _slip_squared(touches: Any) -> Any:
-    """Slip speed at the bar that presses more, squared."""
-    front, behind = add(touches[0][0], touches[1][0]), add(touches[2][0], touches[3][0])
-    ahead, back = touches[0][3], touches[2][3]
-    return where_greater(dot(behind, behind), dot(front, front), dot(back, back), dot(ahead, ahead))

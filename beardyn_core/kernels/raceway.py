@@ -12,7 +12,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
-from beardyn_core.kernels.film import log2_film_thickness
+from beardyn_core.kernels.film import log2_film_thickness, log2_load
 from beardyn_core.kernels.lamina_spring import (
     SMALLEST_APPROACH,
     add_lean,
@@ -284,9 +284,10 @@ def spring_sums(
         along = slip_along[0] + x * slip_along[1]
         square = around * around + along * along
         mark_result(effects.timers, CONTACT, square)
-        log2_film = log2_film_thickness(load, log2_speed, k, ring, laminae, effects.film)
+        log2_force = log2_load(load)
+        log2_film = log2_film_thickness(log2_force, log2_speed, k, ring, laminae, effects.film)
         mark_result(effects.timers, FILM, log2_film)
-        friction = friction_rate(load, square, log2_film, log2_speed, k, ring, laminae, effects)
+        friction = friction_rate(load, log2_force, square, log2_film, log2_speed, k, ring, laminae, effects)
         mark_result(effects.timers, TRACTION, friction)
         friction = share_of(lanes, k, damage, effects.coupling) * friction
         friction_0 = friction_0 + friction

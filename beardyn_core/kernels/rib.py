@@ -6,6 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.rib_friction import (
     rib_entrainment,
     rib_film_output,
@@ -85,14 +86,24 @@ def rib_contact(
     tangential = add_scaled(slip, -dot(slip, normal), normal)
     spin = dot(subtract(omega, ring_omega), normal)
     reach = spin_reach(touching, rib.drilling)
+    sliding = with_spin(dot(tangential, tangential), reach, spin, rib.drilling)
+    rolling = (centre, arm, normal, velocity, omega, ring_axis, ring_velocity, ring_omega, orbit_rate)
+    friction, film = _rubbing(load, root, sliding, rolling, rib)
+    return normal, arm, load, tangent, friction, elastic, energy, slip, reach * friction, spin, film
+
+
+@inline
+def _rubbing(load: Any, root: Any, sliding: Any, rolling: Any, rib: Any) -> Any:
+    """Friction over slip speed and film thickness; nothing where no roller of the block is pressed."""
+    if not any_positive(load):
+        return 0.0 * load, 0.0 * load  # a NaN stays one
+    centre, arm, normal, velocity, omega, ring_axis, ring_velocity, ring_omega, orbit_rate = rolling
     entrainment = rib_entrainment(
         centre, arm, normal, velocity, omega, ring_axis, ring_velocity, ring_omega, orbit_rate, rib.film
     )
     log2_film = rib_log2_film(load, entrainment, rib.film)
-    sliding = with_spin(dot(tangential, tangential), reach, spin, rib.drilling)
     friction = rib_friction(load, root, sliding, log2_film, rib, rib.film)
-    film = rib_film_output(load, log2_film, rib.film)
-    return normal, arm, load, tangent, friction, elastic, energy, slip, reach * friction, spin, film
+    return friction, rib_film_output(load, log2_film, rib.film)
 
 
 @inline

@@ -11,7 +11,8 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.lane_math import at_least, at_most, sqrt, where_greater
+from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 
 _LARGEST_TURN = 0.4
@@ -61,6 +62,9 @@ def _on_the_face(depth: Any, along: Any, distance: Any, rib: Any, window: Any) -
         return depth, rib.normal_axial, rib.normal_radial
     height = distance * rib.normal_axial - along * rib.normal_radial
     beyond = height - at_most(at_least(height, window.low), window.high)
+    if not any_positive(magnitude(beyond)):
+        still = 0.0 * depth  # a NaN stays one
+        return depth, rib.normal_axial + still, rib.normal_radial + still
     ahead = rib.sphere_radius + window.rounding - depth
     reach = sqrt(ahead * ahead + beyond * beyond)
     # reach - ahead, without the difference of two nearly equal lengths
@@ -79,6 +83,8 @@ def _within_the_rim(
     if end is None:
         return depth, normal, arm
     along = dot(normal, axis)
+    if not any_positive(end.cosine - along):
+        return depth, normal, arm
     radial = add_scaled(normal, -along, axis)
     radial = scale(1.0 / sqrt(dot(radial, radial) + _AXIS_FLOOR), radial)
     middle = add_scaled(centre, end.place, axis)

@@ -14,10 +14,13 @@ from beardyn_core.kernels.exchange import (
     react,
 )
 from beardyn_core.kernels.lane_math import sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.rib import rib_contact
 from beardyn_core.kernels.solve import add_couple, add_point, add_point_everywhere
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.layout import CONE, LOSS_DAMPING, LOSS_RIB, RIB
+
+_NOTHING = 1e-300
 
 
 @inline
@@ -32,9 +35,17 @@ def rib_before(body: Any, view: Any, zero: Any, rib: Any, damping: Any) -> Any:
 
 
 @inline
+def is_pressed(contact: Any) -> Any:
+    """Whether a point contact of any roller of the block is pressed; a NaN is, too."""
+    return any_positive(where_greater(_NOTHING, contact[1][5], 0.0, 1.0))
+
+
+@inline
 def rib_matrix(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
     """Add the implicit part of the rib contact."""
     if rib is None:
+        return matrix
+    if not is_pressed(contact):
         return matrix
     normal, arm, _load, tangent, friction, _elastic, _energy, _slip, drilling, _spin, _film = contact[1]
     rough = p.step * friction
@@ -82,6 +93,8 @@ def add_rib(force: Any, moment: Any, contact: Any, rib: Any) -> Any:
     """Add the rib's wrench to a sum."""
     if rib is None:
         return force, moment
+    if not is_pressed(contact):
+        return force, moment
     rib_force, rib_moment = rib_wrench(contact, rib.drilling)
     return add(force, rib_force), add(moment, rib_moment)
 
@@ -119,6 +132,9 @@ def settle_point(
     force, moment : vector
         On the roller that the step ends with.
     """
+    if not is_pressed(contact):
+        still = 0.0 * contact[1][5]
+        return (still, still, still), (still, still, still)
     centre = contact[0]
     normal, arm, _load, tangent, friction, whole, energy, slip, resistance, spin, _film = contact[1]
     elastic = where_greater(tangent, 0.0, whole, 0.0 * whole)

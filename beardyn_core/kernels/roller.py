@@ -15,7 +15,6 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.drag import add_drag, drag_before, drag_matrix, finish_drag
 from beardyn_core.kernels.exchange import account_gravity, load_vector, store_vector
-from beardyn_core.kernels.lane_math import cos_sin
 from beardyn_core.kernels.orbit import angular_velocity, drift, ring_view, weight
 from beardyn_core.kernels.pocket_step import add_cage, cage_before, finish_cage
 from beardyn_core.kernels.raceway_step import finish_raceway, raceway_contact, raceway_matrix, raceway_wrench
@@ -80,11 +79,11 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
     """
     step, effects, roller = p.step, p.effects, p.roller
     reference_velocity = load_vector(lanes, rings, CUP, RING_VELOCITY)
-    polar, velocity, momentum, axis, half_turn, orbit_rate = drift(
+    polar, velocity, momentum, axis, half_turn, orbit_rate, direction = drift(
         lanes, rollers, block, reference_velocity, step, roller
     )
     radius, azimuth, axial = polar
-    cosine, sine = cos_sin(azimuth)
+    cosine, sine = direction
     mask = lanes.load(p.rollers, block, MASK)
     oversize = lanes.load(p.rollers, block, OVERSIZE)
     omega = angular_velocity(momentum, axis, roller)

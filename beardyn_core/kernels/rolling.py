@@ -89,6 +89,8 @@ def rolling_before(contact: Any, ring: Any, view: Any, body: Any, rolling: Any) 
     along = line[4]
     if rolling is None:
         return 0.0 * load, 0.0 * load, along
+    if not contact[5]:
+        return 0.0 * load, 0.0 * load, along
     _place, _axis, velocity, omega, orbit_rate = body
     speed = entrainment_speed(line, centre, velocity, omega, view[2], view[3], orbit_rate)
     relative = dot(subtract(omega, view[3]), along)

@@ -26,6 +26,14 @@ def decay_over(x: Any) -> Any:
 
 
 @inline
+def decay_rate(per_slip: Any, slip: Any, inverse_slip: Any) -> Any:
+    """(1 - exp(-per_slip slip)) / slip where 1 / slip is known as well; errors as of `decay_over`."""
+    x = per_slip * slip
+    series = per_slip * (1.0 - x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120)))))
+    return where_greater(x, _SMALL, (1.0 - exp2(-_LOG2_E * x)) * inverse_slip, series)
+
+
+@inline
 def asinh_over(x: Any) -> Any:
     """asinh(x) / x for 0 <= x < 1e100; relative error below 1e-8."""
     x2 = x * x
@@ -36,25 +44,17 @@ def asinh_over(x: Any) -> Any:
 
 @inline
 def arctangent_over(x: Any) -> Any:
-    """atan(x) / x for x >= 0; relative error below 1e-9.
+    """atan(x) / x for x >= 0; relative error below 1e-9."""
+    return arctangent_with(x, 1.0 / at_least(x, 1e-30))
 
-    Halving the angle of min(x, 1/x) leaves at most 22.5 degrees, where a polynomial in the square holds.
-    """
-    inverse = 1.0 / at_least(x, 1e-30)
+
+@inline
+def arctangent_with(x: Any, inverse: Any) -> Any:
+    """atan(x) / x where 1 / x is known as well: a polynomial in the square of min(x, 1/x), minimax."""
     folded = at_most(x, inverse)
-    half = 1.0 / (1.0 + sqrt(1.0 + folded * folded))
-    t = folded * half
-    s = t * t
-    series = 1.0 + s * (
-        -0.3333333209761623
-        + s
-        * (
-            0.19999883856946377
-            + s
-            * (
-                -0.1428158878179486
-                + s * (0.11040489327930807 + s * (-0.08456193410149723 + s * 0.04707349170091556))
-            )
-        )
-    )
-    return where_greater(x, 1.0, (_HALF_PI - 2.0 * t * series) * inverse, 2.0 * half * series)
+    s = folded * folded
+    tail = 0.02253987213401459 + s * (-0.0073179591294139906 + s * 0.0011137893081054834)
+    tail = -0.08811091477881007 + s * (0.06741597453598872 + s * (-0.04468994705394946 + s * tail))
+    tail = 0.19999671122813323 + s * (-0.142798330523907 + s * (0.1105822369876473 + s * tail))
+    series = 1.0 + s * (-0.33333326899541654 + s * tail)
+    return where_greater(x, 1.0, (_HALF_PI - folded * series) * inverse, series)

@@ -7,7 +7,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import implicit_time
 from beardyn_core.kernels.lane_math import at_least, sqrt, where_greater
-from beardyn_core.kernels.rib_step import settle_point
+from beardyn_core.kernels.rib_step import is_pressed, settle_point
 from beardyn_core.kernels.solve import add_point, add_point_everywhere
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.layout import LOSS_SMALL_RIB
@@ -72,6 +72,8 @@ def small_rib_matrix(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
     """Add the implicit part of the small-rib contact."""
     if rib is None:
         return matrix
+    if not is_pressed(contact):
+        return matrix
     normal, arm, tangent, friction = contact[1][0], contact[1][1], contact[1][3], contact[1][4]
     rough = p.step * friction
     stiff = p.step * implicit_time(p.spring_time, rib.damping) * tangent
@@ -82,6 +84,8 @@ def small_rib_matrix(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
 def add_small_rib(force: Any, moment: Any, contact: Any, rib: Any) -> Any:
     """Add the small rib's wrench from the velocities at the beginning of the step to a sum."""
     if rib is None:
+        return force, moment
+    if not is_pressed(contact):
         return force, moment
     normal, arm, load, friction, slip = (
         contact[1][0],

@@ -13,7 +13,7 @@ from beardyn_core.kernels.film_traction import (
     limited_newton_rate,
 )
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, sqrt
-from beardyn_core.kernels.saturation import arctangent_over
+from beardyn_core.kernels.saturation import arctangent_with
 from beardyn_core.kernels.slip_laws import slip_rate
 
 _LOG2_E = 1.4426950408889634
@@ -83,6 +83,7 @@ def film_rate(
 @inline
 def load_sharing_rate(
     load: Any,
+    log2_force: Any,
     slip_squared: Any,
     log2_film: Any,
     log2_rolling: Any,
@@ -103,15 +104,22 @@ def load_sharing_rate(
     Load share and asperity law as in the published source of D-BRAIN (NSK).
     """
     slip = sqrt(slip_squared)
+    inverse_slip = 1.0 / at_least(slip, 1e-12)  # one division for all laws
     per_slip = sharing.slope * exp2(-log2_rolling)
-    asperities = sharing.friction * _TWO_OVER_PI * load * per_slip * arctangent_over(per_slip * slip)
-    return _shared_rate(load, slip, asperities, log2_film, log2_rolling, lamina, ring, laminae, film, sharing)
+    saturated = per_slip * arctangent_with(per_slip * slip, inverse_slip * (1.0 / per_slip))
+    asperities = sharing.friction * _TWO_OVER_PI * load * saturated
+    return _shared_rate(
+        load, log2_force, slip, inverse_slip, asperities, log2_film, log2_rolling, lamina, ring, laminae,
+        film, sharing,
+    )  # fmt: skip
 
 
 @inline
 def _shared_rate(
     load: Any,
+    log2_force: Any,
     slip: Any,
+    inverse_slip: Any,
     asperities: Any,
     log2_film: Any,
     log2_rolling: Any,
@@ -124,12 +132,12 @@ def _shared_rate(
     if film is None:
         return asperities
     wet = (
-        aihara_rate(load, slip, log2_rolling, lamina, ring, laminae, sharing.aihara)
+        aihara_rate(load, log2_force, slip, inverse_slip, log2_rolling, lamina, ring, sharing.aihara)
         + eyring_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.eyring)
         + bair_winer_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.bair_winer)
         + inlet_rate(log2_film, lamina, ring, laminae, sharing.inlet)
     )
-    wet = at_most(wet, sharing.friction * load / at_least(slip, 1e-12))
+    wet = at_most(wet, sharing.friction * load * inverse_slip)
     share = exp2(-1.8 * _LOG2_E * exp2(1.2 * (log2_film - sharing.log2_roughness)))
     return wet + (asperities - wet) * share
 
@@ -137,6 +145,7 @@ def _shared_rate(
 @inline
 def friction_rate(
     load: Any,
+    log2_force: Any,
     slip_squared: Any,
     log2_film: Any,
     log2_speed: Any,
@@ -147,7 +156,7 @@ def friction_rate(
 ) -> Any:
     """Friction of one lamina over its slip speed, [N s/m]; 0 without traction."""
     return _rate(
-        load, slip_squared, log2_film, log2_speed, lamina, ring, laminae,
+        load, log2_force, slip_squared, log2_film, log2_speed, lamina, ring, laminae,
         effects.film, effects.coulomb, effects.mixed, effects.load_sharing,
     )  # fmt: skip
 
@@ -155,6 +164,7 @@ def friction_rate(
 @inline
 def _rate(
     load: Any,
+    log2_force: Any,
     slip_squared: Any,
     log2_film: Any,
     log2_speed: Any,
@@ -169,7 +179,7 @@ def _rate(
     if load_sharing is None:
         return _blended_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, coulomb, mixed)
     return load_sharing_rate(
-        load, slip_squared, log2_film, log2_speed[1], lamina, ring, laminae, film, load_sharing
+        load, log2_force, slip_squared, log2_film, log2_speed[1], lamina, ring, laminae, film, load_sharing
     )
 
 

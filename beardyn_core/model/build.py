@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.model.aligned import aligned_zeros
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.box_coupling import box_coupling
 from beardyn_core.model.cage_params import cage_params
@@ -59,7 +60,7 @@ def mounting_params(bearing: Bearing, mounting: Mounting, preload: NDArray[np.fl
 
 def roller_constants(arrangement: Arrangement, oversize: NDArray[np.float64]) -> NDArray[np.float64]:
     """Constants of each roller, shape [block, ROLLER_CONSTANTS, lane]; `oversize` [row, roller]."""
-    constants = np.zeros((arrangement.block_count, ROLLER_CONSTANTS, arrangement.width))
+    constants = aligned_zeros(arrangement.block_count, ROLLER_CONSTANTS, arrangement.width)
     constants[:, MASK] = arrangement.mask
     constants[:, POCKET_ANGLE] = 2.0 * math.pi * arrangement.roller / arrangement.roller_count
     constants[:, OVERSIZE] = arrangement.to_lanes(oversize)
@@ -105,7 +106,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         ),
         cone=RacewayParams(math.sin(cone_angle), math.cos(cone_angle), -1.0, 0.0),
         laminae=laminae,
-        lamina_loads=np.zeros((1, 2 * laminae.shape[1], arrangement.width)),
+        lamina_loads=aligned_zeros(1, 2 * laminae.shape[1], arrangement.width),
         rollers=roller_constants(arrangement, roller_oversize(scene)),
         mounting=mounting_params(bearing, scene.mounting, preload),
         effects=EffectParams(

@@ -13,6 +13,9 @@ LAMINA_FILM, LAMINA_PRESSURE = 4, 6  # one row each for cup and cone
 
 LAMINA_ROWS = 8
 
+# rows of the work space of coupled laminae
+COUPLING_ROWS = 5
+
 
 class RacewayParams(NamedTuple):
     """One raceway: cone angle as sine and cosine, +1 for the cup and -1 for the cone, normal gap [m]."""
@@ -109,7 +112,8 @@ class AiharaParams(NamedTuple):
 
     log2_slide: float
     log2_friction: float
-    largest_slide: float
+    log2_largest_slide: float
+    log2_pressure: Any  # largest Hertz pressure at 1 N on the lamina, [ring, lamina], [log2 kgf/mm^2]
 
 
 class EyringParams(NamedTuple):
@@ -189,4 +193,4 @@ class CouplingParams(NamedTuple):
     root: Any  # [lamina, lamina]
     follow: Any  # [lamina, lamina], where one lamina is in balance, given the others
     own_stiffness: Any  # [lamina]
-    work: Any  # [4, lamina, lane]
+    work: Any  # [COUPLING_ROWS, lamina, lane]

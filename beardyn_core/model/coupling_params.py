@@ -7,8 +7,9 @@ import numpy as np
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root
 from beardyn_core.effects import LaminaCoupling
+from beardyn_core.model.aligned import aligned_zeros
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.contact_parameters import CouplingParams
+from beardyn_core.model.contact_parameters import COUPLING_ROWS, CouplingParams
 
 
 def coupling_params(
@@ -25,5 +26,5 @@ def coupling_params(
         root=np.ascontiguousarray(matrices.root),
         follow=np.ascontiguousarray(follow),
         own_stiffness=own,
-        work=np.zeros((4, count, arrangement.width)),
+        work=aligned_zeros(COUPLING_ROWS, count, arrangement.width),
     )

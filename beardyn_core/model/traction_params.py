@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import (
     CoulombTraction,
@@ -13,6 +16,7 @@ from beardyn_core.effects import (
     Traction,
 )
 from beardyn_core.model.contact_parameters import (
+    LAMINA_PRESSURE,
     AiharaParams,
     CoulombParams,
     EyringParams,
@@ -23,7 +27,7 @@ from beardyn_core.model.contact_parameters import (
     SlipLawParams,
 )
 from beardyn_core.model.film_factor import film_params
-from beardyn_core.model.lamina_table import equivalent_radius, lamina_places
+from beardyn_core.model.lamina_table import equivalent_radius, lamina_places, lamina_table
 from beardyn_core.scene.scene import Scene
 
 REYNOLDS_EXIT = 0.47513  # where the film of a parabolic gap ends, over sqrt(2 R h)
@@ -84,13 +88,20 @@ def _mixed_params(traction: MixedTraction | ShearedFilmTraction, law: SlipLawPar
     )
 
 
-def aihara_params(lubricant: Lubricant, temperature: float, largest_slide: float) -> AiharaParams:
-    """Aihara's traction of an oil at a temperature [K]; the fit wants the viscosity in cP."""
+def aihara_params(
+    lubricant: Lubricant, temperature: float, largest_slide: float, laminae: NDArray[np.float64]
+) -> AiharaParams:
+    """Aihara's traction of an oil at a temperature [K] on the laminae of a table.
+
+    The fit wants the viscosity in cP and the largest pressure in kgf/mm^2.
+    """
     log2_viscosity = math.log2(1e3 * lubricant.dynamic_viscosity(temperature))
+    mean = np.sqrt(laminae[LAMINA_PRESSURE : LAMINA_PRESSURE + 2])
     return AiharaParams(
         log2_slide=math.log2(1.2448e7) - 1.5 * log2_viscosity,
         log2_friction=0.1 * log2_viscosity,
-        largest_slide=largest_slide,
+        log2_largest_slide=math.log2(largest_slide),
+        log2_pressure=np.log2(4.0 / math.pi * mean / 9.80665e6),
     )
 
 
@@ -100,7 +111,7 @@ def _load_sharing_params(scene: Scene, traction: LoadSharingTraction) -> LoadSha
         friction=traction.boundary_friction,
         slope=traction.boundary_slope,
         log2_roughness=math.log2(scene.bearing.raceway_roughness),
-        aihara=aihara_params(scene.lubricant, scene.temperature, traction.largest_slide)
+        aihara=aihara_params(scene.lubricant, scene.temperature, traction.largest_slide, lamina_table(scene))
         if kind == "aihara"
         else None,
         eyring=EyringParams(traction.eyring_stress) if kind == "eyring" else None,

@@ -103,7 +103,7 @@ def aihara_coefficient(pressure: float, slip: float, speed: float) -> float:
     p = parameters(LoadSharingTraction(), LineFilm())
     oil = load_lubricant("L055")
     oil = replace(oil, density=oil.density * 72.9029224284153e-3 / oil.dynamic_viscosity(343.15))
-    aihara = aihara_params(oil, 343.15, LoadSharingTraction().largest_slide)
+    aihara = aihara_params(oil, 343.15, LoadSharingTraction().largest_slide, p.laminae)
     sharing = sharing_of(p)._replace(aihara=aihara, log2_roughness=NO_ASPERITIES)
     p = p._replace(effects=p.effects._replace(load_sharing=sharing))
     mean_pressure = math.pi / 4.0 * pressure * KGF_PER_MM2

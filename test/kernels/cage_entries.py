@@ -7,7 +7,7 @@ from typing import Any
 from beardyn_core.jit import entry
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.land import land_contact, short_bearing
-from beardyn_core.kernels.pocket_simple import kinematic_pocket, pair_sum, rotating_pocket
+from beardyn_core.kernels.pocket_simple import kinematic_pocket, rotating_pocket
 
 
 @entry
@@ -18,11 +18,11 @@ def rotating_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) 
             load_vector(lanes, states, case, 9), load_vector(lanes, states, case, 12),
             load_vector(lanes, states, case, 15), load_vector(lanes, states, case, 18),
         )  # fmt: skip
-        touches, _bar = rotating_pocket(
+        touches, _slip, _bar = rotating_pocket(
             load_vector(lanes, states, case, 0), load_vector(lanes, states, case, 3), motion,
             lanes.load(states, case, 21), load_vector(lanes, states, case, 6), 0.0, roller, cage,
         )  # fmt: skip
-        force, moment, energy = pair_sum(touches)
+        force, moment, energy = touches[0], touches[1], touches[2]
         store_vector(lanes, out, case, 0, force)
         store_vector(lanes, out, case, 3, moment)
         lanes.store(out, case, 6, energy)
@@ -36,11 +36,11 @@ def kinematic_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any)
             load_vector(lanes, states, case, 9), load_vector(lanes, states, case, 12),
             load_vector(lanes, states, case, 15), load_vector(lanes, states, case, 18),
         )  # fmt: skip
-        touches, _bar = kinematic_pocket(
+        touches, _slip, _bar = kinematic_pocket(
             load_vector(lanes, states, case, 0), load_vector(lanes, states, case, 3), motion,
             lanes.load(states, case, 21), load_vector(lanes, states, case, 6), cage, cage.kinematic,
         )  # fmt: skip
-        force, moment, energy = pair_sum(touches)
+        force, moment, energy = touches[0], touches[1], touches[2]
         store_vector(lanes, out, case, 0, force)
         store_vector(lanes, out, case, 3, moment)
         lanes.store(out, case, 6, energy)

@@ -9,7 +9,7 @@ from typing import Any
 
 from beardyn_core.jit import entry
 from beardyn_core.kernels.exchange import load_vector, store_vector
-from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness
+from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness, log2_load
 from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
 from beardyn_core.kernels.lane_math import (
     at_least,
@@ -25,7 +25,7 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
     wrap,
 )
-from beardyn_core.kernels.pocket import pocket_contact, pocket_sum
+from beardyn_core.kernels.pocket import pocket_contact
 from beardyn_core.kernels.raceway import generator_line, lamina_sums, sliding
 from beardyn_core.kernels.raceway_step import raceway_wrench
 from beardyn_core.kernels.rib import rib_contact
@@ -188,7 +188,7 @@ def small_ribs(lanes: Any, states: Any, out: Any, rib: Any) -> None:
 def pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
     """Pocket contact of each case (inputs as `raceways`, advance in the place of the oversize)."""
     for case in range(states.shape[0]):
-        touches, _bar = pocket_contact(
+        touches, _slip, _bar = pocket_contact(
             load_vector(lanes, states, case, 0),
             load_vector(lanes, states, case, 3),
             load_vector(lanes, states, case, 9),
@@ -201,7 +201,7 @@ def pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
             roller,
             cage,
         )
-        force, moment, energy = pocket_sum(touches)
+        force, moment, energy = touches[0], touches[1], touches[2]
         store_vector(lanes, out, case, 0, force)
         store_vector(lanes, out, case, 3, moment)
         lanes.store(out, case, 6, energy)
@@ -263,9 +263,10 @@ def frictions(lanes: Any, cases: Any, out: Any, lamina: Any, ring: Any, p: Any) 
     for case in range(cases.shape[0]):
         load = lanes.load(cases, case, 0)
         log2_speed = log2_entrainment(lanes.load(cases, case, 2), p.effects.film)
-        thickness = log2_film_thickness(load, log2_speed, lamina, ring, p.laminae, p.effects.film)
+        force = log2_load(load)
+        thickness = log2_film_thickness(force, log2_speed, lamina, ring, p.laminae, p.effects.film)
         rate = friction_rate(
-            load, lanes.load(cases, case, 1), thickness, log2_speed, lamina, ring, p.laminae, p.effects
+            load, force, lanes.load(cases, case, 1), thickness, log2_speed, lamina, ring, p.laminae, p.effects
         )
         lanes.store(out, case, 0, thickness + lanes.constant(0.0))
         lanes.store(out, case, 1, rate + lanes.constant(0.0))

@@ -7,7 +7,7 @@ from typing import Any
 from beardyn_core.jit import entry
 from beardyn_core.kernels.defect import find_damage, pocket_wear, spring_damage, spring_slopes
 from beardyn_core.kernels.exchange import load_vector, store_vector
-from beardyn_core.kernels.pocket import pocket_contact, pocket_sum
+from beardyn_core.kernels.pocket import pocket_contact
 from beardyn_core.kernels.raceway_step import raceway_contact
 from beardyn_core.kernels.waviness import wave_gap
 
@@ -46,7 +46,7 @@ def worn_pockets(lanes: Any, states: Any, out: Any, block: Any, worn: Any, rolle
     """Pocket force of each case, inputs as `entries.pockets`, all cases in the pockets of one block."""
     for case in range(states.shape[0]):
         wear = pocket_wear(lanes, block, worn) + lanes.constant(0.0)
-        touches, _bar = pocket_contact(
+        touches, _slip, _bar = pocket_contact(
             load_vector(lanes, states, case, 0),
             load_vector(lanes, states, case, 3),
             load_vector(lanes, states, case, 9),
@@ -59,9 +59,8 @@ def worn_pockets(lanes: Any, states: Any, out: Any, block: Any, worn: Any, rolle
             roller,
             cage,
         )
-        force, moment, _energy = pocket_sum(touches)
-        store_vector(lanes, out, case, 0, force)
-        store_vector(lanes, out, case, 3, moment)
+        store_vector(lanes, out, case, 0, touches[0])
+        store_vector(lanes, out, case, 3, touches[1])
 
 
 @entry
