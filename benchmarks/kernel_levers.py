@@ -73,11 +73,9 @@ def kernel_levers(turns: int) -> Table:
     turns : int
         Stretches of 512 steps of each, in turns.
     """
-    rows: list[tuple[str | float, ...]] = []
     scenes = {name: replace(load_scene("static_80kN"), effects=load_effects(name)) for name in SETS}
     ratios = {name: _ratios(scene, turns) for name, scene in scenes.items()}
-    for lever in ratios[SETS[0]]:
-        rows.append((lever, *(ratios[name][lever] for name in SETS)))
+    rows = [(lever, *(ratios[name][lever] for name in SETS)) for lever in ratios[SETS[0]]]
     return Table(
         "levers",
         "Time of a step without a lever over that of the step as it is",

@@ -87,8 +87,8 @@ def pocket_contact(
     nothing = (zero, zero, zero)
     touches = (nothing, nothing, zero, zero, nothing, nothing)
     touches = touch_wall(
-        touches, centre, small_front, front, height + offset + small * (lift + skew) - clearance, motion, cage,
-        (axis, small_radius), cage.film,
+        touches, centre, small_front, front,
+        height + offset + small * (lift + skew) - clearance, motion, cage, (axis, small_radius), cage.film,
     )  # fmt: skip
     touches = touch_wall(
         touches, centre, add_scaled(large_arm, large_radius, front), front,
@@ -96,8 +96,8 @@ def pocket_contact(
     )  # fmt: skip
     pushed_back = touches[0]
     touches = touch_wall(
-        touches, centre, small_behind, behind, height - offset + small * (lift - skew) - clearance, motion, cage,
-        (axis, small_radius), cage.film,
+        touches, centre, small_behind, behind,
+        height - offset + small * (lift - skew) - clearance, motion, cage, (axis, small_radius), cage.film,
     )  # fmt: skip
     touches = touch_wall(
         touches, centre, add_scaled(large_arm, large_radius, behind), behind,
