@@ -12,6 +12,7 @@ from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.choice.free import Free
+from beardyn_core.choice.lumped_step import lumped_steps
 from beardyn_core.config.automatic import AUTO, REFERENCE, Explanation, choice_for, resolved, take_auto
 from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
@@ -193,6 +194,11 @@ class _Reading:
         keys, free = self.keys(overrides)
         if free.anything:
             return resolved(keys, choice_for(keys, free, load_effects(REFERENCE)))
+        if keys.tier == "lumped" and "steps_per_sample" not in self.data.get("numerics", {}):
+            steps = lumped_steps(keys.noun("")).steps_per_sample
+            assert isinstance(keys.numerics, NumericsKeys)
+            numerics = keys.numerics.model_copy(update={"steps_per_sample": steps})
+            keys = keys.model_copy(update={"numerics": numerics})
         return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
 
     def keys(self, overrides: dict[Place, Any]) -> tuple[SceneKeys, Free]:
@@ -340,7 +346,7 @@ class _Reading:
         numerics = _valid(NumericsKeys, self.data.get("numerics", {}))
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.noun().rib is not None
-            self._complain(("tier",), contradictions(tier, has_rib, numerics.laminae))
+            self._complain(("tier",), contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample))
 
     def _check_pockets(self) -> None:
         effects, entries = _valid(EffectsKeys, self.data.get("effects")), self.data.get("defects")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated, Any, Literal, cast
 
-from pydantic import Discriminator, Field, Tag, WithJsonSchema, model_validator
+from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema, model_validator
+from pydantic_core import PydanticCustomError
 from typing_extensions import Self
 
 from beardyn_core.bearing.geometry import Bearing
@@ -33,7 +34,7 @@ from beardyn_core.config.units import KN, MEGA, MM, UM, ZERO_CELSIUS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Numerics, Scene
 from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, steps_do_not_fit
-from beardyn_core.scene.tier import TIERS
+from beardyn_core.scene.tier import LONG_STEPS, TIERS
 
 
 class MountingKeys(FileModel):
@@ -186,12 +187,37 @@ def _or_auto(least: int, most: int) -> WithJsonSchema:
     )
 
 
+def _number_of_steps(value: Any) -> Any:
+    whole = isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= 64
+    if not whole and not (isinstance(value, float) and value in LONG_STEPS):
+        longer = " or ".join(str(steps) for steps in LONG_STEPS)
+        raise PydanticCustomError("steps", f"it must be a whole number from 1 to 64, or {longer} (tier lumped)")
+    return value
+
+
+StepsPerSample = Annotated[
+    int | float,
+    BeforeValidator(_number_of_steps),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "integer", "minimum": 1, "maximum": 64},
+                {"enum": list(LONG_STEPS)},
+                {"const": "auto"},
+            ]
+        }
+    ),
+]
+
+
 class NumericsKeys(FileModel):
     """Discretisation of the run."""
 
     laminae: Annotated[Count, Field(ge=1, le=100), _or_auto(1, 100)] = 6
-    steps_per_sample: Annotated[Count, Field(ge=1, le=64), _or_auto(1, 64)] = Field(
-        4, description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers"
+    steps_per_sample: StepsPerSample = Field(
+        4,
+        description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers, 0.5 or 0.25 where the "
+        "lumped tier allows",
     )
 
     def noun(self) -> Numerics:
