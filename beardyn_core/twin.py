@@ -313,7 +313,8 @@ class Twin:
         """With what is missing as the observer wants it."""
         if self._absence is None:
             return rollers, bodies
-        return self._absence.completed(rollers if isinstance(rollers, np.ndarray) else rollers.whole(), bodies)
+        whole = rollers if isinstance(rollers, np.ndarray) else rollers.whole()
+        return self._absence.completed(whole, bodies)
 
     def _warm_up(self, loads: Float) -> Float:
         """Temperatures after the block just computed; the kernels go on with what they change, [K]."""

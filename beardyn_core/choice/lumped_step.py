@@ -18,7 +18,8 @@ from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperat
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import LONG_STEPS
 
-# Turn of the fastest mode in a step, [rad]: its frequency is right within 0.3 %, see `kernels.kinematic_rings`.
+# Turn of the fastest mode in a step, [rad]: its frequency is right within 0.3 %, see
+# `kernels.kinematic_rings`.
 LARGEST_TURN = 1.0
 _MOST_STEPS = 64
 
@@ -66,7 +67,8 @@ def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: in
     if mounting.cup == "suspended":
         coupling = box_coupling(bearing, mounting)
         if coupling is None:
-            mass, inertia = mounting.box_mass + bearing.cup_mass, np.add(mounting.box_inertia, bearing.cup_inertia)
+            mass = mounting.box_mass + bearing.cup_mass
+            inertia = np.add(mounting.box_inertia, bearing.cup_inertia)
             give += np.diag([*[1.0 / mass] * 3, *(1.0 / inertia)])
         else:
             give += coupling.inverse_mass

@@ -37,7 +37,7 @@ from beardyn_core.rail.table import read_table
 from beardyn_core.scene.irregularity import MEASURED
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.tier import TIER_NAMES, contradictions
+from beardyn_core.scene.tier import TIER_NAMES, TIERS, contradictions
 
 Noun = TypeVar("Noun", covariant=True)
 Keys = TypeVar("Keys", bound=FileModel)
@@ -195,10 +195,7 @@ class _Reading:
         if free.anything:
             return resolved(keys, choice_for(keys, free, load_effects(REFERENCE)))
         if keys.tier == "lumped" and "steps_per_sample" not in self.data.get("numerics", {}):
-            steps = lumped_steps(keys.noun("")).steps_per_sample
-            assert isinstance(keys.numerics, NumericsKeys)
-            numerics = keys.numerics.model_copy(update={"steps_per_sample": steps})
-            keys = keys.model_copy(update={"numerics": numerics})
+            keys = _with_lumped_steps(keys)
         return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
 
     def keys(self, overrides: dict[Place, Any]) -> tuple[SceneKeys, Free]:
@@ -346,7 +343,8 @@ class _Reading:
         numerics = _valid(NumericsKeys, self.data.get("numerics", {}))
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.noun().rib is not None
-            self._complain(("tier",), contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample))
+            found = contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample)
+            self._complain(("tier",), found)
 
     def _check_pockets(self) -> None:
         effects, entries = _valid(EffectsKeys, self.data.get("effects")), self.data.get("defects")
@@ -358,6 +356,16 @@ class _Reading:
                     ("defects", index),
                     ["a worn pocket needs the cage, which effects leave out: set effects.cage to true"],
                 )
+
+
+def _with_lumped_steps(keys: SceneKeys) -> SceneKeys:
+    """The scene with the step that its lumped tier takes; a fast sensor has asked for its own before."""
+    scene = keys.noun("")
+    if scene.numerics.steps_per_sample != TIERS[scene.tier].steps_per_sample:
+        return keys
+    assert isinstance(keys.numerics, NumericsKeys)
+    steps = {"steps_per_sample": lumped_steps(scene).steps_per_sample}
+    return keys.model_copy(update={"numerics": keys.numerics.model_copy(update=steps)})
 
 
 def _valid(keys: type[Keys], data: Any) -> Keys | None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic_core import PydanticKnownError
 from typing_extensions import Self
 
 from beardyn_core.bearing.geometry import Bearing
@@ -188,20 +188,25 @@ def _or_auto(least: int, most: int) -> WithJsonSchema:
 
 
 def _number_of_steps(value: Any) -> Any:
-    whole = isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= 64
-    if not whole and not (isinstance(value, float) and value in LONG_STEPS):
-        longer = " or ".join(str(steps) for steps in LONG_STEPS)
-        raise PydanticCustomError("steps", f"it must be a whole number from 1 to 64, or {longer} (tier lumped)")
+    if isinstance(value, float) and value in LONG_STEPS:
+        return value  # in the tier lumped
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise PydanticKnownError("int_type")
+    if value < 1:
+        raise PydanticKnownError("greater_than_equal", {"ge": 1})
+    if value > _MOST_STEPS:
+        raise PydanticKnownError("less_than_equal", {"le": _MOST_STEPS})
     return value
 
 
+_MOST_STEPS = 64
 StepsPerSample = Annotated[
     int | float,
     BeforeValidator(_number_of_steps),
     WithJsonSchema(
         {
             "anyOf": [
-                {"type": "integer", "minimum": 1, "maximum": 64},
+                {"type": "integer", "minimum": 1, "maximum": _MOST_STEPS},
                 {"enum": list(LONG_STEPS)},
                 {"const": "auto"},
             ]

@@ -20,7 +20,7 @@ from beardyn_core.jit import entry
 from beardyn_core.kernels.kinematic_rings import add_response, hold_response, journal_velocity
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
 from beardyn_core.kernels.kinematic_torque import held_losses
-from beardyn_core.kernels.spring_roller import TREND_EXTRAS, load_rollers, show_springs, sum_rollers
+from beardyn_core.kernels.spring_roller import load_rollers, show_springs, sum_rollers
 from beardyn_core.model.layout import MASK, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (

@@ -1,4 +1,4 @@
-"""Rollers of the lumped tier at some instants: their loads are kept, all else is made when it is asked for."""
+"""Rollers of the lumped tier at some instants: loads are kept, all else is made when it is asked for."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class SpringTrend:
         return rollers
 
     def orbits(self) -> Float:
-        """The first fields of that: angle, and speed as if at the radius 1, shape [time, block, field, lane]."""
+        """Angle, and speed as if at the radius 1: the first fields, shape [time, block, field, lane]."""
         rollers = self._empty(_ORBIT_FIELDS)
         _orbits(self._trends, self._parameters.base.rollers, rollers)
         return rollers

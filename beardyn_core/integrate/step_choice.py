@@ -70,13 +70,13 @@ class StepChoice:
 
     Parameters
     ----------
-    steps_per_sample : int
+    steps_per_sample : float
         Time steps per waveform sample of 1/25600 s.
     reason : str
         What decided.
     """
 
-    steps_per_sample: int
+    steps_per_sample: float
     reason: str
 
 

@@ -46,7 +46,7 @@ def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
         arm = side * lever
         # approach of a roller: first times cosine, second times sine of its pocket angle, and third
         first = (cosine * direction[1], 0.0, cosine * direction[0], arm * direction[0], -arm * direction[1])
-        second = (cosine * direction[0], 0.0, -cosine * direction[1], -arm * direction[1], -arm * direction[0])
+        second = (first[2], 0.0, -first[0], first[4], -first[3])
         third = (0.0, -side * sine, 0.0, 0.0, 0.0)
         for i in range(5):
             on_first = cc[row] * first[i] + cs[row] * second[i] + with_c[row] * third[i]

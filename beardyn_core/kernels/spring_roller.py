@@ -5,7 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import any_near, patch_arc
+from beardyn_core.kernels.defect import patch_arc, patch_nearness
+from beardyn_core.kernels.kinematic_rings import (
+    STIFF_CC,
+    STIFF_COSINE,
+    STIFF_CS,
+    STIFF_SINE,
+    STIFF_SS,
+    STIFF_SUM,
+)
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -15,14 +23,6 @@ from beardyn_core.kernels.kinematic_rollers import (
     row_totals,
     show_contacts,
     show_roller,
-)
-from beardyn_core.kernels.kinematic_rings import (
-    STIFF_CC,
-    STIFF_CS,
-    STIFF_COSINE,
-    STIFF_SINE,
-    STIFF_SS,
-    STIFF_SUM,
 )
 from beardyn_core.kernels.kinematic_torque import rolling_torque, sliding_torque
 from beardyn_core.kernels.lane_math import at_least, magnitude, quick_ninth_root, where_greater
@@ -93,7 +93,17 @@ def _push(pressed: Any, rate: Any, damping: Any) -> Any:
 
 @inline
 def faulted_load(
-    lanes: Any, block: Any, approach: Any, rate: Any, angle: Any, turns: Any, work: Any, faults: Any, p: Any
+    lanes: Any,
+    block: Any,
+    approach: Any,
+    rate: Any,
+    constants: Any,
+    turns: Any,
+    work: Any,
+    count: Any,
+    faults: Any,
+    spring: Any,
+    damping: Any,
 ) -> Any:
     """Cup load with the gaps of faults; without faults `spring_load`.
 
@@ -103,57 +113,73 @@ def faulted_load(
 
     Parameters
     ----------
-    angle : lane value
-        Pocket angle, [rad].
+    constants : float64 array, shape [block, ROLLER_CONSTANTS, lane]
+        Of the rollers.
     turns : tuple of 3 floats
         Angle of cages and cone and of the rollers in their pockets, [rad].
     work : float64 array, shape [1, SUM_FIELDS, lane]
         ``GAP_MEAN`` and ``GAP_SQUARE`` are written near a patch.
+    count : int
+        Laminae.
     faults : FaultParams or None
+    spring : SpringParams
+    damping : DampingParams or None
+
+    Notes
+    -----
+    Only what is needed is handed in: references to the arrays of all parameters would be counted up and
+    down around every branch, which took longer than all the rest of the step.
     """
     if faults is None:
-        return spring_load(approach, rate, p.spring, p.base.effects.damping)
-    damping = p.base.effects.damping
-    azimuth, spin = angle + turns[0], turns[2]
+        return spring_load(approach, rate, spring, damping)
+    azimuth, spin = lanes.load(constants, block, POCKET_ANGLE) + turns[0], turns[2]
     on_cup, on_cone = (azimuth, lanes.constant(-spin)), (azimuth - turns[1], lanes.constant(_PI - spin))
-    cup, cone = (faults.cup, faults.roller), (faults.cone, faults.roller)
     cup_wave = wave_gap(lanes, block, on_cup[0], faults.cup_waves)[0]
     cup_wave = cup_wave + wave_gap(lanes, block, on_cup[1], faults.roller_waves)[0]
     cone_wave = wave_gap(lanes, block, on_cone[0], faults.cone_waves)[0]
     cone_wave = cone_wave + wave_gap(lanes, block, on_cone[1], faults.roller_waves)[0]
-    approach = approach - (cup_wave + p.spring.cone_share * cone_wave)
-    sound = spring_load(approach, rate, p.spring, damping)
-    cup_near, cone_near = is_near(lanes, block, on_cup, cup), is_near(lanes, block, on_cone, cone)
-    if not (cup_near or cone_near):
-        return sound
-    for lane in range(lanes.width):
-        place = p.base.rollers[block, POCKET_ANGLE, lane] + turns[0]
-        moments = _lane_gaps(block, lane, place, turns, faults, p)
-        work[0, GAP_MEAN, lane], work[0, GAP_SQUARE, lane] = moments
-    mean, square = lanes.load(work, 0, GAP_MEAN), lanes.load(work, 0, GAP_SQUARE)
-    share = mean * mean / (square + _TINY_GAP_SQUARED)
-    gap = square * mean / (mean * mean + _TINY_GAP_SQUARED)
-    return sound + share * (spring_load(approach - gap, rate, p.spring, damping) - sound)
+    approach = approach - (cup_wave + spring.cone_share * cone_wave)
+    sound = spring_load(approach, rate, spring, damping)
+    nearest = _nearest(lanes, block, on_cup[0], faults.cup, lanes.constant(0.0))
+    nearest = _nearest(lanes, block, on_cone[0], faults.cone, nearest)
+    nearest = _nearest(lanes, block, on_cup[1], faults.roller, nearest)
+    nearest = _nearest(lanes, block, on_cone[1], faults.roller, nearest)
+    load = sound
+    if any_positive(nearest):
+        for lane in range(lanes.width):
+            place = constants[block, POCKET_ANGLE, lane] + turns[0]
+            moments = _lane_gaps(block, lane, place, turns, count, faults, spring.cone_share)
+            work[0, GAP_MEAN, lane], work[0, GAP_SQUARE, lane] = moments
+        mean, square = lanes.load(work, 0, GAP_MEAN), lanes.load(work, 0, GAP_SQUARE)
+        share = mean * mean / (square + _TINY_GAP_SQUARED)
+        gap = square * mean / (mean * mean + _TINY_GAP_SQUARED)
+        load = sound + share * (spring_load(approach - gap, rate, spring, damping) - sound)
+    return load
 
 
 @inline
-def is_near(lanes: Any, block: Any, azimuths: Any, surfaces: Any) -> Any:
-    """Whether a contact is within the reach of a patch; arguments as of `find_damage`."""
-    return any_near(lanes, block, azimuths[0], surfaces[0]) or any_near(lanes, block, azimuths[1], surfaces[1])
+def _nearest(lanes: Any, block: Any, azimuth: Any, surface: Any, nearest: Any) -> Any:
+    """Larger of `nearest` and how far contacts are inside of the reach of patches of one surface, [m]."""
+    if surface is None:
+        return nearest
+    for patch in range(surface.places.shape[0]):
+        nearest = at_least(nearest, patch_nearness(lanes, block, azimuth, patch, surface))
+    return nearest
 
 
 @inline
-def _lane_gaps(block: Any, lane: Any, azimuth: Any, turns: Any, faults: Any, p: Any) -> Any:
+def _lane_gaps(block: Any, lane: Any, azimuth: Any, turns: Any, count: Any, faults: Any, share: Any) -> Any:
     """Mean gap and mean squared gap of one roller: few are near a patch at a time.
 
     With the gaps of both raceways in series, that of the cone by its share.
     """
-    count, share = p.base.laminae.shape[1], p.spring.cone_share
     mean, square = 0.0, 0.0
     on_cone = azimuth - turns[1]
     near = _lane_near(block, lane, azimuth, faults.cup) or _lane_near(block, lane, on_cone, faults.cone)
-    if near or _lane_near(block, lane, -turns[2], faults.roller) or _lane_near(
-        block, lane, _PI - turns[2], faults.roller
+    if (
+        near
+        or _lane_near(block, lane, -turns[2], faults.roller)
+        or _lane_near(block, lane, _PI - turns[2], faults.roller)
     ):
         for k in range(count):
             cup = _lamina_gap(block, lane, (azimuth, -turns[2]), k, count, (faults.cup, faults.roller))
@@ -298,8 +324,10 @@ def load_rollers(
         # most rollers outside the load zone cost no more than this look
         if any_positive(approach):
             rate = rate_wave[0] * cosine + (rate_wave[1] * sine + rate_wave[2])
-            angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
-            pressed = faulted_load(lanes, block, approach, rate, angle, turns, sums, p.faults, p)
+            pressed = faulted_load(
+                lanes, block, approach, rate, p.base.rollers, turns, sums, p.base.laminae.shape[1], p.faults,
+                p.spring, effects.damping,
+            )  # fmt: skip
             load = at_least(pressed + 0.5 * idle, idle)
             deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
             lanes.store(rollers, block, PENETRATION, deepest)

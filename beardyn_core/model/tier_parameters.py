@@ -47,7 +47,7 @@ class RingMotionParams(NamedTuple):
 
 
 class RingResponseParams(NamedTuple):
-    """How the step of the lumped tier takes stiffness and damping of the rollers; `kernels.kinematic_rings`."""
+    """How a lumped step takes stiffness and damping of the rollers; see `kernels.kinematic_rings`."""
 
     lag: float  # h^2/12 and half a step of the dampers' time [s^2]
     damper_share: float  # of the dampers in that

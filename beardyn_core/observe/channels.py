@@ -48,8 +48,8 @@ class Observer:
     """Turns what the kernel wrote during a block into a `Block`.
 
     Waveforms pass an anti-alias filter from the step rate to 25.6 kHz, or are interpolated to it from
-    longer steps, and trends pass another filter to 400 Hz. The delay of all filters is compensated: samples carry their true time and come a little later, so the
-    first blocks hold fewer of them.
+    longer steps, and trends pass another filter to 400 Hz. The delay of all filters is compensated: samples
+    carry their true time and come a little later, so the first blocks hold fewer of them.
 
     Parameters
     ----------
@@ -67,9 +67,10 @@ class Observer:
         # a step's signals are those of its end: sample 0 stands at the end of the step before the first
         steps, wait = scene.numerics.steps_per_sample, lookahead(scene)
         self._waveforms: Decimator | Interpolator
+        longer = round(1 / steps)  # samples of a step that is longer than one
         if steps < 1:
-            self._waveforms = Interpolator(round(1 / steps), SIGNAL_CHANNELS, signal)
-            self._waveform_delay = delay(round(1 / steps))
+            self._waveforms = Interpolator(longer, SIGNAL_TORQUE, signal[:SIGNAL_TORQUE])
+            self._waveform_delay = delay(longer)
         else:
             every = round(steps)
             self._waveforms = Decimator(every, SIGNAL_CHANNELS, signal, held_back=1 + wait * every)
@@ -77,7 +78,14 @@ class Observer:
         self._sensors = Sensors(scene, self._waveform_delay)
         rest = np.concatenate([signal[:6], REST, signal[SIGNAL_TORQUE : SIGNAL_TORQUE + 1]])
         carry = -self._waveform_delay % _WAVEFORMS_PER_TREND
-        self._trend_decimator = TwoStageDecimator(_WAVEFORMS_PER_TREND, _TREND_CHANNELS, rest, held_back=carry)
+        # force and torque are decimated before anything is put between them
+        self._slow_decimator: TwoStageDecimator | None = None
+        if steps < 1:
+            every = _WAVEFORMS_PER_TREND // longer
+            slow = np.delete(rest, [6, 7, 8])
+            self._slow_decimator = TwoStageDecimator(every, len(slow), slow, held_back=every + 1)
+            rest = REST
+        self._trend_decimator = TwoStageDecimator(_WAVEFORMS_PER_TREND, len(rest), rest, held_back=carry)
         self._trend_delay = DELAY + (self._waveform_delay + carry) // _WAVEFORMS_PER_TREND
         # trends of a first accelerometer that runs faster than the other waveforms
         self._fast_decimator: TwoStageDecimator | None = None
@@ -137,13 +145,11 @@ class Observer:
         first_wave = index * SAMPLES_PER_BLOCK - self._waveform_delay
         readings = self._sensors.read(index, waves, signals, self._motion(bodies))
         heard = readings[0] if readings and self._fast_decimator is None else np.tile(REST, (len(waves), 1))
-        channels = np.empty((len(waves), _TREND_CHANNELS))
-        _select(waves, heard, channels)
         blocks = len(bodies) // TRENDS_PER_BLOCK
         first_trend = index * TRENDS_PER_BLOCK - self._trend_delay
         keep_wave = slice(max(0, -first_wave), None)
         keep_trend = slice(min(max(0, -first_trend), len(bodies)), None)
-        trends = self._trend_decimator.push(channels)
+        trends = self._trends(signals, waves, heard)
         if self._fast_decimator is not None:
             trends[:, 6:9] = self._fast_decimator.push(readings[0])
         trends = trends[keep_trend]
@@ -186,6 +192,21 @@ class Observer:
             temperature=temperature,
         )
 
+    def _trends(self, signals: Float, waves: Float, heard: Float) -> Float:
+        """Force, moment, specific force and torque at 400 Hz, shape [trend, 10]."""
+        if self._slow_decimator is None:
+            channels = np.empty((len(waves), _TREND_CHANNELS))
+            _select(waves, heard, channels)
+            return self._trend_decimator.push(channels)
+        slow = np.empty((len(signals), 7))
+        slow[:, :6] = signals[:, SIGNAL_FORCE : SIGNAL_FORCE + 6]
+        slow[:, 6] = signals[:, SIGNAL_TORQUE]
+        slow = self._slow_decimator.push(slow)
+        trends = np.empty((len(slow), _TREND_CHANNELS))
+        trends[:, :6], trends[:, 9] = slow[:, :6], slow[:, 6]
+        trends[:, 6:9] = self._trend_decimator.push(heard)
+        return trends
+
     def _remember(
         self, end: int, rollers: Float | Instants, bodies: Float, loads: Float, first: int, count: int
     ) -> Float:
@@ -212,14 +233,17 @@ class Observer:
     def snapshot(self) -> tuple[Any, ...]:
         """Everything the next block depends on."""
         fast = None if self._fast_decimator is None else self._fast_decimator.state
-        decimators = (self._waveforms.state, self._trend_decimator.state, fast)
+        slow = None if self._slow_decimator is None else self._slow_decimator.state
+        decimators = (self._waveforms.state, self._trend_decimator.state, slow, fast)
         return *decimators, self._sensors.state, self._instants, self._box_motion
 
     def restore(self, snapshot: tuple[Any, ...]) -> None:
         """Go back to a `snapshot`."""
-        waveforms, trend_decimator, fast, sensors, self._instants, self._box_motion = snapshot
+        waveforms, trend_decimator, slow, fast, sensors, self._instants, self._box_motion = snapshot
         self._waveforms.restore(waveforms)
         self._trend_decimator.restore(trend_decimator)
+        if self._slow_decimator is not None:
+            self._slow_decimator.restore(slow)
         if self._fast_decimator is not None:
             self._fast_decimator.restore(fast)
         self._sensors.restore(sensors)

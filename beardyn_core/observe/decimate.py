@@ -123,14 +123,14 @@ class TwoStageDecimator:
     Parameters
     ----------
     factor : int
-        64 or 128.
+        16, 32, 64 or 128.
     channels, initial, held_back
         As of `Decimator`.
     """
 
     def __init__(self, factor: int, channels: int, initial: Float | None = None, held_back: int = 0) -> None:
-        if factor not in (64, 128):
-            raise ValueError(f"factor is {factor}; allowed is 64 or 128")
+        if factor not in (16, 32, 64, 128):
+            raise ValueError(f"factor is {factor}; allowed is 16, 32, 64 or 128")
         self.factor = factor
         first, second = _two_kernels(factor)
         self._first = Decimator(factor // _SECOND, channels, initial, held_back, first)
@@ -154,7 +154,7 @@ class TwoStageDecimator:
     def push(self, block: Float) -> Float:
         """See `Decimator.push`."""
         if block.shape[0] % self.factor:
-            raise ValueError(f"block has shape {block.shape}; it must be [multiple of {self.factor}, channel]")
+            raise ValueError(f"block has {block.shape[0]} rows; it must be a multiple of {self.factor}")
         return self._second.push(self._first.push(block))
 
 

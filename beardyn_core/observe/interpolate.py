@@ -71,7 +71,8 @@ class Interpolator:
     @property
     def state(self) -> tuple[Float, ...]:
         """Copy of all that the future depends on."""
-        return tuple(stream[:, :count].copy() for stream, count in zip(self._streams, self._kept, strict=True))
+        kept = zip(self._streams, self._kept, strict=True)
+        return tuple(stream[:, :count].copy() for stream, count in kept)
 
     def restore(self, state: tuple[Float, ...]) -> None:
         """Go back to a `state`."""

@@ -64,7 +64,7 @@ TIERS = {
             needs_rib=True,
             smallest_laminae=1,
             absent=(*_FAST_ABSENT, "roller displacement and tilt"),
-            blocks_at_once=8,
+            blocks_at_once=16,
         ),
         TierNoun(
             "quasistatic",
