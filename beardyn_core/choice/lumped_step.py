@@ -18,7 +18,7 @@ from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperat
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import LONG_STEPS
 
-# Turn of the fastest mode in a step, [rad]: its frequency is right within 0.3 %, see
+# Turn of the fastest mode in a step, [rad]: its frequency is right within 0.5 %, see
 # `kernels.kinematic_rings`.
 LARGEST_TURN = 1.0
 _MOST_STEPS = 64

@@ -1,4 +1,4 @@
-"""Rings of the lumped tier: their motion on the springs of all rollers, to fourth order in the step."""
+"""Rings of the lumped tier on the springs of all rollers: what makes a long step as good as a short one."""
 
 from __future__ import annotations
 
@@ -66,8 +66,9 @@ def hold_response(sums: Any, direction: Any, work: Any, p: Any) -> None:
     ``(M + h C/2 + h^2 K/12) a = F``. The second term takes the dampers' forces with the velocity of the
     forces' own instant, of which only that of half a step before is known. The third one makes the second
     difference over ``h^2`` of an oscillation what it is to fourth order: a mode turning by w h a step is at
-    ``1 + (w h)^4/480`` of its frequency instead of ``1 + (w h)^2/24``. K and its share of the
-    masses enter as a correction of a few percent, so a K that lags by a trend sample is enough.
+    ``1 + (w h)^4/480`` of its frequency instead of ``1 + (w h)^2/24``. K enters as a correction of a few
+    percent of the masses, so a K that lags by a trend sample and takes every roller for a 10/9 law is
+    enough: at w h = 0.64 and 1.3 the frequency is 0.2 % and 1 % off (1.7 % and 6.9 % without).
 
     With the relative acceleration by a unit wrench D and ``B = (h C/2 + h^2 K/12)`` the wrench that is to be
     added is ``(1 + B D)^-1 B`` times the relative acceleration without it.

@@ -121,8 +121,8 @@ def test_what_lies_beyond_the_band_is_less_than_the_sensors_noise(name: str, ste
     assert np.sqrt((fine[beyond, 0] ** 2).sum()) < 1e-4 * np.abs(waveform(name, FINE)[:, 0]).mean()
 
 
-def test_the_mode_on_all_springs_is_of_fourth_order() -> None:
-    """Free swinging of the box on its rollers: the period errs with the fourth power of the step."""
+def test_the_fastest_mode_keeps_its_frequency() -> None:
+    """Free swinging of the box on its rollers: a fifth of the error of a plain step is left at most."""
     periods = {}
     for steps in (0.25, 0.5, 1, FINE):
         scene = quiet("static_80kN", steps)
@@ -140,10 +140,10 @@ def test_the_mode_on_all_springs_is_of_fourth_order() -> None:
         within = (time > 0.01) & (time < 0.2)
         periods[steps] = _strongest(force[within])
     errors = {steps: abs(periods[steps] / periods[FINE] - 1.0) for steps in (0.25, 0.5)}
-    turn = 2.0 * np.pi * periods[FINE] / (25_600.0 * 0.25)
-    assert turn > 1.0
-    assert errors[0.25] < 0.2 * turn**2 / 24.0  # of a plain step
-    assert errors[0.5] < errors[0.25] / 8.0  # four times less would be second order
+    for steps, error in errors.items():
+        turn = 2.0 * np.pi * periods[FINE] / (25_600.0 * steps)
+        assert turn > 0.6
+        assert error < 0.2 * turn**2 / 24.0
 
 
 def _strongest(signal: Float) -> float:
