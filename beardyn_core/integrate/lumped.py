@@ -20,7 +20,7 @@ from beardyn_core.jit import entry
 from beardyn_core.kernels.kinematic_rings import add_response, hold_response, journal_velocity
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
 from beardyn_core.kernels.kinematic_torque import held_losses
-from beardyn_core.kernels.spring_roller import load_rollers, show_springs, sum_rollers
+from beardyn_core.kernels.spring_roller import load_rollers, show_springs, sum_rollers, torque_and_stiffness
 from beardyn_core.model.layout import MASK, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
@@ -96,12 +96,12 @@ def advance_lumped(
         direction, turns, speeds = begin_step(bodies, direction, p)
         due, shown = step % stride == 0, (step + 1) % stride == 0
         trend = roller_trend[step // stride]
-        load_rollers(
-            lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, trend, p
-        )
+        motion = relative_cone(bodies)
+        load_rollers(lanes, rollers, sums[0], motion, direction, turns, speeds, trend, p)
         totals, rib = sum_rollers(sums, speeds, p)
         wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
         if due:
+            torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
             hold_response(sums, direction, work, p)
         before = journal_velocity(bodies)
@@ -110,6 +110,8 @@ def advance_lumped(
         )
         add_response(bodies, before, signals[step], work, p)
         if shown:
+            for i, value in enumerate((turns[0], speeds[0], speeds[1])):
+                trend[rollers.shape[0] + i] = value
             body_trend[step // stride] = bodies
     show_springs(lanes, rollers, roller_trend[roller_trend.shape[0] - 1], p)
 
