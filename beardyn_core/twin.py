@@ -297,20 +297,24 @@ class Twin:
         flexibility = self._parameters.effects.ring_flexibility
         return np.zeros(0) if flexibility is None else np.asarray(flexibility.stiffness)
 
-    def _run(self, state: State, loads: Float, signals: Float, blocks: int) -> tuple[Float, Float]:
-        rollers = np.empty((blocks * TRENDS_PER_BLOCK, *state.rollers.shape))
+    def _run(self, state: State, loads: Float, signals: Float, blocks: int) -> tuple[Any, Float]:
+        tier = self._tier
+        rollers = np.empty((blocks * TRENDS_PER_BLOCK, *tier.trend_shape(state.rollers.shape)))
         bodies = np.empty((blocks * TRENDS_PER_BLOCK, *state.bodies.shape))
         work = self._work
-        self._tier.advance(
+        tier.advance(
             self._lanes, state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches,
             work.box, loads, signals, rollers, bodies, state.energy, self._audit,
             self._kernel_parameters,
         )  # fmt: skip
-        return self._complete(rollers, bodies)
+        return self._complete(tier.shown(self._lanes, rollers, self._kernel_parameters), bodies)
 
-    def _complete(self, rollers: Float, bodies: Float) -> tuple[Float, Float]:
+    def _complete(self, rollers: Any, bodies: Float) -> tuple[Any, Float]:
         """With what is missing as the observer wants it."""
-        return (rollers, bodies) if self._absence is None else self._absence.completed(rollers, bodies)
+        if self._absence is None:
+            return rollers, bodies
+        whole = rollers if isinstance(rollers, np.ndarray) else rollers.whole()
+        return self._absence.completed(whole, bodies)
 
     def _warm_up(self, loads: Float) -> Float:
         """Temperatures after the block just computed; the kernels go on with what they change, [K]."""

@@ -20,8 +20,8 @@ from benchmarks import (
 from benchmarks.runs import Table, machine
 
 PARTS = (
-    *("rtf", "scenes", "stages", "laminae", "rollers", "start", "compile", "sinks", "parallel", "paced"),
-    "yardstick",
+    *("rtf", "fast", "scenes", "stages", "laminae", "rollers"),
+    *("start", "compile", "sinks", "parallel", "paced", "yardstick"),
 )
 
 
@@ -30,6 +30,7 @@ def measure(part: str, quick: bool, done: dict[str, Table]) -> Table:
     turns = 8 if quick else 40
     parts: dict[str, Callable[[], Table]] = {
         "rtf": lambda: real_time_factor.tiers_and_effects(turns),
+        "fast": lambda: real_time_factor.fast_tiers(turns),
         "scenes": lambda: real_time_factor.scenes(turns),
         "stages": lambda: step_costs.stages(2 * turns),
         "laminae": lambda: step_costs.laminae(turns // 2),

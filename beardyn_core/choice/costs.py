@@ -90,7 +90,7 @@ class Costs:
         """Cost of an effect measured at 6 laminae."""
         return share * laminae / _REFERENCE_LAMINAE if effect in _PER_LAMINA else share
 
-    def seconds(self, step: float, steps_per_sample: int, tier: str) -> float:
+    def seconds(self, step: float, steps_per_sample: float, tier: str) -> float:
         """Wall time of a simulated second on that machine, from the relative cost of a step."""
         steps = step * self.standard_step * steps_per_sample
         return WAVEFORM_RATE * (steps + self.rest_of_block[tier] / _BLOCK_SAMPLES)

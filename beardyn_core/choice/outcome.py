@@ -20,7 +20,8 @@ class Choice:
     ----------
     tier : str
     effects : EffectSet
-    laminae, steps_per_sample : int
+    laminae : int
+    steps_per_sample : float
     accuracy : float
         Asked for, [-].
     quantities : tuple of str
@@ -41,7 +42,7 @@ class Choice:
     tier: str
     effects: EffectSet
     laminae: int
-    steps_per_sample: int
+    steps_per_sample: float
     accuracy: float
     quantities: tuple[str, ...]
     tier_reason: str

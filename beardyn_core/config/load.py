@@ -12,6 +12,7 @@ from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.choice.free import Free
+from beardyn_core.choice.lumped_step import lumped_steps
 from beardyn_core.config.automatic import AUTO, REFERENCE, Explanation, choice_for, resolved, take_auto
 from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
@@ -29,6 +30,7 @@ from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
+from beardyn_core.integrate.step_choice import usual_steps
 from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
@@ -37,7 +39,7 @@ from beardyn_core.scene.integrator import integrator_problems
 from beardyn_core.scene.irregularity import MEASURED
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.tier import TIER_NAMES, contradictions
+from beardyn_core.scene.tier import TIER_NAMES, TIERS, contradictions
 
 Noun = TypeVar("Noun", covariant=True)
 Keys = TypeVar("Keys", bound=FileModel)
@@ -194,6 +196,8 @@ class _Reading:
         keys, free = self.keys(overrides)
         if free.anything:
             return resolved(keys, choice_for(keys, free, load_effects(REFERENCE)))
+        if "steps_per_sample" not in self.data.get("numerics", {}):
+            keys = _with_usual_steps(keys)
         return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
 
     def keys(self, overrides: dict[Place, Any]) -> tuple[SceneKeys, Free]:
@@ -342,7 +346,8 @@ class _Reading:
         numerics = _valid(NumericsKeys, self.data.get("numerics", {}))
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.noun().rib is not None
-            self._complain(("tier",), contradictions(tier, has_rib, numerics.laminae))
+            found = contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample)
+            self._complain(("tier",), found)
 
     def _check_integrator(self, free: Free) -> None:
         numerics = self.data.get("numerics")
@@ -361,6 +366,20 @@ class _Reading:
                     ("defects", index),
                     ["a worn pocket needs the cage, which effects leave out: set effects.cage to true"],
                 )
+
+
+def _with_usual_steps(keys: SceneKeys) -> SceneKeys:
+    """The scene with the step that its tier takes for it; a fast sensor has asked for its own before."""
+    scene = keys.noun("")
+    if scene.tier == "quasistatic" or scene.numerics.steps_per_sample != TIERS[scene.tier].steps_per_sample:
+        return keys
+    assert isinstance(keys.numerics, NumericsKeys)
+    lumped = scene.tier == "lumped"
+    steps = (
+        lumped_steps(scene).steps_per_sample if lumped else usual_steps(scene.effects, scene.numerics.laminae)
+    )
+    numerics = keys.numerics.model_copy(update={"steps_per_sample": steps})
+    return keys.model_copy(update={"numerics": numerics})
 
 
 def _valid(keys: type[Keys], data: Any) -> Keys | None:

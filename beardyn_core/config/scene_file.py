@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Annotated, Any, Literal, cast
 
 from pydantic import (
+    BeforeValidator,
     Discriminator,
     Field,
     Tag,
@@ -43,7 +44,7 @@ from beardyn_core.scene.integrator import LARGEST_STEPS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Numerics, Scene
 from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, steps_do_not_fit
-from beardyn_core.scene.tier import TIERS
+from beardyn_core.scene.tier import LONG_STEPS, TIERS
 
 
 class MountingKeys(FileModel):
@@ -196,6 +197,31 @@ def _or_auto(least: int, most: int) -> WithJsonSchema:
     )
 
 
+def _number_of_steps(value: Any) -> Any:
+    if isinstance(value, float) and value in LONG_STEPS:
+        return value  # in the tier lumped
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise PydanticKnownError("int_type")
+    if value < 1:
+        raise PydanticKnownError("greater_than_equal", {"ge": 1})
+    return value
+
+
+StepsPerSample = Annotated[
+    int | float,
+    BeforeValidator(_number_of_steps),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "integer", "minimum": 1, "maximum": LARGEST_STEPS["implicit"]},
+                {"enum": list(LONG_STEPS)},
+                {"const": "auto"},
+            ]
+        }
+    ),
+]
+
+
 class NumericsKeys(FileModel):
     """Discretisation of the run."""
 
@@ -205,15 +231,16 @@ class NumericsKeys(FileModel):
         description="explicit takes the contact forces of the beginning of a step: for references only, in "
         "tier full; friction hides an oscillation in it with steps above 0.5 us (dry) to 5 us (films)",
     )
-    steps_per_sample: Annotated[Count, Field(ge=1, le=LARGEST_STEPS["explicit"]), _or_auto(1, 64)] = Field(
+    steps_per_sample: StepsPerSample = Field(
         3,
-        description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers; to be given with "
-        f"integrator: explicit, up to {LARGEST_STEPS['explicit']}",
+        description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers, 0.5 or 0.25 where the "
+        "lumped tier allows; to be given with integrator: explicit, up to "
+        f"{LARGEST_STEPS['explicit']}",
     )
 
     @field_validator("steps_per_sample")
     @classmethod
-    def _few_enough(cls, steps: int, info: ValidationInfo) -> int:
+    def _few_enough(cls, steps: float, info: ValidationInfo) -> float:
         most = LARGEST_STEPS[info.data.get("integrator", "explicit")]
         if steps > most:
             raise PydanticKnownError("less_than_equal", {"le": most})

@@ -1,4 +1,4 @@
-"""Explicit steps of the lumped tier: rings on suspension and journal, rollers as springs that orbit."""
+"""Steps of the lumped tier: rings on suspension and journal, rollers as springs that orbit."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ from beardyn_core.integrate.kinematic_step import (
 from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.jit import entry
+from beardyn_core.kernels.kinematic_rings import add_response, hold_response, journal_velocity
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
 from beardyn_core.kernels.kinematic_torque import held_losses
-from beardyn_core.kernels.spring_roller import load_rollers, sum_rollers
+from beardyn_core.kernels.spring_roller import load_rollers, show_springs, sum_rollers, torque_and_stiffness
 from beardyn_core.model.layout import MASK, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
@@ -28,6 +29,7 @@ from beardyn_core.model.tier_parameters import (
     kinematic_params,
     pocket_directions,
     ring_motion_params,
+    ring_response_params,
     row_sides,
 )
 from beardyn_core.scene.scene import Scene
@@ -38,11 +40,13 @@ _TOLERANCE = 1e-9
 
 def lumped_parameters(scene: Scene, base: Parameters) -> LumpedParameters:
     """Kernel parameters of the lumped tier."""
+    motion = ring_motion_params(base)
     return LumpedParameters(
         step=base.step,
         base=base,
         kinematic=kinematic_params(scene),
-        motion=ring_motion_params(base),
+        motion=motion,
+        response=ring_response_params(base, motion),
         spring=spring_params(scene.bearing, scene.numerics.laminae),
         pockets=pocket_directions(base),
         sides=row_sides(base, scene.rows),
@@ -72,8 +76,12 @@ def advance_lumped(
 
     Parameters
     ----------
-    flex, rings, audit : float64 arrays
+    rings : float64 array, shape [1, 3, 13, lane]
+        Work space of `kernels.kinematic_rings`.
+    flex, audit : float64 arrays
         Not used: rings are rigid, the cone is seen as a whole, and no energy balance is kept.
+    roller_trend : float64 array, shape [trend, block + TREND_EXTRAS, 1, lane]
+        Written: loads, from which `show_lumped` makes the rollers.
     p : LumpedParameters
     """
     steps = signals.shape[0]
@@ -81,22 +89,47 @@ def advance_lumped(
     begin_advance(rollers)
     direction = cage_direction(bodies)
     losses = (0.0, 0.0)
+    work = rings[0]
     for step in range(steps):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
         due, shown = step % stride == 0, (step + 1) % stride == 0
-        load_rollers(lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p)
+        trend = roller_trend[step // stride]
+        motion = relative_cone(bodies)
+        load_rollers(lanes, rollers, sums[0], motion, direction, turns, speeds, trend, p)
         totals, rib = sum_rollers(sums, speeds, p)
         wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
         if due:
+            torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
+            hold_response(sums, direction, work, p)
+        before = journal_velocity(bodies)
         finish_step(
             bodies, wrench, rib, losses, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
         )
+        add_response(bodies, before, signals[step], work, p)
         if shown:
-            roller_trend[(step + 1) // stride - 1] = rollers
-            body_trend[(step + 1) // stride - 1] = bodies
+            for i, value in enumerate((turns[0], speeds[0], speeds[1])):
+                trend[rollers.shape[0] + i] = value
+            body_trend[step // stride] = bodies
+    show_springs(lanes, rollers, roller_trend[roller_trend.shape[0] - 1], p)
+
+
+@entry
+def show_lumped(lanes: Any, trends: Any, rollers: Any, p: Any) -> None:
+    """Write the rollers of some instants as the full tier keeps them.
+
+    Parameters
+    ----------
+    trends : float64 array, shape [time, block + TREND_EXTRAS, 1, lane]
+        From `advance_lumped`.
+    rollers : float64 array, shape [time, block, ROLLER_FIELDS, lane]
+        Written, but for friction memory and the largest approach.
+    p : LumpedParameters
+    """
+    for t in range(trends.shape[0]):
+        show_springs(lanes, rollers[t], trends[t], p)
 
 
 def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: float) -> Float:

@@ -69,13 +69,13 @@ class StepChoice:
 
     Parameters
     ----------
-    steps_per_sample : int
+    steps_per_sample : float
         Time steps per waveform sample of 1/25600 s.
     reason : str
         What decided.
     """
 
-    steps_per_sample: int
+    steps_per_sample: float
     reason: str
 
 
@@ -184,25 +184,50 @@ def _bounce(bearing: Bearing, static: StaticSolution, laminae: int, damped: bool
     )
 
 
-def dry_slope(bearing: Bearing, effects: EffectSet, speed: float) -> float:
-    """Steepest rise of the coefficient of friction with the slip speed, [s/m]."""
+def usual_steps(effects: EffectSet, laminae: int) -> int:
+    """Steps per sample of a full run that names none: the tier's, or more where friction is steep.
+
+    Friction whose slope depends on the speed (load sharing without a film) is left to `choose_steps`.
+
+    Parameters
+    ----------
+    effects : EffectSet
+    laminae : int
+    """
+    return max(
+        TIERS["full"].steps_per_sample, min(_friction_steps(_fixed_slope(effects), laminae), LARGEST_STEPS)
+    )
+
+
+def _fixed_slope(effects: EffectSet) -> float:
+    """Rise of the coefficient of friction with the slip speed where the speed does not matter, [s/m]."""
     traction = effects.traction
     if isinstance(traction, CoulombTraction):
         return traction.friction / traction.regularisation_speed
     if isinstance(traction, MixedTraction | ShearedFilmTraction):
         return traction.boundary_friction / traction.regularisation_speed
+    return 0.0
+
+
+def dry_slope(bearing: Bearing, effects: EffectSet, speed: float) -> float:
+    """Steepest rise of the coefficient of friction with the slip speed, [s/m]."""
+    traction = effects.traction
     if isinstance(traction, LoadSharingTraction) and effects.film is None:
         entrainment = max(0.25 * bearing.pitch_diameter * speed, _CREEP)
         return 2.0 / math.pi * traction.boundary_friction * traction.boundary_slope / entrainment
-    return 0.0
+    return _fixed_slope(effects)
+
+
+def _friction_steps(slope: float, laminae: int) -> int:
+    coarse = max(1.0, math.sqrt(_USUAL_LAMINAE / laminae))
+    ratio = _CHATTER_INDEX * slope * coarse / (_CHATTER_SLOPE * _LARGEST_EXPECTED_INDEX)
+    return max(1, math.ceil(2.0 * ratio ** (1.0 / _CHATTER_POWER)))
 
 
 def _friction(bearing: Bearing, effects: EffectSet, slowest: float, laminae: int) -> Iterator[StepChoice]:
     slope = dry_slope(bearing, effects, slowest)
     if slope > 0.0:
-        coarse = max(1.0, math.sqrt(_USUAL_LAMINAE / laminae))
-        ratio = _CHATTER_INDEX * slope * coarse / (_CHATTER_SLOPE * _LARGEST_EXPECTED_INDEX)
-        steps = max(1, math.ceil(2.0 * ratio ** (1.0 / _CHATTER_POWER)))
+        steps = _friction_steps(slope, laminae)
         yield StepChoice(
             steps,
             f"friction that rises by {slope:.3g} per m/s of slip keeps its chatter index below "

@@ -13,6 +13,7 @@ from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.lumped import advance_lumped, lumped_parameters, settle_lumped
 from beardyn_core.integrate.quasistatic import advance_quasistatic, quasistatic_parameters
 from beardyn_core.integrate.roller_contacts import Float
+from beardyn_core.integrate.spring_trend import SpringTrend, trend_shape
 from beardyn_core.integrate.state import State, initial_state
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.arrangement import Arrangement
@@ -37,11 +38,17 @@ class Tier:
     start : callable
         State at t = 0 from the scene, the arrangement, the kernel parameters, the static equilibrium and
         the first load (wrench and shaft speed).
+    trend_shape : callable
+        Shape of what the kernel keeps of the rollers at an instant, from that of their state.
+    shown : callable
+        Rollers at the instants from lanes, what the kernel kept, and kernel parameters.
     """
 
     advance: Callable[..., None]
     parameters: Callable[[Scene, Parameters], Any]
     start: Callable[[Scene, Arrangement, Any, StaticSolution, Float], State]
+    trend_shape: Callable[[tuple[int, ...]], tuple[int, ...]] = lambda shape: shape
+    shown: Callable[[Any, Float, Any], Any] = lambda _lanes, trend, _parameters: trend
 
 
 def _start_full(
@@ -77,6 +84,6 @@ def _start_lumped(
 
 TIERS = {
     "full": Tier(advance, lambda _scene, base: base, _start_full),
-    "lumped": Tier(advance_lumped, lumped_parameters, _start_lumped),
+    "lumped": Tier(advance_lumped, lumped_parameters, _start_lumped, trend_shape, SpringTrend),
     "quasistatic": Tier(advance_quasistatic, quasistatic_parameters, _start_rolling),
 }

@@ -6,6 +6,14 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
+from beardyn_core.kernels.kinematic_rings import (
+    STIFF_CC,
+    STIFF_COSINE,
+    STIFF_CS,
+    STIFF_SINE,
+    STIFF_SS,
+    STIFF_SUM,
+)
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -29,6 +37,7 @@ from beardyn_core.model.tier_parameters import (
     POCKET_SINE,
 )
 
+TREND_EXTRAS = 3  # after the loads: angle of the cages [rad], speed of shaft and cages [rad/s]
 _SMALLEST_APPROACH = 1e-12
 _TINY_GAP_SQUARED = 1e-24
 _PI = 3.141592653589793
@@ -168,8 +177,7 @@ def load_rollers(
     direction: Any,
     turns: Any,
     speeds: Any,
-    due: Any,
-    shown: Any,
+    trend: Any,
     p: Any,
 ) -> None:
     """Loads of all rollers and their sums by row.
@@ -178,9 +186,9 @@ def load_rollers(
     ----------
     lanes : Lanes
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Written when `shown`, the largest approach always.
+        Written: the largest approach.
     sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Written: ``LOAD_COSINE``, ``LOAD_SINE``, ``RIB_SUM`` and the torques.
+        Written: ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM``.
     motion : tuple
         From `relative_cone`.
     direction : tuple of 2 floats
@@ -189,22 +197,20 @@ def load_rollers(
         Angle of cages, cone, and rollers in their pockets, [rad].
     speeds : tuple of 2 floats
         Of shaft and cages, [rad/s].
-    due : bool
-        Whether to work out the torque of the contacts.
-    shown : bool
-        Whether to write what a block of channels shows.
+    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
+        Written: cup loads.
     p : LumpedParameters
 
     Notes
     -----
     Half of the centrifugal load of the cup comes off the cone: the two contacts are as stiff as each other.
+    What is not worked out at every step has functions of its own: with it in here the compiler counts the
+    references to all parameter arrays up and down in every step of a faulty bearing, 0.7 us.
     """
-    spring, effects = p.spring, p.base.effects
     approach_wave, rate_wave = approach_waves(lanes, motion, direction, p)
     idle = idle_load(speeds[1], p)
     zero = lanes.constant(0.0)
     load_cosine, load_sine, load_sum = zero, zero, zero
-    rolling, sliding = zero, zero
     for block in range(rollers.shape[0]):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
         approach = approach_wave[0] * cosine + (approach_wave[1] * sine + approach_wave[2])
@@ -222,20 +228,64 @@ def load_rollers(
         load_cosine = load_cosine + load * lanes.load(p.pockets, block, COUNTED_COSINE)
         load_sine = load_sine + load * lanes.load(p.pockets, block, COUNTED_SINE)
         load_sum = load_sum + load * lanes.load(p.pockets, block, COUNTED)
-        if due or shown:
-            cone = spring.cone_share * (load - idle)
-            rib = spring.rib_share * load + spring.rib_centrifugal * centrifugal_force(speeds[1], p)
-            loads, counted = (load, cone, rib), lanes.load(p.pockets, block, COUNTED)
-            if due:
-                rolling = rolling + counted * rolling_torque(loads, speeds, p.kinematic, effects.rolling)
-                sliding = sliding + counted * sliding_torque(rib, speeds, p, effects.rib)
-            if shown:
-                show_spring(lanes, rollers, block, loads, (turns[0], speeds[1]), speeds, angle, p)
+        lanes.store(trend, block, 0, load)
     lanes.store(sums, 0, LOAD_COSINE, load_cosine)
     lanes.store(sums, 0, LOAD_SINE, load_sine)
     lanes.store(sums, 0, RIB_SUM, load_sum)
+
+
+@inline
+def torque_and_stiffness(
+    lanes: Any, blocks: Any, sums: Any, motion: Any, direction: Any, speeds: Any, trend: Any, p: Any
+) -> None:
+    """Sums by row of what is held for a while, after `load_rollers`, with the same arguments.
+
+    Parameters
+    ----------
+    blocks : int
+        Of rollers.
+    sums : float64 array, shape [1, SUM_FIELDS, lane]
+        Written: torques and stiffness.
+    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
+        Cup loads.
+    """
+    effects = p.base.effects
+    wave = approach_waves(lanes, motion, direction, p)[0]
+    idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
+    rolling, sliding = zero, zero
+    stiff, stiff_c, stiff_s, stiff_cc, stiff_ss, stiff_cs = zero, zero, zero, zero, zero, zero
+    for block in range(blocks):
+        cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
+        load, counted = lanes.load(trend, block, 0), lanes.load(p.pockets, block, COUNTED)
+        loads = cup_cone_rib(load, speeds, p)
+        rolling = rolling + counted * rolling_torque(loads, speeds, p.kinematic, effects.rolling)
+        sliding = sliding + counted * sliding_torque(loads[2], speeds, p, effects.rib)
+        approach = wave[0] * cosine + (wave[1] * sine + wave[2])
+        approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
+        tangent = 10.0 / 9.0 * (load - 0.5 * idle) / at_least(approach, _SMALLEST_APPROACH)
+        tangent = counted * where_greater(load, idle, tangent, zero)
+        stiff = stiff + tangent
+        stiff_c, stiff_s = stiff_c + tangent * cosine, stiff_s + tangent * sine
+        stiff_cc = stiff_cc + tangent * cosine * cosine
+        stiff_ss = stiff_ss + tangent * sine * sine
+        stiff_cs = stiff_cs + tangent * cosine * sine
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
+    lanes.store(sums, 0, STIFF_SUM, stiff)
+    lanes.store(sums, 0, STIFF_COSINE, stiff_c)
+    lanes.store(sums, 0, STIFF_SINE, stiff_s)
+    lanes.store(sums, 0, STIFF_CC, stiff_cc)
+    lanes.store(sums, 0, STIFF_SS, stiff_ss)
+    lanes.store(sums, 0, STIFF_CS, stiff_cs)
+
+
+@inline
+def cup_cone_rib(load: Any, speeds: Any, p: Any) -> Any:
+    """Cup, cone and rib load of rollers from the cup load, [N]."""
+    spring = p.spring
+    cone = spring.cone_share * (load - idle_load(speeds[1], p))
+    rib = spring.rib_share * load + spring.rib_centrifugal * centrifugal_force(speeds[1], p)
+    return load, cone, rib
 
 
 @inline
@@ -269,11 +319,23 @@ def sum_rollers(sums: Any, speeds: Any, p: Any) -> Any:
 
 
 @inline
-def show_spring(
-    lanes: Any, rollers: Any, block: Any, loads: Any, turn: Any, speeds: Any, angle: Any, p: Any
-) -> None:
-    """Write a block of rollers and their contacts as the full tier keeps them; see `show_roller`."""
-    zero, k = lanes.constant(0.0), p.kinematic
+def show_springs(lanes: Any, rollers: Any, trend: Any, p: Any) -> None:
+    """Write all rollers and their contacts as the full tier keeps them; see `show_roller`.
+
+    Parameters
+    ----------
+    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
+        Written, but for the largest approach.
+    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
+        Cup loads from `load_rollers`, then the instant.
+    """
+    blocks, zero, k = rollers.shape[0], lanes.constant(0.0), p.kinematic
+    turn = trend[blocks, 0, 0]
+    speeds = (trend[blocks + 1, 0, 0], trend[blocks + 2, 0, 0])
     axis = (k.axis_radial + zero, k.axis_axial + zero)
-    show_roller(lanes, rollers, block, (k.radius + zero, k.axial + zero), axis, turn, angle, p)
-    show_contacts(lanes, rollers, block, axis, loads, (zero, zero), speeds, p)
+    for block in range(blocks):
+        loads = cup_cone_rib(lanes.load(trend, block, 0), speeds, p)
+        angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
+        place = (k.radius + zero, k.axial + zero)
+        show_roller(lanes, rollers, block, place, axis, (turn, speeds[1]), angle, p)
+        show_contacts(lanes, rollers, block, axis, loads, (zero, zero), speeds, p)

@@ -46,6 +46,14 @@ class RingMotionParams(NamedTuple):
     rate: float  # steps in a second [1/s]
 
 
+class RingResponseParams(NamedTuple):
+    """How a lumped step takes stiffness and damping of the rollers; see `kernels.kinematic_rings`."""
+
+    lag: float  # h^2/12 and half a step of the dampers' time [s^2]
+    damper_share: float  # of the dampers in that
+    give: Any  # [5, 5], acceleration of the cone against the cup by a wrench between them
+
+
 class SpringParams(NamedTuple):
     """A roller between its raceways as one spring along the cup's normal.
 
@@ -67,6 +75,7 @@ class LumpedParameters(NamedTuple):
     base: Parameters
     kinematic: KinematicParams
     motion: RingMotionParams
+    response: RingResponseParams
     spring: SpringParams
     pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
@@ -128,6 +137,18 @@ def ring_motion_params(base: Parameters) -> RingMotionParams:
         journal_turn=mounting.journal_tilts / mounting.journal_inertia,
         rate=1.0 / base.step,
     )
+
+
+def ring_response_params(base: Parameters, motion: RingMotionParams) -> RingResponseParams:
+    """Correction of the step to fourth order, and to second order in the damping."""
+    damping, coupling = base.effects.damping, base.mounting.coupling
+    dampers = 0.0 if damping is None else 0.5 * base.step * damping.time_constant
+    lag = base.step**2 / 12.0 + dampers
+    box = np.diag(motion.box_push) if coupling is None else base.mounting.cup_moves * coupling.inverse_mass
+    moving = [0, 1, 2, 3, 5]
+    journal = np.array([*[motion.journal_push] * 3, *[motion.journal_turn] * 2])
+    give = np.ascontiguousarray(box[np.ix_(moving, moving)] + np.diag(journal))
+    return RingResponseParams(lag, dampers / lag, give)
 
 
 # of `pocket_directions`

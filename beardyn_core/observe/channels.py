@@ -20,11 +20,13 @@ from beardyn_core.model.layout import (
 )
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.observe.block import Block, EnergyAudit
-from beardyn_core.observe.decimate import DELAY, Decimator
+from beardyn_core.observe.decimate import DELAY, Decimator, TwoStageDecimator
+from beardyn_core.observe.interpolate import Interpolator, delay
 from beardyn_core.observe.kinematics import (
     INSTANT_CAGES,
     INSTANT_ROLLERS,
     INSTANT_SHAFT,
+    Instants,
     Snapshots,
     write_instants,
 )
@@ -45,9 +47,9 @@ _TREND_CHANNELS = 10
 class Observer:
     """Turns what the kernel wrote during a block into a `Block`.
 
-    Waveforms pass an anti-alias filter from the step rate to 25.6 kHz and trends another one to 400 Hz.
-    Both filters' delay is compensated: samples carry their true time and come a little later, so the
-    first blocks hold fewer of them.
+    Waveforms pass an anti-alias filter from the step rate to 25.6 kHz, or are interpolated to it from
+    longer steps, and trends pass another filter to 400 Hz. The delay of all filters is compensated: samples
+    carry their true time and come a little later, so the first blocks hold fewer of them.
 
     Parameters
     ----------
@@ -64,19 +66,33 @@ class Observer:
         self._cage_place = 0.5 * scene.bearing.row_spacing
         # a step's signals are those of its end: sample 0 stands at the end of the step before the first
         steps, wait = scene.numerics.steps_per_sample, lookahead(scene)
-        self._decimator = Decimator(steps, SIGNAL_CHANNELS, signal, held_back=1 + wait * steps)
-        self._waveform_delay = wait + (DELAY if steps > 1 else 0)
+        self._waveforms: Decimator | Interpolator
+        longer = round(1 / steps)  # samples of a step that is longer than one
+        if steps < 1:
+            self._waveforms = Interpolator(longer, SIGNAL_TORQUE, signal[:SIGNAL_TORQUE])
+            self._waveform_delay = delay(longer)
+        else:
+            every = round(steps)
+            self._waveforms = Decimator(every, SIGNAL_CHANNELS, signal, held_back=1 + wait * every)
+            self._waveform_delay = wait + (DELAY if every > 1 else 0)
         self._sensors = Sensors(scene, self._waveform_delay)
         rest = np.concatenate([signal[:6], REST, signal[SIGNAL_TORQUE : SIGNAL_TORQUE + 1]])
         carry = -self._waveform_delay % _WAVEFORMS_PER_TREND
-        self._trend_decimator = Decimator(_WAVEFORMS_PER_TREND, _TREND_CHANNELS, rest, held_back=carry)
+        # force and torque are decimated before anything is put between them
+        self._slow_decimator: TwoStageDecimator | None = None
+        if steps < 1:
+            every = _WAVEFORMS_PER_TREND // longer
+            slow = np.delete(rest, [6, 7, 8])
+            self._slow_decimator = TwoStageDecimator(every, len(slow), slow, held_back=every + 1)
+            rest = REST
+        self._trend_decimator = TwoStageDecimator(_WAVEFORMS_PER_TREND, len(rest), rest, held_back=carry)
         self._trend_delay = DELAY + (self._waveform_delay + carry) // _WAVEFORMS_PER_TREND
         # trends of a first accelerometer that runs faster than the other waveforms
-        self._fast_decimator: Decimator | None = None
+        self._fast_decimator: TwoStageDecimator | None = None
         if scene.sensors and scene.sensors[0].rate > RATES[0]:
             per_trend = round(scene.sensors[0].rate / TREND_RATE)
             carry = (self._trend_delay - DELAY) * per_trend - self._sensors.delays[0]
-            self._fast_decimator = Decimator(per_trend, 3, REST, held_back=carry)
+            self._fast_decimator = TwoStageDecimator(per_trend, 3, REST, held_back=carry)
         # blocks hold views of it, so every block gets one of its own; the newest instant is the last
         self._instants = np.zeros((self._trend_delay + 1, INSTANT_ROLLERS + 4 * self._count))
         self._box_motion = np.zeros((2, 6))
@@ -98,7 +114,7 @@ class Observer:
         index: int,
         signals: Float,
         loads: Float,
-        rollers: Float,
+        rollers: Float | Instants,
         bodies: Float,
         status: int,
         audit: EnergyAudit | None,
@@ -114,7 +130,7 @@ class Observer:
         signals : float64 array, shape [step, SIGNAL_CHANNELS]
         loads : float64 array, shape [step + 1, 10]
         rollers, bodies : float64 arrays, shape [trend, ...]
-            Copies of the state at 400 Hz; the block keeps them.
+            Copies of the state at 400 Hz, or for the rollers what makes them; the block keeps them.
         status : int
         audit : EnergyAudit or None
         wall_s : float
@@ -125,17 +141,15 @@ class Observer:
         -------
         Block
         """
-        waves = self._decimator.push(signals)
+        waves = self._waveforms.push(signals)
         first_wave = index * SAMPLES_PER_BLOCK - self._waveform_delay
         readings = self._sensors.read(index, waves, signals, self._motion(bodies))
         heard = readings[0] if readings and self._fast_decimator is None else np.tile(REST, (len(waves), 1))
-        channels = np.empty((len(waves), _TREND_CHANNELS))
-        _select(waves, heard, channels)
         blocks = len(bodies) // TRENDS_PER_BLOCK
         first_trend = index * TRENDS_PER_BLOCK - self._trend_delay
         keep_wave = slice(max(0, -first_wave), None)
         keep_trend = slice(min(max(0, -first_trend), len(bodies)), None)
-        trends = self._trend_decimator.push(channels)
+        trends = self._trends(signals, waves, heard)
         if self._fast_decimator is not None:
             trends[:, 6:9] = self._fast_decimator.push(readings[0])
         trends = trends[keep_trend]
@@ -178,15 +192,31 @@ class Observer:
             temperature=temperature,
         )
 
+    def _trends(self, signals: Float, waves: Float, heard: Float) -> Float:
+        """Force, moment, specific force and torque at 400 Hz, shape [trend, 10]."""
+        if self._slow_decimator is None:
+            channels = np.empty((len(waves), _TREND_CHANNELS))
+            _select(waves, heard, channels)
+            return self._trend_decimator.push(channels)
+        slow = np.empty((len(signals), 7))
+        slow[:, :6] = signals[:, SIGNAL_FORCE : SIGNAL_FORCE + 6]
+        slow[:, 6] = signals[:, SIGNAL_TORQUE]
+        slow = self._slow_decimator.push(slow)
+        trends = np.empty((len(slow), _TREND_CHANNELS))
+        trends[:, :6], trends[:, 9] = slow[:, :6], slow[:, 6]
+        trends[:, 6:9] = self._trend_decimator.push(heard)
+        return trends
+
     def _remember(
-        self, end: int, rollers: Float, bodies: Float, loads: Float, first: int, count: int
+        self, end: int, rollers: Float | Instants, bodies: Float, loads: Float, first: int, count: int
     ) -> Float:
         """Instants number `first` and following; the newest is the beginning of block `end`."""
         kept = len(self._instants)
         instants = np.empty((kept + len(bodies), self._instants.shape[1]))
         instants[:kept] = self._instants
         stride = (len(loads) - 1) // len(bodies)
-        write_instants(rollers, bodies, loads, stride, self._count, instants[kept:])
+        orbits = rollers if isinstance(rollers, np.ndarray) else rollers.orbits()
+        write_instants(orbits, bodies, loads, stride, self._count, instants[kept:])
         self._instants = instants[-kept:]
         place = len(instants) - 1 - end * TRENDS_PER_BLOCK + first
         return instants[place : place + count]
@@ -203,14 +233,17 @@ class Observer:
     def snapshot(self) -> tuple[Any, ...]:
         """Everything the next block depends on."""
         fast = None if self._fast_decimator is None else self._fast_decimator.state
-        decimators = (self._decimator.state, self._trend_decimator.state, fast)
+        slow = None if self._slow_decimator is None else self._slow_decimator.state
+        decimators = (self._waveforms.state, self._trend_decimator.state, slow, fast)
         return *decimators, self._sensors.state, self._instants, self._box_motion
 
     def restore(self, snapshot: tuple[Any, ...]) -> None:
         """Go back to a `snapshot`."""
-        decimator, trend_decimator, fast, sensors, self._instants, self._box_motion = snapshot
-        self._decimator.restore(decimator)
+        waveforms, trend_decimator, slow, fast, sensors, self._instants, self._box_motion = snapshot
+        self._waveforms.restore(waveforms)
         self._trend_decimator.restore(trend_decimator)
+        if self._slow_decimator is not None:
+            self._slow_decimator.restore(slow)
         if self._fast_decimator is not None:
             self._fast_decimator.restore(fast)
         self._sensors.restore(sensors)

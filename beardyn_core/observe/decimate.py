@@ -40,14 +40,23 @@ class Decimator:
         What the stream held before its first sample; 0 by default.
     held_back : int, optional
         Input samples by which the stream comes later than it is pushed.
+    kernel : float64 array, optional
+        Taps of another symmetric kernel, an odd number.
     """
 
-    def __init__(self, factor: int, channels: int, initial: Float | None = None, held_back: int = 0) -> None:
+    def __init__(
+        self,
+        factor: int,
+        channels: int,
+        initial: Float | None = None,
+        held_back: int = 0,
+        kernel: Float | None = None,
+    ) -> None:
         if not 1 <= factor <= LARGEST_FACTOR:
             raise ValueError(f"factor is {factor}; allowed is 1 to {LARGEST_FACTOR}")
         self.factor = factor
         self.channels = channels
-        self._kernel = _kernel(factor)
+        self._kernel = _kernel(factor) if kernel is None else kernel
         self._kept = len(self._kernel) - 1 + held_back
         # the stream from the oldest sample that is still needed on; its beginning is the state
         self._stretch = np.zeros((channels, self._kept))
@@ -98,6 +107,65 @@ class Decimator:
         out = np.empty((len(block) // self.factor, self.channels))
         _filter(self._stretch, self._kept, np.ascontiguousarray(block), self._kernel, self.factor, out)
         return out
+
+
+_SECOND = 8  # factor of the second of two stages
+_SECOND_HALF = 93  # its taps on each side; those of the first stage fill up to the delay of a single one
+_FIRST_BETA = 8.0
+
+
+class TwoStageDecimator:
+    """A `Decimator` of a large factor in a third of the work, with the same delay.
+
+    The first stage only has to clear what folds onto the band that the second one keeps. As flat as a
+    single stage and 73 dB down from 0.6 of the new rate.
+
+    Parameters
+    ----------
+    factor : int
+        16, 32, 64 or 128.
+    channels, initial, held_back
+        As of `Decimator`.
+    """
+
+    def __init__(self, factor: int, channels: int, initial: Float | None = None, held_back: int = 0) -> None:
+        if factor not in (16, 32, 64, 128):
+            raise ValueError(f"factor is {factor}; allowed is 16, 32, 64 or 128")
+        self.factor = factor
+        first, second = _two_kernels(factor)
+        self._first = Decimator(factor // _SECOND, channels, initial, held_back, first)
+        self._second = Decimator(_SECOND, channels, initial, 0, second)
+
+    @property
+    def delay_samples(self) -> int:
+        """See `Decimator.delay_samples`."""
+        return self._first.delay_samples + self._first.factor * self._second.delay_samples
+
+    @property
+    def state(self) -> tuple[Float, Float]:
+        """Copy of all that the future depends on."""
+        return self._first.state, self._second.state
+
+    def restore(self, state: tuple[Float, Float]) -> None:
+        """Go back to a `state`."""
+        self._first.restore(state[0])
+        self._second.restore(state[1])
+
+    def push(self, block: Float) -> Float:
+        """See `Decimator.push`."""
+        if block.shape[0] % self.factor:
+            raise ValueError(f"block has {block.shape[0]} rows; it must be a multiple of {self.factor}")
+        return self._second.push(self._first.push(block))
+
+
+@cache
+def _two_kernels(factor: int) -> tuple[Float, Float]:
+    """Kernels of both stages; together they reach as far as that of a single one."""
+    early = factor // _SECOND
+    first_half = DELAY * factor - _SECOND_HALF * early
+    first = low_pass(2 * first_half + 1, 1.0 / early, _FIRST_BETA)
+    second = low_pass(2 * _SECOND_HALF + 1, 1.0 / _SECOND, _KAISER_BETA)
+    return np.ascontiguousarray(first), np.ascontiguousarray(second)
 
 
 # reassoc lets the sum over taps run in vector lanes; its order depends on the kernel only, so blocks

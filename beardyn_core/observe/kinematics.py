@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,12 +44,28 @@ KINDS = 4
 INSTANT_LOAD, INSTANT_SHAFT, INSTANT_CAGES, INSTANT_ROLLERS = 0, 6, 8, 12
 
 
+class Instants(Protocol):
+    """Rollers at some instants that are made when somebody asks for them."""
+
+    def __getitem__(self, times: slice) -> Instants:
+        """Some of them."""
+        ...
+
+    def whole(self) -> Float:
+        """State of the kernel, shape [time, block, ROLLER_FIELDS, lane]."""
+        ...
+
+    def orbits(self) -> Float:
+        """The same, with no more than `write_instants` needs."""
+        ...
+
+
 class Snapshots:
     """Bodies and contacts at some instants, worked out when they are asked for.
 
     Parameters
     ----------
-    rollers : float64 array, shape [time, block, ROLLER_FIELDS, lane]
+    rollers : float64 array, shape [time, block, ROLLER_FIELDS, lane], or Instants
     bodies : float64 array, shape [time, 4, BODY_STATES]
         Nobody changes them any more.
     count : int
@@ -60,10 +76,17 @@ class Snapshots:
     """
 
     def __init__(
-        self, rollers: Float, bodies: Float, count: int, roller: RollerParams, cage_place: float
+        self, rollers: Float | Instants, bodies: Float, count: int, roller: RollerParams, cage_place: float
     ) -> None:
-        self._rollers, self._bodies, self._count = rollers, bodies, count
+        self._kept, self._bodies, self._count = rollers, bodies, count
         self._roller, self._cage_place = roller, cage_place
+
+    @property
+    def _rollers(self) -> Float:
+        kept = self._kept
+        if not isinstance(kept, np.ndarray):
+            kept = self._kept = kept.whole()
+        return kept
 
     def pose(self) -> Float:
         """Place and quaternion x, y, z, w of cup, cone, cages and rollers, shape [time, body, 7].

@@ -28,7 +28,7 @@ def lookahead(scene: Scene) -> int:
     """Samples of 25.6 kHz by which all waveforms wait for the filter of a mounting resonance."""
     if all(sensor.mounting_resonance is None for sensor in scene.sensors):
         return 0
-    return -(-LOOKAHEAD // scene.numerics.steps_per_sample)
+    return -(-LOOKAHEAD // round(scene.numerics.steps_per_sample))
 
 
 class Sensors:
@@ -60,7 +60,7 @@ class Sensors:
         self._chains = [
             None
             if sensor.mounting_resonance is None and sensor.rate == RATES[0]
-            else _Chain(sensor, steps, lookahead(scene))
+            else _Chain(sensor, round(steps), lookahead(scene))
             for sensor in scene.sensors
         ]
         self.delays = [delay if chain is None else chain.delay for chain in self._chains]
@@ -164,7 +164,7 @@ def box_force(position: tuple[float, float, float], signals: Float, motion: Floa
     motion : float64 array, shape [trend + 2, 6]
         As of `Sensors.read`; linear in between.
     delay : int
-        Samples by which the signals come late, less than those of a row.
+        Samples by which the signals come late, at most those of a row.
 
     Returns
     -------
@@ -178,24 +178,26 @@ def box_force(position: tuple[float, float, float], signals: Float, motion: Floa
 
 @entry
 def _box_force(px, py, pz, signals, motion, stride, delay, force):
-    row, first = 0, np.empty(6)
-    slope = np.empty(6)
+    slope, first = np.empty(6), np.empty(6)
     at = stride - delay  # samples after the first row
-    known = -1
-    for i in range(len(signals)):
-        row = min(at // stride, len(motion) - 2)
-        if row != known:
-            known = row
-            for j in range(6):
-                slope[j] = (motion[row + 1, j] - motion[row, j]) / stride
-                first[j] = motion[row, j]
-        since = float(at - row * stride)
-        at += 1
-        force_at(
-            (px, py, pz),
-            signals[i, SIGNAL_ACCELERATION : SIGNAL_ACCELERATION + 3],
-            signals[i, SIGNAL_ANGULAR_ACCELERATION : SIGNAL_ANGULAR_ACCELERATION + 3],
-            (first[3] + since * slope[3], first[4] + since * slope[4], first[5] + since * slope[5]),
-            (first[0] + since * slope[0], first[1] + since * slope[1], first[2] + since * slope[2]),
-            force[i],
-        )
+    row = min(at // stride, len(motion) - 2)
+    end = 0
+    while end < len(signals):
+        start = end
+        since = at - row * stride
+        end = len(signals) if row == len(motion) - 2 else min(len(signals), start + stride - since)
+        for j in range(6):
+            slope[j] = (motion[row + 1, j] - motion[row, j]) / stride
+            first[j] = motion[row, j]
+        for i in range(start, end):
+            late = float(since + i - start)
+            force_at(
+                (px, py, pz),
+                signals[i, SIGNAL_ACCELERATION : SIGNAL_ACCELERATION + 3],
+                signals[i, SIGNAL_ANGULAR_ACCELERATION : SIGNAL_ANGULAR_ACCELERATION + 3],
+                (first[3] + late * slope[3], first[4] + late * slope[4], first[5] + late * slope[5]),
+                (first[0] + late * slope[0], first[1] + late * slope[1], first[2] + late * slope[2]),
+                force[i],
+            )
+        at += end - start
+        row += 1

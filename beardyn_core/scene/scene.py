@@ -31,14 +31,15 @@ class Numerics:
     ----------
     laminae : int
         Laminae of each roller.
-    steps_per_sample : int
-        Time steps per waveform sample (25.6 kHz): the step is 1 / (25 600 x this), [-].
+    steps_per_sample : float
+        Time steps per waveform sample (25.6 kHz): the step is 1 / (25 600 x this), [-]. A whole number, or
+        in the lumped tier 0.5 or 0.25.
     integrator : str
         See `scene.integrator`.
     """
 
     laminae: int = 6
-    steps_per_sample: int = 3
+    steps_per_sample: float = 3
     integrator: str = "implicit"
 
 

@@ -48,8 +48,14 @@ class Accelerometer:
     rate: float = RATES[0]
 
 
-def steps_do_not_fit(sensors: tuple[Accelerometer, ...], steps_per_sample: int) -> str | None:
+def steps_do_not_fit(sensors: tuple[Accelerometer, ...], steps_per_sample: float) -> str | None:
     """Why a time step cannot serve the sensors, with what is allowed; ``None`` when it can."""
+    resonant = [sensor.name for sensor in sensors if sensor.mounting_resonance is not None]
+    if resonant and steps_per_sample < 1:
+        return (
+            f"sensor {resonant[0]!r} with a mounting resonance needs numerics.steps_per_sample of at least "
+            f"1, not {steps_per_sample}"
+        )
     fast = [sensor.name for sensor in sensors if sensor.rate > RATES[0]]
     if not fast or (steps_per_sample >= FINE_STEPS and steps_per_sample % 2 == 0):
         return None

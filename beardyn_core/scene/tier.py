@@ -17,7 +17,7 @@ class TierNoun:
     represented : frozenset of str or None
         Effects it computes or reports; ``None``: all of them.
     steps_per_sample : int
-        Time steps per waveform sample when the scene does not say.
+        Time steps per waveform sample when the scene does not say; `choice.lumped_step` may take fewer.
     needs_rib : bool
         Whether nothing but the rib holds the rollers axially.
     smallest_laminae : int
@@ -64,7 +64,7 @@ TIERS = {
             needs_rib=True,
             smallest_laminae=1,
             absent=(*_FAST_ABSENT, "roller displacement and tilt"),
-            blocks_at_once=8,
+            blocks_at_once=16,
         ),
         TierNoun(
             "quasistatic",
@@ -80,6 +80,7 @@ TIERS = {
     )
 }
 TIER_NAMES = tuple(TIERS)
+LONG_STEPS = (0.25, 0.5)  # steps per sample where a step is longer than one, in the tier `lumped` only
 
 
 def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
@@ -88,7 +89,7 @@ def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
     return () if represented is None else tuple(name for name in effects if name not in represented)
 
 
-def contradictions(tier: str, has_rib: bool, laminae: int) -> list[str]:
+def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1) -> list[str]:
     """Why a tier cannot run a scene: values and what is allowed."""
     noun, found = TIERS[tier], []
     if noun.needs_rib and not has_rib:
@@ -100,5 +101,10 @@ def contradictions(tier: str, has_rib: bool, laminae: int) -> list[str]:
         found.append(
             f"{tier!r} needs numerics.laminae of at least {noun.smallest_laminae}, not {laminae}: a single "
             "lamina holds no tilt"
+        )
+    if steps_per_sample < 1 and tier != "lumped":
+        found.append(
+            f"{tier!r} needs numerics.steps_per_sample of at least 1, not {steps_per_sample}: only the tier "
+            "'lumped' has steps longer than a sample"
         )
     return found

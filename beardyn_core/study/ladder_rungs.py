@@ -47,7 +47,7 @@ class RungList:
         return replace(self, rungs=tuple(sorted([*self.rungs, *more], key=expected_cost)))
 
 
-def _rung(tier: str, effects_name: str, effects: EffectSet, laminae: int, steps: int) -> Rung:
+def _rung(tier: str, effects_name: str, effects: EffectSet, laminae: int, steps: float) -> Rung:
     words = [] if tier == "full" else [tier]
     if tier == "full" or effects_name != _FAST_EFFECTS:
         words.append(f"effects {effects_name}")
@@ -175,7 +175,7 @@ def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Rung:
     )
 
 
-def _choices(rung: Rung) -> tuple[str, EffectSet, int, int]:
+def _choices(rung: Rung) -> tuple[str, EffectSet, int, float]:
     return rung.tier, rung.effects, rung.laminae, rung.steps_per_sample
 
 

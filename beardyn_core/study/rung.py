@@ -24,7 +24,7 @@ class Rung:
     effects : EffectSet
     laminae : int
         Of each roller.
-    steps_per_sample : int
+    steps_per_sample : float
         Time steps per waveform sample (25.6 kHz), [-].
     """
 
@@ -33,7 +33,7 @@ class Rung:
     effects_name: str
     effects: EffectSet
     laminae: int
-    steps_per_sample: int
+    steps_per_sample: float
 
     def applied(self, scene: Scene) -> Scene:
         """The scene with this choice; bearing, load, faults and seed stay, sensors all run at 25.6 kHz.

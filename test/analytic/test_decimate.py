@@ -5,12 +5,12 @@ import time
 import numpy as np
 import pytest
 
-from beardyn_core.observe.decimate import Decimator
+from beardyn_core.observe.decimate import Decimator, TwoStageDecimator
 
 
-def _gain(factor, frequency):
+def _gain(factor, frequency, kind=Decimator):
     """Amplitude and phase that a wave of `frequency` (of the new rate) comes out with."""
-    decimator = Decimator(factor, 2)
+    decimator = kind(factor, 2)
     n = np.arange(factor * 4000)
     wave = 2 * np.pi * frequency / factor * n
     out = decimator.push(np.column_stack([np.cos(wave), np.sin(wave)]))[1000:]
@@ -31,6 +31,30 @@ def test_passband_is_flat_with_the_stated_delay(factor):
 def test_stopband_is_70_db_down(factor):
     frequencies = np.concatenate([np.linspace(0.6, 1.0, 25), np.linspace(1.0, factor / 2, 20)])
     assert max(abs(_gain(factor, f)) for f in frequencies) < 10 ** (-70 / 20)
+
+
+@pytest.mark.parametrize("factor", [16, 32, 64, 128])
+def test_two_stages_have_the_band_and_the_delay_of_one(factor):
+    assert TwoStageDecimator(factor, 2).delay_samples == Decimator(factor, 2).delay_samples
+    for frequency in np.linspace(0.0, 0.4, 11):
+        gain = _gain(factor, frequency, TwoStageDecimator)
+        assert abs(20 * np.log10(abs(gain))) < 0.1
+        assert abs(np.angle(gain)) < 1e-9
+    frequencies = np.concatenate([np.linspace(0.6, 1.0, 15), np.linspace(1.0, factor / 2, 30)])
+    assert max(abs(_gain(factor, f, TwoStageDecimator)) for f in frequencies) < 10 ** (-70 / 20)
+
+
+def test_two_stages_of_any_cut_give_the_same_bits_and_can_be_restored():
+    stream = np.random.default_rng(4).normal(size=(64 * 60, 3))
+    whole = TwoStageDecimator(64, 3, held_back=5).push(stream)
+    pieces = TwoStageDecimator(64, 3, held_back=5)
+    parts = [pieces.push(part) for part in np.split(stream, [64, 64 * 9, 64 * 10])]
+    assert np.array_equal(np.concatenate(parts), whole)
+    again = TwoStageDecimator(64, 3, held_back=5)
+    again.push(stream[: 64 * 20])
+    other = TwoStageDecimator(64, 3, held_back=5)
+    other.restore(again.state)
+    assert np.array_equal(other.push(stream[64 * 20 :]), whole[20:])
 
 
 @pytest.mark.parametrize("factor", [1, 4, 64])

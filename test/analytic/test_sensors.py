@@ -32,7 +32,7 @@ def signals_of(vertical: np.ndarray) -> np.ndarray:
 
 def heard(scene: Scene, vertical: np.ndarray, blocks_at_once: int = 1) -> tuple[np.ndarray, np.ndarray]:
     """Time [s] and vertical reading of the first sensor; the box only shakes along z."""
-    steps = scene.numerics.steps_per_sample
+    steps = round(scene.numerics.steps_per_sample)
     sensors = Sensors(scene, lookahead(scene) + DELAY)
     size = SAMPLES * steps * blocks_at_once
     parts = []

@@ -27,7 +27,7 @@ STANDARD, FULL, DRY = load_effects("standard"), load_effects("full"), load_effec
 LOADS, SPEEDS = (2.0e4, 8.0e4), (60.0, 120.0)
 
 
-def steps(effects: EffectSet = STANDARD, band: float = 0.0, **given: object) -> int:
+def steps(effects: EffectSet = STANDARD, band: float = 0.0, **given: object) -> float:
     return choose_steps(HS, LOADS, SPEEDS, effects, band=band, **given).steps_per_sample  # type: ignore[arg-type]
 
 
@@ -159,7 +159,7 @@ POINTS = {
 }
 
 
-def chosen(bearing: str, effects: str, force: tuple[float, float, float], speed: float, band: float) -> int:
+def chosen(bearing: str, effects: str, force: tuple[float, float, float], speed: float, band: float) -> float:
     load = float(np.hypot(force[0], force[2]))
     return choose_steps(
         load_bearing(bearing), (load, load), (speed, speed), load_effects(effects), axial=force[1], band=band

@@ -62,7 +62,7 @@ class FakeRuns:
         self.scenes: list[Scene] = []
 
     def __call__(self, scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
-        steps = scene.numerics.steps_per_sample
+        steps = round(scene.numerics.steps_per_sample)
         self.scenes.append(scene)
         on_block()
         if steps == self._interrupted:

@@ -25,7 +25,7 @@ STREAMS = [
 ]
 
 
-def scene_of(tier: str, name: str, steps: int = 1) -> Scene:
+def scene_of(tier: str, name: str, steps: float = 1) -> Scene:
     scene = replace(load_scene(name), tier=tier)
     return replace(scene, duration=COUNT * 0.02, numerics=replace(scene.numerics, steps_per_sample=steps))
 
@@ -51,10 +51,12 @@ def streams(blocks: list[Block]) -> dict[str, Any]:
         ("lumped", "static_80kN", 1),
         ("lumped", "smooth_run", 1),
         ("lumped", "smooth_run", 3),
+        ("lumped", "smooth_run", 0.5),
+        ("lumped", "static_80kN", 0.25),
         ("quasistatic", "smooth_run", 1),
     ],
 )
-def test_any_number_of_blocks_at_once_gives_the_same_bits(tier: str, name: str, steps: int) -> None:
+def test_any_number_of_blocks_at_once_gives_the_same_bits(tier: str, name: str, steps: float) -> None:
     scene = scene_of(tier, name, steps)
     one = streams(blocks_of(scene, [1] * COUNT))
     for cuts in ([8, 8, 8], [1, 2, 5, 8, 8]):
@@ -95,5 +97,5 @@ def test_a_desk_run_ends_where_its_duration_does() -> None:
     ends: list[int] = []
     scene = replace(scene_of("lumped", "static_80kN"), duration=0.37)
     summary = run(scene, progress=lambda block: ends.append(block.end_ns))
-    assert ends == [160_000_000, 320_000_000, 380_000_000]
+    assert ends == [320_000_000, 380_000_000]
     assert summary.duration == pytest.approx(0.38)

@@ -107,5 +107,5 @@ def chosen(point: Point) -> dict[str, StepChoice]:
 
 def compared(point: Point, steps: tuple[int, ...] = COMPARED_STEPS) -> tuple[Way, ...]:
     """All ways but the reference, those chosen among them."""
-    counts = {*steps, *(choice.steps_per_sample for choice in chosen(point).values())}
+    counts = {*steps, *(int(choice.steps_per_sample) for choice in chosen(point).values())}
     return (BRIDGE, *LONG_EXPLICIT, *(Way("implicit", count) for count in sorted(counts)))

@@ -86,7 +86,7 @@ def _run(case: HardCase, checkpoint: Path | None) -> Finding:
 def _refined(scene: Scene, load: LoadHistory, duration: float, first: Float) -> tuple[Change, ...]:
     """What half the step changes; further runs only where the first two differ."""
 
-    def statistics(steps_per_sample: int, number: int) -> Float:
+    def statistics(steps_per_sample: float, number: int) -> Float:
         numerics = replace(scene.numerics, steps_per_sample=steps_per_sample)
         apart = replace(scene, numerics=numerics, end_play=scene.end_play + number * APART)
         return _watched(apart, load, duration, None).statistics()

@@ -1,0 +1,121 @@
+"""Time step of the lumped tier: as long as its fastest mode and what shakes it allow."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.life import static_rating
+from beardyn_core.model.box_coupling import box_coupling
+from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.model.tier_parameters import lever_of_cup
+from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import LONG_STEPS
+
+# Turn of the fastest mode in a step, [rad]: its frequency is right within 0.5 %, see
+# `kernels.kinematic_rings`.
+LARGEST_TURN = 1.0
+_MOST_STEPS = 64
+
+
+@dataclass(frozen=True)
+class LumpedStep:
+    """Step of a lumped run.
+
+    Parameters
+    ----------
+    steps_per_sample : float
+    reason : str
+        What decided.
+    """
+
+    steps_per_sample: float
+    reason: str
+
+
+def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: int = 2) -> float:
+    """Upper bound of the rings' angular frequency on the springs of the rollers, [rad/s].
+
+    Half of the rollers, with preload all of them, are taken to carry as the heaviest one does under the
+    static load rating, where the line contacts are at their stiffest.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    mounting : Mounting
+    preloaded : bool
+    rows : int
+    """
+    cosine, sine, lever = math.cos(bearing.cup_angle), math.sin(bearing.cup_angle), lever_of_cup(bearing)
+    rollers = rows * bearing.roller_count
+    # Stribeck's and Sjovall's factor of a line contact
+    heaviest = 4.08 * static_rating(bearing) * 0.5 * rows / (rollers * cosine)
+    # two contacts in series are 2^(10/9) softer than one
+    factor = line_contact_factor(bearing.material, bearing.effective_length) / 2.0**LINE_EXPONENT
+    tangent = LINE_EXPONENT * factor ** (1.0 / LINE_EXPONENT) * heaviest ** (1.0 - 1.0 / LINE_EXPONENT)
+    carrying = rollers * (1.0 if preloaded else 0.5)
+    across, along = 0.5 * carrying * tangent * cosine**2, carrying * tangent * sine**2
+    about = 0.5 * carrying * tangent * lever**2
+    moving = [0, 1, 2, 3, 5]
+    give = np.zeros((6, 6))
+    if mounting.cup == "suspended":
+        coupling = box_coupling(bearing, mounting)
+        if coupling is None:
+            mass = mounting.box_mass + bearing.cup_mass
+            inertia = np.add(mounting.box_inertia, bearing.cup_inertia)
+            give += np.diag([*[1.0 / mass] * 3, *(1.0 / inertia)])
+        else:
+            give += coupling.inverse_mass
+    give[:3, :3] += np.eye(3) / (mounting.journal_mass + bearing.cone_mass)
+    if mounting.journal_tilt == "free":
+        give[[3, 5], [3, 5]] += 1.0 / mounting.journal_inertia
+    root = np.sqrt([across, along, across, about, about])
+    squared = root[:, None] * give[np.ix_(moving, moving)] * root
+    return math.sqrt(float(np.linalg.eigvalsh(squared).max()))
+
+
+def lumped_steps(scene: Scene) -> LumpedStep:
+    """Longest step that a lumped run of a scene is converged with.
+
+    Steps longer than a waveform sample end the band of the waveforms at 0.4 of the step rate. A healthy
+    bearing under a load without strikes has nothing to say beyond (docs/model.md has the levels); edges of
+    faults, strikes of wheel and rail, measured loads and accelerometers with a resonance of their own do.
+
+    Parameters
+    ----------
+    scene : Scene
+        In the tier ``lumped``; its own numerics do not matter.
+    """
+    fastest = fastest_mode(scene.bearing, scene.mounting, scene.end_play < 0.0, scene.rows)
+    needed = fastest / (LARGEST_TURN * WAVEFORM_RATE)
+    mode = f"the rings on all rollers, at most {fastest / (2e3 * math.pi):.3g} kHz"
+    if needed > 1.0:
+        steps = min(math.ceil(needed), _MOST_STEPS)
+        return LumpedStep(steps, f"{mode}, turn by {fastest / steps / WAVEFORM_RATE:.2g} rad a step")
+    sudden = _sudden(scene)
+    if sudden:
+        return LumpedStep(1, f"{sudden} fill the band of the waveforms")
+    steps_per_sample = next((steps for steps in LONG_STEPS if needed <= steps), 1)
+    turn = fastest / steps_per_sample / WAVEFORM_RATE
+    return LumpedStep(steps_per_sample, f"{mode}, turn by {turn:.2g} rad a step, and nothing strikes")
+
+
+def _sudden(scene: Scene) -> str:
+    """What is too quick for steps longer than a sample; empty when nothing is."""
+    operation = scene.operation
+    if scene.defects or scene.waviness:
+        return "faults"
+    if isinstance(operation, QuarterVehicleOperation):
+        if operation.wheel_defects or operation.rail_defects:
+            return "strikes of wheel or rail"
+    elif not isinstance(operation, ConstantOperation | SteppedOperation):
+        return "measured loads"
+    if any(sensor.mounting_resonance is not None or sensor.rate > WAVEFORM_RATE for sensor in scene.sensors):
+        return "accelerometers with a resonance or a faster rate"
+    return ""
