@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from benchmarks import (
+    kernel_levers,
     naive_model,
     paced_twin,
     parallel_twins,
@@ -20,7 +21,7 @@ from benchmarks import (
 from benchmarks.runs import Table, machine
 
 PARTS = (
-    *("rtf", "fast", "scenes", "stages", "laminae", "rollers"),
+    *("rtf", "fast", "scenes", "stages", "levers", "laminae", "rollers"),
     *("start", "compile", "sinks", "parallel", "paced", "yardstick"),
 )
 
@@ -33,6 +34,7 @@ def measure(part: str, quick: bool, done: dict[str, Table]) -> Table:
         "fast": lambda: real_time_factor.fast_tiers(turns),
         "scenes": lambda: real_time_factor.scenes(turns),
         "stages": lambda: step_costs.stages(2 * turns),
+        "levers": lambda: kernel_levers.kernel_levers(turns),
         "laminae": lambda: step_costs.laminae(turns // 2),
         "rollers": lambda: step_costs.rollers(turns // 2),
         "start": lambda: starting.cold_start(3 if quick else 9),
