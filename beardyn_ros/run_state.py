@@ -42,7 +42,7 @@ def scene_rig(scene_name: str) -> Callable[[], Rig]:
     from beardyn_core.record.description import RunDescription
     from beardyn_core.twin import Twin
 
-    scene = load_scene(scene_name)
+    scene = load_scene(scene_name, outside_load=True)
 
     def build() -> Rig:
         twin = Twin(scene)

@@ -107,7 +107,7 @@ def _lines(choice: Choice, title: str) -> list[str]:
     rows = [
         ("tier", choice.tier, _share(1.0 - taken), choice.tier_reason),
         ("laminae", str(choice.laminae), "", choice.laminae_reason),
-        ("step", f"1/{round(WAVEFORM_RATE) * choice.steps_per_sample} s", "", choice.steps_reason),
+        ("step", f"1/{round(WAVEFORM_RATE * choice.steps_per_sample)} s", "", choice.steps_reason),
     ]
     for decision in choice.decisions:
         share = _share(decision.cost_share) if decision.on else ""

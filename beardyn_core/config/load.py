@@ -12,7 +12,7 @@ from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.choice.free import Free
-from beardyn_core.choice.lumped_step import lumped_steps
+from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE, Explanation, choice_for, resolved, take_auto
 from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
@@ -30,7 +30,6 @@ from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
-from beardyn_core.integrate.step_choice import usual_steps
 from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
@@ -39,7 +38,7 @@ from beardyn_core.scene.integrator import integrator_problems
 from beardyn_core.scene.irregularity import MEASURED
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.tier import TIER_NAMES, TIERS, contradictions
+from beardyn_core.scene.tier import TIER_NAMES, contradictions
 
 Noun = TypeVar("Noun", covariant=True)
 Keys = TypeVar("Keys", bound=FileModel)
@@ -59,6 +58,7 @@ def load_scene(
     seed: int | None = None,
     accuracy_percent: float | None = None,
     quantities: list[str] | None = None,
+    outside_load: bool = False,
 ) -> Scene:
     """Scene of a shipped name or of a file.
 
@@ -74,6 +74,9 @@ def load_scene(
     laminae, seed : int, optional
     accuracy_percent, quantities : float, list of str, optional
         What is asked for, when something is ``auto``.
+    outside_load : bool
+        Whether the load comes from elsewhere than the scene's operation: the lumped tier then takes no steps
+        longer than a sample unless the scene gives them.
 
     Raises
     ------
@@ -91,7 +94,7 @@ def load_scene(
         ("quantities",): quantities,
     }
     given = {place: value for place, value in overrides.items() if value is not None}
-    return _Reading(read_file(path), str(path), path.parent).scene(given)
+    return _Reading(read_file(path), str(path), path.parent, outside_load).scene(given)
 
 
 def explain_scene(
@@ -186,9 +189,10 @@ def _plain(problem: str) -> str:
 class _Reading:
     """One scene being read: the resolved mapping, where its parts came from, the mistakes so far."""
 
-    def __init__(self, data: dict[str, Any], label: str, folder: Path) -> None:
+    def __init__(self, data: dict[str, Any], label: str, folder: Path, outside_load: bool = False) -> None:
         self.data = dict(data)
         self.folder = folder
+        self.outside_load = outside_load
         self.origins = [Origin((), label)]
         self.problems: list[str] = []
 
@@ -196,8 +200,6 @@ class _Reading:
         keys, free = self.keys(overrides)
         if free.anything:
             return resolved(keys, choice_for(keys, free, load_effects(REFERENCE)))
-        if "steps_per_sample" not in self.data.get("numerics", {}):
-            keys = _with_usual_steps(keys)
         return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
 
     def keys(self, overrides: dict[Place, Any]) -> tuple[SceneKeys, Free]:
@@ -222,6 +224,8 @@ class _Reading:
         self._check_integrator(free)
         if self.problems:
             raise InputError(list(dict.fromkeys(self.problems)))
+        if not free.anything and "steps_per_sample" not in self.data.get("numerics", {}):
+            keys = _with_usual_step(keys, self.outside_load)
         return keys, free
 
     def _complain(self, place: Place, problems: list[str]) -> None:
@@ -368,16 +372,10 @@ class _Reading:
                 )
 
 
-def _with_usual_steps(keys: SceneKeys) -> SceneKeys:
-    """The scene with the step that its tier takes for it; a fast sensor has asked for its own before."""
-    scene = keys.noun("")
-    if scene.tier == "quasistatic" or scene.numerics.steps_per_sample != TIERS[scene.tier].steps_per_sample:
-        return keys
+def _with_usual_step(keys: SceneKeys, outside_load: bool) -> SceneKeys:
+    """The scene with the step that its tier takes for it."""
     assert isinstance(keys.numerics, NumericsKeys)
-    lumped = scene.tier == "lumped"
-    steps = (
-        lumped_steps(scene).steps_per_sample if lumped else usual_steps(scene.effects, scene.numerics.laminae)
-    )
+    steps = usual_step(keys.noun(""), outside_load).steps_per_sample
     numerics = keys.numerics.model_copy(update={"steps_per_sample": steps})
     return keys.model_copy(update={"numerics": numerics})
 

@@ -213,7 +213,7 @@ StepsPerSample = Annotated[
     WithJsonSchema(
         {
             "anyOf": [
-                {"type": "integer", "minimum": 1, "maximum": LARGEST_STEPS["implicit"]},
+                {"type": "integer", "minimum": 1, "maximum": LARGEST_STEPS["explicit"]},
                 {"enum": list(LONG_STEPS)},
                 {"const": "auto"},
             ]
@@ -233,8 +233,8 @@ class NumericsKeys(FileModel):
     )
     steps_per_sample: StepsPerSample = Field(
         3,
-        description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers, 0.5 or 0.25 where the "
-        "lumped tier allows; to be given with integrator: explicit, up to "
+        description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers, also 0.5 or 0.25 in "
+        "tier lumped; to be given with integrator: explicit, up to "
         f"{LARGEST_STEPS['explicit']}",
     )
 

@@ -212,6 +212,8 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
         "seed": seed,
         "defects": [] if cell.fault == HEALTHY else [_spall(trial.spall, cell, seed)],
     }
+    if cell.tier == "lumped":  # healthy and faulty runs with the same band
+        data["numerics"] = {"steps_per_sample": 1, **data.get("numerics", {})}
     if isinstance(trial.effects, dict) and "preset" not in trial.effects:
         given = data.get("effects")
         data["effects"] = overlay(

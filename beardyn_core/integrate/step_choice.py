@@ -61,6 +61,7 @@ _LARGEST_EXPECTED_INDEX = 0.85 * LARGEST_CHATTER_INDEX
 _LARGEST_EXPLICIT_TURN = 0.6  # [rad]
 _BARS = 4  # touches of a roller with both bars of its pocket
 _CREEP = 0.01  # slowest entrainment that is looked at [m/s]
+_USUAL_ENTRAINMENT = 5.0  # [m/s]
 
 
 @dataclass(frozen=True)
@@ -187,16 +188,18 @@ def _bounce(bearing: Bearing, static: StaticSolution, laminae: int, damped: bool
 def usual_steps(effects: EffectSet, laminae: int) -> int:
     """Steps per sample of a full run that names none: the tier's, or more where friction is steep.
 
-    Friction whose slope depends on the speed (load sharing without a film) is left to `choose_steps`.
+    Friction whose slope depends on the speed (load sharing without a film) is taken at an entrainment of
+    5 m/s; `choose_steps` knows the slowest speed.
 
     Parameters
     ----------
     effects : EffectSet
     laminae : int
     """
-    return max(
-        TIERS["full"].steps_per_sample, min(_friction_steps(_fixed_slope(effects), laminae), LARGEST_STEPS)
-    )
+    slope = _fixed_slope(effects)
+    if isinstance(effects.traction, LoadSharingTraction) and effects.film is None:
+        slope = _shared_slope(effects.traction, _USUAL_ENTRAINMENT)
+    return max(TIERS["full"].steps_per_sample, min(_friction_steps(slope, laminae), LARGEST_STEPS))
 
 
 def _fixed_slope(effects: EffectSet) -> float:
@@ -209,12 +212,16 @@ def _fixed_slope(effects: EffectSet) -> float:
     return 0.0
 
 
+def _shared_slope(traction: LoadSharingTraction, entrainment: float) -> float:
+    """Of load sharing without a film, [s/m]."""
+    return 2.0 / math.pi * traction.boundary_friction * traction.boundary_slope / max(entrainment, _CREEP)
+
+
 def dry_slope(bearing: Bearing, effects: EffectSet, speed: float) -> float:
     """Steepest rise of the coefficient of friction with the slip speed, [s/m]."""
     traction = effects.traction
     if isinstance(traction, LoadSharingTraction) and effects.film is None:
-        entrainment = max(0.25 * bearing.pitch_diameter * speed, _CREEP)
-        return 2.0 / math.pi * traction.boundary_friction * traction.boundary_slope / entrainment
+        return _shared_slope(traction, 0.25 * bearing.pitch_diameter * speed)
     return _fixed_slope(effects)
 
 

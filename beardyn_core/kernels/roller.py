@@ -1,11 +1,12 @@
 """One time step of a block of rollers: drift, contacts, implicit solve, kick.
 
 Positions live at whole steps, velocities half a step later. A step moves the rollers along their
-velocities, evaluates every contact, solves one 6x6 system per roller for the velocity change under
-linearly implicit contacts, and applies to roller and ring the very same forces: friction of the end of
-the step, contact damping of its middle, springs with a share of what they change by, which makes all but
-friction second order in the step. Momentum is therefore exchanged exactly and the energy audit closes.
-The explicit step, for references only, takes the forces of the beginning instead (`velocity_change`).
+velocities, evaluates every contact, solves one 6x6 system per roller for the velocity change under linearly
+implicit contacts, and applies to roller and ring the very same forces: friction of the end of the step,
+contact damping of its middle, springs with a share of what they change by, which makes the rollers on their
+springs and dampers second order in the step; rings and pockets lag by half a step. Momentum is therefore
+exchanged exactly and the energy audit closes. The explicit step, for references only, takes the forces of
+the beginning instead (`velocity_change`).
 """
 
 from __future__ import annotations

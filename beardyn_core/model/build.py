@@ -90,7 +90,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
     step = 1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample)
     return Parameters(
         step=step,
-        spring_time=spring_time(bearing, laminae, step),
+        spring_time=spring_time(bearing, laminae, step, effects.contact_damping is not None),
         roller=RollerParams(
             mass=bearing.roller_mass,
             axial_inertia=bearing.roller_axial_inertia,
@@ -128,9 +128,5 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             audit=AuditParams(1.0) if effects.audit else None,
             timers=new_timers(),
         ),
-        explicit=(
-            ExplicitParams(float(scene.numerics.steps_per_sample))
-            if scene.numerics.integrator == "explicit"
-            else None
-        ),
+        explicit=(ExplicitParams(1.0) if scene.numerics.integrator == "explicit" else None),
     )

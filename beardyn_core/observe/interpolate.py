@@ -86,12 +86,13 @@ class Interpolator:
         Parameters
         ----------
         block : float64 array, shape [n, channel]
+            What lies beyond the stream's channels is left out.
 
         Returns
         -------
         float64 array, shape [n * factor, channel]
         """
-        out = np.empty((len(block) * self.factor, block.shape[1]))
+        out = np.empty((len(block) * self.factor, len(self._streams[0])))
         if self.factor == 2:
             _twice(self._streams[0], self._kept[0], self._stages[0], block, out)
         else:

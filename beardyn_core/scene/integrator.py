@@ -34,6 +34,6 @@ def integrator_problems(integrator: str, tier: str, steps_given: bool, automatic
         found.append(f"'explicit' needs the tier 'full', not {tier!r}; change it, or take 'implicit'")
     if not steps_given:
         found.append(
-            "'explicit' needs numerics.steps_per_sample: 391 for the 0.1 us of a reference, at least 80"
+            "'explicit' needs numerics.steps_per_sample: 391 for the 0.1 us of a reference, some 80 or more"
         )
     return found

@@ -104,7 +104,7 @@ def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: flo
         )
     if steps_per_sample < 1 and tier != "lumped":
         found.append(
-            f"{tier!r} needs numerics.steps_per_sample of at least 1, not {steps_per_sample}: only the tier "
-            "'lumped' has steps longer than a sample"
+            f"numerics.steps_per_sample {steps_per_sample} goes with tier 'lumped' alone, not {tier!r}: "
+            "allowed is 1 or more"
         )
     return found

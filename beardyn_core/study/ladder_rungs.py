@@ -8,6 +8,7 @@ from beardyn_core.choice.choose import choose
 from beardyn_core.choice.outcome import Choice
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
+from beardyn_core.integrate.step_choice import usual_steps
 from beardyn_core.scene.scene import QUANTITIES, Scene
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.study.rung import Rung
@@ -76,7 +77,7 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
     lumped, balanced, usual = (TIERS[name].steps_per_sample for name in ("lumped", "quasistatic", "full"))
     fast: dict[str, tuple[tuple[int, int], ...]] = {"lumped": ((6, lumped),), "quasistatic": ((6, balanced),)}
     steps: dict[str, tuple[EffectSet, tuple[tuple[int, int], ...]]] = {
-        "dry": (dry, ((6, usual),)),
+        "dry": (dry, ((6, usual_steps(dry, 6)),)),
         "standard": (standard, ((6, usual),)),
         "full": (full, ((6, usual),)),
     }

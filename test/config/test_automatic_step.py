@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import yaml
 
-from beardyn_core.config import load_scene
+from beardyn_core.config import explain_scene, load_scene
 from beardyn_core.config.load import scene_from_text
 from beardyn_core.errors import InputError
 from beardyn_core.scene.scene import Scene
@@ -57,3 +57,33 @@ def test_a_wrong_number_is_told_what_is_allowed(key: str, value: object) -> None
 @pytest.mark.parametrize(("effects", "steps"), [("standard", 3), ("full", 3), ("dry", 4)])
 def test_a_scene_that_names_no_step_gets_what_its_friction_needs(effects: str, steps: int) -> None:
     assert load_scene("static_80kN", effects=effects).numerics.steps_per_sample == steps
+
+
+@pytest.mark.parametrize(
+    ("name", "tier", "effects"),
+    [("static_80kN", "lumped", None), ("smooth_run", "lumped", None), ("static_80kN", None, "dry")],
+)
+def test_explain_tells_the_step_of_the_run(name: str, tier: str | None, effects: str | None) -> None:
+    explained = explain_scene(name, tier=tier, effects=effects)
+    assert (
+        explained.current.steps_per_sample
+        == load_scene(name, tier=tier, effects=effects).numerics.steps_per_sample
+    )
+
+
+def test_a_load_from_outside_takes_no_long_steps() -> None:
+    scene = load_scene("static_80kN", tier="lumped", outside_load=True)
+    assert scene.numerics.steps_per_sample == 1
+
+
+def test_a_fast_sensor_keeps_what_friction_needs() -> None:
+    steep = {"preset": "dry", "traction": {"regularisation_speed_m_per_s": 0.002}}
+    data = yaml.safe_load(load_scene("static_80kN").source_text)
+    del data["numerics"]["steps_per_sample"]
+    sensors = [{"name": "fast", "rate_kHz": 51.2}]
+    alone = scene_from_text(yaml.safe_dump({**data, "effects": steep, "mounting": SUSPENDED}))
+    heard = scene_from_text(
+        yaml.safe_dump({**data, "effects": steep, "mounting": SUSPENDED, "sensors": sensors})
+    )
+    assert alone.numerics.steps_per_sample == 11
+    assert heard.numerics.steps_per_sample == 12

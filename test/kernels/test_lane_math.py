@@ -39,16 +39,16 @@ def test_quick_ninth_root_is_good_to_2e_7_over_all_magnitudes(lanes: Any) -> Non
     assert np.abs(results(POSITIVE, lanes)["quick_ninth_root"] / exact - 1.0).max() < 2e-7
 
 
-def test_binary_logarithm_is_good_to_1e_10(lanes: Any) -> None:
+def test_binary_logarithm_is_good_to_1e_11(lanes: Any) -> None:
     values = np.concatenate([POSITIVE, [1.0, 2.0, 0.5, np.nextafter(2.0, 0.0), np.nextafter(1.0, 0.0)]])
-    assert np.abs(results(values, lanes)["log2"] - np.log2(values)).max() < 1e-10
+    assert np.abs(results(values, lanes)["log2"] - np.log2(values)).max() < 1e-11
 
 
-def test_power_of_two_is_good_to_1e_9(lanes: Any) -> None:
+def test_power_of_two_is_good_to_1e_10(lanes: Any) -> None:
     exponents = np.concatenate(
         [np.random.default_rng(2).uniform(-1000.0, 1000.0, 100_000), [0.0, 0.5, -0.5, 999.5]]
     )
-    assert np.abs(results(exponents, lanes)["exp2"] / np.exp2(exponents) - 1.0).max() < 1e-9
+    assert np.abs(results(exponents, lanes)["exp2"] / np.exp2(exponents) - 1.0).max() < 1e-10
 
 
 def test_cosine_and_sine_are_good_to_2e_15_within_a_few_turns(lanes: Any) -> None:

@@ -27,7 +27,10 @@ def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
     bearing, arrangement = scene.bearing, Arrangement(scene.bearing.roller_count, LANE_WIDTH)
     parameters = build_parameters(scene, arrangement, np.zeros(6))
     step = parameters.step * factor
-    parameters = parameters._replace(step=step, spring_time=spring_time(bearing, parameters.laminae, step))
+    damped = scene.effects.contact_damping is not None
+    parameters = parameters._replace(
+        step=step, spring_time=spring_time(bearing, parameters.laminae, step, damped)
+    )
     static = solve(
         bearing, point.force, end_play=scene.end_play, laminae=scene.numerics.laminae, speed=point.speed
     )

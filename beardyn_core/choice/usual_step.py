@@ -1,0 +1,33 @@
+"""Time step of a scene that names none."""
+
+from __future__ import annotations
+
+from beardyn_core.choice.lumped_step import lumped_steps
+from beardyn_core.choice.numerics import served
+from beardyn_core.integrate.step_choice import StepChoice, usual_steps
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import TIERS
+
+
+def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
+    """Steps per sample that the tier of a scene takes for it, and no fewer than its sensors need.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its own numerics do not matter, but for the laminae.
+    outside_load : bool
+        Whether the load comes from elsewhere than the scene's operation, so that nothing is known of it.
+    """
+    noun = TIERS[scene.tier]
+    found = StepChoice(noun.steps_per_sample, f"the usual step of the tier {scene.tier}")
+    if scene.tier == "full":
+        steps = usual_steps(scene.effects, scene.numerics.laminae)
+        if steps > noun.steps_per_sample:
+            found = StepChoice(steps, "friction as steep as this flips with longer steps")
+    elif scene.tier == "lumped":
+        lumped = lumped_steps(scene)
+        found = StepChoice(lumped.steps_per_sample, lumped.reason)
+        if outside_load and found.steps_per_sample < 1:
+            found = StepChoice(1, "nothing is known of a load from outside")
+    return served(found, scene.sensors)
