@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.model.aligned import aligned_zeros
+from beardyn_core.model.aligned import aligned_copy, aligned_zeros
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import (
     ANGLE,
@@ -54,7 +54,7 @@ class State:
 
     def copy(self) -> State:
         """A copy that shares nothing."""
-        return State(**{field.name: getattr(self, field.name).copy() for field in fields(self)})
+        return State(**{field.name: aligned_copy(getattr(self, field.name)) for field in fields(self)})
 
 
 @dataclass(frozen=True)

@@ -16,3 +16,10 @@ def aligned_zeros(*shape: int) -> NDArray[np.float64]:
     room = np.zeros(size + _LINE // 8)
     first = -room.ctypes.data % _LINE // 8
     return room[first : first + size].reshape(shape)
+
+
+def aligned_copy(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A copy that begins on a cache line."""
+    copy = aligned_zeros(*values.shape)
+    copy[...] = values
+    return copy

@@ -19,7 +19,6 @@ from beardyn_core.model.layout import (
     CAGE_BODY,
     CONE_BODY,
     ENERGY_KINETIC,
-    LINEAR,
     MOMENTUM,
     POSITION,
     RATE,
@@ -177,7 +176,7 @@ def test_prop_is_a_spring_with_a_damper_along_the_axle() -> None:
     stiffness, damping = 4.0e7, 6.0e3
     scene = scene_with(axial_prop_stiffness=stiffness, axial_prop_damping=damping, end_play=4e-3)
     rig = Rig.at_equilibrium(scene, (0.0, 0.0, 0.0), 0.0)
-    rig.state.rollers[:, LINEAR] *= 0.0
+    rig.state.rollers[:, VELOCITY : VELOCITY + 3] = 0.0
     p = rig.parameters
     p = p._replace(cup=p.cup._replace(gap=1.0), cone=p.cone._replace(gap=1.0))
     assert p.effects.rib is not None

@@ -20,8 +20,10 @@ from beardyn_core.twin import Twin
 from test.tiers.runs import FAST, blocks_of, means, scene_of, static_mean
 
 STATIC_SCENES = ("static_80kN", "static_5kN")
-# A roller of the full tier also carries its share of friction, and the cage moves it within its pocket.
 TOLERANCE = {"lumped": 0.05, "quasistatic": 0.005}
+# A roller of the full tier also carries its share of friction, and cages that lie on their rollers push them by
+# some 20 N: the whole cage moves the deflection by 1 % and the largest load by 3 % at 5 kN (run without it).
+CAGES = {"static_80kN": 0.0, "static_5kN": 0.025}
 
 
 @pytest.mark.parametrize("tier", FAST)
@@ -47,8 +49,9 @@ def test_deflection_and_largest_load_are_those_of_the_static_solution(name: str,
 @pytest.mark.parametrize("name", STATIC_SCENES)
 def test_deflection_and_largest_load_are_those_of_the_full_tier(name: str, tier: str) -> None:
     full, found = means(name, "full"), means(name, tier)
-    assert found.deflection[2] == pytest.approx(full.deflection[2], rel=TOLERANCE[tier])
-    assert found.largest == pytest.approx(full.largest, rel=TOLERANCE[tier])
+    tolerance = TOLERANCE[tier] + CAGES[name]
+    assert found.deflection[2] == pytest.approx(full.deflection[2], rel=tolerance)
+    assert found.largest == pytest.approx(full.largest, rel=tolerance)
 
 
 @pytest.mark.parametrize("tier", FAST)
