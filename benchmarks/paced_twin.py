@@ -13,6 +13,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import yaml
+
 from beardyn_core.config import load_scene
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, header_stamp
 from beardyn_core.record.topics import topic
@@ -21,10 +23,21 @@ from beardyn_ros.processes import Processes, free_domain_id, local_environment
 from benchmarks.runs import Table
 
 SCENE = "smooth_run"
-RUNGS = (("full", 6), ("standard", 6), ("dry", 6))
+# effects, laminae, steps per sample (2: converged for all but vibration, see docs/step.md)
+RUNGS = (("full", 6, 4), ("full", 6, 3), ("full", 6, 2), ("standard", 6, 4), ("dry", 6, 4))
 READY_TIMEOUT_S = 600.0
 COLUMNS = (
-    *("effects", "laminae", "simulated s", "wall s", "blocks", "late", "worst late ms", "worst arrival ms"),
+    *(
+        "effects",
+        "laminae",
+        "steps a sample",
+        "simulated s",
+        "wall s",
+        "blocks",
+        "late",
+        "worst late ms",
+        "worst arrival ms",
+    ),
     *("RTF", "waited for load s", "state"),
 )
 
@@ -97,7 +110,9 @@ class _Listener:
         self._context.try_shutdown()
 
 
-def run_paced(scene: str, effects: str, laminae: int, seconds: float, mode: str = "lockstep") -> Heard:
+def run_paced(
+    scene: str, effects: str, laminae: int, seconds: float, steps: int = 4, mode: str = "lockstep"
+) -> Heard:
     """One run at speed factor 1.
 
     Parameters
@@ -106,11 +121,15 @@ def run_paced(scene: str, effects: str, laminae: int, seconds: float, mode: str 
     laminae : int
     seconds : float
         Simulated time, [s].
+    steps : int
+        Time steps per sample.
     mode : str
         ``lockstep`` or ``live``.
     """
     prepare_environment()
-    text = load_scene(scene, effects=effects, laminae=laminae, duration=seconds).source_text
+    keys = yaml.safe_load(load_scene(scene, effects=effects, laminae=laminae, duration=seconds).source_text)
+    keys["numerics"]["steps_per_sample"] = steps
+    text = yaml.safe_dump(keys)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         file = folder / "paced.yaml"
@@ -134,7 +153,7 @@ def run_paced(scene: str, effects: str, laminae: int, seconds: float, mode: str 
     return Heard(listener.twin, wall_s, max(offsets) - min(offsets))
 
 
-def row(effects: str, laminae: int, heard: Heard) -> tuple[str | float | int, ...]:
+def row(effects: str, laminae: int, steps: int, heard: Heard) -> tuple[str | float | int, ...]:
     """Row of the table."""
 
     def number(key: str) -> float:
@@ -143,6 +162,7 @@ def row(effects: str, laminae: int, heard: Heard) -> tuple[str | float | int, ..
     return (
         effects,
         laminae,
+        steps,
         number("simulated_time"),
         heard.wall_s,
         int(number("blocks")),
@@ -155,15 +175,15 @@ def row(effects: str, laminae: int, heard: Heard) -> tuple[str | float | int, ..
     )
 
 
-def paced(seconds: float, scene: str = SCENE, rungs: tuple[tuple[str, int], ...] = RUNGS) -> Table:
+def paced(seconds: float, scene: str = SCENE, rungs: tuple[tuple[str, int, int], ...] = RUNGS) -> Table:
     """Rungs from the finest down to the first that keeps up for the whole time."""
     rows: list[tuple[str | float | int, ...]] = []
     note = f"speed factor 1, lockstep; load average {os.getloadavg()[0]:.2f} before"
     if not ros_available():
         return Table("paced", "Twin node in real time", COLUMNS, rows, MISSING_ROS)
-    for effects, laminae in rungs:
-        heard = run_paced(scene, effects, laminae, seconds)
-        rows.append(row(effects, laminae, heard))
+    for effects, laminae, steps in rungs:
+        heard = run_paced(scene, effects, laminae, seconds, steps)
+        rows.append(row(effects, laminae, steps, heard))
         if heard.last.value("late_blocks") == "0" and heard.last.value("state") == "finished":
             break
     else:
@@ -177,15 +197,16 @@ def main() -> None:
     parser.add_argument("--scene", default=SCENE)
     parser.add_argument("--effects", default=RUNGS[0][0])
     parser.add_argument("--laminae", type=int, default=RUNGS[0][1])
+    parser.add_argument("--steps", type=int, default=RUNGS[0][2])
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--mode", choices=("lockstep", "live"), default="lockstep")
     given = parser.parse_args()
-    heard = run_paced(given.scene, given.effects, given.laminae, given.seconds, given.mode)
+    heard = run_paced(given.scene, given.effects, given.laminae, given.seconds, given.steps, given.mode)
     table = Table(
         "paced",
         f"Twin node in real time, {given.scene}, {given.mode}",
         COLUMNS,
-        [row(given.effects, given.laminae, heard)],
+        [row(given.effects, given.laminae, given.steps, heard)],
     )
     print("\n".join(table.lines()))
 

@@ -232,7 +232,7 @@ class NumericsKeys(FileModel):
         "tier full; friction hides an oscillation in it with steps above 0.5 us (dry) to 5 us (films)",
     )
     steps_per_sample: StepsPerSample = Field(
-        3,
+        4,
         description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers, also 0.5 or 0.25 in "
         "tier lumped; to be given with integrator: explicit, up to "
         f"{LARGEST_STEPS['explicit']}",

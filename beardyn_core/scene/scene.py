@@ -39,7 +39,7 @@ class Numerics:
     """
 
     laminae: int = 6
-    steps_per_sample: float = 3
+    steps_per_sample: float = 4
     integrator: str = "implicit"
 
 

@@ -76,7 +76,7 @@ TIERS = {
             absent=_FAST_ABSENT,
             blocks_at_once=8,
         ),
-        TierNoun("full", "every body with 6 degrees of freedom", None, 3, False, 2, ()),
+        TierNoun("full", "every body with 6 degrees of freedom", None, 4, False, 2, ()),
     )
 }
 TIER_NAMES = tuple(TIERS)

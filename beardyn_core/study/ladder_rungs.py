@@ -97,7 +97,7 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
         steps |= {
             "standard": (
                 standard,
-                ((3, usual), (6, usual - 1), (6, usual), (6, 2 * usual), (20, usual)),
+                ((3, usual), (6, 2), (6, 3), (6, usual), (6, 2 * usual), (20, usual)),
             ),
             "standard + losses": (lossy, ((6, usual),)),
             "standard + losses + ring_flexibility": (
@@ -109,7 +109,8 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
                 full,
                 (
                     (3, usual),
-                    (6, usual - 1),
+                    (6, 2),
+                    (6, 3),
                     (6, usual),
                     (6, 2 * usual),
                     (6, 4 * usual),

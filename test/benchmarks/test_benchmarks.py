@@ -64,16 +64,17 @@ def test_the_page_says_what_was_reached() -> None:
     columns = ("run", "laminae", "RTF", "kernel us/step", "time against full standard")
     rows: list[tuple[str | float | int, ...]] = [
         ("full standard", 6, 1.5, 6.0, 1.0),
-        ("full standard, 20 laminae", 20, 0.5, 18.0, 3.0),
+        ("full standard, chosen step", 6, 2.1, 6.0, 0.75),
+        ("full standard, 20 laminae, chosen step", 20, 0.5, 18.0, 3.0),
         ("lumped standard", 6, 1200.0, 0.1, 0.01),
     ]
     start = Table("cold_start", "Start", ("part", "s"), [("to the first block", 2.0)])
     tables = [Table("real_time_factor", "RTF", columns, rows, "Of one run."), start]
     result: dict[str, Any] = {"machine": MACHINE, "tables": {table.name: table.to_json() for table in tables}}
     reached = [row[-1] for row in goal_rows(result["tables"])]
-    assert reached == ["floor", "short of the floor", "goal", "goal"]
+    assert reached == ["goal", "short of the floor", "floor", "goal", "goal"]
     text = page(result)
-    assert "| full standard, 20 laminae | 20 | 0.5 | 18 | 3 |" in text
+    assert "| full standard, 20 laminae, chosen step | 20 | 0.5 | 18 | 3 |" in text
     assert "Of one run." in text
     assert "## Laminae" not in text  # what was not measured is not shown
     assert "busy" not in text

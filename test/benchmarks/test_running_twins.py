@@ -26,7 +26,7 @@ def test_paced_twin_is_heard_block_by_block_and_its_lateness_agrees_with_the_lis
     from benchmarks.paced_twin import COLUMNS, row, run_paced
 
     heard = run_paced("cup_spall", "standard", 6, 1.0)
-    told = dict(zip(COLUMNS, row("standard", 6, heard), strict=True))
+    told = dict(zip(COLUMNS, row("standard", 6, 4, heard), strict=True))
     assert told["state"] == "finished"
     assert told["blocks"] == 50
     assert told["simulated s"] == pytest.approx(1.0)

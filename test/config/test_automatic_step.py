@@ -54,7 +54,7 @@ def test_a_wrong_number_is_told_what_is_allowed(key: str, value: object) -> None
     assert f"numerics.{key} is {value!r}; it must be" in text
 
 
-@pytest.mark.parametrize(("effects", "steps"), [("standard", 3), ("full", 3), ("dry", 4)])
+@pytest.mark.parametrize(("effects", "steps"), [("standard", 4), ("full", 4), ("dry", 4)])
 def test_a_scene_that_names_no_step_gets_what_its_friction_needs(effects: str, steps: int) -> None:
     assert load_scene("static_80kN", effects=effects).numerics.steps_per_sample == steps
 

@@ -37,7 +37,7 @@ from beardyn_core.twin import Twin
 from test.kernels.rig import SPEED, Float, Rig, constant_load, scene_with, standard_scene
 
 Z = 17
-STEP = 1.0 / (25_600 * 3)
+STEP = 1.0 / (25_600 * 4)
 HEAVY: dict[str, Any] = {"journal_mass": 1e12}
 SURFACES = ("cup", "cone", "roller")
 FLAT = tuple(Patch(on, 0, 0.0, 6e-3, 0.0, 0.05) for on in SURFACES)

@@ -47,7 +47,7 @@ def scene_with(
     defects: tuple[Defect, ...] = (),
     waviness: tuple[Waviness, ...] = (),
     laminae: int = 6,
-    steps_per_sample: int = 3,
+    steps_per_sample: int = 4,
     roller_count: int | None = None,
     **mounting: Any,
 ) -> Scene:

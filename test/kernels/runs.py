@@ -82,7 +82,7 @@ def record(scene: Scene, duration: float) -> Record:
 
 
 @cache
-def shipped(name: str, duration: float = 0.6, cage_ratio: float = 1.0, steps_per_sample: int = 3) -> Record:
+def shipped(name: str, duration: float = 0.6, cage_ratio: float = 1.0, steps_per_sample: int = 4) -> Record:
     """A shipped scene, from another cage speed or with another step."""
     scene = load_scene(name)
     assert isinstance(scene.effects.cage, Cage)

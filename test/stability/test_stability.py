@@ -172,12 +172,12 @@ def test_bearing_with_large_play_starts_at_rest_under_an_axial_load() -> None:
     """The free row's rollers stand 0.4 mm off, beyond the room in their pockets, and so does their cage.
 
     0.14 J of pockets that are pressed at the start go into a light cage; the explicit pockets balance that to
-    5 % with the production step, and better as it shrinks.
+    1.4 % with the production step, and better as it shrinks.
     """
     load = constant_load((0.0, 1.76e4, 0.0), 0.0)
     sane(run(scene_with(end_play=8e-4, steps_per_sample=16), load, 3), 2e-3)
     record = run(scene_with(end_play=8e-4), load, 3)
-    sane(record, 6e-2)
+    sane(record, 2e-2)
     assert np.abs(record.force_waveform[:, 1] - 1.76e4).max() < 0.05 * 1.76e4
 
 
@@ -216,10 +216,10 @@ def test_one_lamina_is_refused_or_reported() -> None:
 
 @pytest.mark.parametrize(
     ("factor", "status"),
-    [(2, Status.FINE), (4, Status.CHATTER), *((factor, Status.NOT_FINITE) for factor in (8, 16, 128))],
+    [(2, Status.FINE), (6, Status.CHATTER), *((factor, Status.NOT_FINITE) for factor in (16, 32, 128))],
 )
 def test_step_far_too_large_is_reported(factor: int, status: Status) -> None:
-    """4 times the production step chatters, 8 times and more blow up; neither passes as fine."""
+    """6 times the production step chatters, 16 times and more blow up; neither passes as fine."""
     rig = Rig.at_equilibrium(standard_scene())
     step = rig.parameters.step * factor
     implicit = spring_time(rig.scene.bearing, rig.parameters.laminae, step, True)

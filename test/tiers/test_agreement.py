@@ -21,8 +21,8 @@ from test.tiers.runs import FAST, blocks_of, means, scene_of, static_mean
 
 STATIC_SCENES = ("static_80kN", "static_5kN")
 TOLERANCE = {"lumped": 0.05, "quasistatic": 0.005}
-# A roller of the full tier also carries its share of friction, and cages that lie on their rollers push them by
-# some 20 N: the whole cage moves the deflection by 1 % and the largest load by 3 % at 5 kN (run without it).
+# A roller of the full tier also carries its share of friction, and cages that lie on their rollers push them
+# by some 20 N: the whole cage moves deflection by 1 % and largest load by 3 % at 5 kN (run without it).
 CAGES = {"static_80kN": 0.0, "static_5kN": 0.025}
 
 

@@ -20,7 +20,7 @@ _TOO_LARGE = tuple(
     HardCase(
         f"step_times_{factor}",
         "numerics",
-        f"a step of {factor} times the usual one, {factor * 13.0:.0f} us: {what}",
+        f"a step of {factor} times the usual one, {factor * 9.8:.0f} us: {what}",
         "chatter monitor, penetration and NaN bits: it must not pass as fine",
         way="coarse step",
         load=steady(RADIAL, SPEED),
@@ -29,11 +29,11 @@ _TOO_LARGE = tuple(
         must_report=bits,
         may_report=Status.CHATTER | Status.PENETRATION | Status.RIB_EDGE | Status.OFF_RIB,
         refined=False,
-        fast=factor == 4,
+        fast=factor == 6,
     )
     for factor, bits, what in (
-        (4, Status.CHATTER, "forces right to 0.2 %, friction flipping from step to step"),
-        (5, Status.CHATTER, "friction at its limit in alternating directions"),
+        (6, Status.CHATTER, "forces right to 0.6 %, friction flipping from step to step"),
+        (7, Status.CHATTER, "friction at its limit in alternating directions"),
         (32, Status.NOT_FINITE, "everything blows up"),
     )
 )
