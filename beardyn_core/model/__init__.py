@@ -9,6 +9,7 @@ arrangement     which roller sits in which lane
 lamina_table    what the laminae of a roller have of their own
 ..._params      parameters of one effect
 film_factor     film thickness as factors for the kernel
+springs         tables of laminae as springs
 box_coupling    axlebox whose centre of mass or springs stand off the bearing
 patch_path      path of a roller over a patch
 heat            nodes of the thermal network and where losses go

@@ -50,7 +50,7 @@ class ThermalFilmParams(NamedTuple):
 class RigidFilmParams(NamedTuple):
     """Film of rigid surfaces, H = 4.9 U / W."""
 
-    log2_factor: Any  # of the film at 1 N on the lamina and 1 m/s, [ring, lamina], [log2 m]
+    log2_factor: Any  # of the film at 1 N on the lamina and 1 m/s, [ring, spring], [log2 m]
 
 
 class RoelandsParams(NamedTuple):
@@ -113,7 +113,7 @@ class AiharaParams(NamedTuple):
     log2_slide: float
     log2_friction: float
     log2_largest_slide: float
-    log2_pressure: Any  # largest Hertz pressure at 1 N on the lamina, [ring, lamina], [log2 kgf/mm^2]
+    log2_pressure: Any  # largest Hertz pressure at 1 N on the lamina, [ring, spring], [log2 kgf/mm^2]
 
 
 class EyringParams(NamedTuple):

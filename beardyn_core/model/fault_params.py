@@ -25,6 +25,7 @@ from beardyn_core.model.fault_parameters import (
 )
 from beardyn_core.model.lamina_table import lamina_places
 from beardyn_core.model.patch_path import PATH_CELLS, reach_of, roller_path
+from beardyn_core.model.springs import for_springs
 from beardyn_core.model.waviness_params import wave_params
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
@@ -121,7 +122,7 @@ def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
 def damage_params(laminae: Float, width: int) -> DamageParams:
     """Lamina table twice over (sound and damaged springs) and work space for the springs."""
     springs = np.zeros((1, SPRING_FIELDS * 2 * laminae.shape[1], width))
-    return DamageParams(np.ascontiguousarray(np.hstack([laminae, laminae])), springs)
+    return DamageParams(for_springs(laminae), springs)
 
 
 def pocket_wear(scene: Scene, arrangement: Arrangement) -> Float | None:

@@ -20,6 +20,7 @@ from beardyn_core.model.contact_parameters import (
     RoelandsParams,
     ThermalFilmParams,
 )
+from beardyn_core.model.springs import for_springs
 from beardyn_core.scene.scene import Scene
 
 
@@ -62,7 +63,7 @@ def film_params(
         thermal = ThermalFilmParams(math.log2(loading), law.coefficient, law.exponent)
     if options.isoviscous:
         films = [[rigid_line_film(1.0 / lamina_length, 1.0, r, viscosity) for r in ring] for ring in radii]
-        rigid = RigidFilmParams(np.log2(options.starvation * np.array(films)))
+        rigid = RigidFilmParams(for_springs(np.log2(options.starvation * np.array(films))))
     if options.thickening == "roelands":
         level, exponent = oil.roelands_constants(temperature)
         roelands = RoelandsParams(level / math.log(2.0), exponent)

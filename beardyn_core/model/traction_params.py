@@ -28,6 +28,7 @@ from beardyn_core.model.contact_parameters import (
 )
 from beardyn_core.model.film_factor import film_params
 from beardyn_core.model.lamina_table import equivalent_radius, lamina_places, lamina_table
+from beardyn_core.model.springs import for_springs
 from beardyn_core.scene.scene import Scene
 
 REYNOLDS_EXIT = 0.47513  # where the film of a parabolic gap ends, over sqrt(2 R h)
@@ -101,7 +102,7 @@ def aihara_params(
         log2_slide=math.log2(1.2448e7) - 1.5 * log2_viscosity,
         log2_friction=0.1 * log2_viscosity,
         log2_largest_slide=math.log2(largest_slide),
-        log2_pressure=np.log2(4.0 / math.pi * mean / 9.80665e6),
+        log2_pressure=for_springs(np.log2(4.0 / math.pi * mean / 9.80665e6)),
     )
 
 

@@ -127,7 +127,10 @@ def finite_and_audited_or_told(keys: dict[str, Any], load: tuple[Point, ...]) ->
     if scene.tier == "full":
         assert measures.momentum_residual is not None
         assert measures.momentum_residual < 1e-9
-        assert balanced(twin) or measures.status, measures
+        try:
+            assert balanced(twin) or measures.status, measures
+        except ValidityError:  # the block of the audit may be the one that ends the run
+            return f"{scene.tier}: ends"
     return f"{scene.tier}: {'reports' if measures.status else 'fine'}"
 
 
