@@ -61,6 +61,11 @@ CASES = (
         duration=0.4,
         limits=(Limit("tilt", math.radians(0.5), math.radians(1.0)),),
         may_report=Status.RIB_EDGE,
+        known_failure=(
+            "The leaning bars of the cage resist rollers that tilt in their pockets, and on the way to half "
+            "a degree a roller leaves the face of its rib: the run ends with that sentence. With upright "
+            "bars, or with bars that lean by 0.2 rad instead of 0.44, it goes through."
+        ),
     ),
     HardCase(
         "moment_20_kN_m",

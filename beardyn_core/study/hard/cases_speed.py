@@ -47,12 +47,6 @@ CASES = (
         duration=0.3,
         limits=(Limit("cage_speed", -0.05, 0.05),),
         fast=True,
-        known_failure=(
-            "At rest the usual step feeds a small vibration: numerical dissipation is -2.8 mJ in 0.3 s, and "
-            "the force trembles by 20 N of 80 kN. It takes the bending of the cup and coupled laminae "
-            "together: without either it is below 0.1 mJ, and so it is with 5 steps a sample or with twice "
-            "the contact damping; more damping of the bending does not help."
-        ),
     ),
     HardCase(
         "start_from_standstill",
