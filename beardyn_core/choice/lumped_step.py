@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import static_rating
+from beardyn_core.integrate.step_choice import StepChoice
 from beardyn_core.model.box_coupling import box_coupling
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.model.tier_parameters import lever_of_cup
@@ -22,21 +22,6 @@ from beardyn_core.scene.tier import LONG_STEPS
 # `kernels.kinematic_rings`.
 LARGEST_TURN = 1.0
 _MOST_STEPS = 64
-
-
-@dataclass(frozen=True)
-class LumpedStep:
-    """Step of a lumped run.
-
-    Parameters
-    ----------
-    steps_per_sample : float
-    reason : str
-        What decided.
-    """
-
-    steps_per_sample: float
-    reason: str
 
 
 def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: int = 2) -> float:
@@ -82,7 +67,7 @@ def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: in
     return math.sqrt(float(np.linalg.eigvalsh(squared).max()))
 
 
-def lumped_steps(scene: Scene) -> LumpedStep:
+def lumped_steps(scene: Scene) -> StepChoice:
     """Longest step that a lumped run of a scene is converged with.
 
     Steps longer than a waveform sample end the band of the waveforms at 0.4 of the step rate. A healthy
@@ -99,13 +84,13 @@ def lumped_steps(scene: Scene) -> LumpedStep:
     mode = f"the rings on all rollers, at most {fastest / (2e3 * math.pi):.3g} kHz"
     if needed > 1.0:
         steps = min(math.ceil(needed), _MOST_STEPS)
-        return LumpedStep(steps, f"{mode}, turn by {fastest / steps / WAVEFORM_RATE:.2g} rad a step")
+        return StepChoice(steps, f"{mode}, turn by {fastest / steps / WAVEFORM_RATE:.2g} rad a step")
     sudden = _sudden(scene)
     if sudden:
-        return LumpedStep(1, f"{sudden} fill the band of the waveforms")
+        return StepChoice(1, f"{sudden} fill the band of the waveforms")
     steps_per_sample = next((steps for steps in LONG_STEPS if needed <= steps), 1)
     turn = fastest / steps_per_sample / WAVEFORM_RATE
-    return LumpedStep(steps_per_sample, f"{mode}, turn by {turn:.2g} rad a step, and nothing strikes")
+    return StepChoice(steps_per_sample, f"{mode}, turn by {turn:.2g} rad a step, and nothing strikes")
 
 
 def _sudden(scene: Scene) -> str:

@@ -26,8 +26,7 @@ def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
         if steps > noun.steps_per_sample:
             found = StepChoice(steps, "friction as steep as this flips with longer steps")
     elif scene.tier == "lumped":
-        lumped = lumped_steps(scene)
-        found = StepChoice(lumped.steps_per_sample, lumped.reason)
+        found = lumped_steps(scene)
         if outside_load and found.steps_per_sample < 1:
             found = StepChoice(1, "nothing is known of a load from outside")
     return served(found, scene.sensors)

@@ -61,7 +61,7 @@ class AuditParams(NamedTuple):
 class ExplicitParams(NamedTuple):
     """Contact forces of the beginning of the step instead of implicit ones: for references only."""
 
-    steps_per_sample: float
+    taken: float
 
 
 class EffectParams(NamedTuple):
