@@ -4,16 +4,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
+import numpy as np
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.joint_lamina import joint_depth, part_exponent
+from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Influence, percent
-from beardyn_core.effects import EffectSet
+from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, StepChoice, choose_steps
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 
 _FINE = 400
-LAMINAE = (2, 4, 6, 8, 12, 20, 40)
+_DEPTH = 1.0e-5  # of a working load [m]
+LAMINAE = (2, 4, 6, 8, 10, 12, 16, 20, 40)
 _REFERENCE_LAMINAE = 40
 # Width of a third-octave band over its centre.
 _BAND = 0.2316
@@ -54,6 +61,11 @@ def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
         influence["roller_load"] += 0.5 * (tilt + lever)
         shortest = 1e3 * min(patch.length for patch in partial)
         said += f"; a patch of {shortest:.3g} mm tilts its roller {percent(lever)} wrong"
+        coupling = evidence.scene.effects.lamina_coupling
+        if coupling is not None:
+            taken = max(taking_error(patch, evidence.scene.bearing, coupling, count) for patch in partial)
+            influence["vibration"] += decibels(1.0 + taken)
+            said += f" and takes {percent(taken)} too much or too little from it"
     influence["vibration"] = min(influence["vibration"], MOST_DB)
     return LaminaVerdict(count, said, influence)
 
@@ -100,6 +112,28 @@ def lever_error(patch: Patch, length: float, count: int) -> float:
         covered += share
         moment += share * (left + 0.5 * step)
     return abs(moment / covered - 0.5 * (low + high)) / (0.25 * length)
+
+
+@cache
+def taking_error(patch: Patch, bearing: Bearing, coupling: LaminaCoupling, count: int) -> float:
+    """By how much coupled laminae misjudge what a patch takes from a roller, [-].
+
+    Relative to what the reference's laminae take.
+    """
+
+    def taken(laminae: int) -> float:
+        step = bearing.effective_length / laminae
+        cover = 1.0 - np.array(_uncovered(patch, bearing.effective_length, laminae)[1]) / step
+        depth = np.full(laminae, _DEPTH)
+        gap = np.full(laminae, patch.depth)
+        joint, share = joint_depth(depth, gap, cover, part_exponent(coupling.strength))
+        loads, _, _ = coupled_law(
+            np.array([joint, depth]), 1.0, bearing_lamina_root(bearing, coupling, laminae)
+        )
+        return 1.0 - float(loads[0] @ share) / float(loads[1].sum())
+
+    reference = taken(_REFERENCE_LAMINAE)
+    return abs(taken(count) / reference - 1.0) if reference > 0.0 else 0.0
 
 
 def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibration: bool) -> StepChoice:

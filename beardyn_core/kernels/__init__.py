@@ -11,6 +11,7 @@ orbit             motion of rollers in frames that turn with their orbit
 raceway           laminated roller on a conical raceway
 lamina_spring     the spring of a lamina, sound or damaged
 lamina_coupling   laminae that sink with each other
+joint_lamina      one of them that lies partly over a patch
 film              film thickness of a lamina
 traction          friction of a lamina
 slip_laws         dry friction near zero slip: laws that round its corner

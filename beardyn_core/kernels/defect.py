@@ -172,16 +172,6 @@ def spring_damage(lanes: Any, spring: Any, damage: Any) -> Any:
 
 
 @inline
-def mean_gap(lanes: Any, lamina: Any, count: Any, damage: Any) -> Any:
-    """Mean gap along one lamina, [m]."""
-    if damage is None:
-        return 0.0
-    field = SPRING_FIELDS * (count + lamina)
-    share = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE)
-    return share * lanes.load(damage.springs, _SPRINGS, field + SPRING_GAP)
-
-
-@inline
 def gap_moments(lanes: Any, near: Any, lamina: Any, count: Any, damage: Any) -> Any:
     """Mean gap [m] and mean squared gap [m^2] along one lamina."""
     zero = lanes.constant(0.0)
@@ -193,17 +183,6 @@ def gap_moments(lanes: Any, near: Any, lamina: Any, count: Any, damage: Any) -> 
         mean = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE) * gap
         return mean, mean * gap
     return zero, zero
-
-
-@inline
-def mean_slopes(lanes: Any, lamina: Any, count: Any, damage: Any) -> Any:
-    """Mean slope of the gap along one lamina over the ring's and the roller's azimuth, [m/rad]."""
-    field = SPRING_FIELDS * (count + lamina)
-    share = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE)
-    return (
-        share * lanes.load(damage.springs, _SPRINGS, field + SPRING_RING_SLOPE),
-        share * lanes.load(damage.springs, _SPRINGS, field + SPRING_ROLLER_SLOPE),
-    )
 
 
 @inline

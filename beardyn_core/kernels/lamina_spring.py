@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import mean_gap, mean_slopes, spring_damage, spring_slopes
+from beardyn_core.kernels.defect import spring_damage, spring_slopes
+from beardyn_core.kernels.joint_lamina import joint_depth, joint_share, joint_slopes
 from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
 from beardyn_core.kernels.lane_math import at_least, ninth_root, where_greater
 from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
@@ -71,27 +72,32 @@ def geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
 
 @inline
 def prepare_coupling(lanes: Any, approach: Any, laminae: Any, damage: Any, coupling: Any) -> None:
-    """Springs of all laminae at once, when they are coupled; a damaged lamina takes its mean gap."""
+    """Springs of all laminae at once, when they are coupled; one over the edge of a patch joins as one."""
     if coupling is None:
         return
     for k in range(laminae.shape[1]):
-        gap = mean_gap(lanes, k, laminae.shape[1], damage)
-        lanes.store(coupling.work, DEPTH, k, geometric_depth(approach, gap, k, laminae))
+        depth = geometric_depth(approach, 0.0, k, laminae)
+        depth = joint_depth(lanes, depth, k, laminae.shape[1], damage, coupling.part_exponent)
+        lanes.store(coupling.work, DEPTH, k, depth)
     couple_laminae(lanes, laminae, coupling)
 
 
 @inline
 def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any, coupling: Any) -> Any:
-    """Share of its lamina [-], penetration [m], tangent stiffness [N/m] and energy [J] of one spring."""
+    """Share of its lamina [-], penetration [m], tangent stiffness [N/m] and energy [J] of one spring.
+
+    Force, stiffness and damping of the contact are those of the spring times its share.
+    """
     if coupling is None:
         share, gap = spring_damage(lanes, k, damage)
         depth = geometric_depth(approach, gap, k, laminae)
         touching = at_least(depth, SMALLEST_APPROACH)
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
         tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
-        return share, depth, tangent, tangent * touching * touching * (0.9 * 9.0 / 19.0)
+        return share, depth, tangent, share * tangent * touching * touching * (0.9 * 9.0 / 19.0)
     work = coupling.work
-    return 1.0, lanes.load(work, DEPTH, k), lanes.load(work, SURFACE, k), lanes.load(work, FORCE, k)
+    share, energy = joint_share(lanes, k, damage), lanes.load(work, FORCE, k)
+    return share, lanes.load(work, DEPTH, k) / share, lanes.load(work, SURFACE, k) * share, energy
 
 
 @inline
@@ -99,7 +105,7 @@ def share_of(lanes: Any, k: Any, damage: Any, coupling: Any) -> Any:
     """Share of its lamina of a spring, [-]."""
     if coupling is None:
         return spring_damage(lanes, k, damage)[0]
-    return 1.0
+    return joint_share(lanes, k, damage)
 
 
 @inline
@@ -113,7 +119,7 @@ def add_lean(lanes: Any, lean: Any, elastic: Any, k: Any, count: Any, damage: An
 
 @inline
 def slope_of(lanes: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
-    """Slopes of the gap under a spring; coupled laminae take their means, [m/rad]."""
+    """By how much a spring gives way with the azimuth in ring and in roller, [m/rad]."""
     if coupling is None:
         return spring_slopes(lanes, k, damage)
-    return mean_slopes(lanes, k, count, damage)
+    return joint_slopes(lanes, k, count, damage)

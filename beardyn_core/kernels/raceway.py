@@ -260,7 +260,7 @@ def spring_sums(
         x = laminae[LAMINA_PLACE, k]
         share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)
         touching = at_least(depth, SMALLEST_APPROACH)
-        energy = energy + share * stored
+        energy = energy + stored
         opening = rate[0] + x * rate[1]
         push = spring_push(touching, opening, effects.damping)
         whole = share * (0.9 * tangent * touching)

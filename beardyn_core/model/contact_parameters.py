@@ -193,4 +193,5 @@ class CouplingParams(NamedTuple):
     root: Any  # [lamina, lamina]
     follow: Any  # [lamina, lamina], where one lamina is in balance, given the others
     own_stiffness: Any  # [lamina]
+    part_exponent: float  # of the part of a lamina that stands higher than the rest
     work: Any  # [COUPLING_ROWS, lamina, lane]

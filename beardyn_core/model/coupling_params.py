@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.joint_lamina import part_exponent
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.model.aligned import aligned_zeros
@@ -26,5 +27,6 @@ def coupling_params(
         root=np.ascontiguousarray(matrices.root),
         follow=np.ascontiguousarray(follow),
         own_stiffness=own,
+        part_exponent=part_exponent(coupling.strength),
         work=aligned_zeros(COUPLING_ROWS, count, arrangement.width),
     )

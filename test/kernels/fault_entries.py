@@ -87,7 +87,10 @@ def damaged_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
 
 @entry
 def moving_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
-    """Inputs of `damaged_contacts` and the velocity: energy, power let go, stiffness, largest penetration."""
+    """Inputs of `damaged_contacts` and the velocity.
+
+    Outputs: energy, power let go, stiffness, largest penetration, elastic force, its moment along the line.
+    """
     for case in range(cases.shape[0]):
         zero = lanes.constant(0.0)
         nothing = (zero, zero, zero)
@@ -102,3 +105,5 @@ def moving_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
         lanes.store(out, case, 1, contact[2][5])
         lanes.store(out, case, 2, contact[2][1][0])
         lanes.store(out, case, 3, contact[6])
+        lanes.store(out, case, 4, contact[2][0][0])
+        lanes.store(out, case, 5, contact[2][0][1])

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.fault_parameters import FaultParams
@@ -20,10 +21,19 @@ from test.kernels import naive
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import (
     damaged_contacts,
-    moving_contacts,
     patch_springs,
     wave_gaps,
     worn_pockets,
+)
+from test.kernels.pressed_roller import (
+    ENERGY,
+    ENERGY_SLOPE,
+    FAR,
+    LET_GO,
+    NEAR,
+    PENETRATION,
+    STIFFNESS,
+    pressed,
 )
 from test.kernels.rig import scene_with
 
@@ -202,12 +212,21 @@ def test_waviness_is_the_sum_of_its_orders(lanes: Any, on: str) -> None:
             np.testing.assert_allclose(found[:, 1, 0], wave.gap(azimuth, 1), atol=2e-9)
 
 
-def test_work_of_the_leaning_normal_is_what_the_elastic_energy_loses(lanes: Any) -> None:
+@pytest.mark.parametrize(
+    ("effects", "tolerance"),
+    [(EffectSet(), 1e-3), (replace(EffectSet(), lamina_coupling=LaminaCoupling()), 2e-2)],
+    ids=["independent", "coupled"],
+)
+def test_work_of_the_leaning_normal_is_what_the_elastic_energy_loses(
+    lanes: Any, effects: EffectSet, tolerance: float
+) -> None:
     """Over azimuth and spin, with patches and waves on both surfaces; central differences of the energy.
 
-    At a fixed place of the roller the energy changes by the gap alone, so energy / azimuth = - torque.
+    At a fixed place of the roller the energy changes by the gap alone, so energy / azimuth = - torque. With
+    coupled laminae the passes of `couple_laminae` leave more.
     """
     scene = scene_with(
+        effects,
         defects=(
             Patch("cup", 0, 0.3, 6e-3, 3e-5, 0.03, 3e-3, kind="dent"),
             Patch("roller", 0, 0.2, 5e-3, 2e-5, 0.03, 3e-3, kind="dent"),
@@ -234,35 +253,8 @@ def test_work_of_the_leaning_normal_is_what_the_elastic_energy_loses(lanes: Any)
     orbit_torque = place[0] * found[:, 2] + found[:, 6]
     scale = np.abs(by_ring).max() / (2.0 * step)
     assert scale > 10.0
-    np.testing.assert_allclose(spin_moment, by_roller / (2.0 * step), atol=1e-3 * scale)
-    np.testing.assert_allclose(orbit_torque, -by_ring / (2.0 * step), atol=1e-3 * scale)
-
-
-NEAR, FAR = 0.3, 1.3
-
-
-def moving(lanes: Any, azimuths: Any, depth: float, rate: float, patch: Patch) -> Float:
-    """`moving_contacts` of a roller pressed into the sound cup by a depth, and energy over depth."""
-    scene = scene_with(defects=(patch,))
-    p = build_parameters(scene, Arrangement(17, lanes.width), np.zeros(6))
-    bearing = scene.bearing
-    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    axis = np.array([sine, 0.0, cosine])
-    centre = np.array([0.5 * bearing.pitch_diameter, 0.0, 0.5 * bearing.row_spacing])
-    # the contact point lies half a cone angle beyond the roller axis
-    outer = bearing.contact_angle + bearing.half_angle
-    normal = np.array([math.cos(outer), 0.0, -math.sin(outer)])
-    middle = centre + bearing.roller_mass_offset * axis
-
-    def at(shift: float) -> Float:
-        place = middle + shift * normal
-        cases = np.array([[a, 0.0, *place, *axis, *(rate * normal)] for a in azimuths])
-        return through(lanes, moving_contacts, np.repeat(cases, lanes.width, axis=0), 4, p)[:: lanes.width]
-
-    shift, step = depth - at(0.0)[azimuths.index(FAR), 3], 1e-9
-    found = at(shift)
-    slope = (at(shift + step)[:, 0] - at(shift - step)[:, 0]) / (2.0 * step)
-    return np.column_stack([found, slope])
+    np.testing.assert_allclose(spin_moment, by_roller / (2.0 * step), atol=tolerance * scale)
+    np.testing.assert_allclose(orbit_torque, -by_ring / (2.0 * step), atol=tolerance * scale)
 
 
 @pytest.mark.parametrize(("rate", "gone"), [(-0.5, 1.0), (-1e-3, 0.0), (0.5, 0.0)])
@@ -270,19 +262,19 @@ def test_energy_of_springs_that_open_too_fast_goes_to_their_dampers(
     lanes: Any, rate: float, gone: float
 ) -> None:
     """Opening at 0.5 m/s a spring less than 2.8 um deep would pull: all of them; at 1 mm/s none."""
-    found = moving(lanes, [NEAR, FAR], 2e-6, rate, replace(SPALL, depth=1e-6))
-    assert found[:, 0].min() > 1e-5
-    np.testing.assert_allclose(found[:, 1], -gone * found[:, 4] * rate, rtol=1e-5, atol=1e-9)
-    np.testing.assert_array_equal(found[:, 2] == 0.0, bool(gone))
+    found = pressed(lanes, [NEAR, FAR], 2e-6, replace(SPALL, depth=1e-6), rate=rate)
+    assert found[:, ENERGY].min() > 1e-5
+    np.testing.assert_allclose(found[:, LET_GO], -gone * found[:, ENERGY_SLOPE] * rate, rtol=1e-5, atol=1e-9)
+    np.testing.assert_array_equal(found[:, STIFFNESS] == 0.0, bool(gone))
 
 
 def test_penetration_near_a_patch_is_that_of_its_springs(lanes: Any) -> None:
     """On the floor 100 um down a roller is pressed by 3 um; where sound laminae hold it, by their depth."""
     depth = 3e-6 + FULL.depth
-    floor, sound = moving(lanes, [NEAR, FAR], depth, 0.0, FULL)[:, 3]
+    floor, sound = pressed(lanes, [NEAR, FAR], depth, FULL)[:, PENETRATION]
     assert sound == pytest.approx(depth, rel=1e-9)
     assert floor == pytest.approx(3e-6, abs=5e-7)
-    held = moving(lanes, [NEAR, FAR], depth, 0.0, SPALL)[0, 3]
+    held = pressed(lanes, [NEAR, FAR], depth, SPALL)[0, PENETRATION]
     assert held == pytest.approx(depth, rel=0.05)
 
 

@@ -12,6 +12,7 @@ import pytest
 CLAIMS = (
     "test_raceway.py",
     "test_lamina_coupling.py",
+    "test_joint_lamina.py",
     "test_rib_and_pocket.py",
     "test_cage.py",
     "test_solve.py",
