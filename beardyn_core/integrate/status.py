@@ -99,8 +99,9 @@ def is_fatal(status: int) -> bool:
 def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
     """Chatter index of the last block for each raceway contact, shape [raceway, block, lane].
 
-    The rms of the second difference of the friction force over the friction capacity; a period-2
-    oscillation at full friction has the index 2, smooth friction nearly 0.
+    The rms of the second difference of the friction force over the friction capacity, less what the force
+    has moved over both steps; a period-2 oscillation at full friction has the index 2, smooth friction and a
+    jump nearly 0.
     """
     index = []
     for ring in range(2):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.lane_math import at_least
 from beardyn_core.kernels.vectors import add, cross, scale, turn_out
 from beardyn_core.model.layout import (
     CHATTER,
@@ -111,15 +112,19 @@ def output_contact(
 
 @inline
 def watch_chatter(lanes: Any, rollers: Any, block: Any, ring: Any, friction: Any, capacity: Any) -> None:
-    """Sum the second difference of the friction force, which a period-2 oscillation fills."""
+    """Sum the second difference of the friction force, which a period-2 oscillation fills.
+
+    Less what the force has moved over both steps: a strike bends its course as well, but does not return.
+    """
     first = CHATTER + ring * CHATTER_FIELDS
     last = lanes.load(rollers, block, first + CHATTER_LAST)
     before = lanes.load(rollers, block, first + CHATTER_BEFORE)
     bend = last - 0.5 * (friction + before)
+    move = 0.5 * (friction - before)
     lanes.store(rollers, block, first + CHATTER_BEFORE, last)
     lanes.store(rollers, block, first + CHATTER_LAST, friction)
     squares = lanes.load(rollers, block, first + CHATTER_SQUARES)
-    lanes.store(rollers, block, first + CHATTER_SQUARES, squares + bend * bend)
+    lanes.store(rollers, block, first + CHATTER_SQUARES, squares + at_least(bend * bend - move * move, 0.0))
     loads = lanes.load(rollers, block, first + CHATTER_LOAD)
     lanes.store(rollers, block, first + CHATTER_LOAD, loads + capacity)
 
