@@ -117,6 +117,8 @@ def scene_of(row: Row, tier: str = "full") -> Scene:
     effects = {name: value for name, value in chosen.items() if name not in OUTSIDE}
     if isinstance(effects["audit"], dict):
         effects["thermal"], effects["audit"] = effects["audit"], True
+    if not effects["cage"]:
+        chosen["faults"] = [fault for fault in chosen["faults"] if fault["kind"] != "worn_pocket"]
     written = {
         "scene": "combination",
         "bearing": "HS130x230",
