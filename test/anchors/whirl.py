@@ -123,8 +123,8 @@ TRENDS = (
         "whirl grows with axial load",
         SAKAGUCHI,
         grows_with_load,
-        misses="at 60 rad/s it is largest in the middle; at 240 rad/s the radius is the same within the scatter, which the dry "
-        "friction of the pockets sets there and not the load",
+        misses="at 60 rad/s it is largest in the middle; at 240 rad/s the radius is the same within the "
+        "scatter, which the dry friction of the pockets sets there and not the load",
     ),
     Trend("D28", "whirl ends at the radial clearance of rollers and pockets", SAKAGUCHI, ends_at_the_play),
     Trend(
