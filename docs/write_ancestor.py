@@ -61,12 +61,12 @@ VERDICT = """
   its length or load, so 30 kHz would be rollers of about {diameter:.0f} mm in diameter, small
   for an axlebox bearing.
 - The same roller does ring at 33 kHz, with any step, when its contacts are $6^{{8/9}} = 4.92$ times as
-  stiff. That is what the ancestor's contact law (Section 5.1) gives when $L_{{ef}}$ is read as the length of
-  the whole roller in each of six slices; with the length of a slice it is Palmgren's law. **Our answer: the band is
-  the bounce of rollers between the raceways, which nothing damps in Section 5.1, and it is at 30 rather than
-  17 kHz most simply because of that length.** Not proven, for code and dimensions are not printed; and
-  in ours the band of the rollers on the cup alone, then at 21 kHz, stands out more, of which the text says
-  nothing.
+  stiff. That is what the ancestor's contact law (Section 5.1) gives when $L_{{ef}}$ is read as the length
+  of the whole roller in each of six slices; with the length of a slice it is Palmgren's law. **Our
+  answer: the band is the bounce of rollers between the raceways, which nothing damps in Section 5.1, and
+  it is at 30 rather than 17 kHz most simply because of that length.** Not proven, for code and dimensions
+  are not printed; and in ours the band of the rollers on the cup alone, then at 21 kHz, stands out more,
+  of which the text says nothing.
 - Two other causes cannot be excluded from the text: smaller rollers, and its sampling. The axis of Fig. 6(b)
   ends at 50 kHz, as with samples every 10 µs, and forces were kept at accepted steps of ODE45, which are not
   evenly spaced. But nothing in our runs lies at the 70 kHz that would fold back to 30.
