@@ -133,7 +133,7 @@ def goal_rows(tables: dict[str, Any]) -> list[tuple[str, str, str, str, str]]:
         return next((float(row[column]) for row in rows if row[key] == name and column in row), None)
 
     rows = []
-    turns, alone = "RTF", "RTF alone, desk"
+    turns, node, desk = "RTF", "RTF alone", "RTF alone, desk"
     for what, name, column, floor, goal in (
         (
             "full tier, film, cages, ribs, 6 laminae, converged step: RTF",
@@ -144,10 +144,15 @@ def goal_rows(tables: dict[str, Any]) -> list[tuple[str, str, str, str, str]]:
         ),
         ("the same with 20 laminae: RTF", "full standard, 20 laminae, chosen step", turns, 0.6, 1.0),
         ("the same with the usual step: RTF", "full standard", turns, 1.2, 2.0),
-        ("quasistatic: RTF", "quasistatic standard", turns, 20.0, 50.0),
-        ("quasistatic, desk run alone: RTF", "quasistatic standard", alone, 20.0, 50.0),
-        ("lumped: RTF", "lumped standard", turns, 300.0, 1000.0),
-        ("lumped, desk run alone: RTF", "lumped standard", alone, 300.0, 1000.0),
+        *(
+            (f"{tier}, {how}: RTF", f"{tier} standard", column, floor, goal)
+            for tier, floor, goal in (("quasistatic", 20.0, 50.0), ("lumped", 300.0, 1000.0))
+            for how, column in (
+                ("a run on the desk", desk),
+                ("a run in blocks of 20 ms", node),
+                ("all runs in turn", turns),
+            )
+        ),
     ):
         found = of("real_time_factor", "run", name, column)
         if found is not None:
