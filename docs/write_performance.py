@@ -39,8 +39,8 @@ time.
     "fast_tiers": """## Fast tiers
 
 With cup held (`static_80kN`), suspended (`smooth_run`) and a spall (`cup_spall`), each with the step that it
-takes by itself: `lumped` takes steps of two or four samples where nothing strikes
-([model](model.md#steps-of-the-lumped-tier)).
+takes by itself: `lumped` takes steps of two or four samples where nothing strikes, `quasistatic` of two
+with a held cup ([model](model.md#steps-of-the-fast-tiers)).
 
 """,
     "scenes": """## Scenes

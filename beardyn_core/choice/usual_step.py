@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beardyn_core.choice.lumped_step import lumped_steps
+from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.choice.numerics import served
 from beardyn_core.integrate.step_choice import StepChoice, usual_steps
 from beardyn_core.scene.scene import Scene
@@ -25,8 +25,8 @@ def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
         steps = usual_steps(scene.effects, scene.numerics.laminae)
         if steps > noun.steps_per_sample:
             found = StepChoice(steps, "friction as steep as this flips with longer steps")
-    elif scene.tier == "lumped":
-        found = lumped_steps(scene)
+    else:
+        found = fast_steps(scene)
         if outside_load and found.steps_per_sample < 1:
             found = StepChoice(1, "nothing is known of a load from outside")
     return served(found, scene.sensors)

@@ -199,7 +199,7 @@ def _or_auto(least: int, most: int) -> WithJsonSchema:
 
 def _number_of_steps(value: Any) -> Any:
     if isinstance(value, float) and value in LONG_STEPS:
-        return value  # in the tier lumped
+        return value  # in the fast tiers
     if not isinstance(value, int) or isinstance(value, bool):
         raise PydanticKnownError("int_type")
     if value < 1:

@@ -25,7 +25,6 @@ from beardyn_core.model.layout import MASK, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import (
     LumpedParameters,
-    RingMotionParams,
     faults_or_none,
     kinematic_params,
     pocket_directions,
@@ -41,29 +40,18 @@ _TOLERANCE = 1e-9
 
 def lumped_parameters(scene: Scene, base: Parameters) -> LumpedParameters:
     """Kernel parameters of the lumped tier."""
-    motion = _centred(ring_motion_params(base), base)
+    motion, spring = ring_motion_params(base), spring_params(scene.bearing, scene.numerics.laminae)
     return LumpedParameters(
         step=base.step,
         base=base,
         kinematic=kinematic_params(scene),
         motion=motion,
-        response=ring_response_params(base, motion),
-        spring=spring_params(scene.bearing, scene.numerics.laminae),
+        response=ring_response_params(base, motion, spring.lever),
+        spring=spring,
         pockets=pocket_directions(base),
         sides=row_sides(base, scene.rows),
         faults=faults_or_none(base),
     )
-
-
-def _centred(motion: RingMotionParams, base: Parameters) -> RingMotionParams:
-    """With the suspension's damping in the middle of the step: (m + h c/2) a = F.
-
-    A box that hangs beside its centre keeps that of the beginning.
-    """
-    if base.mounting.coupling is not None:
-        return motion
-    push = motion.box_push
-    return motion._replace(box_push=push / (1.0 + 0.5 * base.step * base.mounting.damping * push))
 
 
 @entry

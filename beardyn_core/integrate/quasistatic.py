@@ -13,6 +13,13 @@ from beardyn_core.integrate.kinematic_step import (
 )
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
+from beardyn_core.kernels.kinematic_rings import (
+    add_response,
+    add_stiffness,
+    hold_response,
+    journal_velocity,
+    store_stiffness,
+)
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_AXIAL,
     LOAD_COSINE,
@@ -29,7 +36,7 @@ from beardyn_core.kernels.kinematic_rollers import (
     show_roller,
 )
 from beardyn_core.kernels.kinematic_torque import held_losses, rolling_torque, sliding_torque
-from beardyn_core.kernels.lane_math import at_least
+from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
@@ -47,8 +54,11 @@ from beardyn_core.model.tier_parameters import (
     POCKET_SINE,
     QuasistaticParameters,
     kinematic_params,
+    lever_of_cup,
     pocket_directions,
     ring_motion_params,
+    ring_response_params,
+    roller_tangent,
     row_sides,
 )
 from beardyn_core.scene.scene import Scene
@@ -58,14 +68,24 @@ _SMALLEST_LOAD = 1e-3
 
 def quasistatic_parameters(scene: Scene, base: Parameters) -> QuasistaticParameters:
     """Kernel parameters of the quasistatic tier."""
+    motion = ring_motion_params(base)
     return QuasistaticParameters(
         step=base.step,
         base=base,
         kinematic=kinematic_params(scene),
-        motion=ring_motion_params(base),
+        motion=motion,
+        response=ring_response_params(base, motion, lever_of_cup(scene.bearing)),
+        tangent=roller_tangent(scene.bearing),
         pockets=pocket_directions(base),
         sides=row_sides(base, scene.rows),
     )
+
+
+@inline
+def pressed_tangent(load: Any, tangent: Any) -> Any:
+    """Stiffness of rollers that press on the cone with a load; 0 where they do not, [N/m]."""
+    stiffness = tangent * exp2(0.1 * log2(at_least(load, _SMALLEST_LOAD)))
+    return where_greater(load, _SMALLEST_LOAD, stiffness, 0.0 * load)
 
 
 @inline
@@ -112,6 +132,7 @@ def balance_rollers(
     load_cosine, load_sine, load_sum = zero, zero, zero
     moment_cosine, moment_sine, rib_sum = zero, zero, zero
     rolling, sliding = zero, zero
+    stiff = (zero, zero, zero, zero, zero, zero)
     for block in range(rollers.shape[0]):
         pocket_cosine, pocket_sine = (
             lanes.load(p.pockets, block, POCKET_COSINE),
@@ -153,6 +174,8 @@ def balance_rollers(
             forces = (cup[0], cone[0], rib)
             rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
             sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
+            tangent = counted * pressed_tangent(cone[0], p.tangent)
+            stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
         if shown:
             centres = (
                 cup[1] / at_least(cup[0], _SMALLEST_LOAD),
@@ -168,6 +191,8 @@ def balance_rollers(
     lanes.store(sums, 0, RIB_SUM, rib_sum)
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
+    if due:
+        store_stiffness(lanes, sums, stiff)
 
 
 @entry
@@ -192,8 +217,10 @@ def advance_quasistatic(
 
     Parameters
     ----------
-    rings, audit : float64 arrays
-        Not used: the cone is seen directly, and no energy balance is kept.
+    rings : float64 array, shape [1, 3, 13, lane]
+        Work space of `kernels.kinematic_rings`.
+    audit : float64 array
+        Not used: no energy balance is kept.
     p : QuasistaticParameters
     """
     steps = signals.shape[0]
@@ -201,11 +228,13 @@ def advance_quasistatic(
     begin_advance(rollers)
     direction = cage_direction(bodies)
     losses = (0.0, 0.0)
+    work = rings[0]
     for step in range(steps):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
         due, shown = step % stride == 0, (step + 1) % stride == 0
+        before = journal_velocity(bodies)
         balance_rollers(
             lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p
         )
@@ -220,9 +249,11 @@ def advance_quasistatic(
         rib = lane_total(sums, RIB_SUM)
         if due:
             losses = held_losses(sums, speeds, rib, p)
+            hold_response(sums, direction, work, p)
         finish_step(
             bodies, wrench, rib, losses, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
         )
+        add_response(bodies, before, signals[step], work, p)
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers
             body_trend[(step + 1) // stride - 1] = bodies

@@ -1,4 +1,4 @@
-"""Rings of the lumped tier on the springs of all rollers: what makes a long step as good as a short one."""
+"""Rings of the fast tiers on the springs of all rollers: what makes a long step as good as a short one."""
 
 from __future__ import annotations
 
@@ -22,13 +22,48 @@ STIFFNESS, RESPONSE, WORK = 0, 1, 2  # matrices in the work space
 
 
 @inline
+def add_stiffness(stiff: Any, tangent: Any, cosine: Any, sine: Any) -> Any:
+    """Add a block of rollers to the sums of the tangent stiffness.
+
+    Parameters
+    ----------
+    stiff : tuple of 6 lane values
+        Sums so far; zeros at first.
+    tangent : lane value
+        Of the rollers along the cup's normal, 0 for those that carry nothing, [N/m].
+    cosine, sine : lane value
+        Of the pocket angle.
+    """
+    with_c, with_s = tangent * cosine, tangent * sine
+    return (
+        stiff[0] + tangent,
+        stiff[1] + with_c,
+        stiff[2] + with_s,
+        stiff[3] + with_c * cosine,
+        stiff[4] + with_s * sine,
+        stiff[5] + with_c * sine,
+    )
+
+
+@inline
+def store_stiffness(lanes: Any, sums: Any, stiff: Any) -> None:
+    """Keep the sums of `add_stiffness`."""
+    lanes.store(sums, 0, STIFF_SUM, stiff[0])
+    lanes.store(sums, 0, STIFF_COSINE, stiff[1])
+    lanes.store(sums, 0, STIFF_SINE, stiff[2])
+    lanes.store(sums, 0, STIFF_CC, stiff[3])
+    lanes.store(sums, 0, STIFF_SS, stiff[4])
+    lanes.store(sums, 0, STIFF_CS, stiff[5])
+
+
+@inline
 def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
     """Tangent stiffness of all rollers against displacement and tilt of the cone, world axes.
 
     Parameters
     ----------
     sums : float64 array, shape [1, 1, SUM_FIELDS, lane]
-        With what `load_rollers` stores when it is due.
+        With what `store_stiffness` has stored.
     direction : tuple of 2 floats
         Cosine and sine of the cage angle.
     work : float64 array, shape [3, 13, lane]
@@ -40,7 +75,7 @@ def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
     plain, with_c = row_totals(sums, STIFF_SUM), row_totals(sums, STIFF_COSINE)
     with_s = row_totals(sums, STIFF_SINE)
     cc, ss, cs = row_totals(sums, STIFF_CC), row_totals(sums, STIFF_SS), row_totals(sums, STIFF_CS)
-    cosine, sine, lever = p.base.cup.cosine, p.base.cup.sine, p.spring.lever
+    cosine, sine, lever = p.base.cup.cosine, p.base.cup.sine, p.response.lever
     for row in range(2):
         side = p.sides[0, 0, row * (p.sides.shape[2] - 1)]
         arm = side * lever

@@ -6,14 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
-from beardyn_core.kernels.kinematic_rings import (
-    STIFF_CC,
-    STIFF_COSINE,
-    STIFF_CS,
-    STIFF_SINE,
-    STIFF_SS,
-    STIFF_SUM,
-)
+from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -253,7 +246,7 @@ def torque_and_stiffness(
     wave = approach_waves(lanes, motion, direction, p)[0]
     idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
     rolling, sliding = zero, zero
-    stiff, stiff_c, stiff_s, stiff_cc, stiff_ss, stiff_cs = zero, zero, zero, zero, zero, zero
+    stiff = (zero, zero, zero, zero, zero, zero)
     for block in range(blocks):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
         load, counted = lanes.load(trend, block, 0), lanes.load(p.pockets, block, COUNTED)
@@ -264,19 +257,10 @@ def torque_and_stiffness(
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
         tangent = 10.0 / 9.0 * (load - 0.5 * idle) / at_least(approach, _SMALLEST_APPROACH)
         tangent = counted * where_greater(load, idle, tangent, zero)
-        stiff = stiff + tangent
-        stiff_c, stiff_s = stiff_c + tangent * cosine, stiff_s + tangent * sine
-        stiff_cc = stiff_cc + tangent * cosine * cosine
-        stiff_ss = stiff_ss + tangent * sine * sine
-        stiff_cs = stiff_cs + tangent * cosine * sine
+        stiff = add_stiffness(stiff, tangent, cosine, sine)
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
-    lanes.store(sums, 0, STIFF_SUM, stiff)
-    lanes.store(sums, 0, STIFF_COSINE, stiff_c)
-    lanes.store(sums, 0, STIFF_SINE, stiff_s)
-    lanes.store(sums, 0, STIFF_CC, stiff_cc)
-    lanes.store(sums, 0, STIFF_SS, stiff_ss)
-    lanes.store(sums, 0, STIFF_CS, stiff_cs)
+    store_stiffness(lanes, sums, stiff)
 
 
 @inline

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
 from beardyn_core.model.fault_parameters import FaultParams
@@ -47,11 +48,12 @@ class RingMotionParams(NamedTuple):
 
 
 class RingResponseParams(NamedTuple):
-    """How a lumped step takes stiffness and damping of the rollers; see `kernels.kinematic_rings`."""
+    """How a step takes stiffness and damping of the rollers; see `kernels.kinematic_rings`."""
 
     lag: float  # h^2/12 and half a step of the dampers' time [s^2]
     damper_share: float  # of the dampers in that
     give: Any  # [5, 5], acceleration of the cone against the cup by a wrench between them
+    lever: float  # arm of the cup's normal about the bearing centre [m]
 
 
 class SpringParams(NamedTuple):
@@ -89,6 +91,8 @@ class QuasistaticParameters(NamedTuple):
     base: Parameters
     kinematic: KinematicParams
     motion: RingMotionParams
+    response: RingResponseParams
+    tangent: float  # stiffness of a pressed roller over the tenth root of its load [N^0.9/m]
     pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
 
@@ -125,21 +129,28 @@ def kinematic_params(scene: Scene) -> KinematicParams:
 
 
 def ring_motion_params(base: Parameters) -> RingMotionParams:
-    """Motion of axlebox and journal."""
+    """Motion of axlebox and journal.
+
+    The suspension damps with the velocity of the middle of the step, (m + h c/2) a = F; a box that hangs
+    beside its centre keeps that of the beginning.
+    """
     mounting, gravity = base.mounting, base.effects.gravity
     steady = mounting.preload.copy()
     steady[2] -= mounting.box_mass * (gravity.acceleration if gravity else 0.0)
     inertia = np.concatenate([np.full(3, mounting.box_mass), mounting.box_inertia])
+    push = mounting.cup_moves / inertia
+    if mounting.coupling is None:
+        push = push / (1.0 + 0.5 * base.step * mounting.damping * push)
     return RingMotionParams(
         steady=steady,
-        box_push=mounting.cup_moves / inertia,
+        box_push=push,
         journal_push=1.0 / mounting.journal_mass,
         journal_turn=mounting.journal_tilts / mounting.journal_inertia,
         rate=1.0 / base.step,
     )
 
 
-def ring_response_params(base: Parameters, motion: RingMotionParams) -> RingResponseParams:
+def ring_response_params(base: Parameters, motion: RingMotionParams, lever: float) -> RingResponseParams:
     """Correction of the step to fourth order, and to second order in the damping."""
     damping, coupling = base.effects.damping, base.mounting.coupling
     dampers = 0.0 if damping is None else 0.5 * base.step * damping.time_constant
@@ -148,7 +159,7 @@ def ring_response_params(base: Parameters, motion: RingMotionParams) -> RingResp
     moving = [0, 1, 2, 3, 5]
     journal = np.array([*[motion.journal_push] * 3, *[motion.journal_turn] * 2])
     give = np.ascontiguousarray(box[np.ix_(moving, moving)] + np.diag(journal))
-    return RingResponseParams(lag, dampers / lag, give)
+    return RingResponseParams(lag, dampers / lag, give, lever)
 
 
 # of `pocket_directions`
@@ -171,6 +182,16 @@ def row_sides(base: Parameters, rows: int) -> Any:
 def faults_or_none(base: Parameters) -> FaultParams | None:
     """The faults of a bearing, ``None`` when it has none."""
     return base.effects.faults if any(each is not None for each in base.effects.faults) else None
+
+
+def roller_tangent(bearing: Bearing) -> float:
+    """Stiffness of a roller between cup and cone over the tenth root of its load, [N^0.9/m].
+
+    Two line contacts in series, for which 10/9 Q / D of Q = K D^(10/9) is 10/9 K^0.9 Q^0.1; profile and rib
+    are left out.
+    """
+    factor = line_contact_factor(bearing.material, bearing.effective_length) / 2.0**LINE_EXPONENT
+    return LINE_EXPONENT * factor ** (1.0 / LINE_EXPONENT)
 
 
 def lever_of_cup(bearing: Bearing) -> float:

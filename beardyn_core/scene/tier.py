@@ -17,7 +17,7 @@ class TierNoun:
     represented : frozenset of str or None
         Effects it computes or reports; ``None``: all of them.
     steps_per_sample : int
-        Time steps per waveform sample when the scene does not say; `choice.lumped_step` may take fewer.
+        Time steps per waveform sample when the scene does not say; `choice.fast_step` may take fewer.
     needs_rib : bool
         Whether nothing but the rib holds the rollers axially.
     smallest_laminae : int
@@ -26,6 +26,8 @@ class TierNoun:
         Channels of a block that it leaves at zero or without content.
     blocks_at_once : int
         Blocks of 20 ms that are worth computing in one go where nobody waits for each.
+    long_steps : tuple of float
+        Steps per sample that it may take where a step is longer than a sample.
     """
 
     name: str
@@ -36,6 +38,7 @@ class TierNoun:
     smallest_laminae: int
     absent: tuple[str, ...]
     blocks_at_once: int = 1
+    long_steps: tuple[float, ...] = ()
 
 
 _FAST = frozenset(
@@ -65,6 +68,7 @@ TIERS = {
             smallest_laminae=1,
             absent=(*_FAST_ABSENT, "roller displacement and tilt"),
             blocks_at_once=16,
+            long_steps=(0.25, 0.5),
         ),
         TierNoun(
             "quasistatic",
@@ -75,12 +79,13 @@ TIERS = {
             smallest_laminae=2,
             absent=_FAST_ABSENT,
             blocks_at_once=8,
+            long_steps=(0.5,),
         ),
         TierNoun("full", "every body with 6 degrees of freedom", None, 4, False, 2, ()),
     )
 }
 TIER_NAMES = tuple(TIERS)
-LONG_STEPS = (0.25, 0.5)  # steps per sample where a step is longer than one, in the tier `lumped` only
+LONG_STEPS = tuple(sorted({steps for tier in TIERS.values() for steps in tier.long_steps}))
 
 
 def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
@@ -102,9 +107,11 @@ def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: flo
             f"{tier!r} needs numerics.laminae of at least {noun.smallest_laminae}, not {laminae}: a single "
             "lamina holds no tilt"
         )
-    if steps_per_sample < 1 and tier != "lumped":
+    if steps_per_sample < 1 and steps_per_sample not in noun.long_steps:
+        *others, last = *(f"{steps:g}" for steps in noun.long_steps), "1 or more"
+        allowed = f"{', '.join(others)} or {last}" if others else last
         found.append(
-            f"numerics.steps_per_sample {steps_per_sample} goes with tier 'lumped' alone, not {tier!r}: "
-            "allowed is 1 or more"
+            f"numerics.steps_per_sample {steps_per_sample} does not go with tier {tier!r}: "
+            f"allowed is {allowed}"
         )
     return found

@@ -141,7 +141,7 @@ def test_the_full_tier_misses_nothing() -> None:
 @pytest.mark.parametrize("tier", TIER_NAMES)
 def test_a_tier_brings_its_own_step_and_a_resolved_scene_keeps_it(tier: str) -> None:
     scene = load_scene("static_80kN", tier=tier)
-    assert scene.numerics.steps_per_sample == {"lumped": 0.25, "quasistatic": 1, "full": 4}[tier]
+    assert scene.numerics.steps_per_sample == {"lumped": 0.25, "quasistatic": 0.5, "full": 4}[tier]
     assert scene_from_text(scene.source_text).numerics == scene.numerics
     assert scene_from_text(scene.source_text).tier == tier
 

@@ -1,4 +1,4 @@
-"""Time step of the lumped tier: as long as its fastest mode and what shakes it allow."""
+"""Time step of the fast tiers: as long as their fastest mode and what shakes them allow."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from beardyn_core.model.tier_parameters import lever_of_cup
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.tier import LONG_STEPS
+from beardyn_core.scene.tier import TIERS
 
 # Turn of the fastest mode in a step, [rad]: its frequency is right within 0.5 %, see
 # `kernels.kinematic_rings`.
@@ -67,8 +67,8 @@ def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: in
     return math.sqrt(float(np.linalg.eigvalsh(squared).max()))
 
 
-def lumped_steps(scene: Scene) -> StepChoice:
-    """Longest step that a lumped run of a scene is converged with.
+def fast_steps(scene: Scene) -> StepChoice:
+    """Longest step that a run of a scene in a fast tier is converged with.
 
     Steps longer than a waveform sample end the band of the waveforms at 0.4 of the step rate. A healthy
     bearing under a load without strikes has nothing to say beyond (docs/model.md has the levels); edges of
@@ -77,8 +77,9 @@ def lumped_steps(scene: Scene) -> StepChoice:
     Parameters
     ----------
     scene : Scene
-        In the tier ``lumped``; its own numerics do not matter.
+        In the tier ``lumped`` or ``quasistatic``; its own numerics do not matter.
     """
+    noun = TIERS[scene.tier]
     fastest = fastest_mode(scene.bearing, scene.mounting, scene.end_play < 0.0, scene.rows)
     needed = fastest / (LARGEST_TURN * WAVEFORM_RATE)
     mode = f"the rings on all rollers, at most {fastest / (2e3 * math.pi):.3g} kHz"
@@ -86,9 +87,11 @@ def lumped_steps(scene: Scene) -> StepChoice:
         steps = min(math.ceil(needed), _MOST_STEPS)
         return StepChoice(steps, f"{mode}, turn by {fastest / steps / WAVEFORM_RATE:.2g} rad a step")
     sudden = _sudden(scene)
+    if not sudden and scene.tier == "quasistatic" and scene.mounting.cup == "suspended":
+        sudden = "vibrations of the box, which follow the rollers to 8 kHz,"
     if sudden:
         return StepChoice(1, f"{sudden} fill the band of the waveforms")
-    steps_per_sample = next((steps for steps in LONG_STEPS if needed <= steps), 1)
+    steps_per_sample = next((steps for steps in noun.long_steps if needed <= steps), noun.steps_per_sample)
     turn = fastest / steps_per_sample / WAVEFORM_RATE
     return StepChoice(steps_per_sample, f"{mode}, turn by {turn:.2g} rad a step, and nothing strikes")
 
