@@ -43,9 +43,9 @@ is not listed below with its reason. `make hard ARGS="load --jobs 1"` runs a top
   losses (or 0.1 J), every term integrated from its own force times velocity; at most 1e-2.
 - **Penetration**: largest approach of a roller and a raceway; at most {penetration:.0f} um, beyond which
   the contact law does not hold.
-- **Chatter index**: largest over raceway contacts and blocks of rms(f_n - (f_(n-1) + f_(n+1))/2) / (mu N),
-  less what (f_(n+1) - f_(n-1))/2 explains, f the friction at every step; reported above {chatter:g}. Friction
-  that flips between its limits has 2, a strike hardly any.
+- **Chatter index**: largest over raceway contacts and blocks of rms(b) / rms(mu N) with b² = (f_n -
+  (f_(n-1) + f_(n+1))/2)² - (f_(n+1) - f_(n-1))²/8, not below 0, f the friction at every step; reported
+  above {chatter:g}. Friction that flips between its limits at every step has 2, at every second one 0.7.
 - **Frame error**: largest deviation of a roller axis or a quaternion from length 1; at most 1e-12.
 - **Momentum residual**: change of the momentum of journal, rollers and cages in a block that load, weight
   and the force on the cup do not account for, over force times time; at most 1e-9.

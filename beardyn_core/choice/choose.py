@@ -23,7 +23,7 @@ from beardyn_core.choice.search import Stage, cheapest
 from beardyn_core.effects import Audit, EffectSet
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.step_choice import StepChoice
-from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.scene import QUANTITIES, Scene
 from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
@@ -155,10 +155,29 @@ def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[A
     ]
     if agreeing:
         return [replace(option, reason=f"as the scene has it; {option.reason}") for option in agreeing]
-    # the tier goes without it, or it is an option that no rule offers
-    nearest = possible[-1] if tier_name != "full" else rule.alternatives[0]
-    missing = f"as the scene has it, not in the tier {tier_name}; {nearest.reason}"
-    return [replace(nearest, members={**nearest.members, **kept}, reason=missing)]
+    if tier_name != "full":
+        nearest = (possible or rule.alternatives)[-1]
+        reason = f"as the scene has it, not in the tier {tier_name}; {nearest.reason}"
+        return [replace(nearest, members={**nearest.members, **kept}, reason=reason)]
+    return [_unoffered(rule, kept)]
+
+
+def _unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
+    """What a scene has and no rule offers: judged like the plainest of its kind; its absence is not."""
+
+    def likeness(option: Alternative) -> int:
+        return sum(type(option.members[name]) is type(value) for name, value in kept.items())
+
+    if all(value is None for value in kept.values()):
+        return Alternative(
+            {**rule.alternatives[0].members, **kept},
+            "as the scene has it; no rule judges the bearing without it",
+            dict.fromkeys(QUANTITIES, math.nan),
+            word="off",
+        )
+    nearest = max(reversed(rule.alternatives), key=likeness)
+    reason = f"as the scene has it, judged like {nearest.word!r}; {nearest.reason}"
+    return replace(nearest, members={**nearest.members, **kept}, reason=reason, word="on")
 
 
 def _represented(option: Alternative, tier_name: str) -> bool:

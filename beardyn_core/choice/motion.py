@@ -7,7 +7,7 @@ import math
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Alternative, Rule, percent
 
-_FULL = frozenset({"full"})
+_FAST, _FULL = frozenset({"lumped", "quasistatic"}), frozenset({"full"})
 
 
 def gravity(evidence: Evidence) -> Rule:
@@ -85,7 +85,9 @@ def audit(evidence: Evidence) -> Rule:
     effect = evidence.scene.effects.audit
     said = "keeps the energy balance and changes no quantity"
     if evidence.scene.effects.thermal is not None:
-        return Rule("audit", (Alternative({"audit": effect}, "feeds the thermal effect", tiers=_FULL),))
+        feeds = Alternative({"audit": effect}, "feeds the thermal effect", tiers=_FULL)
+        without = Alternative({"audit": None}, "a fast tier keeps no energy balance", tiers=_FAST, word="off")
+        return Rule("audit", (feeds, without))
     alternatives = [Alternative({"audit": None}, said, word="off")]
     if effect is not None:
         alternatives.insert(0, Alternative({"audit": effect}, said, {}, evidence.costs.saved("audit"), _FULL))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -12,6 +12,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.joint_lamina import joint_depth, part_exponent
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
+from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.choice.rule import Influence, percent
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, StepChoice, choose_steps
@@ -20,6 +21,7 @@ from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fi
 
 _FINE = 400
 _DEPTH = 1.0e-5  # of a working load [m]
+_NOTHING = 1.0e-9
 LAMINAE = (2, 4, 6, 8, 10, 12, 16, 20, 40)
 _REFERENCE_LAMINAE = 40
 # Width of a third-octave band over its centre.
@@ -133,7 +135,7 @@ def taking_error(patch: Patch, bearing: Bearing, coupling: LaminaCoupling, count
         return 1.0 - float(loads[0] @ share) / float(loads[1].sum())
 
     reference = taken(_REFERENCE_LAMINAE)
-    return abs(taken(count) / reference - 1.0) if reference > 0.0 else 0.0
+    return abs(taken(count) / reference - 1.0) if reference > _NOTHING else 0.0
 
 
 def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibration: bool) -> StepChoice:
@@ -143,6 +145,11 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
     more steps for its rate gets them.
     """
     loads, scene = evidence.loads, evidence.scene
+    if tier != "full":
+        found = fast_steps(replace(scene, tier=tier))
+        if found.steps_per_sample < 1:
+            found = StepChoice(1, f"the usual step of the tier {tier}")
+        return served(found, scene.sensors)
     radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
     found = choose_steps(
         scene.bearing,

@@ -54,7 +54,9 @@ def run(args: argparse.Namespace) -> int:
             effects=args.effects,
             tier=args.tier,
             accuracy_percent=args.accuracy,
-            quantities=None if args.quantities is None else args.quantities.split(","),
+            quantities=None
+            if args.quantities is None
+            else [name.strip() for name in args.quantities.split(",")],
         )
     except InputError as error:
         # the option is shorter than the key

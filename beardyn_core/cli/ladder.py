@@ -15,6 +15,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.study.output_folder import folder_problems
 
 if TYPE_CHECKING:
+    from beardyn_core.scene.scene import Scene
     from beardyn_core.study.ladder_result import Ladder
 
 DONE, INTERRUPTED = 0, 130
@@ -75,10 +76,11 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(problems)
 
     plan = plan_of(scene, args.duration, args.settling)
+    asked = _names(args.quantities) if args.quantities else scene.quantities
+    _refuse_what_it_cannot_compare(scene, asked, plan.fault_line is not None)
     accuracy = scene.accuracy or 0.01 * _USUAL_ACCURACY
     if args.accuracy is not None:
         accuracy = 0.01 * args.accuracy
-    asked = _names(args.quantities) if args.quantities else scene.quantities
     rungs = rungs_of(scene, quick=args.quick, each_effect=args.each_effect)
     rungs = rungs.including(automatic(scene, accuracy, asked))
     expected = expected_wall(rungs, plan)
@@ -99,6 +101,18 @@ def run(args: argparse.Namespace) -> int:
     if ladder.interrupted:
         print("beardyn: interrupted; the rungs done so far are kept", file=sys.stderr)
     return INTERRUPTED if ladder.interrupted else DONE
+
+
+def _refuse_what_it_cannot_compare(scene: Scene, asked: tuple[str, ...], has_fault_line: bool) -> None:
+    problems = []
+    if scene.numerics.integrator != "implicit":
+        problems.append(
+            f"{scene.name}: numerics.integrator: the ladder compares implicit steps; allowed is 'implicit'"
+        )
+    if "fault_line" in asked and not has_fault_line:
+        problems.append(f"--quantities: 'fault_line': {scene.name} has no fault whose line could be compared")
+    if problems:
+        raise InputError(problems)
 
 
 def _names(text: str) -> tuple[str, ...]:

@@ -220,7 +220,7 @@ class _Reading:
             keys = SceneKeys.model_validate(self.data)
         except ValidationError as error:
             self.problems += sentences(error, self.origins)
-        self._check_contradictions()
+        self._check_contradictions(free)
         self._check_integrator(free)
         if self.problems:
             raise InputError(list(dict.fromkeys(self.problems)))
@@ -305,9 +305,9 @@ class _Reading:
         except InputError as error:
             self.problems += error.problems
 
-    def _check_contradictions(self) -> None:
+    def _check_contradictions(self, free: Free) -> None:
         """What is well written and cannot be; parts with other mistakes are left out."""
-        self._check_tier()
+        self._check_tier(free)
         self._check_pockets()
         self._check_wheel()
         bearing_keys = _valid(BearingKeys, self.data.get("bearing"))
@@ -344,13 +344,15 @@ class _Reading:
                 place = key_path(("operation", "wheel_defects", index))
                 self.problems.append(f"{self.origins[0].label}: {place}.{problem}")
 
-    def _check_tier(self) -> None:
+    def _check_tier(self, free: Free) -> None:
         tier = self.data.get("tier", "full")
         effects = _valid(EffectsKeys, self.data.get("effects"))
         numerics = _valid(NumericsKeys, self.data.get("numerics", {}))
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.noun().rib is not None
             found = contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample)
+            if free.tier:
+                found = [f"auto may have to take the tier {tier!r}: {problem}" for problem in found]
             self._complain(("tier",), found)
 
     def _check_integrator(self, free: Free) -> None:

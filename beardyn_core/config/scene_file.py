@@ -233,8 +233,8 @@ class NumericsKeys(FileModel):
     )
     steps_per_sample: StepsPerSample = Field(
         4,
-        description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers, also 0.5 or 0.25 in "
-        "tier lumped; to be given with integrator: explicit, up to "
+        description="time steps per waveform sample of 1/25600 s; 1 in the fast tiers, also 0.5 and in tier "
+        "lumped 0.25; to be given with integrator: explicit, up to "
         f"{LARGEST_STEPS['explicit']}",
     )
 

@@ -99,15 +99,15 @@ def is_fatal(status: int) -> bool:
 def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
     """Chatter index of the last block for each raceway contact, shape [raceway, block, lane].
 
-    The rms of the second difference of the friction force over the friction capacity, less what the force
-    has moved over both steps; a period-2 oscillation at full friction has the index 2, smooth friction and a
-    jump nearly 0.
+    The rms of what flips in the friction force (`kernels.exchange.watch_chatter`) over the rms of the
+    friction capacity. Full friction that flips every step has the index 2, every second step 0.7; smooth
+    friction has nearly 0, and a strike what it is beside its own load.
     """
     index = []
     for ring in range(2):
         first = CHATTER + ring * CHATTER_FIELDS
         rms = np.sqrt(state.rollers[:, first + CHATTER_SQUARES] / step_count)
-        capacity = state.rollers[:, first + CHATTER_LOAD] / step_count
+        capacity = np.sqrt(state.rollers[:, first + CHATTER_LOAD] / step_count)
         index.append(rms / np.maximum(capacity, CHATTER_LOAD_FLOOR))
     return np.array(index)
 
@@ -174,7 +174,7 @@ def _chatters(rollers: Any, block: Any, lane: Any, step_count: Any) -> Any:
     for ring in range(2):
         first = CHATTER + ring * CHATTER_FIELDS
         rms = math.sqrt(rollers[block, first + CHATTER_SQUARES, lane] / step_count)
-        capacity = rollers[block, first + CHATTER_LOAD, lane] / step_count
+        capacity = math.sqrt(rollers[block, first + CHATTER_LOAD, lane] / step_count)
         found = found or rms / max(capacity, CHATTER_LOAD_FLOOR) > LARGEST_CHATTER_INDEX
     return found
 

@@ -112,9 +112,10 @@ def output_contact(
 
 @inline
 def watch_chatter(lanes: Any, rollers: Any, block: Any, ring: Any, friction: Any, capacity: Any) -> None:
-    """Sum the second difference of the friction force, which a period-2 oscillation fills.
+    """Sum the squares of what flips in the friction force, and of its capacity.
 
-    Less what the force has moved over both steps: a strike bends its course as well, but does not return.
+    What flips is its second difference, less half of what it has moved over both steps: a strike that the
+    steps resolve moves more than it bends.
     """
     first = CHATTER + ring * CHATTER_FIELDS
     last = lanes.load(rollers, block, first + CHATTER_LAST)
@@ -124,9 +125,11 @@ def watch_chatter(lanes: Any, rollers: Any, block: Any, ring: Any, friction: Any
     lanes.store(rollers, block, first + CHATTER_BEFORE, last)
     lanes.store(rollers, block, first + CHATTER_LAST, friction)
     squares = lanes.load(rollers, block, first + CHATTER_SQUARES)
-    lanes.store(rollers, block, first + CHATTER_SQUARES, squares + at_least(bend * bend - move * move, 0.0))
+    lanes.store(
+        rollers, block, first + CHATTER_SQUARES, squares + at_least(bend * bend - 0.5 * move * move, 0.0)
+    )
     loads = lanes.load(rollers, block, first + CHATTER_LOAD)
-    lanes.store(rollers, block, first + CHATTER_LOAD, loads + capacity)
+    lanes.store(rollers, block, first + CHATTER_LOAD, loads + capacity * capacity)
 
 
 @inline

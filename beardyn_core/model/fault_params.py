@@ -34,6 +34,8 @@ Float = NDArray[np.float64]
 
 SURFACES = ("cup", "cone", "roller")
 
+_SMALLEST_PART = 1.0e-9  # of a lamina
+
 
 def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> FaultParams:
     """All faults at t = 0; what the scene does not have is ``None``."""
@@ -111,12 +113,18 @@ def surface_radius(bearing: Bearing, on: str) -> float:
 
 
 def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
-    """Share of the length of each lamina that a patch covers, shape [lamina], [-]."""
+    """Share of the length of each lamina that a patch covers, shape [lamina], [-].
+
+    A part that is rounding is none: the surface under it does not exist.
+    """
     place = lamina_places(bearing, count)
     half = 0.5 * bearing.effective_length / count
     low = np.maximum(place - half, patch.offset - 0.5 * patch.length)
     high = np.minimum(place + half, patch.offset + 0.5 * patch.length)
-    return np.asarray(np.clip((high - low) / (2.0 * half), 0.0, 1.0))
+    cover = np.clip((high - low) / (2.0 * half), 0.0, 1.0)
+    cover[cover < _SMALLEST_PART] = 0.0
+    cover[cover > 1.0 - _SMALLEST_PART] = 1.0
+    return np.asarray(cover)
 
 
 def damage_params(laminae: Float, width: int) -> DamageParams:

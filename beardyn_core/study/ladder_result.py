@@ -99,10 +99,15 @@ class RungResult:
         return max(found, key=lambda score: score.value, default=None)
 
     def verdict(self, asked: tuple[str, ...], accuracy: float) -> str:
-        """Whether the rung meets an accuracy: ``yes``, ``no`` or ``open`` (the band hides it)."""
+        """Whether the rung meets an accuracy: ``yes``, ``no``, ``open`` (the band hides it).
+
+        ``-`` where the scene has nothing of what is asked for.
+        """
         if not self.errors:
             return "no"
-        found = {error.verdict(accuracy) for error in self.errors if error.quantity in asked}
+        found = {error.verdict(accuracy) for error in self.errors if error.quantity in asked and error.parts}
+        if not found:
+            return "-"
         return "no" if "no" in found else "open" if "open" in found else "yes"
 
 

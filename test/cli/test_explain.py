@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -45,3 +46,37 @@ def test_explain_of_a_wrong_quantity_is_bad_input(capsys: pytest.CaptureFixture[
     said = capsys.readouterr().err
     assert "--quantities" in said
     assert "--accuracy -1" in said
+
+
+@pytest.mark.parametrize("tier", ["lumped", "quasistatic", "auto"])
+def test_explain_of_heat_in_any_tier(tier: str, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    scene = tmp_path / "warm.yaml"
+    scene.write_text(WARM.format(tier=tier, preset="auto" if tier == "auto" else "full"))
+    assert main(["explain", str(scene), "--json"]) == DONE
+    found = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert found["current"]["decisions"]
+
+
+WARM = """
+scene: warm
+bearing: HS130x230
+lubricant: L055
+tier: {tier}
+effects: {{preset: {preset}, thermal: {{}}, audit: {{}}}}
+operation: {{kind: constant, force_kN: [0, 0, 80], speed_rpm: 1165}}
+duration_s: 1.0
+"""
+
+
+def test_explain_tells_what_the_scene_has_where_no_rule_offers_it(capsys: pytest.CaptureFixture[str]) -> None:
+    """Nothing of the reference's friction and cage is said to be there, and no error is made up."""
+    words = ["explain", "static_80kN", "--effects", "frictionless", "--quantities", "force, torque", "--json"]
+    assert main(words) == DONE
+    current = json.loads(capsys.readouterr().out)["current"]
+    by_name = {decision["effect"]: decision for decision in current["decisions"]}
+    assert by_name["traction"]["choice"] == "off"
+    assert not by_name["traction"]["on"]
+    assert by_name["traction"]["error"] == {"force": None, "torque": None}
+    assert "judged like" in by_name["rib"]["reason"]
+    assert current["expected_error"]["torque"] is None
+    assert not current["within_accuracy"]

@@ -123,3 +123,19 @@ def test_an_interrupt_keeps_the_rungs_done_so_far(
     assert found["interrupted"]
     done = {(row["tier"], row["steps_per_sample"]) for row in found["rungs"]}
     assert done == {*FAST, ("full", 2)}
+
+
+def test_what_cannot_be_compared_is_refused_before_anything_runs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], runs: list[Any]
+) -> None:
+    scene = tmp_path / "explicit.yaml"
+    scene.write_text(
+        "scene: explicit\nbearing: HS130x230\nlubricant: L055\nduration_s: 0.5\n"
+        "numerics: {integrator: explicit, steps_per_sample: 391}\n"
+        "operation: {kind: constant, force_kN: [0, 0, 80], speed_rpm: 1165}\n"
+    )
+    assert command.main(["ladder", str(scene), "--quantities", "force,fault_line"]) == command.BAD_INPUT
+    told = capsys.readouterr().err
+    assert "numerics.integrator" in told
+    assert "has no fault" in told
+    assert not runs

@@ -56,7 +56,7 @@ class ContactRun:
 
     @property
     def index(self) -> float:
-        """Chatter index as the twin's own monitor computes it, [-]."""
+        """Chatter index of the twin's own monitor, [-]."""
         return float(chatter_index(self._state(), len(self.friction)).max())
 
     @property
@@ -71,10 +71,10 @@ class ContactRun:
     def _state(self) -> State:
         """A state that holds nothing but the friction memory of this roller."""
         f = self.friction
-        second = f[1:-1] - 0.5 * (f[:-2] + f[2:])
+        bend, move = f[1:-1] - 0.5 * (f[:-2] + f[2:]), 0.5 * (f[2:] - f[:-2])
         rollers = np.zeros((1, ROLLER_FIELDS, 2))
-        rollers[0, CHATTER + CHATTER_SQUARES] = (second**2).sum()
-        rollers[0, CHATTER + CHATTER_LOAD] = FRICTION * LOAD * len(f)
+        rollers[0, CHATTER + CHATTER_SQUARES] = np.maximum(bend**2 - 0.5 * move**2, 0.0).sum()
+        rollers[0, CHATTER + CHATTER_LOAD] = (FRICTION * LOAD) ** 2 * len(f)
         return State(rollers, np.zeros((4, BODY_STATES)), np.zeros(ENERGY_TERMS), np.zeros((0, 2, 2)))
 
 
