@@ -2,12 +2,13 @@
 
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
 converged reference of the ladder. Finished scenes are kept in ``--keep``, so that a run that was cut off goes
-on. ``python docs/write_automatic.py [SCENE ...] [--keep FOLDER] [--to FILE]``; about half an hour.
+on; an edit of the package begins anew. ``python docs/write_automatic.py [SCENE ...] [--keep FOLDER] [--to FILE]``; about half an hour.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
 import json
 import logging
 from collections.abc import Iterator
@@ -15,6 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import beardyn_core
 from beardyn_core.choice.outcome import Choice
 from beardyn_core.choice.rule import percent
 from beardyn_core.config import load_scene
@@ -118,6 +120,13 @@ def row(case: dict[str, Any]) -> str:
     return f"| `{case['scene']}` | {asked} | {chosen} | {found}{status} | {case['verdict']} |"
 
 
+def _hash_of_sources() -> str:
+    digest = hashlib.sha256()
+    for path in sorted(Path(beardyn_core.__path__[0]).rglob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:12]
+
+
 def main() -> None:
     """Run what is not kept yet, and write the page."""
     parser = argparse.ArgumentParser(
@@ -129,9 +138,9 @@ def main() -> None:
     arguments = parser.parse_args()
     arguments.keep.mkdir(parents=True, exist_ok=True)
     logging.getLogger("beardyn").setLevel(logging.WARNING)
-    rows = []
+    rows, sources = [], _hash_of_sources()
     for name in arguments.scenes:
-        kept = arguments.keep / f"{name}.json"
+        kept = arguments.keep / f"{name}-{sources}.json"
         if not kept.exists():
             kept.write_text(json.dumps(list(tried(name)), indent=1), encoding="utf-8")
         rows += [row(case) for case in json.loads(kept.read_text(encoding="utf-8"))]

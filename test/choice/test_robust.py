@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from beardyn_core.config import shipped_names
 from beardyn_core.errors import InputError
 from beardyn_core.scene.scene import QUANTITIES
+from beardyn_core.scene.tier import TIER_NAMES
 from test.choice.scenes import SPALL, constant, variant
 
 FORCES = st.floats(-90.0, 90.0)
@@ -29,6 +30,10 @@ FORCES = st.floats(-90.0, 90.0)
     quantities=st.lists(st.sampled_from(QUANTITIES), min_size=1, unique=True),
     accuracy=st.floats(0.1, 50.0),
     defects=st.sampled_from([[], [SPALL]]),
+    tier=st.sampled_from(["auto", "full", "quasistatic", "lumped"]),
+    effects=st.sampled_from(
+        ["auto", {"preset": "auto", "thermal": {}, "audit": {}}, {"preset": "auto", "cage": False}]
+    ),
 )
 def test_a_choice_is_found_for_every_valid_scene(
     bearing: str,
@@ -42,8 +47,12 @@ def test_a_choice_is_found_for_every_valid_scene(
     quantities: list[str],
     accuracy: float,
     defects: list[dict[str, Any]],
+    tier: str,
+    effects: Any,
 ) -> None:
     scene = variant(
+        tier=tier,
+        effects=effects,
         bearing=bearing,
         lubricant=lubricant,
         operation=constant(list(force), speed),
@@ -54,7 +63,7 @@ def test_a_choice_is_found_for_every_valid_scene(
         accuracy_percent=accuracy,
         defects=defects,
     )
-    assert scene.tier in ("lumped", "quasistatic", "full")
+    assert scene.tier == tier or (tier == "auto" and scene.tier in TIER_NAMES)
     assert scene.effects.rib is not None
     assert len(scene.chosen) >= 3
 
