@@ -2,7 +2,8 @@
 
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
 converged reference of the ladder. Finished scenes are kept in ``--keep``, so that a run that was cut off goes
-on; an edit of the package begins anew. ``python docs/write_automatic.py [SCENE ...] [--keep FOLDER] [--to FILE]``; about half an hour.
+on; an edit of the package begins anew. About half an hour:
+``python docs/write_automatic.py [SCENE ...] [--keep FOLDER] [--to FILE]``.
 """
 
 from __future__ import annotations
