@@ -265,3 +265,12 @@ def test_the_reference_itself_is_expected_to_have_no_error() -> None:
     scene = load_scene("smooth_run", effects="full", duration=1.0)
     found = choose(replace(scene, numerics=replace(scene.numerics, laminae=40)), NOTHING)
     assert found.expected == pytest.approx(dict.fromkeys(scene.quantities, 0.0), abs=2e-3)
+
+
+@pytest.mark.parametrize("tier", ["lumped", "quasistatic"])
+def test_a_light_axlebox_gets_the_step_of_its_mode(tier: str) -> None:
+    """As without `auto`: its fastest mode turns by more than 1 rad in a sample."""
+    light = {"cup": "suspended", "journal_tilt": "locked", "box_mass_kg": 10, "journal_mass_kg": 20}
+    assert variant(tier=tier, mounting=light).numerics.steps_per_sample == 2
+    assert variant(tier=tier, mounting=light, effects="standard").numerics.steps_per_sample == 2
+    assert variant(tier=tier).numerics.steps_per_sample == 1
