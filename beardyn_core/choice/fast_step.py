@@ -6,13 +6,12 @@ import math
 
 import numpy as np
 
-from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import static_rating
 from beardyn_core.integrate.step_choice import StepChoice
 from beardyn_core.model.box_coupling import box_coupling
 from beardyn_core.model.build import WAVEFORM_RATE
-from beardyn_core.model.tier_parameters import lever_of_cup
+from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene
@@ -43,9 +42,7 @@ def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: in
     rollers = rows * bearing.roller_count
     # Stribeck's and Sjovall's factor of a line contact
     heaviest = 4.08 * static_rating(bearing) * 0.5 * rows / (rollers * cosine)
-    # two contacts in series are 2^(10/9) softer than one
-    factor = line_contact_factor(bearing.material, bearing.effective_length) / 2.0**LINE_EXPONENT
-    tangent = LINE_EXPONENT * factor ** (1.0 / LINE_EXPONENT) * heaviest ** (1.0 - 1.0 / LINE_EXPONENT)
+    tangent = roller_tangent(bearing) * heaviest**0.1
     carrying = rollers * (1.0 if preloaded else 0.5)
     across, along = 0.5 * carrying * tangent * cosine**2, carrying * tangent * sine**2
     about = 0.5 * carrying * tangent * lever**2
@@ -67,7 +64,7 @@ def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: in
     return math.sqrt(float(np.linalg.eigvalsh(squared).max()))
 
 
-def fast_steps(scene: Scene) -> StepChoice:
+def fast_steps(scene: Scene, long: bool = True) -> StepChoice:
     """Longest step that a run of a scene in a fast tier is converged with.
 
     Steps longer than a waveform sample end the band of the waveforms at 0.4 of the step rate. A healthy
@@ -78,6 +75,8 @@ def fast_steps(scene: Scene) -> StepChoice:
     ----------
     scene : Scene
         In the tier ``lumped`` or ``quasistatic``; its own numerics do not matter.
+    long : bool
+        Whether a step may be longer than a sample.
     """
     noun = TIERS[scene.tier]
     fastest = fastest_mode(scene.bearing, scene.mounting, scene.end_play < 0.0, scene.rows)
@@ -86,11 +85,13 @@ def fast_steps(scene: Scene) -> StepChoice:
     if needed > 1.0:
         steps = min(math.ceil(needed), _MOST_STEPS)
         return StepChoice(steps, f"{mode}, turn by {fastest / steps / WAVEFORM_RATE:.2g} rad a step")
+    if not long:
+        return StepChoice(noun.steps_per_sample, f"the usual step of the tier {scene.tier}")
     sudden = _sudden(scene)
     if not sudden and scene.tier == "quasistatic" and scene.mounting.cup == "suspended":
         sudden = "vibrations of the box, which follow the rollers to 8 kHz,"
     if sudden:
-        return StepChoice(1, f"{sudden} fill the band of the waveforms")
+        return StepChoice(noun.steps_per_sample, f"{sudden} fill the band of the waveforms")
     steps_per_sample = next((steps for steps in noun.long_steps if needed <= steps), noun.steps_per_sample)
     turn = fastest / steps_per_sample / WAVEFORM_RATE
     return StepChoice(steps_per_sample, f"{mode}, turn by {turn:.2g} rad a step, and nothing strikes")

@@ -16,6 +16,7 @@ from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.choice.rule import Influence, percent
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, StepChoice, choose_steps
+from beardyn_core.model.fault_params import lamina_cover
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 
@@ -124,8 +125,7 @@ def taking_error(patch: Patch, bearing: Bearing, coupling: LaminaCoupling, count
     """
 
     def taken(laminae: int) -> float:
-        step = bearing.effective_length / laminae
-        cover = 1.0 - np.array(_uncovered(patch, bearing.effective_length, laminae)[1]) / step
+        cover = lamina_cover(bearing, patch, laminae)
         depth = np.full(laminae, _DEPTH)
         gap = np.full(laminae, patch.depth)
         joint, share = joint_depth(depth, gap, cover, part_exponent(coupling.strength))
@@ -146,17 +146,13 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
     """
     loads, scene = evidence.loads, evidence.scene
     if tier != "full":
-        found = fast_steps(replace(scene, tier=tier))
-        if found.steps_per_sample < 1:
-            found = StepChoice(1, f"the usual step of the tier {tier}")
-        return served(found, scene.sensors)
+        return served(fast_steps(replace(scene, tier=tier), long=False), scene.sensors)
     radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
     found = choose_steps(
         scene.bearing,
         (min(radial), max(radial)),
         (abs(loads.typical.speed), loads.top_speed),
         effects,
-        tier,
         laminae,
         axial=loads.axial_high,
         end_play=scene.end_play,

@@ -26,7 +26,5 @@ def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
         if steps > noun.steps_per_sample:
             found = StepChoice(steps, "friction as steep as this flips with longer steps")
     else:
-        found = fast_steps(scene)
-        if outside_load and found.steps_per_sample < 1:
-            found = StepChoice(1, "nothing is known of a load from outside")
+        found = fast_steps(scene, long=not outside_load)
     return served(found, scene.sensors)

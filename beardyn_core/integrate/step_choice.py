@@ -52,7 +52,8 @@ _WITHIN_DECIBELS = {2: 7_100.0}
 _FULL_BAND_STEPS = 3
 _BAND_PER_STEP = 3_770.0
 _BOUNCES_PER_STEP, _UNDAMPED_BOUNCES_PER_STEP = 0.5, 0.25
-# Chatter index of friction with a slope of 10 s/m at 2 steps per sample; it goes with this power of the step.
+# Chatter index of friction with a slope of 10 s/m at 2 steps per sample, before what moves was taken off it:
+# on the side of more steps; it goes with this power of the step.
 _CHATTER_INDEX = 0.33
 _CHATTER_SLOPE = 10.0
 _CHATTER_POWER = 1.4
@@ -87,7 +88,6 @@ def choose_steps(
     loads: tuple[float, float],
     speeds: tuple[float, float],
     effects: EffectSet,
-    tier: str = "full",
     laminae: int = 6,
     *,
     axial: float = 0.0,
@@ -95,7 +95,7 @@ def choose_steps(
     mounting: Mounting | None = None,
     band: float = AUDIBLE_BAND,
 ) -> StepChoice:
-    """Coarsest step that is converged over a range of loads and speeds.
+    """Coarsest step of the full tier that is converged over a range of loads and speeds.
 
     Parameters
     ----------
@@ -105,7 +105,6 @@ def choose_steps(
     speeds : tuple of float
         Slowest and fastest shaft speed, [rad/s].
     effects : EffectSet
-    tier : str
     laminae : int
     axial : float
         Axial load that goes with the largest radial one, [N].
@@ -126,8 +125,6 @@ def choose_steps(
     ValidityError
         There is no static equilibrium under the largest load.
     """
-    if tier != "full":
-        return _fast_tier(tier)
     static = solve(
         bearing,
         (0.0, axial, max(abs(load) for load in loads)),
@@ -145,13 +142,6 @@ def choose_steps(
     ]
     decisive = max(found, key=lambda choice: choice.steps_per_sample)
     return StepChoice(min(decisive.steps_per_sample, LARGEST_STEPS), decisive.reason)
-
-
-def _fast_tier(tier: str) -> StepChoice:
-    usual = TIERS[tier].steps_per_sample
-    return StepChoice(
-        usual, f"tier {tier} has no roller that bounces or slips: its usual {usual} steps per sample"
-    )
 
 
 def _vibration(band: float) -> StepChoice:

@@ -83,11 +83,6 @@ def test_a_light_axlebox_and_a_stiff_cage_take_smaller_steps() -> None:
     assert "pocket" in found.reason
 
 
-def test_fast_tiers_keep_their_own_step() -> None:
-    assert steps(tier="lumped") == 1
-    assert steps(tier="quasistatic") == 1
-
-
 def test_chatter_advises_the_automatic_step() -> None:
     assert "auto" in describe(Status.CHATTER)
 
