@@ -4,6 +4,7 @@
 PYTHON ?= python3
 VENV ?= .venv
 ARGS ?=
+BASE ?= HEAD
 
 BIN := $(VENV)/bin
 METADATA := setup.py setup.cfg pyproject.toml package.xml
@@ -15,7 +16,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow hard bench performance costs step ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs step ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -26,6 +27,9 @@ demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup,
 
 test: $(VENV)/.ready-test ## set up, then the tests
 	@$(BIN)/python -m pytest $(ARGS)
+
+same: $(VENV)/.ready-test ## short runs of every tier beside those of commit BASE (default: the last one): same to the bit, or where not
+	@$(BIN)/python -m test.golden.same $(BASE) $(ARGS)
 
 slow: $(VENV)/.ready-test ## set up, then the long tests as well
 	@$(BIN)/python -m pytest -m "slow or not slow" $(ARGS)
