@@ -28,13 +28,13 @@ from beardyn_core.laboratory.timing import (
     random_results,
 )
 
-# The ancestor's run: 0.03 s. Its Runge-Kutta 4(5) made steps of 1.33 us in the mean on a copy of its model,
-# six evaluations each.
+# The run of Santos (2017): Runge-Kutta 4(5) made steps of 1.33 us in the mean on a copy of its model, six
+# evaluations each.
 RUN_SECONDS, MEAN_STEP, EVALUATIONS_PER_STEP = 0.03, 1.33e-6, 6
 EVALUATIONS = round(RUN_SECONDS / MEAN_STEP * EVALUATIONS_PER_STEP)
-# hours of the ancestor's Table 1, whole run
-ANCESTOR_HOURS = {"fsolve": 24.0, "numeric Newton": 8.0, "analytic Newton": 9.5}
-CONTACT_SHARE = 0.8  # of the ancestor's time, by its own estimate
+# Santos (2017), Table 1: hours of the whole run
+SANTOS_HOURS = {"fsolve": 24.0, "numeric Newton": 8.0, "analytic Newton": 9.5}
+CONTACT_SHARE = 0.8  # of that time, by its own estimate
 LOAD = 5.0e3
 BARREL_LOADS = (10.0e3, 25.0e3, 50.0e3, 100.0e3)
 GOOD_FRICTION = 2.0e-4  # transition speed of the run with little creep, [m/s]
@@ -114,7 +114,7 @@ class Findings:
         return SEARCHES_PER_ROLLER * self.bearing.roller_count
 
     def run_hours(self, result: WayResult, evaluations: int = EVALUATIONS) -> float:
-        """Contact detection of the ancestor's run of 0.03 s, [h]."""
+        """Contact detection of the run of Santos (2017), 0.03 s, [h]."""
         return result.microseconds * 1e-6 * self.searches_per_evaluation * evaluations / 3600.0
 
 
@@ -220,9 +220,9 @@ def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = 
     )
 
 
-def ancestor_hours(way: str) -> float | None:
-    """Of the ancestor's Table 1 for a way, [h]."""
-    return ANCESTOR_HOURS.get(way.split(",")[0]) if way in WAYS else None
+def santos_hours(way: str) -> float | None:
+    """Look up the hours of Santos (2017), Table 1, for a method."""
+    return SANTOS_HOURS.get(way.split(",")[0]) if way in WAYS else None
 
 
 def largest_lean(run: Rolling) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.laboratory.findings import ANCESTOR_HOURS, EVALUATIONS, Findings
+from beardyn_core.laboratory.findings import EVALUATIONS, SANTOS_HOURS, Findings
 from beardyn_core.study.contacts_tables import rolling_summary, tables
 from beardyn_core.study.ladder_report import machine
 
@@ -27,7 +27,7 @@ def json_object(found: Findings) -> dict[str, Any]:
         "seconds": found.seconds,
         "evaluations": EVALUATIONS,
         "searches_per_evaluation": found.searches_per_evaluation,
-        "ancestor_hours": ANCESTOR_HOURS,
+        "santos_hours": SANTOS_HOURS,
         "row_difference": found.row_difference,
         "located": [asdict(contact) for contact in found.located],
         "random_rollers": [asdict(result) for result in found.random_rollers],

@@ -15,8 +15,8 @@ from beardyn_core.laboratory.findings import (
     MEAN_STEP,
     RUN_SECONDS,
     Findings,
-    ancestor_hours,
     largest_lean,
+    santos_hours,
 )
 from beardyn_core.laboratory.nine_contacts import PAIRINGS, SEARCHES_PER_ROLLER
 from beardyn_core.laboratory.rolling import Rolling
@@ -111,10 +111,10 @@ def contacts_table(found: Findings) -> Table:
 
 
 def run_table(found: Findings) -> Table:
-    """The ancestor's Table 1, extrapolated."""
+    """Set Santos (2017), Table 1, beside ours, extrapolated to its run."""
     rows = []
     for result in found.whole_bearing:
-        ancestor = ancestor_hours(result.way)
+        hours = santos_hours(result.way)
         rows.append(
             (
                 result.way,
@@ -123,8 +123,8 @@ def run_table(found: Findings) -> Table:
                 percent(result.failures),
                 nanometres(result.largest_error),
                 duration_text(found.run_hours(result)),
-                f"{CONTACT_SHARE * ancestor:.1f} h of {ancestor:g} h"
-                if ancestor is not None and result.way.endswith("plain")
+                f"{CONTACT_SHARE * hours:.1f} h of {hours:g} h"
+                if hours is not None and result.way.endswith("plain")
                 else "-",
             )
         )
@@ -149,14 +149,14 @@ def run_table(found: Findings) -> Table:
             "failures [%]",
             "gap error [nm]",
             "run",
-            "ancestor (2017)",
+            "Santos (2017)",
         ),
         tuple(rows),
         (
             f"run: {found.searches_per_evaluation} searches x {EVALUATIONS} evaluations "
             f"(Runge-Kutta 4(5), mean step {MEAN_STEP * 1e6:g} us, {EVALUATIONS_PER_STEP} evaluations a "
             f"step), detection alone; the twin's step: {TWIN_EVALUATIONS} evaluations",
-            f"ancestor: {CONTACT_SHARE:.0%} of its whole time, which it says goes into the contact points",
+            f"Santos (2017): {CONTACT_SHARE:.0%} of its time, which it says goes into the contact points",
         ),
     )
 

@@ -12,8 +12,6 @@ from beardyn_core.cli.contacts import option_problems
 from beardyn_core.cli.main import BAD_INPUT, DONE, main
 from beardyn_core.study.table import Table, digits, duration_text
 
-WRITER = Path(__file__).parents[2] / "docs" / "write_contacts.py"
-
 
 def test_all_mistakes_are_named_at_once_and_nothing_is_written(tmp_path, capsys) -> None:
     missing = tmp_path / "no" / "folder"
@@ -64,14 +62,14 @@ def test_quick_run_prints_writes_and_makes_the_page(tmp_path, capsys) -> None:
     assert (folder / "a.rrd").stat().st_size > 10_000
     page = tmp_path / "docs"
     page.mkdir()
-    write = [sys.executable, str(WRITER), str(folder), "--to", str(page)]
+    write = [sys.executable, "-m", "evidence.contacts.page", str(folder), "--to", str(page)]
     subprocess.run(write, check=True)
     (page / "contacts.md").write_text(
         (page / "contacts.md").read_text().replace("Not yet on this page.", "Kept.")
     )
     subprocess.run(write, check=True)
     text = (page / "contacts.md").read_text()
-    assert text.count("<!-- ancestor's runs -->") == 1
+    assert text.count("<!-- the runs of Santos (2017) -->") == 1
     assert "\nKept.\n" in text
     for line in text.splitlines():
         if line.startswith("!["):
