@@ -1,4 +1,4 @@
-"""Errors of a rung against the reference, each with the band that runs of one rung scatter in.
+"""Errors of a level against the reference, each with the band that runs of one level scatter in.
 
 The bearing is chaotic: two runs that begin a hair apart share statistics, not trajectories. Repeated runs
 give the variance of every component twice: between whole runs, and between the same windows of two runs
@@ -88,7 +88,7 @@ class QuantityError:
 
 
 def errors(found: Sequence[Outcome], reference: Sequence[Outcome]) -> tuple[QuantityError, ...]:
-    """Errors of the runs of a rung against the runs of the reference.
+    """Errors of the runs of a level against the runs of the reference.
 
     Parameters
     ----------

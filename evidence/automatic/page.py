@@ -21,18 +21,18 @@ import beardyn_core
 from beardyn_core.choice.outcome import Choice
 from beardyn_core.choice.rule import percent
 from beardyn_core.config import load_scene
-from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_rungs, plan_of
-from beardyn_core.study.ladder_report import error_text
-from beardyn_core.study.ladder_result import Ladder, RungResult
-from beardyn_core.study.ladder_rungs import (
+from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, plan_of
+from beardyn_core.study.ladder_levels import (
     AUTO,
     REFERENCE_LAMINAE,
     REFERENCE_STEPS,
-    RungList,
+    LevelList,
     chosen_for,
-    rung_of,
-    rungs_of,
+    level_of,
+    levels_of,
 )
+from beardyn_core.study.ladder_report import error_text
+from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import UNITS
 from evidence.pages import DOCS
 
@@ -72,21 +72,21 @@ def tried(name: str) -> Iterator[dict[str, Any]]:
     scene = load_scene(name)
     plan = plan_of(scene)
     choices = [chosen_for(scene, accuracy, asked) for asked, accuracy in CASES[name]]
-    rungs = tuple(
-        rung_of(choice.applied(scene), AUTO, name=f"case {number}") for number, choice in enumerate(choices)
+    levels = tuple(
+        level_of(choice.applied(scene), AUTO, name=f"case {number}") for number, choice in enumerate(choices)
     )
-    few = replace(rungs_of(scene, quick=True), rungs=rungs)
-    compile_rungs(plan, few, lambda _name, _count: None)
-    ladder = climb(plan, RungList(few.reference, few.neighbour, rungs), 0.05)
+    few = replace(levels_of(scene, quick=True), levels=levels)
+    compile_levels(plan, few, lambda _name, _count: None)
+    ladder = climb(plan, LevelList(few.reference, few.neighbour, levels), 0.05)
     if ladder.interrupted:
         raise KeyboardInterrupt
-    for (asked, accuracy), choice, rung in zip(CASES[name], choices, rungs, strict=True):
-        row = next(row for row in ladder.rows if row.rung == rung)
+    for (asked, accuracy), choice, level in zip(CASES[name], choices, levels, strict=True):
+        row = next(row for row in ladder.rows if row.level == level)
         yield _case(ladder, row, choice, asked, accuracy)
 
 
 def _case(
-    ladder: Ladder, row: RungResult, choice: Choice, asked: tuple[str, ...], accuracy: float
+    ladder: Ladder, row: LevelResult, choice: Choice, asked: tuple[str, ...], accuracy: float
 ) -> dict[str, Any]:
     return {
         "scene": ladder.scene,
@@ -96,7 +96,7 @@ def _case(
         "laminae": choice.laminae,
         "steps_per_sample": choice.steps_per_sample,
         "effects": list(choice.effects.names()),
-        "missing": [n for n in ladder.reference.rung.effects.names() if n not in choice.effects.names()],
+        "missing": [n for n in ladder.reference.level.effects.names() if n not in choice.effects.names()],
         "expected": {name: _expected(choice, name) for name in asked},
         "found": {name: f"{error_text(row.of(name))} {UNITS[name]}" for name in asked},
         "status": row.status,

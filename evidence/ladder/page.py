@@ -17,7 +17,8 @@ from tqdm import tqdm
 from beardyn_core.config import load_scene
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.tier import TIERS
-from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_rungs, expected_wall, plan_of
+from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, expected_wall, plan_of
+from beardyn_core.study.ladder_levels import REFERENCE_LAMINAE, REFERENCE_STEPS, automatic, levels_of
 from beardyn_core.study.ladder_picture import ladder_picture
 from beardyn_core.study.ladder_report import (
     choices,
@@ -28,8 +29,7 @@ from beardyn_core.study.ladder_report import (
     machine,
     percent,
 )
-from beardyn_core.study.ladder_result import Ladder, RungResult
-from beardyn_core.study.ladder_rungs import REFERENCE_LAMINAE, REFERENCE_STEPS, automatic, rungs_of
+from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import QUANTITIES, UNITS
 from evidence.pages import DOCS, save_small
 
@@ -52,7 +52,7 @@ The same scene, the same load history, the same noise of the sensors, with other
 numbers of laminae and time steps. The **reference** is the full tier with every effect (`full`),
 {laminae} laminae and a step of 1/{reference_rate:.0f} s ({steps} steps for each sample of 25.6 kHz). How
 far it is converged itself: the errors of *{neighbour}*, with half of its laminae and twice its step. *6
-laminae x 4* is a rung with 4 steps for each sample. `lumped` and `quasistatic` name rungs of these tiers,
+laminae x 4* is a level with 4 steps for each sample. `lumped` and `quasistatic` name levels of these tiers,
 the others are of the full tier.
 
 **Wall time** is the median over all blocks after settling, kernel and observation, per simulated second;
@@ -71,14 +71,14 @@ compiling is apart. The real-time factor (RTF) is its inverse.
 | fault_line | line of the fault in the envelope order spectrum (2 to 10 kHz) | dB |
 
 The comparison covers whole revolutions of the cage. **The bearing is chaotic**: two runs that begin a
-nanometre apart share statistics, not trajectories. So the reference runs {runs} times and cheap rungs run
+nanometre apart share statistics, not trajectories. So the reference runs {runs} times and cheap levels run
 twice, each begun a hair apart, and every error has a band: what the difference of two means stays in with
 95 % probability, for all components of a quantity together, from the scatter between runs and between
 windows of them. An error inside its band is *not resolved* and stands in brackets.
 
 **Accuracy of {accuracy}** means: force, deflection, roller loads and torque within {accuracy} and
 third-octave bands within 1.5 dB. *yes*: all errors are within, with their whole bands; *no*: an error is
-beyond, with its whole band; *open*: a band crosses the limit. A rung is **efficient** (bold) when no cheaper
+beyond, with its whole band; *open*: a band crosses the limit. A level is **efficient** (bold) when no cheaper
 one is as good, run-to-run band considered. The pictures show the worst of these errors in units of its limit.
 """
 
@@ -86,21 +86,21 @@ one is as good, run-to-run band considered. The pictures show the worst of these
 def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
     """The ladder of a scene, with progress on standard error."""
     scene = load_scene(name)
-    plan, rungs = plan_of(scene, duration), rungs_of(scene, quick=quick)
-    rungs = rungs.including(automatic(scene, ACCURACY, scene.quantities))
+    plan, levels = plan_of(scene, duration), levels_of(scene, quick=quick)
+    levels = levels.including(automatic(scene, ACCURACY, scene.quantities))
 
     def told(bar: tqdm) -> Callable[[str, float], None]:
-        def progress(rung: str, done: float) -> None:
-            bar.set_postfix_str(rung, refresh=False)
+        def progress(level: str, done: float) -> None:
+            bar.set_postfix_str(level, refresh=False)
             bar.update(done)
 
         return progress
 
-    with tqdm(total=len(rungs.rungs), desc=f"{name}: compiled") as bar:
-        compile_rungs(plan, rungs, told(bar))
+    with tqdm(total=len(levels.levels), desc=f"{name}: compiled") as bar:
+        compile_levels(plan, levels, told(bar))
     shown = "{desc} {percentage:.0f} % {bar} {postfix} [{elapsed}<{remaining}]"
-    with tqdm(total=expected_wall(rungs, plan), desc=f"{name}: run", bar_format=shown, miniters=0) as bar:
-        return climb(plan, rungs, ACCURACY, progress=told(bar))
+    with tqdm(total=expected_wall(levels, plan), desc=f"{name}: run", bar_format=shown, miniters=0) as bar:
+        return climb(plan, levels, ACCURACY, progress=told(bar))
 
 
 def section(ladder: Ladder, picture: Path) -> list[str]:
@@ -130,16 +130,16 @@ def _line_sentence(ladder: Ladder) -> str:
 
 
 def table(ladder: Ladder) -> list[str]:
-    """Markdown table of all rungs."""
+    """Markdown table of all levels."""
     columns = [f"{quantity} {UNITS[quantity]}" for quantity in QUANTITIES]
-    efficient = {row.rung.name for row in ladder.efficient}
+    efficient = {row.level.name for row in ladder.efficient}
     good = percent(ladder.accuracy)
     rows = [
-        f"| rung | wall s/s | RTF | {' | '.join(columns)} | {good} |",
+        f"| level | wall s/s | RTF | {' | '.join(columns)} | {good} |",
         f"|---|{'--:|' * (len(columns) + 2)}---|",
     ]
     for row in ladder.by_cost:
-        name = f"**{row.rung.name}**" if row.rung.name in efficient else row.rung.name
+        name = f"**{row.level.name}**" if row.level.name in efficient else row.level.name
         cells = [error_text(row.of(quantity)) for quantity in QUANTITIES]
         wall = row.cost.median
         rows.append(
@@ -158,49 +158,51 @@ def lessons(ladder: Ladder) -> list[str]:
         *(f"{text}." for text in choices(ladder)),
         f"Convergence: {convergence(ladder)}.",
     ]
-    full = [row for row in ladder.rows if row.rung.tier == "full"]
+    full = [row for row in ladder.rows if row.level.tier == "full"]
     usual = [row for row in full if _detail(row) == (6, USUAL_STEPS)]
-    usual.sort(key=lambda row: len(row.rung.effects.names()))
+    usual.sort(key=lambda row: len(row.level.effects.names()))
     for quantity in ("torque", "deflection"):
         title = f"Effects (full tier, 6 laminae x {USUAL_STEPS})"
-        found += _along(usual, lambda row: row.rung.effects_name, title, quantity)
-    every = [row for row in full if row.rung.effects_name == "full"]
+        found += _along(usual, lambda row: row.level.effects_name, title, quantity)
+    every = [row for row in full if row.level.effects_name == "full"]
     found += _along(
-        [row for row in every if row.rung.steps_per_sample == USUAL_STEPS],
-        lambda row: f"{row.rung.laminae}",
+        [row for row in every if row.level.steps_per_sample == USUAL_STEPS],
+        lambda row: f"{row.level.laminae}",
         f"Laminae (full tier, every effect, x {USUAL_STEPS})",
         "roller_load",
     )
     for quantity in ("torque", "vibration"):
         found += _along(
-            sorted((row for row in every if row.rung.laminae == 6), key=lambda r: r.rung.steps_per_sample),
-            lambda row: f"{row.rung.steps_per_sample}",
+            sorted((row for row in every if row.level.laminae == 6), key=lambda r: r.level.steps_per_sample),
+            lambda row: f"{row.level.steps_per_sample}",
             "Steps for each sample (full tier, every effect, 6 laminae)",
             quantity,
         )
-    standard = [row for row in ladder.by_cost if row.rung.effects_name == "standard"]
-    tiers = [row for row in standard if (row.rung.tier, *_detail(row)) in USUAL_DETAIL]
+    standard = [row for row in ladder.by_cost if row.level.effects_name == "standard"]
+    tiers = [row for row in standard if (row.level.tier, *_detail(row)) in USUAL_DETAIL]
     for quantity in ("deflection", "roller_load", "vibration"):
-        found += _along(tiers, lambda row: row.rung.tier, "Tiers (standard effects, 6 laminae)", quantity)
+        found += _along(tiers, lambda row: row.level.tier, "Tiers (standard effects, 6 laminae)", quantity)
     return found
 
 
-def _detail(row: RungResult) -> tuple[int, float]:
-    return row.rung.laminae, row.rung.steps_per_sample
+def _detail(row: LevelResult) -> tuple[int, float]:
+    return row.level.laminae, row.level.steps_per_sample
 
 
 def _cheapest(ladder: Ladder) -> str:
     best = ladder.cheapest
     wanted = "; ".join(limits_of(ladder))
     if best is None:
-        return f"No rung is surely within {percent(ladder.accuracy)} ({wanted})."
+        return f"No level is surely within {percent(ladder.accuracy)} ({wanted})."
     return (
-        f"The cheapest rung within {percent(ladder.accuracy)} ({wanted}) is *{best.rung.name}* at "
+        f"The cheapest level within {percent(ladder.accuracy)} ({wanted}) is *{best.level.name}* at "
         f"{best.cost.median:.2f} s for each simulated second."
     )
 
 
-def _along(rows: list[RungResult], name: Callable[[RungResult], str], title: str, quantity: str) -> list[str]:
+def _along(
+    rows: list[LevelResult], name: Callable[[LevelResult], str], title: str, quantity: str
+) -> list[str]:
     if len(rows) < 2:
         return []
     parts = [
@@ -211,14 +213,14 @@ def _along(rows: list[RungResult], name: Callable[[RungResult], str], title: str
 
 
 def summary(ladders: list[Ladder]) -> list[str]:
-    """The efficient rungs of all scenes side by side."""
-    lines = ["## Efficient rungs", "", "| scene | rung | wall s/s | worst error |", "|---|---|--:|---|"]
+    """The efficient levels of all scenes side by side."""
+    lines = ["## Efficient levels", "", "| scene | level | wall s/s | worst error |", "|---|---|--:|---|"]
     for ladder in ladders:
         for row in ladder.efficient:
             score = ladder.score(row)
             assert score is not None
             worst = f"{score.quantity} {error_text(row.of(score.quantity))} {UNITS[score.quantity]}"
-            lines.append(f"| {ladder.scene} | {row.rung.name} | {row.cost.median:.3f} | {worst} |")
+            lines.append(f"| {ladder.scene} | {row.level.name} | {row.cost.median:.3f} | {worst} |")
     return [*lines, ""]
 
 
@@ -228,7 +230,7 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("scenes", nargs="*", default=SCENES, metavar="SCENE")
-    parser.add_argument("--quick", action="store_true", help="few rungs")
+    parser.add_argument("--quick", action="store_true", help="few levels")
     parser.add_argument("--duration", type=float, metavar="S", help="simulated time compared")
     parser.add_argument("--to", type=Path, default=DOCS, metavar="FOLDER")
     arguments = parser.parse_args()
@@ -250,7 +252,7 @@ def main() -> None:
         laminae=REFERENCE_LAMINAE,
         steps=REFERENCE_STEPS,
         reference_rate=WAVEFORM_RATE * REFERENCE_STEPS,
-        neighbour=rungs_of(load_scene(arguments.scenes[0])).neighbour.name,
+        neighbour=levels_of(load_scene(arguments.scenes[0])).neighbour.name,
         runs=REFERENCE_RUNS,
         accuracy=percent(ACCURACY),
     )

@@ -112,12 +112,14 @@ OVER = (
 
 TRENDS = (
     Trend(
-        "skew and tilt", "skew is least and tilt largest at the most loaded roller", ZHAO, attitude_of_the_most_loaded,
+        "skew and tilt",
+        "skew is least and tilt largest at the most loaded roller", ZHAO, attitude_of_the_most_loaded,
         picture="posture.png",
     ),
     Trend("skew and tilt", "the rows tilt opposite ways", ZHAO, rows_tilt_opposite),
     Trend(
-        "skew and tilt", "5 loaded rollers in each row, 7 in the loaded row at 40 mm off centre", ZHAO, loaded_rollers,
+        "skew and tilt",
+        "5 loaded rollers in each row, 7 in the loaded row at 40 mm off centre", ZHAO, loaded_rollers,
         misses="measured with 7 instrumented places in an axlebox of unknown stiffness, which holds the tilt "
         "neither rigidly nor freely",
     ),

@@ -1,4 +1,4 @@
-"""Which rungs a ladder has, and what they are expected to cost."""
+"""The levels of a ladder, each a choice of tier, effects, laminae and step, and their expected cost."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from beardyn_core.choice.outcome import Choice
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
 from beardyn_core.integrate.step_choice import usual_steps
-from beardyn_core.scene.scene import QUANTITIES, Scene
+from beardyn_core.scene.scene import QUANTITIES, Numerics, Scene
+from beardyn_core.scene.sensor import RATES
 from beardyn_core.scene.tier import TIERS
-from beardyn_core.study.rung import Rung
 
 REFERENCE_LAMINAE, REFERENCE_STEPS = 40, 8
 # effects named by these are known by what they hold only
@@ -26,54 +26,96 @@ _MANY_EFFECTS, _MANY_EFFECTS_FACTOR = 10, 1.8
 
 
 @dataclass(frozen=True)
-class RungList:
-    """The reference, its coarser neighbour, and the rungs to be judged.
+class Level:
+    """One choice of what a scene is computed with.
 
     Parameters
     ----------
-    reference : Rung
+    name : str
+        Names the level in tables and pictures.
+    tier : str
+        Name of a tier, see `scene.tier`.
+    effects_name : str
+        What the set of effects is called.
+    effects : EffectSet
+    laminae : int
+        Of each roller.
+    steps_per_sample : float
+        Time steps per waveform sample (25.6 kHz), [-].
+    """
+
+    name: str
+    tier: str
+    effects_name: str
+    effects: EffectSet
+    laminae: int
+    steps_per_sample: float
+
+    def applied(self, scene: Scene) -> Scene:
+        """The scene with this choice; bearing, load, faults and seed stay, sensors all run at 25.6 kHz.
+
+        Parameters
+        ----------
+        scene : Scene
+
+        Returns
+        -------
+        Scene
+        """
+        numerics = Numerics(self.laminae, self.steps_per_sample)
+        sensors = tuple(replace(sensor, rate=RATES[0]) for sensor in scene.sensors)
+        return replace(scene, tier=self.tier, effects=self.effects, numerics=numerics, sensors=sensors)
+
+
+@dataclass(frozen=True)
+class LevelList:
+    """The reference, its coarser neighbour, and the levels to be judged.
+
+    Parameters
+    ----------
+    reference : Level
         Every effect, many laminae, a small step.
-    neighbour : Rung
+    neighbour : Level
         Half of the reference's laminae and twice its step.
-    rungs : tuple of Rung
+    levels : tuple of Level
         The cheapest first.
     """
 
-    reference: Rung
-    neighbour: Rung
-    rungs: tuple[Rung, ...]
+    reference: Level
+    neighbour: Level
+    levels: tuple[Level, ...]
 
-    def including(self, *more: Rung) -> RungList:
-        """The same with other rungs among those to be judged."""
-        return replace(self, rungs=tuple(sorted([*self.rungs, *more], key=expected_cost)))
+    def including(self, *more: Level) -> LevelList:
+        """The same with other levels among those to be judged."""
+        return replace(self, levels=tuple(sorted([*self.levels, *more], key=expected_cost)))
 
 
-def _rung(tier: str, effects_name: str, effects: EffectSet, laminae: int, steps: float) -> Rung:
+def _level(tier: str, effects_name: str, effects: EffectSet, laminae: int, steps: float) -> Level:
     words = [] if tier == "full" else [tier]
     if tier == "full" or effects_name != _FAST_EFFECTS:
         words.append(f"effects {effects_name}")
     name = ", ".join([*words, f"{laminae} laminae x {steps}"])
-    return Rung(name, tier, effects_name, effects, laminae, steps)
+    return Level(name, tier, effects_name, effects, laminae, steps)
 
 
-def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> RungList:
-    """The rungs of a scene's ladder.
+def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> LevelList:
+    """The levels of a scene's ladder.
 
     Parameters
     ----------
     scene : Scene
     quick : bool
-        Few rungs, and none with effects that the shipped presets do not have.
+        Few levels, and none with effects that the shipped presets do not have.
     each_effect : bool
         Also `full` less each of its effects in turn.
 
     Returns
     -------
-    RungList
+    LevelList
     """
     full, standard, dry = (load_effects(name) for name in ("full", "standard", "dry"))
-    reference = replace(_rung("full", "full", full, REFERENCE_LAMINAE, REFERENCE_STEPS), name="reference")
-    neighbour = _rung("full", "full", full, REFERENCE_LAMINAE // 2, REFERENCE_STEPS // 2)
+    reference = replace(_level("full", "full", full, REFERENCE_LAMINAE, REFERENCE_STEPS), name="reference")
+    neighbour = _level("full", "full", full, REFERENCE_LAMINAE // 2, REFERENCE_STEPS // 2)
     lumped, balanced, usual = (TIERS[name].steps_per_sample for name in ("lumped", "quasistatic", "full"))
     fast: dict[str, tuple[tuple[int, int], ...]] = {"lumped": ((6, lumped),), "quasistatic": ((6, balanced),)}
     steps: dict[str, tuple[EffectSet, tuple[tuple[int, int], ...]]] = {
@@ -121,25 +163,25 @@ def rungs_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> Ru
     if each_effect:
         steps |= {f"full - {name}": (less, ((6, usual),)) for name, less in _one_less(full)}
     found = [
-        _rung(tier, _FAST_EFFECTS, standard, laminae, count)
+        _level(tier, _FAST_EFFECTS, standard, laminae, count)
         for tier, choices in fast.items()
         for laminae, count in choices
     ]
     found += [
-        _rung("full", name, effects, laminae, count)
+        _level("full", name, effects, laminae, count)
         for name, (effects, choices) in steps.items()
         for laminae, count in choices
     ]
     found.append(neighbour)
     known = {effects: name for name, (effects, _) in steps.items()}
-    own = rung_of(scene, known.get(scene.effects, OF_THE_SCENE))
-    if _choices(own) not in [_choices(rung) for rung in found]:
+    own = level_of(scene, known.get(scene.effects, OF_THE_SCENE))
+    if _choices(own) not in [_choices(level) for level in found]:
         found.append(own)
-    return RungList(reference, neighbour, tuple(sorted(found, key=expected_cost)))
+    return LevelList(reference, neighbour, tuple(sorted(found, key=expected_cost)))
 
 
-def rung_of(scene: Scene, effects_name: str, name: str = "") -> Rung:
-    """What a scene itself is computed with, as a rung.
+def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
+    """What a scene itself is computed with, as a level.
 
     Parameters
     ----------
@@ -147,11 +189,11 @@ def rung_of(scene: Scene, effects_name: str, name: str = "") -> Rung:
     effects_name : str
         What its effects are called.
     name : str, optional
-        Of the rung; from its choices when not given.
+        Of the level; from its choices when not given.
     """
     numerics = scene.numerics
-    rung = _rung(scene.tier, effects_name, scene.effects, numerics.laminae, numerics.steps_per_sample)
-    return replace(rung, name=name) if name else rung
+    level = _level(scene.tier, effects_name, scene.effects, numerics.laminae, numerics.steps_per_sample)
+    return replace(level, name=name) if name else level
 
 
 def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
@@ -170,15 +212,15 @@ def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
     return choose(replace(scene, effects=load_effects("full"), accuracy=accuracy, quantities=quantities))
 
 
-def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Rung:
-    """The rung of `chosen_for`, to be judged against every effect."""
-    return rung_of(
+def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Level:
+    """The level of `chosen_for`, to be judged against every effect."""
+    return level_of(
         chosen_for(scene, accuracy, asked).applied(scene), AUTO, name=f"auto {100.0 * accuracy:g} %"
     )
 
 
-def _choices(rung: Rung) -> tuple[str, EffectSet, int, float]:
-    return rung.tier, rung.effects, rung.laminae, rung.steps_per_sample
+def _choices(level: Level) -> tuple[str, EffectSet, int, float]:
+    return level.tier, level.effects, level.laminae, level.steps_per_sample
 
 
 def _one_less(effects: EffectSet) -> list[tuple[str, EffectSet]]:
@@ -188,10 +230,10 @@ def _one_less(effects: EffectSet) -> list[tuple[str, EffectSet]]:
     return [(name, replace(effects, **{name: None})) for name in names if getattr(effects, name) is not None]
 
 
-def expected_cost(rung: Rung) -> float:
+def expected_cost(level: Level) -> float:
     """Wall time per simulated second to expect: for the order of runs and the time left, nothing else."""
-    base, per_lamina = _FAST_COST.get(rung.tier, _FULL_COST)
-    many = len(rung.effects.names()) > _MANY_EFFECTS and rung.tier == "full"
+    base, per_lamina = _FAST_COST.get(level.tier, _FULL_COST)
+    many = len(level.effects.names()) > _MANY_EFFECTS and level.tier == "full"
     return (
-        rung.steps_per_sample * (base + per_lamina * rung.laminae) * (_MANY_EFFECTS_FACTOR if many else 1.0)
+        level.steps_per_sample * (base + per_lamina * level.laminae) * (_MANY_EFFECTS_FACTOR if many else 1.0)
     )
