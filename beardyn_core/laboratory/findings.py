@@ -18,10 +18,10 @@ from beardyn_core.laboratory.rolling import COIN, ROLLER, Rolling, Trough, run_r
 from beardyn_core.laboratory.search import SURFACES, SURFACES_CROSSED, SURFACES_PRINTED, search
 from beardyn_core.laboratory.sphere_radius import SphereCase, sphere_cases
 from beardyn_core.laboratory.timing import (
-    WAYS,
+    METHODS,
     FormResult,
+    MethodResult,
     RandomResult,
-    WayResult,
     bearing_setting,
     compare,
     form_results,
@@ -77,11 +77,11 @@ class Findings:
     located : tuple of LocatedContact
     row_difference : float
         Largest difference of general search and closed forms over the whole row, [m].
-    by_contact : dict of name to tuple of WayResult
+    by_contact : dict of name to tuple of MethodResult
         Random rollers, starts at the nominal roller.
-    random_rollers : tuple of WayResult
+    random_rollers : tuple of MethodResult
         All contacts of them together.
-    whole_bearing : tuple of WayResult
+    whole_bearing : tuple of MethodResult
         All rollers of a row at the first time step, warm starts.
     forms : tuple of FormResult
     shapes : tuple of RandomResult
@@ -97,9 +97,9 @@ class Findings:
     quick: bool
     located: tuple[LocatedContact, ...]
     row_difference: float
-    by_contact: dict[str, tuple[WayResult, ...]]
-    random_rollers: tuple[WayResult, ...]
-    whole_bearing: tuple[WayResult, ...]
+    by_contact: dict[str, tuple[MethodResult, ...]]
+    random_rollers: tuple[MethodResult, ...]
+    whole_bearing: tuple[MethodResult, ...]
     forms: tuple[FormResult, ...]
     shapes: tuple[RandomResult, ...]
     spheres: tuple[SphereCase, ...]
@@ -113,7 +113,7 @@ class Findings:
         """Of one row."""
         return SEARCHES_PER_ROLLER * self.bearing.roller_count
 
-    def run_hours(self, result: WayResult, evaluations: int = EVALUATIONS) -> float:
+    def run_hours(self, result: MethodResult, evaluations: int = EVALUATIONS) -> float:
         """Contact detection of the run of Santos (2017), 0.03 s, [h]."""
         return result.microseconds * 1e-6 * self.searches_per_evaluation * evaluations / 3600.0
 
@@ -220,9 +220,9 @@ def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = 
     )
 
 
-def santos_hours(way: str) -> float | None:
+def santos_hours(method: str) -> float | None:
     """Look up the hours of Santos (2017), Table 1, for a method."""
-    return SANTOS_HOURS.get(way.split(",")[0]) if way in WAYS else None
+    return SANTOS_HOURS.get(method.split(",")[0]) if method in METHODS else None
 
 
 def largest_lean(run: Rolling) -> float:

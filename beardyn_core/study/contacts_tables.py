@@ -20,7 +20,7 @@ from beardyn_core.laboratory.findings import (
 )
 from beardyn_core.laboratory.nine_contacts import PAIRINGS, SEARCHES_PER_ROLLER
 from beardyn_core.laboratory.rolling import Rolling
-from beardyn_core.laboratory.timing import WAYS, WayResult
+from beardyn_core.laboratory.timing import METHODS, MethodResult
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.study.table import Table, digits, duration_text, nanometres, percent
 
@@ -56,7 +56,7 @@ def located_table(found: Findings) -> Table:
     )
 
 
-def _cells(result: WayResult) -> tuple[str, ...]:
+def _cells(result: MethodResult) -> tuple[str, ...]:
     return (
         digits(result.microseconds),
         "-" if result.iterations is None else f"{result.iterations:.1f}",
@@ -66,11 +66,11 @@ def _cells(result: WayResult) -> tuple[str, ...]:
 
 
 def ways_table(found: Findings) -> Table:
-    """All ways on random rollers."""
+    """All methods on random rollers."""
     return Table(
         "Random rollers (shifted by 50 um, turned by 2 mrad; start: the nominal roller)",
-        ("way", "CPU us per search", "iterations", "failures [%]", "gap error [nm]"),
-        tuple((result.way, *_cells(result)) for result in found.random_rollers),
+        ("method", "CPU us per search", "iterations", "failures [%]", "gap error [nm]"),
+        tuple((result.method, *_cells(result)) for result in found.random_rollers),
         (
             "iterations of fsolve: evaluations of the equations; gap error: largest, against the plain "
             "closed form (nine contacts of the text, 19 searches a roller)",
@@ -82,12 +82,12 @@ def contacts_table(found: Findings) -> Table:
     """Time and iterations of each contact."""
     rows = []
     for name, results in found.by_contact.items():
-        by_way = {result.way: result for result in results}
-        analytic = by_way[WAYS[6]]
+        by_method = {result.method: result for result in results}
+        analytic = by_method[METHODS[6]]
         rows.append(
             (
                 f"{name}: {PAIRINGS[name][0]}",
-                *(digits(by_way[way].microseconds) for way in (*WAYS[:7],)),
+                *(digits(by_method[method].microseconds) for method in (*METHODS[:7],)),
                 f"{analytic.iterations:.1f}" if analytic.iterations is not None else "-",
                 percent(max(result.failures for result in results)),
             )
@@ -114,17 +114,17 @@ def run_table(found: Findings) -> Table:
     """Set Santos (2017), Table 1, beside ours, extrapolated to its run."""
     rows = []
     for result in found.whole_bearing:
-        hours = santos_hours(result.way)
+        hours = santos_hours(result.method)
         rows.append(
             (
-                result.way,
+                result.method,
                 digits(result.microseconds),
                 "-" if result.iterations is None else f"{result.iterations:.1f}",
                 percent(result.failures),
                 nanometres(result.largest_error),
                 duration_text(found.run_hours(result)),
                 f"{CONTACT_SHARE * hours:.1f} h of {hours:g} h"
-                if hours is not None and result.way.endswith("plain")
+                if hours is not None and result.method.endswith("plain")
                 else "-",
             )
         )
@@ -143,7 +143,7 @@ def run_table(found: Findings) -> Table:
     return Table(
         f"A whole row, warm starts, and contact detection of a run of {RUN_SECONDS:g} s",
         (
-            "way",
+            "method",
             "CPU us per search",
             "iterations",
             "failures [%]",
@@ -187,14 +187,14 @@ def shapes_table(found: Findings) -> Table:
     """Random circles, spheres, cylinders."""
     rows = []
     for result in found.shapes:
-        ways = {way.way: way for way in result.ways}
-        analytic = ways[WAYS[6]]
+        methods = {method.method: method for method in result.methods}
+        analytic = methods[METHODS[6]]
         rows.append(
             (
                 f"{result.case}, {result.start} start",
-                *(digits(ways[way].microseconds) for way in (*WAYS[:3], WAYS[6])),
+                *(digits(methods[method].microseconds) for method in (*METHODS[:3], METHODS[6])),
                 "-" if analytic.iterations is None else f"{analytic.iterations:.1f}",
-                *(percent(ways[way].failures) for way in WAYS[:3]),
+                *(percent(methods[method].failures) for method in METHODS[:3]),
                 percent(result.elsewhere),
                 nanometres(analytic.largest_error),
             )

@@ -133,8 +133,8 @@ def kept_runs(page: Path) -> str:
 
 def page_text(found: dict[str, Any], runs: str) -> str:
     """The whole page."""
-    located, ways, contacts, run, forms, shapes, spheres, rolling, barrel = map(table_of, found["tables"])
-    time = {entry["way"]: entry["microseconds"] for entry in found["whole_bearing"]}
+    located, methods, contacts, run, forms, shapes, spheres, rolling, barrel = map(table_of, found["tables"])
+    time = {entry["method"]: entry["microseconds"] for entry in found["whole_bearing"]}
     analytic = time["analytic Newton, compiled"]
     fair = FAIR.format(
         evaluations=found["evaluations"],
@@ -147,7 +147,7 @@ def page_text(found: dict[str, Any], runs: str) -> str:
     lines = [
         HEAD.format(**found["machine"]),
         *section(f"{located.title}", "", located, PICTURES[0]),
-        *section("Every way on random rollers", "", ways),
+        *section("Every method on random rollers", "", methods),
         *section("Contact by contact", "Processor time in us per search, random rollers.", contacts),
         *section("A run of 0.03 s beside Santos (2017), Table 1", "", run),
         fair,

@@ -56,7 +56,7 @@ def test_quick_run_prints_writes_and_makes_the_page(tmp_path, capsys) -> None:
     found = json.loads(capsys.readouterr().out)
     assert found == json.loads((folder / "contacts.json").read_text())
     assert found["row_difference"] < 1e-9
-    time = {entry["way"]: entry["microseconds"] for entry in found["whole_bearing"]}
+    time = {entry["method"]: entry["microseconds"] for entry in found["whole_bearing"]}
     assert time["closed form, compiled"] < time["analytic Newton, compiled"] < time["analytic Newton, plain"]
     assert (folder / "a.rrd").stat().st_size > 10_000
     page = tmp_path / "docs"
