@@ -114,12 +114,12 @@ class Findings:
         return SEARCHES_PER_ROLLER * self.bearing.roller_count
 
     def run_hours(self, result: MethodResult, evaluations: int = EVALUATIONS) -> float:
-        """Contact detection of the run of Santos (2017), 0.03 s, [h]."""
+        """Return the time of contact detection in the run of Santos (2017), 0.03 s, [h]."""
         return result.microseconds * 1e-6 * self.searches_per_evaluation * evaluations / 3600.0
 
 
 def locate(bearing: Bearing, pose: RollerPose) -> tuple[LocatedContact, ...]:
-    """All searches of a roller by the general search, with the closed forms beside them."""
+    """Search all contacts of a roller, with the closed forms beside them."""
     compiled = ClosedForms(bearing).gaps([pose])[0]
     found = []
     for contact, by_kernel in zip(contacts_of(bearing, pose), compiled, strict=True):
@@ -226,5 +226,5 @@ def santos_hours(method: str) -> float | None:
 
 
 def largest_lean(run: Rolling) -> float:
-    """Of a rolling body from the trough's axis, [rad]."""
+    """Return the angle of a rolling body from the trough's axis, [rad]."""
     return float(np.max(run.lean))

@@ -183,7 +183,7 @@ def _plain(setting: Setting, method: str) -> tuple[Float, Float]:
 
 
 def _root_finder_compiled(setting: Setting, arrays: Batch) -> tuple[Float, Float]:
-    """SciPy's root finder with the compiled residual."""
+    """Run SciPy's root finder with the compiled residual."""
     import warnings
 
     gaps, iterations = np.empty(len(setting.pairs)), np.empty(len(setting.pairs))
@@ -212,7 +212,7 @@ def _compiled_residual(
 
 
 def warm_start(shape: Shape, parameters: Float, random: np.random.Generator) -> Float:
-    """Parameters an evaluation earlier: `WARM_TURN` and `WARM_SHIFT` away, either way."""
+    """Draw the parameters an evaluation earlier: `WARM_TURN` and `WARM_SHIFT` away, either way."""
     away = np.full(parameters.size, WARM_TURN)
     if isinstance(shape, (Cone, Straight)):
         away[0] = WARM_SHIFT
@@ -222,7 +222,7 @@ def warm_start(shape: Shape, parameters: Float, random: np.random.Generator) -> 
 def bearing_setting(
     name: str, bearing: Bearing, poses: Sequence[RollerPose], *, warm: bool, only: str | None = None
 ) -> Setting:
-    """All searches of many rollers, or those of one contact.
+    """Collect all searches of many rollers, or those of one contact.
 
     Parameters
     ----------
@@ -290,7 +290,7 @@ class RandomResult:
 
 
 def random_results(count: int, *, blocks: int, sweeps: int, seed: int = 11) -> list[RandomResult]:
-    """All of `RANDOM_CASES` from both starts."""
+    """Run all of `RANDOM_CASES` from both starts."""
     found = []
     for case in RANDOM_CASES:
         pairs, truth, random = _drawn(case, count, seed)
@@ -337,7 +337,7 @@ class FormResult:
 
 
 def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[Form]) -> list[FormResult]:
-    """The surface-surface contact FR with several forms, from the nominal roller."""
+    """Search the surface-surface contact FR with several forms, from the nominal roller."""
     found = []
     sound = [_of_rib(bearing, pose, SURFACES) for pose in poses]
     truth = np.array(

@@ -13,13 +13,13 @@ from beardyn_core.study.ladder_report import machine
 
 
 def report(found: Findings) -> str:
-    """All tables for the terminal."""
+    """Write all tables for the terminal."""
     parts = [table.text() for table in tables(found)]
     return "\n\n".join([*parts, f"all of this took {found.seconds:.0f} s on {machine()['processor']}"])
 
 
 def json_object(found: Findings) -> dict[str, Any]:
-    """Everything as one JSON object; SI units."""
+    """Give everything as one JSON object; SI units."""
     return {
         "bearing": found.bearing.name,
         "quick": found.quick,

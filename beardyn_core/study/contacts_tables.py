@@ -29,7 +29,7 @@ TWIN_EVALUATIONS = round(RUN_SECONDS * WAVEFORM_RATE * TWIN_STEPS_PER_SAMPLE)
 
 
 def located_table(found: Findings) -> Table:
-    """The nine contacts at the first time step."""
+    """List the nine contacts at the first time step."""
     rows = []
     for contact in found.located:
         name = contact.name
@@ -66,7 +66,7 @@ def _cells(result: MethodResult) -> tuple[str, ...]:
 
 
 def ways_table(found: Findings) -> Table:
-    """All methods on random rollers."""
+    """Set all methods side by side on random rollers."""
     return Table(
         "Random rollers (shifted by 50 um, turned by 2 mrad; start: the nominal roller)",
         ("method", "CPU us per search", "iterations", "failures [%]", "gap error [nm]"),
@@ -162,7 +162,7 @@ def run_table(found: Findings) -> Table:
 
 
 def forms_table(found: Findings) -> Table:
-    """Three readings of the surface-surface conditions."""
+    """Compare three readings of the surface-surface conditions."""
     return Table(
         "Conditions of the surface-surface contact FR (sphere on rib), random rollers",
         ("conditions", "failures [%]", "Newton steps", "condition number", "unskewed"),
@@ -184,7 +184,7 @@ def forms_table(found: Findings) -> Table:
 
 
 def shapes_table(found: Findings) -> Table:
-    """Random circles, spheres, cylinders."""
+    """List random circles, spheres, cylinders."""
     rows = []
     for result in found.shapes:
         methods = {method.method: method for method in result.methods}
@@ -224,7 +224,7 @@ def shapes_table(found: Findings) -> Table:
 
 
 def spheres_table(found: Findings) -> Table:
-    """Roller ends of growing radius."""
+    """List roller ends of growing radius."""
     bearing = found.bearing
     rows = tuple(
         (
@@ -281,7 +281,7 @@ class RollingSummary:
 
 
 def rolling_summary(run: Rolling) -> RollingSummary:
-    """The numbers of a run."""
+    """List the numbers of a run."""
     k, energies = run.turning_sample, run.energies
     return RollingSummary(
         name=run.body.name,
@@ -302,7 +302,7 @@ def rolling_summary(run: Rolling) -> RollingSummary:
 
 
 def rolling_table(found: Findings) -> Table:
-    """Coin and roller in the trough."""
+    """List coin and roller in the trough."""
     rows = []
     for run in found.rolling:
         s = rolling_summary(run)
@@ -384,7 +384,7 @@ def _largest_difference(loads: BarrelLoads) -> float:
 
 
 def tables(found: Findings) -> tuple[Table, ...]:
-    """All tables in the order of the page."""
+    """Make all tables in the order of the page."""
     return (
         located_table(found),
         ways_table(found),

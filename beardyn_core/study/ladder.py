@@ -126,7 +126,7 @@ def plan_of(scene: Scene, duration: float | None = None, settling: float | None 
 
 
 def _usual_duration(scene: Scene, longest: float) -> float:
-    """A second or a few cage revolutions at the scene's first speed, [s]."""
+    """Return a second or a few cage revolutions at the scene's first speed, [s]."""
     probe = load_history(scene.operation, scene.mounting, min(0.1, scene.duration), scene.seed)
     speed = cage_speed_ratio(scene.bearing) * float(np.abs(probe.shaft_speed).mean())
     turns = FEWEST_CAGE_REVOLUTIONS * 2.0 * math.pi / speed if speed > 0.0 else 0.0
@@ -134,7 +134,7 @@ def _usual_duration(scene: Scene, longest: float) -> float:
 
 
 def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> tuple[tuple[float, ...], int]:
-    """Ends of equal windows of whole cage revolutions before an end.
+    """Find the ends of equal windows of whole cage revolutions before an end.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> t
 
 
 def varied(scene: Scene, number: int) -> Scene:
-    """The same scene begun a hair apart: end play by nanometres, cage speed by 1e-4 at the start.
+    """Begin the same scene a hair apart: end play by nanometres, cage speed by 1e-4 at the start.
 
     Parameters
     ----------
@@ -228,12 +228,12 @@ def compile_levels(plan: Plan, levels: LevelList, progress: Progress = lambda _n
 
 
 def repeats_of(level: Level) -> int:
-    """How often a level is run."""
+    """Say how often a level is run."""
     return CHEAP_RUNS if expected_cost(level) <= CHEAP else 1
 
 
 def expected_wall(levels: LevelList, plan: Plan) -> float:
-    """Wall time to expect of a ladder, for the time left, [s]."""
+    """Return the wall time to expect of a ladder, for the time left, [s]."""
     costs = REFERENCE_RUNS * expected_cost(levels.reference)
     costs += sum(repeats_of(level) * expected_cost(level) for level in levels.levels)
     return costs * plan.block_count * Twin.block_ns * 1e-9

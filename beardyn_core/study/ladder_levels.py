@@ -52,7 +52,7 @@ class Level:
     steps_per_sample: float
 
     def applied(self, scene: Scene) -> Scene:
-        """The scene with this choice; bearing, load, faults and seed stay, sensors all run at 25.6 kHz.
+        """Apply this choice to a scene; bearing, load, faults and seed stay, all sensors run at 25.6 kHz.
 
         Parameters
         ----------
@@ -86,7 +86,7 @@ class LevelList:
     levels: tuple[Level, ...]
 
     def including(self, *more: Level) -> LevelList:
-        """The same with other levels among those to be judged."""
+        """Add further levels to those to be judged."""
         return replace(self, levels=tuple(sorted([*self.levels, *more], key=expected_cost)))
 
 
@@ -99,7 +99,7 @@ def _level(tier: str, effects_name: str, effects: EffectSet, laminae: int, steps
 
 
 def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> LevelList:
-    """The levels of a scene's ladder.
+    """Make the levels of a scene's ladder.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
 
 
 def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
-    """What a scene itself is computed with, as a level.
+    """Describe what a scene itself is computed with as a level.
 
     Parameters
     ----------
@@ -197,7 +197,7 @@ def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
 
 
 def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
-    """What `effects: auto` chooses for a scene, whatever the scene is computed with itself.
+    """Choose for a scene as `effects: auto` does, whatever the scene is computed with itself.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
 
 
 def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Level:
-    """The level of `chosen_for`, to be judged against every effect."""
+    """Make the level of `chosen_for`, to be judged against every effect."""
     return level_of(
         chosen_for(scene, accuracy, asked).applied(scene), AUTO, name=f"auto {100.0 * accuracy:g} %"
     )
@@ -224,14 +224,14 @@ def _choices(level: Level) -> tuple[str, EffectSet, int, float]:
 
 
 def _one_less(effects: EffectSet) -> list[tuple[str, EffectSet]]:
-    """Sets with one effect less that can be computed, by the name of that effect."""
+    """List the sets with one effect less that can be computed, by the name of that effect."""
     needed = {"film", "traction"}  # each asks for the other
     names = [field.name for field in fields(effects) if field.name not in needed]
     return [(name, replace(effects, **{name: None})) for name in names if getattr(effects, name) is not None]
 
 
 def expected_cost(level: Level) -> float:
-    """Wall time per simulated second to expect: for the order of runs and the time left, nothing else."""
+    """Estimate the wall time per simulated second: for the order of runs and the time left only."""
     base, per_lamina = _FAST_COST.get(level.tier, _FULL_COST)
     many = len(level.effects.names()) > _MANY_EFFECTS and level.tier == "full"
     return (

@@ -52,7 +52,7 @@ def ladder_picture(ladder: Ladder, path: Path) -> None:
 
 
 def ladder_figure(ladder: Ladder) -> Figure:
-    """The picture as a figure; its first axes are the main panel."""
+    """Draw the picture as a figure; its first axes are the main panel."""
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.65, 1.0))[0]
@@ -79,7 +79,7 @@ def ladder_figure(ladder: Ladder) -> Figure:
 
 
 def _point(row: LevelResult, quantity: str) -> _Point | None:
-    """A level's error in one quantity, in % or dB."""
+    """Return a level's error in one quantity, in % or dB."""
     error = row.of(quantity)
     if error is None or error.worst is None:
         return None
@@ -107,7 +107,7 @@ def _panel(
     colours: dict[str, str],
     size: float = 8.0,
 ) -> None:
-    """Points with their bands on logarithmic axes; the limit and what is good below it."""
+    """Draw points with their bands on logarithmic axes; the limit and what is good below it."""
     axes.set_xscale("log")
     axes.set_yscale("log")
     lowest = _LOWEST * limit
@@ -136,7 +136,7 @@ def _panel(
 
 
 def _dress(axes: Axes, ladder: Ladder, points: list[_Point], colours: dict[str, str]) -> None:
-    """Title, names and legend of the main panel."""
+    """Write title, names and legend of the main panel."""
     names = {row.level.name for row in ladder.efficient}
     efficient = [point for point in points if point.row.level.name in names]
     efficient.sort(key=lambda point: point.wall)

@@ -32,12 +32,12 @@ _LEGEND = (
 
 
 def percent(share: float) -> str:
-    """A share in percent without needless digits."""
+    """Write a share in percent without needless digits."""
     return f"{100.0 * share:g} %"
 
 
 def error_text(error: QuantityError | None) -> str:
-    """The worst error of a quantity, in %, or dB; in brackets when it is not resolved."""
+    """Write the worst error of a quantity, in % or dB; in brackets when it is not resolved."""
     if error is None or error.worst is None:
         return "-"
     text = amount(abs(error.worst.error), error.unit)
@@ -45,7 +45,7 @@ def error_text(error: QuantityError | None) -> str:
 
 
 def amount(value: float, unit: str) -> str:
-    """Two digits of a share in percent, or of dB."""
+    """Write two digits of a share in percent, or of dB."""
     shown = 100.0 * value if unit == "%" else value
     if not math.isfinite(shown):
         return "?"
@@ -58,7 +58,7 @@ def _band_text(error: QuantityError | None) -> str:
 
 
 def heading(ladder: Ladder) -> list[str]:
-    """What is compared with what."""
+    """Say what is compared with what."""
     count, windows = ladder.revolutions, len(ladder.edges) - 1
     turns = counted(count, "whole cage revolution") if count else "no whole cage revolution"
     reference = ladder.reference
@@ -73,12 +73,12 @@ def heading(ladder: Ladder) -> list[str]:
 
 
 def counted(number: int, what: str) -> str:
-    """A number of things."""
+    """Write a number of things."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def limits_of(ladder: Ladder) -> list[str]:
-    """Which quantities have to be within what."""
+    """Say which quantities have to be within what."""
     words = {"%": percent(ladder.accuracy), "dB": f"{BAND_LIMIT_DB:g} dB"}
     asked = {unit: [name for name in ladder.asked if UNITS[name] == unit] for unit in words}
     return [f"{', '.join(names)} within {words[unit]}" for unit, names in asked.items() if names]
@@ -91,7 +91,7 @@ def _described(result: LevelResult) -> str:
 
 
 def convergence(ladder: Ladder) -> str:
-    """How far the reference is converged, in a sentence; empty when its neighbour was not run."""
+    """Say how far the reference is converged; empty when its neighbour was not run."""
     if ladder.neighbour is None:
         return ""
     differences = [
@@ -107,7 +107,7 @@ def convergence(ladder: Ladder) -> str:
 
 
 def closing(ladder: Ladder) -> list[str]:
-    """What the table comes to."""
+    """Say what the table comes to."""
     best = ladder.cheapest
     if best is not None:
         found = f"{best.level.name}, {best.cost.median:.2f} s for each simulated second"
@@ -126,7 +126,7 @@ def closing(ladder: Ladder) -> list[str]:
 
 
 def choices(ladder: Ladder) -> list[str]:
-    """What the levels are computed with whose names do not say it."""
+    """Say what those levels are computed with whose names do not say it."""
     return [
         f"{row.level.name}: {row.level.tier} tier, "
         f"{row.level.laminae} laminae x {row.level.steps_per_sample}, "
@@ -137,7 +137,7 @@ def choices(ladder: Ladder) -> list[str]:
 
 
 def _effects_text(ladder: Ladder, level: Level) -> str:
-    """Names of the effects, or what is left out of the reference's and what is otherwise than there."""
+    """Name the effects, or what is left out of the reference's and what is otherwise than there."""
     held, absent, other = _against_reference(ladder, level)
     if len(absent) > len(held):
         text = ", ".join(held)
@@ -147,7 +147,7 @@ def _effects_text(ladder: Ladder, level: Level) -> str:
 
 
 def _against_reference(ladder: Ladder, level: Level) -> tuple[list[str], list[str], list[str]]:
-    """Effects that a level has, lacks of those of the reference, and has with other parameters."""
+    """List the effects that a level has, lacks of the reference's, and has with other parameters."""
     every, held = ladder.reference.level.effects, list(level.effects.names())
     absent = [name for name in every.names() if name not in held]
     other = [name for name in held if getattr(level.effects, name) != getattr(every, name)]
@@ -155,7 +155,7 @@ def _against_reference(ladder: Ladder, level: Level) -> tuple[list[str], list[st
 
 
 def table(ladder: Ladder) -> str:
-    """Readable table with heading and legend."""
+    """Write a readable table with heading and legend."""
     names = [*(f"{quantity} {UNITS[quantity]}" for quantity in QUANTITIES)]
     widths = [len(name) + 2 for name in names]
     efficient = {row.level.name for row in ladder.efficient}
@@ -182,7 +182,7 @@ def table(ladder: Ladder) -> str:
 
 
 def json_object(ladder: Ladder) -> dict[str, Any]:
-    """Everything that a ladder found, for `json.dumps`."""
+    """Give everything that a ladder found, for `json.dumps`."""
     return {
         "scene": ladder.scene,
         "purpose": ladder.purpose,
@@ -257,7 +257,7 @@ def _part(part: Part) -> dict[str, Any]:
 
 
 def _number(value: float) -> float | None:
-    """JSON has no NaN."""
+    """Replace NaN, which JSON does not have, by ``None``."""
     return value if math.isfinite(value) else None
 
 
@@ -273,7 +273,7 @@ def _version(name: str) -> str:
 
 
 def machine() -> dict[str, Any]:
-    """What the wall times were measured on."""
+    """Describe the machine that the wall times were measured on."""
     cpu = Path("/proc/cpuinfo")
     models = [
         line.partition(":")[2].strip()

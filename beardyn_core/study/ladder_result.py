@@ -82,11 +82,11 @@ class LevelResult:
     status: str
 
     def of(self, quantity: str) -> QuantityError | None:
-        """Error of one quantity; ``None`` when there is none."""
+        """Return the error of one quantity; ``None`` when there is none."""
         return next((error for error in self.errors if error.quantity == quantity), None)
 
     def score(self, asked: tuple[str, ...], accuracy: float) -> Score | None:
-        """The worst of the asked errors; ``None`` when a run left the model's validity."""
+        """Return the worst of the asked errors; ``None`` when a run left the model's validity."""
         found = [
             Score(
                 error.quantity,
@@ -99,7 +99,7 @@ class LevelResult:
         return max(found, key=lambda score: score.value, default=None)
 
     def verdict(self, asked: tuple[str, ...], accuracy: float) -> str:
-        """Whether the level meets an accuracy: ``yes``, ``no``, ``open`` (the band hides it).
+        """Return whether the level meets an accuracy: ``yes``, ``no``, ``open`` (the band hides it).
 
         ``-`` where the scene has nothing of what is asked for.
         """
@@ -153,11 +153,11 @@ class Ladder:
     interrupted: bool = False
 
     def score(self, row: LevelResult) -> Score | None:
-        """The worst of the asked errors of a row."""
+        """Return the worst of the asked errors of a row."""
         return row.score(self.asked, self.accuracy)
 
     def verdict(self, row: LevelResult) -> str:
-        """Whether a row meets the accuracy that is asked for."""
+        """Return whether a row meets the accuracy that is asked for."""
         return row.verdict(self.asked, self.accuracy)
 
     @property
@@ -194,5 +194,5 @@ class Ladder:
 
 
 def _better(one: Score, other: Score) -> bool:
-    """Whether the first is better by more than both bands together let it seem, and worth its cost."""
+    """Return whether the first is better beyond both bands together, and worth its cost."""
     return other.value - one.value > max(math.hypot(one.bar, other.bar), _WORTH_IT * other.value)

@@ -85,7 +85,7 @@ class RatingLife:
 def scene_life(
     scene: Scene, load: LoadHistory, contamination: float = USUAL_CONTAMINATION
 ) -> RatingLife | None:
-    """Life under the load history of a scene; ``None`` when the shaft never turns."""
+    """Compute the life under the load history of a scene; ``None`` when the shaft never turns."""
     mounting = scene.mounting
     free = mounting.journal_tilt == "free" or mounting.cup == "suspended"
     return rating_life(
@@ -100,7 +100,7 @@ def scene_life(
 
 
 def load_classes(load: LoadHistory) -> tuple[LoadClass, ...]:
-    """Classes of equal radial and axial force, weighted with the revolutions made under them.
+    """Sort a load history into classes of radial and axial force, weighted by the revolutions under them.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def rating_life(
     contamination: float = USUAL_CONTAMINATION,
     laminae: int = SMALLEST_LAMINA_COUNT,
 ) -> RatingLife | None:
-    """Life under classes of load, their damage added by revolutions (Palmgren and Miner).
+    """Compute the life under classes of load, their damage added by revolutions (Palmgren and Miner).
 
     Parameters
     ----------
@@ -216,7 +216,7 @@ def rating_life(
 
 
 def _class_of(values: Float, count: int) -> NDArray[np.int64]:
-    """Index of the class of equal width that each value falls into; one class when all are alike."""
+    """Sort values into classes of equal width, by index; one class when all are alike."""
     low, high = float(values.min()), float(values.max())
     if high - low <= 1e-9 * max(abs(low), abs(high), 1.0):
         return np.zeros(len(values), dtype=np.int64)

@@ -68,7 +68,7 @@ with its whole band.
 
 
 def tried(name: str) -> Iterator[dict[str, Any]]:
-    """The cases of a scene, one reference for all of them."""
+    """Run the cases of a scene, one reference for all of them."""
     scene = load_scene(name)
     plan = plan_of(scene)
     choices = [chosen_for(scene, accuracy, asked) for asked, accuracy in CASES[name]]
@@ -112,7 +112,7 @@ def _expected(choice: Choice, name: str) -> str:
 
 
 def row(case: dict[str, Any]) -> str:
-    """A case as a row of the page."""
+    """Write a case as a row of the page."""
     few = len(case["effects"]) < len(case["missing"])
     effects = ", ".join(case["effects"]) if few else "full less " + (", ".join(case["missing"]) or "nothing")
     asked = f"{', '.join(case['asked'])} at {percent(case['accuracy'])}"

@@ -100,7 +100,7 @@ of the cage with the rings, were not in the text's list. The face of the small r
 
 
 def table_of(entry: dict[str, Any]) -> Table:
-    """A table of the JSON."""
+    """Read a table of the JSON."""
     return Table(
         entry["title"],
         tuple(entry["head"]),
@@ -110,7 +110,7 @@ def table_of(entry: dict[str, Any]) -> Table:
 
 
 def section(title: str, text: str, table: Table | None, picture: str | None = None) -> list[str]:
-    """A section of the page."""
+    """Write a section of the page."""
     lines = [f"## {title}", ""]
     if text:
         lines += [text, ""]
@@ -132,7 +132,7 @@ def kept_runs(page: Path) -> str:
 
 
 def page_text(found: dict[str, Any], runs: str) -> str:
-    """The whole page."""
+    """Put the whole page together."""
     located, methods, contacts, run, forms, shapes, spheres, rolling, barrel = map(table_of, found["tables"])
     time = {entry["method"]: entry["microseconds"] for entry in found["whole_bearing"]}
     analytic = time["analytic Newton, compiled"]

@@ -68,7 +68,7 @@ def run_battery(
 
 
 def _as_done(pool: ProcessPoolExecutor, cases: list[HardCase], folder: Path, jobs: int) -> Iterator[Outcome]:
-    """Outcomes as they come; two processes never compile the same kernel."""
+    """Yield outcomes as they come; two processes never compile the same kernel."""
     kernels = {case.name: kernel_of(case) for case in cases}
     size = Counter(kernels.values())
     # kernels of many cases first; of each a short case first, then the long ones
@@ -115,7 +115,7 @@ def _kept(case: HardCase, folder: Path) -> Outcome | None:
 
 
 def _place(case: HardCase, folder: Path) -> Path:
-    """Where a case keeps its files; the name has no dot, so that a suffix can follow."""
+    """Name the file of a case; the name has no dot, so that a suffix can follow."""
     return folder / f"{case.name.replace('.', '_')}-{_mark(case)}"
 
 
@@ -139,7 +139,7 @@ def _sources() -> str:
 
 
 def kernel_of(case: HardCase) -> str:
-    """What decides which compiled kernel a case needs: the types of its parameters."""
+    """Name the compiled kernel that a case needs by the types of its parameters."""
     if case.run_as in _NO_KERNEL:
         return case.run_as
     try:
@@ -151,5 +151,5 @@ def kernel_of(case: HardCase) -> str:
 
 
 def kernels_of(cases: Iterable[HardCase]) -> int:
-    """How many kernels cases need."""
+    """Count the kernels that cases need."""
     return len({kernel_of(case) for case in cases if case.run_as not in _NO_KERNEL} - {"none"})

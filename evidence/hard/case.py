@@ -152,11 +152,11 @@ class HardCase:
 
 
 def steady(force: Vector, speed: float, moment: Vector = (0.0, 0.0, 0.0)) -> tuple[Point, ...]:
-    """One load and one speed for ever."""
+    """Hold one load and one speed for ever."""
     return (Point(0.0, force, speed, moment), Point(1e5, force, speed, moment))
 
 
 def through(*points: Point) -> tuple[Point, ...]:
-    """Points, the last one held."""
+    """Go through points of load and speed; hold the last one."""
     last = points[-1]
     return (*points, Point(last.time + 1e5, last.force, last.speed, last.moment))

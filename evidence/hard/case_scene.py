@@ -20,7 +20,7 @@ _BLOCK_S = 0.02
 
 
 def scene_of(case: HardCase) -> Scene:
-    """The scene of a case; raises `InputError` with every mistake."""
+    """Build the scene of a case; raises `InputError` with every mistake."""
     data = read_file(find("scenes", case.scene))
     if "bearing" in case.changes:
         data["bearing"] = read_file(find("bearings", str(data["bearing"])))
@@ -29,7 +29,7 @@ def scene_of(case: HardCase) -> Scene:
 
 
 def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """`base` with `changes`: mappings merged, all else replaced."""
+    """Put `changes` into `base`: mappings are merged, all else is replaced."""
     result = dict(base)
     for key, value in changes.items():
         below = result.get(key)
@@ -56,7 +56,7 @@ def load_of(case: HardCase, scene: Scene) -> LoadHistory:
 
 
 def history(points: tuple[Point, ...]) -> LoadHistory:
-    """Points as samples."""
+    """Sample points of load and speed."""
     return LoadHistory(
         np.array([round(point.time * 1e9) for point in points], dtype=np.int64),
         np.array([[*point.force, *point.moment] for point in points], dtype=float),

@@ -16,7 +16,7 @@ STRUCK_MASS = 907.0
 
 
 def _strikes(acceleration_g: float, count: int, spacing: float, first: float = 0.05) -> tuple[Point, ...]:
-    """Triangles of 1 ms on 80 kN."""
+    """Add triangles of 1 ms to 80 kN."""
     points = [Point(0.0, RADIAL, SPEED)]
     peak = (0.0, 0.0, RADIAL[2] + acceleration_g * GRAVITY * STRUCK_MASS)
     for number in range(count):
@@ -26,7 +26,7 @@ def _strikes(acceleration_g: float, count: int, spacing: float, first: float = 0
 
 
 def _reversing(amplitude: float, frequency: float, seconds: float) -> tuple[Point, ...]:
-    """A sine through zero, sampled 40 times a period."""
+    """Make a sine through zero, sampled 40 times a period."""
     count = round(40 * frequency * seconds)
     return through(
         *(

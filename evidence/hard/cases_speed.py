@@ -16,7 +16,7 @@ STANDING = (Limit("energy_residual", high=1e-2),)
 
 
 def _swing(amplitude: float, frequency: float, seconds: float) -> tuple[Point, ...]:
-    """A shaft that swings: speed as a sine, 40 samples a period."""
+    """Make a shaft swing: speed as a sine, 40 samples a period."""
     count = round(40 * frequency * seconds)
     return through(
         *(

@@ -23,7 +23,7 @@ STEPS = 500
 
 
 def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
-    """500 steps under one load with the scene's step times `factor`."""
+    """Make 500 steps under one load with the scene's step times `factor`."""
     bearing, arrangement = scene.bearing, Arrangement(scene.bearing.roller_count, LANE_WIDTH)
     parameters = build_parameters(scene, arrangement, np.zeros(6))
     step = parameters.step * factor

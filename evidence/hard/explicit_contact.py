@@ -65,11 +65,11 @@ class ContactRun:
         return assess(self._state(), len(self.friction), 0.0)
 
     def scatter(self, stride: int = 1) -> float:
-        """Standard deviation of the friction seen at every ``stride``-th step, [N]."""
+        """Return the standard deviation of the friction at every ``stride``-th step, [N]."""
         return float(self.friction[::stride].std())
 
     def _state(self) -> State:
-        """A state that holds nothing but the friction memory of this roller."""
+        """Make a state that holds nothing but the friction memory of this roller."""
         f = self.friction
         bend, move = f[1:-1] - 0.5 * (f[:-2] + f[2:]), 0.5 * (f[2:] - f[:-2])
         rollers = np.zeros((1, ROLLER_FIELDS, 2))
@@ -79,7 +79,7 @@ class ContactRun:
 
 
 def largest_explicit_step(bearing: Bearing) -> float:
-    """Longest step an explicit method can take here, [s]."""
+    """Return the longest step that an explicit method can take here, [s]."""
     mass, inertia, radius = _body(bearing)
     rate = 2.0 * FRICTION * LOAD / REGULARISATION * max(1.0 / mass, radius**2 / inertia)
     return 2.0 / rate
@@ -154,7 +154,7 @@ class HiddenChatter:
 
 
 def hidden_chatter(bearing: Bearing) -> tuple[HiddenChatter, ...]:
-    """Explicit steps across their limit, and the twin's way with longer ones."""
+    """Step explicitly across the limit, and as the twin does with longer steps."""
     rows = []
     ways = [("explicit", step) for step in (1e-7, 5e-7, 1e-6, 2e-6, 5e-6)]
     ways += [("implicit", step) for step in (1e-5, 4e-5)]
@@ -172,7 +172,7 @@ def hidden_chatter(bearing: Bearing) -> tuple[HiddenChatter, ...]:
 def _implicit(
     along: float, spin: float, cup: float, cone: float, mass: float, inertia: float, radius: float
 ) -> tuple[float, float]:
-    """New speeds from (M/h + C) v' = M v/h + f, C the secant friction; the spin as its surface speed."""
+    """Solve (M/h + C) v' = M v/h + f for the new speeds, C the secant friction; the spin as surface speed."""
     surface = radius * spin
     diagonal_1, diagonal_2, beside = mass + cup + cone, inertia + cup + cone, cup - cone
     right_1 = mass * along - CAGE_PULL + cone * CONE_SPEED

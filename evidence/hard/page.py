@@ -80,7 +80,7 @@ def main() -> None:
 
 
 def page(data: dict[str, Any]) -> str:
-    """The whole page."""
+    """Put the whole page together."""
     cases = data["cases"]
     parts = [
         HEAD.format(
@@ -103,14 +103,14 @@ def page(data: dict[str, Any]) -> str:
 
 
 def counted(cases: list[dict[str, Any]]) -> str:
-    """How many of each verdict."""
+    """Count the verdicts of each kind."""
     counts = Counter(case["outcome"]["verdict"] for case in cases)
     found = [f"{counts[v]} {v}" for v in (*GOOD, KNOWN, SKIPPED, FAILED) if counts[v]]
     return f"{len(cases)} cases: {', '.join(found)}"
 
 
 def known(cases: list[dict[str, Any]]) -> list[str]:
-    """What fails or was skipped, and why."""
+    """List what fails or was skipped, and why."""
     lines = [
         f"- `{case['name']}`, {case['outcome']['verdict']}: {'; '.join(case['outcome']['reasons'])}."
         f"{' ' if case['known_failure'] else ''}{case['known_failure']}\n"
@@ -121,7 +121,7 @@ def known(cases: list[dict[str, Any]]) -> list[str]:
 
 
 def chatter_row(row: dict[str, Any]) -> str:
-    """A row of the table of hidden chatter."""
+    """Write a row of the table of hidden chatter."""
     monitor = "chatter" if row["status"] & 4 else "silent"
     return (
         f"| {row['method']} | {row['step'] * 1e6:g} | {row['mean']:.3f} | {row['scatter']:.1f} | "
@@ -130,7 +130,7 @@ def chatter_row(row: dict[str, Any]) -> str:
 
 
 def section(topic: str, cases: list[dict[str, Any]]) -> str:
-    """The cases of a topic: what would break, and what was measured."""
+    """Write the cases of a topic: what would break, and what was measured."""
     why = ["| case | what would break | guard | run as |", "|---|---|---|---|"]
     why += [f"| `{case['name']}` | {case['breaks']} | {case['guard']} | {case['run_as']} |" for case in cases]
     rows = [

@@ -93,7 +93,7 @@ def changes_of_runs(coarse: list[Float], fine: list[Float]) -> tuple[Change, ...
 
 
 def run_means(rows: Float) -> Float:
-    """Statistics of a settled run, shape [statistic]; the scatter as the root of the mean variance."""
+    """Average the statistics of a settled run, shape [statistic]; the scatter by its mean variance."""
     means = np.asarray(rows[_SETTLING_BLOCKS:].mean(axis=0))
     scatter = STATISTICS.index("force_scatter")
     means[scatter] = np.sqrt(means[scatter])

@@ -22,7 +22,7 @@ COLUMNS = (
 
 
 def cells(outcome: Outcome) -> tuple[str, ...]:
-    """A row of the table, in the order of `COLUMNS`."""
+    """Write the cells of a row, in the order of `COLUMNS`."""
     m = outcome.measures
     frame = None if m.axis_error is None else max(m.axis_error, m.quaternion_error or 0.0)
     depth = None if m.penetration is None else f"{m.penetration * 1e6:.1f}"
@@ -47,7 +47,7 @@ def _number(value: float | None) -> str:
 
 
 def worst_change(changes: Sequence[Change]) -> str:
-    """The change that fills most of its band, in words."""
+    """Name the change that fills most of its band."""
     if not changes:
         return "-"
     worst = max(changes, key=lambda change: abs(change.change) / change.band)
@@ -57,7 +57,7 @@ def worst_change(changes: Sequence[Change]) -> str:
 
 
 def line(outcome: Outcome) -> str:
-    """A row for the terminal."""
+    """Write a row for the terminal."""
     name, verdict, *numbers = cells(outcome)
     energy, depth, chatter, frame, momentum, status, change, wall = numbers
     return (
@@ -73,7 +73,7 @@ HEAD = (
 
 
 def details(case: HardCase, outcome: Outcome) -> list[str]:
-    """What a case says beyond its numbers."""
+    """List what a case says beyond its numbers."""
     lines = [f"    {reason}" for reason in outcome.reasons]
     if outcome.verdict == KNOWN:
         lines.append(f"    known: {case.known_failure}")
@@ -83,7 +83,7 @@ def details(case: HardCase, outcome: Outcome) -> list[str]:
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:
-    """How many of each verdict."""
+    """Count the verdicts of each kind."""
     counts = Counter(outcome.verdict for outcome in outcomes)
     order = (*GOOD, KNOWN, SKIPPED, FAILED)
     parts = [f"{counts[verdict]} {verdict}" for verdict in order if counts[verdict]]
@@ -91,7 +91,7 @@ def summary(outcomes: Sequence[Outcome]) -> str:
 
 
 def write_json(path: Path, cases: Sequence[HardCase], outcomes: Sequence[Outcome], **about: Any) -> None:
-    """Everything of cases and outcomes; numbers that are none become null."""
+    """Write everything of cases and outcomes; numbers that are none become null."""
     found = [
         {
             "name": case.name,
@@ -123,7 +123,7 @@ def _plain(value: Any) -> Any:
 
 
 def outcome_from(stored: Mapping[str, Any]) -> Outcome:
-    """An outcome of `write_json`; null becomes NaN where a measure needs a number."""
+    """Read an outcome that `write_json` wrote; null becomes NaN where a measure needs a number."""
     measures: dict[str, Any] = {
         name: math.nan if value is None and name in _NUMBERS else value
         for name, value in stored["measures"].items()

@@ -66,7 +66,7 @@ def _known_key(case: HardCase) -> bool:
 
 
 def _run(case: HardCase, checkpoint: Path | None) -> Finding:
-    """The run, and with half the step when that is asked for."""
+    """Run a case, and again with half the step when that is asked for."""
     try:
         scene = scene_of(case)
         watch = _watched(scene, load_of(case, scene), case.duration, checkpoint if case.long else None)
@@ -84,7 +84,7 @@ def _run(case: HardCase, checkpoint: Path | None) -> Finding:
 
 
 def _refined(scene: Scene, load: LoadHistory, duration: float, first: Float) -> tuple[Change, ...]:
-    """What half the step changes; further runs only where the first two differ."""
+    """Measure what half the step changes; run further only where the first two differ."""
 
     def statistics(steps_per_sample: float, number: int) -> Float:
         numerics = replace(scene.numerics, steps_per_sample=steps_per_sample)
@@ -111,7 +111,7 @@ class _EndedError(Exception):
 
 
 def _watched(scene: Scene, load: LoadHistory, duration: float, checkpoint: Path | None) -> Watch:
-    """A whole run; continued from the checkpoint when there is one."""
+    """Run to the end; go on from the checkpoint when there is one."""
     twin, watch = Twin(scene), Watch(scene)
     if checkpoint is not None and checkpoint.exists():
         snapshot, watch = pickle.loads(checkpoint.read_bytes())
@@ -151,7 +151,7 @@ def _refused_scene(case: HardCase, _checkpoint: Path | None) -> Finding:
 
 
 def _refused_load(case: HardCase, _checkpoint: Path | None) -> Finding:
-    """A good run, and one that is sent the points of the case after its first quarter."""
+    """Run well, and again with the points of the case sent after the first quarter."""
     scene = scene_of(case)
     blocks = round(case.duration * 1e9 / Twin.block_ns)
     good = load_of(replace(case, load=()), scene)
@@ -198,7 +198,7 @@ def _restart(case: HardCase, _checkpoint: Path | None) -> Finding:
 
 
 def differences(one: Block, two: Block) -> int:
-    """Numbers of two blocks that are not the same bits."""
+    """Count the numbers of two blocks that are not the same bits."""
     count = 0
     others = two.arrays()
     for name, a in one.arrays().items():
@@ -215,7 +215,7 @@ def _coarse_step(case: HardCase, _checkpoint: Path | None) -> Finding:
 
 
 def _explicit(case: HardCase, _checkpoint: Path | None) -> Finding:
-    """Explicit steps of the case's length; the mean is compared with that of a step ten times shorter."""
+    """Step explicitly by the case's length; compare the mean with that of a step ten times shorter."""
     bearing = scene_of(case).bearing
     found = step_roller(bearing, case.factor)
     right = step_roller(bearing, min(0.1 * case.factor, 1e-7))

@@ -57,7 +57,7 @@ class Finding:
 
 
 def judged(case: HardCase, finding: Finding, wall: float) -> Outcome:
-    """The verdict of a case."""
+    """Judge a case."""
     reasons = tuple(_complaints(case, finding))
     status = Status(finding.measures.status)
     sentence = finding.sentence or "; ".join(SENTENCES[flag] for flag in SENTENCES if flag in status)

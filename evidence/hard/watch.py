@@ -167,11 +167,11 @@ class Watch:
             self.largest[name] = value
 
     def statistics(self) -> Float:
-        """Per block: the `STATISTICS`, shape [block, statistic]."""
+        """Return the `STATISTICS` of each block, shape [block, statistic]."""
         return np.array(self.rows)[:, : len(STATISTICS)]
 
     def measures(self) -> Measures:
-        """What the blocks seen come to."""
+        """Sum up the blocks so far."""
         if not self.rows:
             return Measures()
         rows = np.array(self.rows)
@@ -197,7 +197,7 @@ class Watch:
 
 
 def _relative_tilt(poses: Float) -> float:
-    """Largest angle between the axes of cone and cup, shape [snapshot, body, 7]."""
+    """Return the largest angle between the axes of cone and cup, shape [snapshot, body, 7]."""
     axes = []
     for body in (0, 1):
         x, y, z, w = np.moveaxis(poses[:, body, 3:], -1, 0)
@@ -206,7 +206,7 @@ def _relative_tilt(poses: Float) -> float:
 
 
 def _momentum_residual(scene: Scene, twin: Twin, before: Snapshot, after: Snapshot, signals: Float) -> float:
-    """Momentum of journal, rollers and cages against load, weight and the cup's share, [-]."""
+    """Compare the momentum of journal, rollers and cages with load, weight and the cup's share, [-]."""
     steps, seconds = len(signals), Twin.block_ns * 1e-9
     start = before.index * Twin.block_ns
     loads = before.load.copy().at_steps(start, start + Twin.block_ns, steps)[1:, :3]
@@ -228,7 +228,7 @@ def _mass_of_rollers_and_cages(scene: Scene, real: Float) -> float:
 
 
 def _momentum(scene: Scene, state: State, real: Float) -> Float:
-    """Of journal, rollers and cages, world axes, [N s]."""
+    """Return the momentum of journal, rollers and cages, world axes, [N s]."""
     arrangement = Arrangement(scene.bearing.roller_count, LANE_WIDTH)
     fields = arrangement.to_rollers(np.moveaxis(state.rollers, 1, 0))
     angle, (radial, around, axial) = fields[ANGLE], fields[VELOCITY : VELOCITY + 3]

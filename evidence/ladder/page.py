@@ -84,7 +84,7 @@ one is as good, run-to-run band considered. The pictures show the worst of these
 
 
 def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
-    """The ladder of a scene, with progress on standard error."""
+    """Climb the ladder of a scene, with progress on standard error."""
     scene = load_scene(name)
     plan, levels = plan_of(scene, duration), levels_of(scene, quick=quick)
     levels = levels.including(automatic(scene, ACCURACY, scene.quantities))
@@ -104,7 +104,7 @@ def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
 
 
 def section(ladder: Ladder, picture: Path) -> list[str]:
-    """One scene of the page."""
+    """Write one scene of the page."""
     windows = len(ladder.edges) - 1
     turns = counted(ladder.revolutions, "whole cage revolution")
     return [
@@ -130,7 +130,7 @@ def _line_sentence(ladder: Ladder) -> str:
 
 
 def table(ladder: Ladder) -> list[str]:
-    """Markdown table of all levels."""
+    """Write the Markdown table of all levels."""
     columns = [f"{quantity} {UNITS[quantity]}" for quantity in QUANTITIES]
     efficient = {row.level.name for row in ladder.efficient}
     good = percent(ladder.accuracy)
@@ -152,7 +152,7 @@ def table(ladder: Ladder) -> list[str]:
 
 
 def lessons(ladder: Ladder) -> list[str]:
-    """What the rows come to when one choice changes and the others stay."""
+    """Say what the rows come to when one choice changes and the others stay."""
     found = [
         _cheapest(ladder),
         *(f"{text}." for text in choices(ladder)),
@@ -213,7 +213,7 @@ def _along(
 
 
 def summary(ladders: list[Ladder]) -> list[str]:
-    """The efficient levels of all scenes side by side."""
+    """List the efficient levels of all scenes side by side."""
     lines = ["## Efficient levels", "", "| scene | level | wall s/s | worst error |", "|---|---|--:|---|"]
     for ladder in ladders:
         for row in ladder.efficient:

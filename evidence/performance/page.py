@@ -132,7 +132,7 @@ without the hooks of the absent effects, and gives the same bits, as
 
 
 def goal_rows(tables: dict[str, Any]) -> list[tuple[str, str, str, str, str]]:
-    """What is asked for, floor, goal, measured, and how far it came."""
+    """List what is asked for: floor, goal, measured, and how far it came."""
 
     def of(table: str, key: str, name: str, column: str) -> float | None:
         rows = tables.get(table, {"rows": []})["rows"]
@@ -180,20 +180,20 @@ def goal_rows(tables: dict[str, Any]) -> list[tuple[str, str, str, str, str]]:
 
 
 def markdown(columns: list[str], rows: list[list[str]]) -> str:
-    """A table."""
+    """Write a table."""
     lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
     return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
 
 
 def shown(cell: Any) -> str:
-    """Three significant digits."""
+    """Write a number with three significant digits."""
     if isinstance(cell, float):
         return f"{cell:.0f}" if abs(cell) >= 1000.0 else f"{cell:.3g}"
     return str(cell)
 
 
 def page(result: dict[str, Any]) -> str:
-    """The whole page."""
+    """Put the whole page together."""
     tables = result["tables"]
     columns = ["", "floor", "goal", "measured", "reached"]
     busy = result["machine"]["load_average_before"] > IDLE

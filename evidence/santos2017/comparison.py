@@ -108,7 +108,7 @@ def run_all() -> SantosRuns:
 
 
 def held_by_a_force(scene: Scene, axial: float) -> Scene:
-    """The loaded row with a constant axial force instead of the prop, for 0.06 s.
+    """Hold the loaded row by a constant axial force instead of the prop, for 0.06 s.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def held_by_a_force(scene: Scene, axial: float) -> Scene:
 
 
 def refusal(axial: float = 0.0) -> str:
-    """What is said of the loaded row without prop under an axial force; empty when it finds its balance.
+    """Return the refusal of the loaded row without prop under an axial force; empty when it is in balance.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def refusal(axial: float = 0.0) -> str:
 
 
 def rows(runs: SantosRuns) -> Iterator[Row]:
-    """Rows of the table."""
+    """Yield the rows of the table."""
     yield from _motion(runs)
     yield from _friction(runs)
     yield from _force(runs)
@@ -298,5 +298,5 @@ def _least_film(contacts: list[Contacts]) -> float:
 
 
 def _round(value: float) -> str:
-    """Two significant digits."""
+    """Write a number with two significant digits."""
     return f"{float(f'{value:.1e}'):,.0f}"

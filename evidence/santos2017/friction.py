@@ -49,7 +49,7 @@ class Contacts:
 
 
 def contacts_of(run: StepRecord, kind: str, start: float = SETTLED, end: float = math.inf) -> Contacts:
-    """Contacts of one kind between two times.
+    """Return the contacts of one kind between two times.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def _within(block: Block, start: float, end: float) -> Float:
 
 
 def with_speed_jump(scene: Scene) -> Scene:
-    """The scene with a shaft that is 49 rad/s faster from 10 ms on: inner raceway and rollers slide then.
+    """Make the shaft 49 rad/s faster from 10 ms on: inner raceway and rollers slide then.
 
     Parameters
     ----------
@@ -108,5 +108,5 @@ def with_speed_jump(scene: Scene) -> Scene:
 
 
 def while_sliding(run: StepRecord, kind: str) -> Contacts:
-    """Contacts at the first look after the jump of `with_speed_jump`."""
+    """Return the contacts at the first look after the jump of `with_speed_jump`."""
     return contacts_of(run, kind, _JUMP_ENDS, _JUMP_ENDS + 1e-3)

@@ -90,7 +90,7 @@ Dry contacts that slide are at 10 %, here as there. Raceways on which rollers ro
 
 
 def spectrum_row(each: Bands, reference: Bands) -> str:
-    """One row of the table of bands."""
+    """Write one row of the table of bands."""
     bounce = [f"{value / 1e3:.1f}" for value in each.bounce]
     factors = sorted(one / two for one, two in zip(each.bounce, reference.bounce, strict=True))
     expected = " to ".join(dict.fromkeys(f"{factor:.2f}" for factor in factors))
@@ -106,7 +106,7 @@ def spectrum_row(each: Bands, reference: Bands) -> str:
 
 
 def page(runs: SantosRuns) -> str:
-    """The whole page."""
+    """Put the whole page together."""
     plain = runs.bands[0]
     diameter = runs.step.scene.bearing.roller_diameter * plain.bounce[1] / PUBLISHED_BAND
     text = HEAD

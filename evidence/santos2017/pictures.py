@@ -24,14 +24,14 @@ COLOURS = 256
 
 
 def _save(figure: Figure, path: Path) -> None:
-    """As a PNG of 8 bits a pixel."""
+    """Save a figure as a PNG of 8 bits a pixel."""
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
     save_small(path, path, COLOURS)
 
 
 def draw_step(runs: SantosRuns, path: Path) -> None:
-    """Radial force on the inner ring after the load comes on."""
+    """Draw the radial force on the inner ring after the load comes on."""
     figure, panel = plt.subplots(figsize=(7.4, 3.2), layout="constrained")
     for run, label, width in (
         (runs.undamped, "at once, contacts without damping", 0.6),
@@ -53,7 +53,7 @@ def draw_step(runs: SantosRuns, path: Path) -> None:
 
 
 def draw_spectrum(runs: SantosRuns, path: Path) -> None:
-    """Spectra of the undamped row as it is and with stiffer contacts, frequencies of the rollers marked."""
+    """Draw the spectra of the undamped row as it is and with stiffer contacts."""
     by_name = {each.variation.name: each for each in runs.bands}
     shown = (by_name["as it is"], by_name["contacts 4.92 times as stiff"])
     figure, panels = plt.subplots(2, 1, figsize=(7.4, 4.4), sharex=True, layout="constrained")
@@ -85,7 +85,7 @@ def _spectrum(panel: Axes, each: Bands) -> None:
 
 
 def draw_friction(runs: SantosRuns, path: Path) -> None:
-    """Tangential over normal force against slip speed, the laws as lines."""
+    """Draw tangential over normal force against slip speed, the laws as lines."""
     figure, panel = plt.subplots(figsize=(7.4, 3.4), layout="constrained")
     slip = np.geomspace(1e-4, 10.0, 200)
     dry, oil = CoulombTraction(friction=0.1, regularisation_speed=0.01), MixedTraction()

@@ -96,14 +96,14 @@ def record(scene: Scene, load: LoadHistory | None = None) -> StepRecord:
 
 
 def weight_carried(scene: Scene) -> float:
-    """Weight of rollers and cages, [N]."""
+    """Return the weight of rollers and cages, [N]."""
     cages = scene.rows * scene.bearing.cage.mass if scene.effects.cage else 0.0
     gravity = scene.effects.gravity.acceleration if scene.effects.gravity else 0.0
     return gravity * (scene.roller_total * scene.bearing.roller_mass + cages)
 
 
 def at_once(scene: Scene, force: float, speed: float) -> LoadHistory:
-    """A radial load that comes on at `STEP_AT` within 5 us, which excites all that can ring.
+    """Put the radial load on at `STEP_AT` within 5 us, which excites all that can ring.
 
     Parameters
     ----------

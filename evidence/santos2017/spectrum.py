@@ -62,7 +62,7 @@ class Variation:
     time_constant: float = _NO_DAMPING
 
     def applied(self, scene: Scene) -> Scene:
-        """The scene with this change."""
+        """Apply this change to a scene."""
         material = scene.bearing.material
         changed = replace(
             material,
@@ -105,7 +105,7 @@ class Bands:
     level: float
 
     def shift_from(self, reference: Bands) -> float:
-        """Factor in frequency by which the bands lie above those of another spectrum.
+        """Return the factor in frequency by which the bands lie above those of another spectrum.
 
         Parameters
         ----------
@@ -123,7 +123,7 @@ class Bands:
         return float(_SHIFTS[int(np.argmax(match))])
 
     def log_level(self, frequency: Float) -> Float:
-        """Logarithm of the root mean square of the amplitude within 3 % of a frequency.
+        """Return the logarithm of the root mean square of the amplitude within 3 % of a frequency.
 
         Parameters
         ----------
@@ -137,7 +137,7 @@ class Bands:
 
 
 def bounce(scene: Scene, force: float = RADIAL_LOAD) -> tuple[float, float]:
-    """Lowest and highest frequency of the rollers across the raceways, rings and axle at rest.
+    """Return the lowest and highest frequency of the rollers across the raceways, rings and axle at rest.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def bounce(scene: Scene, force: float = RADIAL_LOAD) -> tuple[float, float]:
 
 
 def force_spectrum(run: StepRecord) -> tuple[Float, Float]:
-    """Amplitude of the radial force, without what precedes 0.01 s after the step, as published.
+    """Return the amplitude of the radial force, without what precedes 0.01 s after the step, as published.
 
     Returns
     -------
@@ -184,13 +184,13 @@ def force_spectrum(run: StepRecord) -> tuple[Float, Float]:
 
 
 def smoothed(frequency: Float, amplitude: Float) -> Float:
-    """Root mean square of the amplitude within 1 kHz, [N]."""
+    """Return the root mean square of the amplitude within 1 kHz, [N]."""
     width = max(1, round(_SMOOTHING / (frequency[1] - frequency[0])))
     return np.sqrt(np.convolve(amplitude**2, np.full(width, 1.0 / width), mode="same"))
 
 
 def two_bands(frequency: Float, amplitude: Float) -> tuple[float, float]:
-    """The two highest bands of a piece of a spectrum, in order of frequency, [Hz]."""
+    """Find the two highest bands of a piece of a spectrum, in order of frequency, [Hz]."""
     inner = slice(1, -1)
     peak = (amplitude[inner] >= amplitude[:-2]) & (amplitude[inner] >= amplitude[2:])
     places = frequency[inner][peak][np.argsort(amplitude[inner][peak])[::-1]]
@@ -222,7 +222,7 @@ def bands(scene: Scene, variation: Variation) -> Bands:
 
 
 def variations(scene: Scene) -> tuple[Variation, ...]:
-    """What is changed, one at a time."""
+    """List what is changed, one at a time."""
     light = (bounce(scene)[1] / PUBLISHED_BAND) ** 2
     return (
         Variation("as it is"),

@@ -76,7 +76,7 @@ LONG_EXPLICIT = (Method("explicit", 20), Method("explicit", 4))
 
 
 def scene_of(point: Point, method: Method, number: int = 0, effects: str = EFFECTS) -> Scene:
-    """The steady scene of the convergence tests; runs of other numbers begin a hair apart."""
+    """Build the steady scene of the convergence tests; runs of other numbers begin a hair apart."""
     scene = load_scene("static_80kN")
     scene = replace(
         scene,
@@ -93,7 +93,7 @@ def scene_of(point: Point, method: Method, number: int = 0, effects: str = EFFEC
 
 @cache
 def chosen(point: Point) -> dict[str, StepChoice]:
-    """What the rule chooses: for vibration up to 10 kHz, and without vibration."""
+    """Choose the steps by the rule: for vibration up to 10 kHz, and without vibration."""
     scene = scene_of(point, REFERENCE)
 
     def choice(band: float) -> StepChoice:
@@ -106,6 +106,6 @@ def chosen(point: Point) -> dict[str, StepChoice]:
 
 
 def compared(point: Point, steps: tuple[int, ...] = COMPARED_STEPS) -> tuple[Method, ...]:
-    """Every method but the reference, those chosen among them."""
+    """List every method but the reference, those chosen among them."""
     counts = {*steps, *(int(choice.steps_per_sample) for choice in chosen(point).values())}
     return (BRIDGE, *LONG_EXPLICIT, *(Method("implicit", count) for count in sorted(counts)))

@@ -42,14 +42,14 @@ class Difference:
     band: Float
 
     def against(self, limit: float) -> str:
-        """Verdict of all components against a fixed limit: ``within``, ``not`` or ``open``."""
+        """Judge all components against a fixed limit: ``within``, ``not`` or ``open``."""
         size = np.abs(self.value)
         if np.all(size + self.doubt <= limit):
             return WITHIN
         return NOT if np.any(size - self.doubt > limit) else OPEN
 
     def against_band(self) -> str:
-        """Verdict against the run-to-run band: ``within``, ``not``, or ``open`` where doubt remains."""
+        """Judge by the run-to-run band: ``within``, ``not``, or ``open`` where doubt remains."""
         size = np.abs(self.value)
         if np.all(size <= self.band):
             return WITHIN
@@ -57,7 +57,7 @@ class Difference:
 
 
 def difference(found: Sequence[Float], reference: Sequence[Float], neighbours: int = 1) -> Difference:
-    """Difference of runs from the reference.
+    """Compare runs with the reference.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def difference(found: Sequence[Float], reference: Sequence[Float], neighbours: i
 
 
 def run_variance(runs: Sequence[Float]) -> Float:
-    """Variance of a statistic of one run; runs as of `difference`, two or more."""
+    """Return the variance of a statistic of one run; runs as of `difference`, two or more."""
     between = np.var([run[0] for run in runs], axis=0, ddof=1)
     parts = np.concatenate([run[1:] for run in runs])
     within = parts.var(axis=0, ddof=1) / (len(runs[0]) - 1)
@@ -92,14 +92,14 @@ def run_variance(runs: Sequence[Float]) -> Float:
 
 
 def _averaged(values: Float, count: int) -> Float:
-    """Running mean over neighbours; at the ends over those that exist."""
+    """Average over neighbours; at the ends over those that exist."""
     window = np.ones(count)
     whole = np.convolve(values, window, mode="same")
     return np.asarray(whole / np.convolve(np.ones(len(values)), window, mode="same"))
 
 
 def _freedom(variances: Float, degrees: Float) -> Float:
-    """Degrees of freedom of a sum of variances (Welch and Satterthwaite)."""
+    """Return the degrees of freedom of a sum of variances (Welch and Satterthwaite)."""
     total = variances.sum(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         found = total**2 / (variances**2 / degrees[:, None]).sum(axis=0)

@@ -84,7 +84,7 @@ def main() -> None:
 
 
 def page(data: dict[str, Any]) -> str:
-    """The whole page."""
+    """Put the whole page together."""
     points, extent, limits = data["points"], data["extent"], data["limits"]
     head = HEAD.format(
         loads=" and ".join(f"{point['name']}, {point['speed_rad_s']:g} rad/s" for point in points),
@@ -113,13 +113,13 @@ def page(data: dict[str, Any]) -> str:
 
 
 def gap(points: list[dict[str, Any]]) -> str:
-    """By how much the pooled explicit steps differ at most while runs follow one another."""
+    """Say by how much the pooled explicit steps differ at most while runs follow one another."""
     rows = (row for point in points for row in point["rows"] if row["name"] == BRIDGE.name)
     return f"{100.0 * max(abs(row['begun']) for row in rows):.1g} %"
 
 
 def verdicts(points: list[dict[str, Any]]) -> str:
-    """What is chosen at each load, and every criterion."""
+    """List what is chosen at each load, and every criterion."""
     found = [(point["name"], asked, choice) for point in points for asked, choice in point["chosen"].items()]
     names = [f"{load}, {asked}: {choice['steps_per_sample']} steps a sample" for load, asked, choice in found]
     lines = [f"| chosen for | {' | '.join(names)} |", f"|---|{'---|' * len(names)}"]

@@ -123,7 +123,7 @@ def run_once(point: Point, method: Method, number: int, settling: float, duratio
 
 
 def attempt(point: Point, method: Method, number: int, settling: float, duration: float) -> StepRun | str:
-    """`run_once`, or the sentence with which the run ended."""
+    """Return the result of `run_once`, or the sentence with which the run ended."""
     try:
         return run_once(point, method, number, settling, duration)
     except ValidityError as error:
@@ -136,13 +136,13 @@ def _pieces(blocks: int) -> list[slice]:
 
 
 def _deviation(sums: Float) -> float:
-    """Standard deviation from the means and mean squares of equal blocks."""
+    """Compute the standard deviation from the means and mean squares of equal blocks."""
     mean, square = sums.mean(axis=0)
     return float(np.sqrt(max(square - mean**2, 0.0)))
 
 
 def line_levels(acceleration: Float) -> Float:
-    """Power in each of `LINES`, all axes together, re 1 um/s^2, [dB].
+    """Return the power in each of `LINES`, all axes together, re 1 um/s^2, [dB].
 
     Parameters
     ----------

@@ -140,7 +140,7 @@ def _said(found: StepRun | str) -> str:
 
 
 def _jobs(point: Point, extent: Extent) -> list[Job]:
-    """The long ones first."""
+    """List the runs of a load, the long ones first."""
     repeats = [(REFERENCE, extent.reference_runs)]
     counts = {BRIDGE: extent.bridge_runs, **dict.fromkeys(LONG_EXPLICIT, 1)}
     repeats += [(method, counts.get(method, extent.runs)) for method in compared(point, extent.steps)]
@@ -148,7 +148,7 @@ def _jobs(point: Point, extent: Extent) -> list[Job]:
 
 
 def point_mapping(point: Point, extent: Extent, runs: Runs) -> dict[str, Any]:
-    """One load: reference, rows, what is chosen and the verdict on it."""
+    """Describe one load: reference, rows, what is chosen and the verdict on it."""
     reference = [run for run in runs[point, REFERENCE] if isinstance(run, StepRun)]
     pooled = [*reference, *(run for run in runs[point, BRIDGE] if isinstance(run, StepRun))]
     rows = [
@@ -187,7 +187,7 @@ def point_mapping(point: Point, extent: Extent, runs: Runs) -> dict[str, Any]:
 def row_mapping(
     method: Method, runs: Sequence[StepRun | str], reference: Sequence[StepRun], pooled: Sequence[StepRun]
 ) -> dict[str, Any]:
-    """One time step against the reference; only its name and the reason when a run of it ended early.
+    """Compare one time step with the reference; give only name and reason when a run of it ended early.
 
     Parameters
     ----------
@@ -235,7 +235,7 @@ def row_mapping(
 
 
 def _judged(choice: StepChoice, asked: str, rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """What is chosen, and the worst verdict on what was asked."""
+    """Judge a chosen step by the worst verdict on what was asked."""
     row = next(r for r in rows if (r["integrator"], r["steps"]) == ("implicit", choice.steps_per_sample))
     spectra = ("bands", "bands_limit", "lines") if asked == "vibration" else ()
     criteria = ("mean", "pooled_mean", "scatter", *spectra)
@@ -245,7 +245,7 @@ def _judged(choice: StepChoice, asked: str, rows: Sequence[dict[str, Any]]) -> d
 
 
 def _paired(runs: Sequence[StepRun], reference: Sequence[StepRun]) -> float:
-    """Relative difference of the torque at the beginning, of runs that begin alike."""
+    """Return the relative difference of the torque at the beginning, of runs that begin alike."""
     return float(
         np.mean([run.begun / other.begun - 1.0 for run, other in zip(runs, reference, strict=False)])
     )

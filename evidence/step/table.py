@@ -20,19 +20,19 @@ _MANY_TIMES = 3.0
 
 
 def point_tables(point: dict[str, Any], data: dict[str, Any]) -> tuple[Table, Table]:
-    """Torque, and spectra, of all time steps of one load against the reference."""
+    """Make the tables of torque and spectra of all time steps of one load against the reference."""
     return _torque(point), _spectra(point, data)
 
 
 def verdict_text(point: dict[str, Any], asked: str) -> str:
-    """What is chosen and how it does."""
+    """Say what is chosen and how it does."""
     choice = point["chosen"][asked]
     each = ", ".join(f"{CRITERIA[key]} {verdict}" for key, verdict in choice["verdicts"].items())
     return f"chosen for {asked}: {choice['steps_per_sample']} steps a sample ({choice['reason']}): {each}"
 
 
 def unstable_table(data: dict[str, Any]) -> Table:
-    """Explicit steps across their limit."""
+    """Make the table of explicit steps across their limit."""
     head = (
         "effects, load, step", "first 5 ms N m", "mean N m", "scatter N m", "every second step N m",
         "chatter",
@@ -122,7 +122,7 @@ def _percent(found: dict[str, Any]) -> tuple[str, str]:
 
 
 def _worst(found: dict[str, Any], band: list[float], frequencies: list[float]) -> str:
-    """The difference that fills most of the run-to-run band."""
+    """Find the difference that fills most of the run-to-run band."""
     values, width = np.array(found["difference_dB"]), np.array(band)
     worst = int(np.argmax(np.abs(values) / width))
     return f"{values[worst]:+.1f} of {width[worst]:.1f} at {1e-3 * frequencies[worst]:.3g} kHz"

@@ -51,7 +51,7 @@ class UnstableRun:
 
 
 def unstable_run(effects: str, point: Point, method: Method) -> UnstableRun:
-    """Two blocks from equilibrium."""
+    """Run two blocks from equilibrium."""
     twin = Twin(scene_of(point, method, effects=effects))
     twin.start(load_history(twin.scene.operation, twin.scene.mounting, 0.1, 1))
     try:
@@ -70,7 +70,7 @@ def unstable_run(effects: str, point: Point, method: Method) -> UnstableRun:
 
 
 def unstable_runs(points: Sequence[Point]) -> list[dict[str, Any]]:
-    """All of them, as rows of JSON; numbers of runs that ended are ``None``."""
+    """Run all of them, as rows of JSON; numbers of runs that ended are ``None``."""
     found = [
         asdict(unstable_run(effects, point, method))
         for effects in UNSTABLE_EFFECTS

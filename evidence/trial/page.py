@@ -89,7 +89,7 @@ def main() -> None:
 
 
 def page(found: dict[str, Any]) -> str:
-    """The page of a trial's JSON object."""
+    """Write the page of a trial's JSON object."""
     settings = MonitorSettings()
     about = ABOUT.format(
         rate=settings.false_alarm_rate,

@@ -16,7 +16,7 @@ DERIVED = "derived: 0.07 nm in one pass, 0.002 nm in two"
 
 
 def closed_form_error(side: str, passes: int) -> float:
-    """Largest error of a disc's penetration at 1 deg of skew and 0.5 deg of tilt, 120 discs, nm."""
+    """Return the largest error of a disc's depth at 1 deg of skew and 0.5 deg of tilt, 120 discs, nm."""
     p = parameters()
     raceway = getattr(p, side)
     worst = 0.0
@@ -32,7 +32,7 @@ def closed_form_error(side: str, passes: int) -> float:
 
 
 def kernel_error(side: str) -> float:
-    """The same of the kernel's approach at the roller's centre of mass, nm."""
+    """Return the same of the kernel's approach at the roller's centre of mass, nm."""
     p = only(parameters())
     cases = motions(side, 40, 2, skew=math.radians(1.0), tilt=math.radians(0.5), moving=False)
     found = contacts(side, cases, p)[:, 7]

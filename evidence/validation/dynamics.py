@@ -29,7 +29,7 @@ def carried() -> float:
 
 @lru_cache
 def small_step() -> RunSummary:
-    """One second at 80 kN with steps of 0.6 us."""
+    """Run one second at 80 kN with steps of 0.6 us."""
     scene = load_scene("static_80kN")
     return run(replace(scene, duration=1.0, numerics=replace(scene.numerics, steps_per_sample=64)))
 
@@ -121,7 +121,7 @@ def faster_than_santos_2017() -> Finding:
 
 
 def service_slip() -> Finding:
-    """Largest slip of a cage in runs under service load."""
+    """Return the largest slip of a cage in runs under service load."""
     slips = {name: max(abs(1.0 - ratio) for ratio in summary(name).cage_speed_ratio) for name in SERVICE}
     return Finding(
         max(slips.values()) < 0.01,

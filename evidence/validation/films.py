@@ -47,7 +47,7 @@ ROUGHNESS = 3e-7
 
 @cache
 def parameters(traction: Traction, film: LineFilm | None) -> Parameters:
-    """Kernel parameters of the 80 kN scene with this friction."""
+    """Build the kernel parameters of the 80 kN scene with this friction."""
     scene = load_scene("static_80kN")
     scene = replace(scene, effects=replace(scene.effects, traction=traction, film=film))
     return build_parameters(scene, Arrangement(17, 8), np.zeros(6))
@@ -66,7 +66,7 @@ def sharing_of(p: Parameters) -> LoadSharingParams:
 
 
 def film_and_friction(p: Parameters, load: float, slip: float, speed: float) -> tuple[float, float]:
-    """Film thickness [m] and friction over normal load of a lamina, from the kernel.
+    """Return film thickness [m] and friction over normal load of a lamina, from the kernel.
 
     Load in N, slip and entrainment speed in m/s; the kernel adds 1 mm/s to the entrainment speed.
     """
@@ -76,23 +76,23 @@ def film_and_friction(p: Parameters, load: float, slip: float, speed: float) -> 
 
 
 def coefficient(p: Parameters, load: float, slip: float, speed: float) -> float:
-    """Friction over normal load."""
+    """Return friction over normal load."""
     return film_and_friction(p, load, slip, speed)[1]
 
 
 def boundary_blend() -> Parameters:
-    """The blend with Ambrosio's regularisation on a surface too rough for a film."""
+    """Compute the blend with Ambrosio's regularisation on a surface too rough for a film."""
     p = parameters(MixedTraction(regularisation="ambrosio"), LineFilm())
     return p._replace(effects=p.effects._replace(film=film_of(p)._replace(roughness=1e-3)))
 
 
 def dry() -> Parameters:
-    """Dry friction with Ambrosio's regularisation: full from its speed on."""
+    """Return the dry friction with Ambrosio's regularisation: full from its speed on."""
     return parameters(CoulombTraction(regularisation="ambrosio"), None)
 
 
 def mixed_coefficient(film_parameter: float) -> float:
-    """Eq. 8 at full slip (20 m/s) and the entrainment speed that gives this film parameter."""
+    """Compute Eq. 8 at full slip (20 m/s) and the entrainment speed that gives this film parameter."""
     p = parameters(MixedTraction(), LineFilm())
     load = 1000.0
     # the film grows with speed^0.7
@@ -101,7 +101,7 @@ def mixed_coefficient(film_parameter: float) -> float:
 
 
 def aihara_coefficient(pressure: float, slip: float, speed: float) -> float:
-    """Traction of a film without asperities under a largest pressure in kgf/mm2, speeds in m/s."""
+    """Return the traction of a film without asperities under a largest pressure in kgf/mm2, speeds in m/s."""
     p = parameters(LoadSharingTraction(), LineFilm())
     oil = load_lubricant("L055")
     oil = replace(oil, density=oil.density * 72.9029224284153e-3 / oil.dynamic_viscosity(343.15))
@@ -119,7 +119,7 @@ AIHARA = (
 
 
 def film_share(film_parameter: float) -> float:
-    """Part of the load that the film carries: it shears without stress here, the asperities with 0.1."""
+    """Return the part of the load on the film: here it shears without stress, the asperities with 0.1."""
     p = parameters(LoadSharingTraction(film_traction="bair_winer"), LineFilm())
     sharing = sharing_of(p)
     assert sharing.bair_winer is not None
@@ -134,7 +134,7 @@ def film_share(film_parameter: float) -> float:
 
 
 def ball_on_inner_ring() -> tuple[float, float]:
-    """Flooded central film and radius Rx of D-BRAIN's HamrockDowson_case1, at the epicyclic ball spin, m."""
+    """Return central film and radius Rx of D-BRAIN's HamrockDowson_case1, at the epicyclic ball spin, m."""
     ball, race, groove, steel = 4.365e-3, 40.635e-3, 2.3571e-3, 207e9 / (1.0 - 0.3**2)
     radius_x, radius_y = 1.0 / (2.0 / ball + 1.0 / race), 1.0 / (2.0 / ball - 1.0 / groove)
     pitch = 2.0 * race + ball
@@ -151,7 +151,7 @@ def starvation_of_the_ball() -> float:
 
 
 def example_film(side: str, formula: str = "dowson_higginson") -> float:
-    """HS130x230 at 2000 rpm, 10 kN on a roller, L055 at 100 deg C, m."""
+    """Compute the film of HS130x230 at 2000 rpm, 10 kN on a roller, L055 at 100 deg C, m."""
     bearing, oil = load_bearing("HS130x230"), load_lubricant("L055")
     shaft = 2000.0 * math.pi / 30.0
     angle = {"cup": bearing.cup_angle, "cone": bearing.cone_angle}[side]

@@ -47,7 +47,7 @@ def ball_contact() -> RollingContact:
 
 
 def aihara_couple() -> float:
-    """N mm, heated inlet."""
+    """Return the rolling couple, N mm, heated inlet."""
     contact = ball_contact()
     loading = thermal_loading(43.691e-3, 7.5e-4, contact.entrainment_speed, 0.145)
     return 1e3 * aihara_point(contact) * thermal_reduction(loading)
@@ -55,7 +55,7 @@ def aihara_couple() -> float:
 
 @cache
 def bearing_32216() -> tuple[Bearing, StaticSolution]:
-    """Z 16, Dpw 108.5, Dm 17, L 22.7 mm, 11.50/14.17 deg, closed on one apex; one row under 6 kN."""
+    """Solve Z 16, Dpw 108.5, Dm 17, L 22.7 mm, 11.50/14.17 deg, closed on one apex; one row under 6 kN."""
     bearing = replace(
         load_bearing("HS130x230"),
         name="32216",
@@ -78,21 +78,21 @@ def bearing_32216() -> tuple[Bearing, StaticSolution]:
 
 
 def torque_32216(rpm: float, form: str = "zhou_hoeprich") -> float:
-    """Rolling torque of the 32216, N m."""
+    """Compute the rolling torque of the 32216, N m."""
     bearing, static = bearing_32216()
     return running_torque(bearing, load_lubricant("FVA3"), 323.15, static, rpm * RPM, form=form).rolling
 
 
 @cache
 def high_speed_static(end_play: float | None, tilt: str) -> StaticSolution:
-    """Equilibrium of HS130x230 under 80 kN radial and 15 kN axial; None is the bearing's own end play."""
+    """Solve HS130x230 under 80 kN radial and 15 kN axial; None is the bearing's own end play."""
     bearing = load_bearing("HS130x230")
     play = bearing.end_play if end_play is None else end_play
     return solve(bearing, (0.0, 15e3, 80e3), end_play=play, tilt=tilt)
 
 
 def power_loss(end_play: float | None, tilt: str) -> float:
-    """Rolling loss at 2000 rpm, L055 at 100 deg C, Aihara's law, W."""
+    """Compute the rolling loss at 2000 rpm, L055 at 100 deg C, Aihara's law, W."""
     speed = 2000 * RPM
     static = high_speed_static(end_play, tilt)
     torque = running_torque(

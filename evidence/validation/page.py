@@ -23,30 +23,30 @@ relative where the reference is not zero.
 
 
 def number(value: float) -> str:
-    """A number with about five significant digits."""
+    """Write a number with about five significant digits."""
     text = f"{value:.5g}"
     return f"{value:,.0f}" if abs(value) >= 1e4 and value == round(value) else text
 
 
 def allowed(anchor: Anchor) -> str:
-    """The tolerance of a row."""
+    """Write the tolerance of a row."""
     parts = [f"{100.0 * anchor.tolerance:g} %"] if anchor.tolerance else []
     parts += [f"{anchor.absolute:g} {anchor.unit}".strip()] if anchor.absolute else []
     return " + ".join(parts) or "exact"
 
 
 def reference_cells(anchor: Anchor) -> tuple[str, str, str]:
-    """What a row says without computing anything."""
+    """List the cells of a row that need no computing."""
     return anchor.topic, anchor.quantity, f"{number(anchor.reference)} {anchor.unit}".strip()
 
 
 def unreached_line(label: str, why: str) -> str:
-    """One entry of what is not compared."""
+    """Write one entry of what is not compared."""
     return f"- {label}: {why}."
 
 
 def row(anchor: Anchor) -> tuple[str, bool]:
-    """One row of the table, and whether ours agrees."""
+    """Write one row of the table, and say whether ours agrees."""
     ours = anchor.ours()
     agrees = anchor.agrees(ours)
     off = (
@@ -67,7 +67,7 @@ def row(anchor: Anchor) -> tuple[str, bool]:
 
 
 def trend_lines(trend: Trend, finding: Finding) -> list[str]:
-    """The paragraph of one trend."""
+    """Write the paragraph of one trend."""
     verdict = "holds" if finding.holds else f"**does not hold**: {trend.misses or 'not explained'}"
     lines = [f"### {trend.topic}: {trend.claim}", "", f"{finding.sentence} Verdict: {verdict}.", ""]
     lines += [f"Source: {trend.source}.", ""]

@@ -17,7 +17,7 @@ DPI = 80
 
 
 def draw_posture(path: Path) -> None:
-    """Skew and tilt over azimuth for three load eccentricities, both rows."""
+    """Draw skew and tilt over azimuth for three load eccentricities, both rows."""
     figure, axes = plt.subplots(2, 2, figsize=(7.4, 4.0), sharex=True, sharey="row", layout="constrained")
     for condition in ECCENTRICITIES:
         run = posture(condition)
@@ -40,7 +40,7 @@ def draw_posture(path: Path) -> None:
 
 
 def draw_whirl(path: Path) -> None:
-    """Rms radius of whirl over speed, over axial load and over radial load added to an axial one."""
+    """Draw the rms radius of whirl over speed, over axial load and over radial load added to an axial one."""
     figure, axes = plt.subplots(1, 3, figsize=(9.0, 2.9), sharey=True, layout="constrained")
     axes[0].plot(whirl.SPEEDS, whirl.microns(whirl.over_speed()), "o-")
     axes[0].set_title(f"{whirl.AXIAL / 1e3:g} kN axial")
@@ -67,7 +67,7 @@ def draw_whirl(path: Path) -> None:
 
 
 def draw_skid(path: Path) -> None:
-    """Slip of the cages over radial load, for each fill of grease."""
+    """Draw the slip of the cages over radial load, for each fill of grease."""
     figure, panel = plt.subplots(figsize=(5.6, 3.2), layout="constrained")
     for fill, name in ((skid.FRESH, "fresh grease"), (skid.SETTLED, "settled grease")):
         panel.semilogx(skid.LOADS_KN, [100.0 * slip for slip in skid.slips(fill)], "o-", label=name)

@@ -43,7 +43,7 @@ class Posture:
 
 
 def scene_of(condition: Condition) -> Scene:
-    """The condition on a bearing with play, free to tilt, with films that shear in raceways and ribs.
+    """Put the condition on a bearing with play, free to tilt, with films that shear in raceways and ribs.
 
     Skew is a balance of rib and raceway friction, and temperature acts through the viscosity alone, so
     constant friction coefficients would leave out what two of the trends are about.

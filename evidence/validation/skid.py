@@ -54,7 +54,7 @@ class Slip:
 
 
 def scene_of(load: float, fill: float) -> Scene:
-    """A radial load in kN on the bearing."""
+    """Put a radial load in kN on the bearing."""
     scene = load_scene("static_80kN")
     effects = replace(
         scene.effects,
@@ -110,7 +110,7 @@ LISTED = f"under {', '.join(f'{load:g}' for load in LOADS_KN)} kN"
 
 
 def falls_with_load() -> Finding:
-    """Monotone within the scatter of a run."""
+    """Return whether values are monotone within the scatter of a run."""
     holds = all(later < earlier + SCATTER for fill in NAMES for earlier, later in pairwise(slips(fill)))
     return Finding(
         holds,

@@ -35,7 +35,7 @@ def static(load: tuple[float, float, float], tilt: str = "locked") -> StaticSolu
 
 
 def kumar_stiffness(axial: float, direction: str = "z", in_series: bool = False) -> float:
-    """Stiffness of a single row under pure thrust, MN/mm, closed form.
+    """Return the stiffness of a single row under pure thrust, MN/mm, closed form.
 
     Across the axis (``x``) the same roller stiffness counts with cos^2/2 where it has sin^2 along it.
     ``in_series``: 7.86e4 is that of each of the two contacts of a roller, as ISO/TS 16281 has it.
@@ -66,7 +66,7 @@ def zhang_triangle(which: int) -> float:
 
 
 def bounce_frequency(load: float) -> float:
-    """Natural frequency of a roller between both raceways, Hz."""
+    """Return the natural frequency of a roller between both raceways, Hz."""
     bearing = load_bearing("HS130x230")
     factor = line_contact_factor(bearing.material, bearing.effective_length)
     tangent = 10.0 / 9.0 * factor**0.9 * load**0.1

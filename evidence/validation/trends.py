@@ -17,7 +17,7 @@ LOADED = 0.05
 
 
 def loaded_mean(run: Posture, part: str) -> float:
-    """Mean magnitude of skew or tilt over the loaded rollers of both rows, mrad."""
+    """Return the mean magnitude of skew or tilt over the loaded rollers of both rows, mrad."""
     values = np.abs(getattr(run, part))
     chosen = np.nan_to_num(run.load) > LOADED * np.nanmax(run.load, axis=1, keepdims=True)
     return float(np.mean(values[chosen]))
@@ -29,7 +29,7 @@ def at_most_loaded(run: Posture, row: int, part: str) -> float:
 
 
 def monotone(part: str, conditions: tuple[Condition, ...], rises: bool, over: str) -> Finding:
-    """Whether the mean magnitude rises (or falls) from condition to condition."""
+    """Return whether the mean magnitude rises (or falls) from condition to condition."""
     values = [loaded_mean(posture(condition), part) for condition in conditions]
     steps = np.diff(values)
     holds = bool((steps > 0.0).all() if rises else (steps < 0.0).all())
@@ -71,7 +71,7 @@ TEMPERATURES = tuple(Condition(temperature=value) for value in (50.0, 70.0, 90.0
 
 
 def loaded_rollers() -> Finding:
-    """Static counts of the loaded rollers with the load on the centre and 40 mm beside it."""
+    """Count the loaded rollers at rest with the load on the centre and 40 mm beside it."""
     bearing = load_bearing("HS130x230")
     counts = {
         (tilt, eccentricity): solve(

@@ -15,7 +15,7 @@ from beardyn_core.integrate.static import StaticSolution, solve
 
 
 def solved_model(radial: float, axial: float) -> StaticSolution:
-    """Our equilibrium of their case: 100 N preload a row, 20 N m, cage at 1200 rpm."""
+    """Solve their case: 100 N preload a row, 20 N m, cage at 1200 rpm."""
     bearing = hh926700()
     speed = 1200.0 * math.pi / 30.0 / cage_speed_ratio(bearing)
 
@@ -53,7 +53,7 @@ def hh926700() -> Bearing:
 
 
 def published_model(radial: float, axial: float) -> float:
-    """Largest cup load of the published model; x along the radial load, z along the axle."""
+    """Return the largest cup load of the published model; x along the radial load, z along the axle."""
     count, pitch_radius, offset, factor = 14, 0.19893 / 2, 0.07596 / 2, 6.0e9
     cup, rib = math.radians(22.54), math.radians(70.20)
     centrifugal = 0.126 * (1200.0 * math.pi / 30.0) ** 2 * pitch_radius
