@@ -15,7 +15,7 @@ LUNDBERG = "Lundberg and Palmgren 1952: the rating is the load of a life of one 
 
 
 def rated_life_of_half_loaded_ring() -> float:
-    """Compute the life of a row under its own rating, half the ring loaded by the 10/9 law, no edge stress."""
+    """Compute the life of a row under its own rating, half the ring loaded by the 10/9 law, no edges."""
     bearing = load_bearing("HS130x230")
     cone, cup = contact_ratings(bearing)
     angle = 2.0 * math.pi * np.arange(3600) / 3600
