@@ -35,29 +35,29 @@ slow: $(VENV)/.ready-test ## set up, then the long tests as well
 	@$(BIN)/python -m pytest -m "slow or not slow" $(ARGS)
 
 hard: $(VENV)/.ready-test ## set up, then the battery of hard cases side by side: table, hard.json; goes on where it was interrupted
-	@$(BIN)/python -m beardyn_core.study.hard $(ARGS)
+	@$(BIN)/python -m evidence.hard $(ARGS)
 
 bench: $(VENV)/.ready-test ## set up, then every speed in one run: tables, and bench.json
 	@$(BIN)/python -m benchmarks $(ARGS)
 
 performance: ## write docs/performance.md from bench.json
-	@$(BIN)/python docs/write_performance.py bench.json
+	@$(BIN)/python -m evidence.performance.page bench.json
 
 costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (compiles 30 sets the first time)
 	@$(BIN)/python benchmarks/effect_costs.py $(ARGS)
 
 step: $(VENV)/.ready-test ## set up, then time steps against an explicit reference of 0.1 us: tables, step.json, docs/step.md
-	@$(BIN)/python -m beardyn_core.study.converged_step $(ARGS)
-	@$(BIN)/python docs/write_step.py step.json
+	@$(BIN)/python -m evidence.step $(ARGS)
+	@$(BIN)/python -m evidence.step.page step.json
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
-	@$(BIN)/python docs/write_ladder.py $(ARGS)
+	@$(BIN)/python -m evidence.ladder.page $(ARGS)
 
 automatic: $(VENV)/.ready-test ## set up, then try the automatic choices of ten scenes and write docs/automatic.md
-	@$(BIN)/python docs/write_automatic.py $(ARGS)
+	@$(BIN)/python -m evidence.automatic.page $(ARGS)
 
 validation: $(VENV)/.ready-test ## set up, then run every anchor and write docs/validation.md
-	@$(BIN)/python docs/write_validation.py $(ARGS)
+	@$(BIN)/python -m evidence.validation.page $(ARGS)
 
 lint: $(VENV)/.ready-dev ## style, types and the direction of imports
 	@failed=; \

@@ -97,7 +97,7 @@ class TopicPublishers:
             try:
                 publisher.publish(cdr)
                 return True
-            except rclpy_implementation.RCLError:  # noqa: PERF203 - "cannot publish data": full
+            except rclpy_implementation.RCLError:  # "cannot publish data": full
                 if attempt + 1 < PUBLISH_TRIES:
                     time.sleep(PUBLISH_RETRY_S)
         self.lost_messages += 1

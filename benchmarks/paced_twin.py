@@ -1,7 +1,7 @@
 """The real twin node in real time: twin and load node as processes, lateness of every block.
 
 ``python -m benchmarks.paced_twin --scene smooth_run --effects full --laminae 6 --seconds 60`` runs one
-rung alone. A block is late when it is handed over more than 40 ms after it is due.
+level alone. A block is late when it is handed over more than 40 ms after it is due.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from benchmarks.runs import Table
 
 SCENE = "smooth_run"
 # effects, laminae, steps per sample (2: converged for all but vibration, see docs/step.md)
-RUNGS = (("full", 6, 4), ("full", 6, 3), ("full", 6, 2), ("standard", 6, 4), ("dry", 6, 4))
+LEVELS = (("full", 6, 4), ("full", 6, 3), ("full", 6, 2), ("standard", 6, 4), ("dry", 6, 4))
 READY_TIMEOUT_S = 600.0
 COLUMNS = (
     *(
@@ -175,29 +175,29 @@ def row(effects: str, laminae: int, steps: int, heard: Heard) -> tuple[str | flo
     )
 
 
-def paced(seconds: float, scene: str = SCENE, rungs: tuple[tuple[str, int, int], ...] = RUNGS) -> Table:
-    """Rungs from the finest down to the first that keeps up for the whole time."""
+def paced(seconds: float, scene: str = SCENE, levels: tuple[tuple[str, int, int], ...] = LEVELS) -> Table:
+    """Levels from the finest down to the first that keeps up for the whole time."""
     rows: list[tuple[str | float | int, ...]] = []
     note = f"speed factor 1, lockstep; load average {os.getloadavg()[0]:.2f} before"
     if not ros_available():
         return Table("paced", "Twin node in real time", COLUMNS, rows, MISSING_ROS)
-    for effects, laminae, steps in rungs:
+    for effects, laminae, steps in levels:
         heard = run_paced(scene, effects, laminae, seconds, steps)
         rows.append(row(effects, laminae, steps, heard))
         if heard.last.value("late_blocks") == "0" and heard.last.value("state") == "finished":
             break
     else:
-        note += "; no rung has kept up"
+        note += "; no level has kept up"
     return Table("paced", f"Twin node in real time, {scene}, {seconds:g} s", COLUMNS, rows, note)
 
 
 def main() -> None:
-    """One rung."""
+    """One level."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.paced_twin", description=__doc__)
     parser.add_argument("--scene", default=SCENE)
-    parser.add_argument("--effects", default=RUNGS[0][0])
-    parser.add_argument("--laminae", type=int, default=RUNGS[0][1])
-    parser.add_argument("--steps", type=int, default=RUNGS[0][2])
+    parser.add_argument("--effects", default=LEVELS[0][0])
+    parser.add_argument("--laminae", type=int, default=LEVELS[0][1])
+    parser.add_argument("--steps", type=int, default=LEVELS[0][2])
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--mode", choices=("lockstep", "live"), default="lockstep")
     given = parser.parse_args()

@@ -102,7 +102,7 @@ def run(args: argparse.Namespace) -> int:
     except ValidityError as error:
         print(error, file=sys.stderr)
         return 3
-    from beardyn_core.study.life_text import life_lines, life_object
+    from beardyn_core.study.rating_life import life_lines, life_object
 
     if args.json:
         report = _report(bearing, load, end_play, args, solution)

@@ -19,7 +19,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "contacts",
-        help="the contact laboratory: general contact search, four ways to solve it, closed forms",
+        help="the contact laboratory: general contact search, four methods to solve it, closed forms",
         description="Find contact points of parametric surfaces and lines by SciPy's root finder, by "
         "Newton's method with numeric and with analytic Jacobian, and in closed form, plain and compiled: "
         "time, iterations, failures and gap errors over random placements and over a whole bearing row; the "

@@ -30,10 +30,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "ladder",
         help="what accuracy costs: tiers, effects, laminae and steps against a converged reference",
-        description="Run a scene over tiers, effects, laminae and steps, and compare each rung with a "
+        description="Run a scene over tiers, effects, laminae and steps, and compare each level with a "
         "converged reference of the same scene: wall time per simulated second, and errors with their "
         "run-to-run band. Takes some minutes, and a minute more for every set of effects that is not "
-        "compiled yet. Ctrl-C keeps the rungs done so far.",
+        "compiled yet. Ctrl-C keeps the levels done so far.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument(
@@ -45,14 +45,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--accuracy",
         metavar="PERCENT",
         type=float,
-        help="to judge the rungs by, 0.1 to 50 %% (the scene's, or 5)",
+        help="to judge the levels by, 0.1 to 50 %% (the scene's, or 5)",
     )
     parser.add_argument(
         "--quantities",
         metavar="NAMES",
         help="what the accuracy is asked of, with commas between (the scene's, or all of the definition)",
     )
-    parser.add_argument("--quick", action="store_true", help="few rungs")
+    parser.add_argument("--quick", action="store_true", help="few levels")
     parser.add_argument(
         "--each-effect", action="store_true", help="also `full` less each of its effects in turn"
     )
@@ -63,9 +63,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import load_scene
-    from beardyn_core.study.ladder import climb, compile_rungs, expected_wall, plan_of
+    from beardyn_core.study.ladder import climb, compile_levels, expected_wall, plan_of
+    from beardyn_core.study.ladder_levels import automatic, levels_of
     from beardyn_core.study.ladder_report import json_object, table
-    from beardyn_core.study.ladder_rungs import automatic, rungs_of
 
     problems = option_problems(args)
     try:
@@ -81,25 +81,25 @@ def run(args: argparse.Namespace) -> int:
     accuracy = scene.accuracy or 0.01 * _USUAL_ACCURACY
     if args.accuracy is not None:
         accuracy = 0.01 * args.accuracy
-    rungs = rungs_of(scene, quick=args.quick, each_effect=args.each_effect)
-    rungs = rungs.including(automatic(scene, accuracy, asked))
-    expected = expected_wall(rungs, plan)
+    levels = levels_of(scene, quick=args.quick, each_effect=args.each_effect)
+    levels = levels.including(automatic(scene, accuracy, asked))
+    expected = expected_wall(levels, plan)
     print(
-        f"beardyn: {scene.name}, {len(rungs.rungs)} rungs and the reference, "
+        f"beardyn: {scene.name}, {len(levels.levels)} levels and the reference, "
         f"some {expected / 60.0:.1f} minutes once all kernels are compiled",
         file=sys.stderr,
     )
     with _quiet():
-        with _Bar("compiled", "{n:.0f}/{total:.0f}", len(rungs.rungs) + 1) as bar:
-            compile_rungs(plan, rungs, bar)
+        with _Bar("compiled", "{n:.0f}/{total:.0f}", len(levels.levels) + 1) as bar:
+            compile_levels(plan, levels, bar)
         with _Bar("run", "{percentage:.0f} %", expected) as bar:
-            ladder = climb(plan, rungs, accuracy, asked, bar)
+            ladder = climb(plan, levels, accuracy, asked, bar)
     found = json_object(ladder)
     if args.output is not None:
         write(ladder, found, args.output)
     print(json.dumps(found) if args.json else table(ladder))
     if ladder.interrupted:
-        print("beardyn: interrupted; the rungs done so far are kept", file=sys.stderr)
+        print("beardyn: interrupted; the levels done so far are kept", file=sys.stderr)
     return INTERRUPTED if ladder.interrupted else DONE
 
 
@@ -157,7 +157,7 @@ def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep each rung's messages about its kernels away from the bar."""
+    """Keep each level's messages about its kernels away from the bar."""
     logger = logging.getLogger("beardyn")
     before = logger.level
     logger.setLevel(logging.WARNING)
@@ -168,7 +168,7 @@ def _quiet() -> Iterator[None]:
 
 
 class _Bar:
-    """Progress with the time left; told which rung is at work and how much of the whole is done."""
+    """Progress with the time left; told which level is at work and how much of the whole is done."""
 
     def __init__(self, what: str, count: str, total: float) -> None:
         from tqdm import tqdm

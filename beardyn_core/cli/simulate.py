@@ -121,7 +121,7 @@ def _number(value: float | None) -> float | None:
 
 def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
     """What ``--json`` prints."""
-    from beardyn_core.study.life_text import life_object
+    from beardyn_core.study.rating_life import life_object
 
     return {
         "scene": summary.scene,
@@ -177,7 +177,7 @@ def _means(summary: RunSummary) -> list[tuple[str, str]]:
 def text(summary: RunSummary, recording: Path | None) -> str:
     """Readable summary."""
     from beardyn_core.observe.stage_clock import stage_lines
-    from beardyn_core.study.life_text import life_sentence
+    from beardyn_core.study.rating_life import life_sentence
 
     residual = "not kept" if summary.energy_residual is None else f"{100.0 * summary.energy_residual:.3f} %"
     lines = [

@@ -1,8 +1,8 @@
 """The config room: YAML files in edge units become frozen nouns in SI, or every mistake at once.
 
-=============== ==========================================================
+=============== ============================================================
 module          responsibility, in the order of the data
-=============== ==========================================================
+=============== ============================================================
 folders         where configuration lies; a name becomes a file
 yaml_text       YAML text to a mapping and back
 units           units in key names, factors to SI
@@ -11,17 +11,20 @@ bearing_file    keys of a bearing
 lubricant_file  keys of a lubricant
 vehicle_file    keys of a vehicle
 effects_file    keys of an effects preset
+effect_keys     keys of each effect
 excitation_file keys of irregularity and of defects of wheel and rail
 running_file    keys of curves, braking, starting and timetables
 measured_file   keys of load and speed from a file
+defect_file     keys of defects, waviness and roughness
 operation_file  keys of an operation
 scene_file      keys of a scene
 problems        refusals to sentences with file, key, value, what is allowed
+missing         what of a scene speaks of rollers that are not there
 automatic       `auto` to what has been chosen
 load            references resolved, nouns made
 trial_file      keys of a trial; the scene of one of its runs
 schema          JSON schema for editors
-=============== ==========================================================
+=============== ============================================================
 """
 
 from beardyn_core.config.folders import config_folder, shipped_names

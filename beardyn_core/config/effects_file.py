@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any
+from typing import Any, Self
 
 from pydantic import Field, model_validator
-from typing_extensions import Self
 
 from beardyn_core.config.effect_keys.audit import AuditKeys
 from beardyn_core.config.effect_keys.cage import CageSwitch

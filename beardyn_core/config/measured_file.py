@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
-from typing_extensions import Self
 
 from beardyn_core.config.file_model import FileModel, NonNegative, Number, Positive, Text, Vector, problem
 from beardyn_core.config.units import KMH, KN, MM

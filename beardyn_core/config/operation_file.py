@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
-from typing_extensions import Self
 
 from beardyn_core.config.excitation_file import IrregularityKeys, RailDefectKeys, WheelDefectKeys
 from beardyn_core.config.file_model import (

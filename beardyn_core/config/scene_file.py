@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any, Literal, cast
+from typing import Annotated, Any, Literal, Self, cast
 
 from pydantic import (
     BeforeValidator,
@@ -16,7 +16,6 @@ from pydantic import (
     model_validator,
 )
 from pydantic_core import PydanticKnownError
-from typing_extensions import Self
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.thermal_closure import STEEL_EXPANSION, PartTemperatures, end_play_change

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
-from typing_extensions import Self
 
 from beardyn_core.config.effects_file import overlay
 from beardyn_core.config.excitation_file import WheelDefectKeys

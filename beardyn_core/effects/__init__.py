@@ -1,5 +1,27 @@
 """The catalogue of effects: what each adds, what it costs, where it holds; and sets of them.
 
+================== ==================================================
+module             responsibility
+================== ==================================================
+about              what the catalogue says of an effect
+contact_damping    loss of contacts that are pressed together
+lamina_coupling    laminae that sink with each other
+film               lubricant film of the raceway contacts
+traction           friction of the raceway contacts
+rolling_resistance resistance of the raceway contacts against rolling
+rib                large roller end on the cone rib
+small_rib          small roller end on the small rib
+cage               cage of each row, its pockets and lands
+drag               drag and churning of the rollers
+seal               seals between cup and shaft
+gravity            weight
+ring_flexibility   bending of the cup in its housing
+thermal            slow warming of bearing, grease and axlebox
+audit              energy balance
+effect_set         sets of effects, each present or absent
+catalogue          every effect that a scene can switch on
+================== ==================================================
+
 An effect is present when its member of `EffectSet` is an options object and absent when the member is
 ``None``; the kernels are compiled for the members that are present.
 """

@@ -1,8 +1,8 @@
 """Forces and motion as lane code: one source for scalars, vectors and plain NumPy.
 
-================= ============================================================
+================= =========================================================
 module            responsibility, in the order of the data
-================= ============================================================
+================= =========================================================
 lanes             the lane value, its arithmetic, load and store
 lane_math         elementary functions with stated errors
 vectors           three-vectors of lane values
@@ -42,6 +42,9 @@ seal              seals between cup and shaft
 balanced_roller   a roller in balance (quasistatic tier)
 balanced_springs  its laminae as springs
 kinematic_rollers rollers that orbit kinematically
+kinematic_rings   rings of the fast tiers on the springs of all rollers
 spring_roller     a roller as one spring (lumped tier)
-================= ============================================================
+kinematic_torque  torque of rollers in pure rolling, by lost power
+stage_timer       cycle counter between the stages of a step
+================= =========================================================
 """

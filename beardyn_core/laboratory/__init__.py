@@ -1,8 +1,8 @@
 """The contact laboratory: the general contact search of Santos (2017) against the closed forms of the twin.
 
-=============== ================================================================
+=============== ============================================================
 module          responsibility
-=============== ================================================================
+=============== ============================================================
 shapes          surfaces of revolution and lines with frames and derivatives
 search          conditions of least distance; root finder, Newton
 compiled        the same search compiled, many pairs in one call
@@ -10,10 +10,10 @@ nine_contacts   the nine contacts of a tapered roller as pairs of shapes
 closed_forms    closed forms of them and of simple shapes, plain
 closed_compiled the same from the kernels of the twin
 placements      random shapes, random rollers, a loaded row
-timing          time, iterations, failures, errors of every way
+timing          time, iterations, failures and errors of every method
 sphere_radius   roller ends too large for their rib
 rolling         a coin and a roller in a trough
 barrel          a spherical roller bearing at rest
-findings        all of it in one run
-=============== ================================================================
+findings        runs all of it
+=============== ============================================================
 """

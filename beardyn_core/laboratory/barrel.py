@@ -101,7 +101,7 @@ class BarrelBearing:
         return float(soft**-POINT_EXPONENT)
 
     def roller(self, position: Float) -> Arc:
-        """Roller displaced by ``position``: radial, axial [m], tilt [rad]."""
+        """Displace the roller by ``position``: radial, axial [m], tilt [rad]."""
         radial, axial, tilt = position
         distance = self.centre_distance + 0.5 * self.clearance
         angle = self.contact_angle
@@ -113,17 +113,17 @@ class BarrelBearing:
         return Arc(placed(centre, axis, east), half - self.roller_contour, self.roller_contour)
 
     def outer_raceway(self) -> Arc:
-        """Sphere around the bearing centre."""
+        """Build the sphere around the bearing centre."""
         return Arc(placed((0, 0, 0), (0, 0, 1)), 0.0, self.outer_sphere, -1.0)
 
     def inner_raceway(self, shift: Float) -> Arc:
-        """Groove of one row, displaced by ``shift`` [3]."""
+        """Build the groove of one row, displaced by ``shift`` [3]."""
         reach = self.centre_distance - 0.5 * self.roller_diameter + self.inner_contour
         place = placed(shift + np.array([0.0, 0.0, reach * math.sin(self.contact_angle)]), (0, 0, 1))
         return Arc(place, reach * math.cos(self.contact_angle), self.inner_contour, -1.0)
 
     def pairs(self, position: Float, shift: Float) -> list[Pair]:
-        """Roller against outer and inner raceway."""
+        """Pair the roller with outer and inner raceway."""
         roller = self.roller(position)
         return [
             Pair(roller, self.outer_raceway(), SURFACES),
@@ -131,7 +131,7 @@ class BarrelBearing:
         ]
 
     def starts(self) -> list[Float]:
-        """Parameters of the centred roller: outer contact at its angle 0, inner contact opposite."""
+        """Return parameters of the centred roller: outer contact at its angle 0, inner contact opposite."""
         angle = self.contact_angle
         return [np.array([0.0, 0.0, angle, 0.0]), np.array([0.0, math.pi, math.pi + angle, 0.0])]
 
@@ -199,7 +199,7 @@ class _Row:
         self._starts = bearing.starts()
 
     def gaps(self, position: Float, shift: Float) -> tuple[Float, list[Pair], Float]:
-        """Gaps of both contacts, their pairs, and the parameters."""
+        """Search both contacts: gaps, pairs, and parameters."""
         pairs = self.bearing.pairs(position, shift)
         prepared: Batch = batch(pairs, self._starts)
         parameters, iterations, gap = prepared.solve()
@@ -209,7 +209,7 @@ class _Row:
         return gap, pairs, parameters
 
     def wrench(self, position: Float, shift: Float) -> tuple[Float, Float, Float, float]:
-        """Radial and axial force and moment on the roller, loads, radial force on the inner ring, angle."""
+        """Return force and moment on the roller, loads, radial force on the inner ring, angle."""
         gap, pairs, parameters = self.gaps(position, shift)
         loads = self.factors * np.maximum(-gap, 0.0) ** POINT_EXPONENT
         centre = pairs[0].p.place.origin
@@ -227,7 +227,7 @@ class _Row:
         return total, loads, np.array([inner]), angle
 
     def roller_load(self, number: int, displacement: float) -> tuple[float, float]:
-        """Outer load of a roller in balance, and the radial force it puts on the inner ring."""
+        """Return the outer load of a roller in balance, and the radial force it puts on the inner ring."""
         azimuth = float(self.azimuth[number])
         shift = displacement * np.array([math.cos(azimuth), -math.sin(azimuth), 0.0])
         gap, _, _ = self.gaps(np.zeros(3), shift)
@@ -253,7 +253,7 @@ class _Row:
         return float(loads[0]), float(inner[0]) * math.cos(azimuth)
 
     def loads(self, displacement: float) -> tuple[Float, float]:
-        """Loads of the row, and the load the two rows carry."""
+        """Return the loads of the row, and the load the two rows carry."""
         count = self.bearing.roller_count
         found = [self.roller_load(k, displacement) for k in range(count // 2 + 1)]
         number = np.minimum(np.arange(count), count - np.arange(count))  # the other half mirrors it
@@ -263,7 +263,7 @@ class _Row:
 
 
 def solve_barrel(bearing: BarrelBearing, force: float) -> BarrelLoads:
-    """Balance of the inner ring under a radial load, and the closed form beside it.
+    """Balance the inner ring under a radial load, and give the closed form beside it.
 
     Parameters
     ----------
@@ -311,7 +311,7 @@ def _formula_loads(bearing: BarrelBearing, azimuth: Float, displacement: float) 
 
 
 def _integral_largest(bearing: BarrelBearing, force: float) -> float:
-    """Largest load from the continuous load zone: the sum over very many rollers, [N]."""
+    """Return the largest load from the continuous load zone: the sum over very many rollers, [N]."""
     cosine, share = math.cos(bearing.contact_angle), bearing.roller_count / _MANY
     azimuth = 2.0 * math.pi * np.arange(_MANY) / _MANY
     least = bearing.clearance / cosine

@@ -49,7 +49,7 @@ def _disc_line(centre: Any, axis: Any, radius: Any, origin: Any, pole: Any) -> A
 
 @inline
 def _end_lines(centre: Any, axis: Any, radius: Any, origin: Any, pole: Any) -> Any:
-    """Gaps over both places of the edge of an end under a line."""
+    """Return the gaps over both places of the edge of an end under a line."""
     arm = subtract(origin, centre)
     flat_arm = add_scaled(arm, -dot(arm, axis), axis)
     flat_pole = add_scaled(pole, -dot(pole, axis), axis)
@@ -74,7 +74,7 @@ def closed_gaps(
     sizes: Any,
     out: Any,
 ) -> None:
-    """Gaps of all searches of many rollers.
+    """Return the gaps of all searches of many rollers.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def closed_gaps(
 
 
 def rib_face_params(face: RibFace, sphere_radius: float, sphere_place: float) -> RibParams:
-    """Geometry of a rib for `rib_gap`; what belongs to its force is zero."""
+    """Build the geometry of a rib for `rib_gap`; what belongs to its force is zero."""
     return RibParams(
         stiffness=0.0,
         sphere_radius=sphere_radius,
@@ -171,16 +171,16 @@ class ClosedForms:
         )
 
     def gaps(self, poses: list[RollerPose]) -> Float:
-        """Gaps, shape [roller, search], [m]."""
+        """Return the gaps, shape [roller, search], [m]."""
         out = np.zeros((len(poses), SEARCHES_PER_ROLLER))
         self.gaps_into(pose_rows(poses), out)
         return out
 
     def gaps_into(self, rows: Float, out: Float) -> None:
-        """The same into an array that exists, for timing; ``rows`` from `pose_rows`."""
+        """Write the same into an array that exists, for timing; ``rows`` from `pose_rows`."""
         closed_gaps(rows, *self._constants, out)
 
 
 def pose_rows(poses: list[RollerPose]) -> Float:
-    """Poses as an array, shape [roller, 9]."""
+    """Return poses as an array, shape [roller, 9]."""
     return np.array([np.concatenate([pose.centre, pose.axis, pose.cone]) for pose in poses])

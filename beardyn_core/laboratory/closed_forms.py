@@ -27,7 +27,7 @@ _AXIS = np.array([0.0, 0.0, 1.0])
 
 
 def contact_gap(bearing: Bearing, pose: RollerPose, contact: Contact) -> float:
-    """Gap of one of the nine contacts in closed form, [m]."""
+    """Return the gap of one of the nine contacts in closed form, [m]."""
     name = contact.name
     if name in ("Inner", "Outer"):
         return raceway_gap(bearing, pose, name, contact.abscissa)
@@ -53,7 +53,7 @@ def contact_gap(bearing: Bearing, pose: RollerPose, contact: Contact) -> float:
 
 
 def raceway_gap(bearing: Bearing, pose: RollerPose, name: str, abscissa: float) -> float:
-    """Edge of a disc and a conical raceway: where the raceway's normal, made square to the axis, points.
+    """Compute disc edge and conical raceway: where the raceway's normal, made square to the axis, points.
 
     The azimuth of that normal is taken first at the centre of the disc, then at the point so found.
     """
@@ -72,13 +72,13 @@ def raceway_gap(bearing: Bearing, pose: RollerPose, name: str, abscissa: float) 
 
 
 def sphere_rib_gap(centre: Float, radius: float, rib: RibFace) -> float:
-    """Sphere and rib face; ``centre`` from the cone's origin, [m]."""
+    """Compute sphere and rib face; ``centre`` from the cone's origin, [m]."""
     outward = math.hypot(centre[0], centre[1])
     return float(rib.distance - radius - centre[2] * rib.normal_axial - outward * rib.normal_radial)
 
 
 def circle_rib_gap(centre: Float, axis: Float, radius: float, rib: RibFace) -> float:
-    """Edge of a flat end and a rib face: Newton's iteration for the deepest point along the edge."""
+    """Compute edge of a flat end and rib face: Newton's iteration for the deepest point along the edge."""
     outward = np.array([centre[0], centre[1], 0.0]) / math.hypot(centre[0], centre[1])
     normal = rib.normal_radial * outward + rib.normal_axial * _AXIS
     radial = unit(normal - (normal @ axis) * axis)
@@ -97,14 +97,14 @@ def circle_rib_gap(centre: Float, axis: Float, radius: float, rib: RibFace) -> f
 
 
 def line_distance(line: Straight, point: Float) -> float:
-    """Of a point from a straight line, [m]."""
+    """Return the distance of a point from a straight line, [m]."""
     arm = point - line.place.origin
     across = arm - (arm @ line.place.pole) * line.place.pole
     return float(np.sqrt(across @ across))
 
 
 def disc_line_gap(centre: Float, axis: Float, radius: float, line: Straight) -> float:
-    """Disc and the point where a line crosses its plane."""
+    """Compute disc and point where a line crosses its plane."""
     here = line.place
     along = ((centre - here.origin) @ axis) / (here.pole @ axis)
     arm = here.origin + along * here.pole - centre
@@ -112,7 +112,7 @@ def disc_line_gap(centre: Float, axis: Float, radius: float, line: Straight) -> 
 
 
 def end_line_gap(centre: Float, axis: Float, radius: float, line: Straight, *, ahead: bool) -> float:
-    """Flat end and a line across it, along the roller axis over one of the two places on its edge."""
+    """Compute flat end and a line across it, along the roller axis over one of two places on its edge."""
     here = line.place
     arm = here.origin - centre
     flat_arm, flat_pole = arm - (arm @ axis) * axis, here.pole - (here.pole @ axis) * axis
@@ -123,29 +123,29 @@ def end_line_gap(centre: Float, axis: Float, radius: float, line: Straight, *, a
 
 
 def sphere_sphere_gap(p: Arc, q: Arc) -> float:
-    """Two spheres apart."""
+    """Return the gap of two spheres apart."""
     arm = p.place.origin - q.place.origin
     return float(np.sqrt(arm @ arm)) - p.radius - q.radius
 
 
 def sphere_cylinder_gap(p: Arc, q: Cone) -> float:
-    """Sphere outside a cylinder."""
+    """Return the gap of a sphere outside a cylinder."""
     return line_distance(Straight(q.place), p.place.origin) - p.radius - q.radius
 
 
 def lines_gap(p: Straight, q: Straight) -> float:
-    """Least distance of two straight lines that are not parallel."""
+    """Return the least distance of two straight lines that are not parallel."""
     normal = unit(np.cross(p.place.pole, q.place.pole))
     return float(abs((p.place.origin - q.place.origin) @ normal))
 
 
 def cylinders_gap(p: Cone, q: Cone) -> float:
-    """Two cylinders without ends, axes not parallel."""
+    """Return the gap of two cylinders without ends, axes not parallel."""
     return lines_gap(Straight(p.place), Straight(q.place)) - p.radius - q.radius
 
 
 def circle_sphere_gap(p: Circle, q: Arc) -> float:
-    """Circle outside a sphere."""
+    """Return the gap of a circle outside a sphere."""
     arm = q.place.origin - p.place.origin
     along = float(arm @ p.place.pole)
     across = arm - along * p.place.pole
@@ -153,7 +153,7 @@ def circle_sphere_gap(p: Circle, q: Arc) -> float:
 
 
 def least_along(p: Circle, distance: Callable[[Float], float], count: int = 360) -> float:
-    """Smallest value of a function of the points of a circle: a scan, refined by Brent's method.
+    """Find the smallest value of a function of the points of a circle: a scan, refined by Brent's method.
 
     Independent of the search: for pairs that have no closed form.
     """

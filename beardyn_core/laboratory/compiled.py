@@ -44,7 +44,7 @@ def _put(shape: Any, cosine: Any, sine: Any, out: Any, around: Any, along: Any, 
 
 @entry
 def _frame(shape: Any, u: Any, v: Any, sign: Any, row: Any, column: Any, slopes: Any, w: Any) -> None:
-    """Point times ``sign`` added to d, the vectors, and where ``slopes`` their derivatives, into the work."""
+    """Add the point times ``sign`` to d; write the vectors, and where ``slopes`` their derivatives."""
     kind = shape[KIND]
     first, second, side = shape[FIRST], shape[SECOND], shape[SIDE]
     base = _SLOPES + column * _STRIDE
@@ -103,7 +103,7 @@ def _frame(shape: Any, u: Any, v: Any, sign: Any, row: Any, column: Any, slopes:
 
 @inline
 def _fill(p: Any, q: Any, cut: Any, x: Any, at: Any, slopes: Any, w: Any) -> None:
-    """Vectors of a pair at the parameters ``x[at:]``, with their derivatives where ``slopes``."""
+    """Write the vectors of a pair at the parameters ``x[at:]``, with their derivatives where ``slopes``."""
     w[0] = w[1] = w[2] = 0.0
     if slopes:
         for i in range(4 * _STRIDE):
@@ -145,7 +145,7 @@ def _eliminate(w: Any, count: Any) -> Any:
 
 @entry
 def solve_pair(p: Any, q: Any, cut: Any, form: Any, count: Any, analytic: Any, x: Any, w: Any) -> Any:
-    """Newton's iteration on the parameters ``x``; their number of steps, or -1 when it failed.
+    """Iterate after Newton on the parameters ``x``; return the number of steps, or -1 when it failed.
 
     The vectors at the solution stay in ``w``: d, then t, b, n of P and of Q.
     """
@@ -209,7 +209,7 @@ def solve_pairs(
 
 @entry
 def pair_residual(p: Any, q: Any, cut: Any, form: Any, count: Any, x: Any, w: Any, out: Any) -> None:
-    """Residual of one pair at ``x`` [4], for a root finder outside."""
+    """Compute the residual of one pair at ``x`` [4], for a root finder outside."""
     _fill(p, q, cut, x, 0, False, w)
     for i in range(count):
         out[i] = _product(w, 3 * form[i, 0], 3 * form[i, 1])
@@ -240,20 +240,20 @@ class Batch:
     start: Float
 
     def solve(self, *, analytic: bool = True) -> tuple[Float, NDArray[np.int64], Float]:
-        """Parameters [pair, 4], iterations [pair] (-1: failed) and gaps [pair] of all pairs."""
+        """Return parameters [pair, 4], iterations [pair] (-1: failed) and gaps [pair] of all pairs."""
         x, out = np.zeros((len(self.counts), 4)), np.zeros((len(self.counts), 2))
         self.solve_into(x, out, analytic=analytic)
         return x, out[:, 0].astype(np.int64), out[:, 1]
 
     def solve_into(self, x: Float, out: Float, *, analytic: bool) -> None:
-        """The same into arrays that exist, for timing."""
+        """Write the same into arrays that exist, for timing."""
         solve_pairs(
             self.p, self.q, self.cut, self.forms, self.counts, self.signed, self.start, analytic, x, out
         )
 
 
 def batch(pairs: Sequence[Pair], starts: Sequence[Float]) -> Batch:
-    """Arrays of pairs and their starts."""
+    """Put pairs and their starts into arrays."""
     start = np.zeros((len(pairs), 4))
     for i, parameters in enumerate(starts):
         start[i, : len(parameters)] = parameters

@@ -18,23 +18,23 @@ from beardyn_core.laboratory.rolling import COIN, ROLLER, Rolling, Trough, run_r
 from beardyn_core.laboratory.search import SURFACES, SURFACES_CROSSED, SURFACES_PRINTED, search
 from beardyn_core.laboratory.sphere_radius import SphereCase, sphere_cases
 from beardyn_core.laboratory.timing import (
-    WAYS,
+    METHODS,
     FormResult,
+    MethodResult,
     RandomResult,
-    WayResult,
     bearing_setting,
     compare,
     form_results,
     random_results,
 )
 
-# The ancestor's run: 0.03 s. Its Runge-Kutta 4(5) made steps of 1.33 us in the mean on a copy of its model,
-# six evaluations each.
+# The run of Santos (2017): Runge-Kutta 4(5) made steps of 1.33 us in the mean on a copy of its model, six
+# evaluations each.
 RUN_SECONDS, MEAN_STEP, EVALUATIONS_PER_STEP = 0.03, 1.33e-6, 6
 EVALUATIONS = round(RUN_SECONDS / MEAN_STEP * EVALUATIONS_PER_STEP)
-# hours of the ancestor's Table 1, whole run
-ANCESTOR_HOURS = {"fsolve": 24.0, "numeric Newton": 8.0, "analytic Newton": 9.5}
-CONTACT_SHARE = 0.8  # of the ancestor's time, by its own estimate
+# Santos (2017), Table 1: hours of the whole run
+SANTOS_HOURS = {"fsolve": 24.0, "numeric Newton": 8.0, "analytic Newton": 9.5}
+CONTACT_SHARE = 0.8  # of that time, by its own estimate
 LOAD = 5.0e3
 BARREL_LOADS = (10.0e3, 25.0e3, 50.0e3, 100.0e3)
 GOOD_FRICTION = 2.0e-4  # transition speed of the run with little creep, [m/s]
@@ -77,11 +77,11 @@ class Findings:
     located : tuple of LocatedContact
     row_difference : float
         Largest difference of general search and closed forms over the whole row, [m].
-    by_contact : dict of name to tuple of WayResult
+    by_contact : dict of name to tuple of MethodResult
         Random rollers, starts at the nominal roller.
-    random_rollers : tuple of WayResult
+    random_rollers : tuple of MethodResult
         All contacts of them together.
-    whole_bearing : tuple of WayResult
+    whole_bearing : tuple of MethodResult
         All rollers of a row at the first time step, warm starts.
     forms : tuple of FormResult
     shapes : tuple of RandomResult
@@ -97,9 +97,9 @@ class Findings:
     quick: bool
     located: tuple[LocatedContact, ...]
     row_difference: float
-    by_contact: dict[str, tuple[WayResult, ...]]
-    random_rollers: tuple[WayResult, ...]
-    whole_bearing: tuple[WayResult, ...]
+    by_contact: dict[str, tuple[MethodResult, ...]]
+    random_rollers: tuple[MethodResult, ...]
+    whole_bearing: tuple[MethodResult, ...]
     forms: tuple[FormResult, ...]
     shapes: tuple[RandomResult, ...]
     spheres: tuple[SphereCase, ...]
@@ -113,13 +113,13 @@ class Findings:
         """Of one row."""
         return SEARCHES_PER_ROLLER * self.bearing.roller_count
 
-    def run_hours(self, result: WayResult, evaluations: int = EVALUATIONS) -> float:
-        """Contact detection of the ancestor's run of 0.03 s, [h]."""
+    def run_hours(self, result: MethodResult, evaluations: int = EVALUATIONS) -> float:
+        """Return the time of contact detection in the run of Santos (2017), 0.03 s, [h]."""
         return result.microseconds * 1e-6 * self.searches_per_evaluation * evaluations / 3600.0
 
 
 def locate(bearing: Bearing, pose: RollerPose) -> tuple[LocatedContact, ...]:
-    """All searches of a roller by the general search, with the closed forms beside them."""
+    """Search all contacts of a roller, with the closed forms beside them."""
     compiled = ClosedForms(bearing).gaps([pose])[0]
     found = []
     for contact, by_kernel in zip(contacts_of(bearing, pose), compiled, strict=True):
@@ -220,11 +220,11 @@ def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = 
     )
 
 
-def ancestor_hours(way: str) -> float | None:
-    """Of the ancestor's Table 1 for a way, [h]."""
-    return ANCESTOR_HOURS.get(way.split(",")[0]) if way in WAYS else None
+def santos_hours(method: str) -> float | None:
+    """Look up the hours of Santos (2017), Table 1, for a method."""
+    return SANTOS_HOURS.get(method.split(",")[0]) if method in METHODS else None
 
 
 def largest_lean(run: Rolling) -> float:
-    """Of a rolling body from the trough's axis, [rad]."""
+    """Return the angle of a rolling body from the trough's axis, [rad]."""
     return float(np.max(run.lean))

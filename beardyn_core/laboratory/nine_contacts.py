@@ -87,27 +87,27 @@ class Contact:
 
 
 def nominal_axis(bearing: Bearing) -> Float:
-    """Axis of the roller in its place, shape [3]."""
+    """Return the axis of the roller in its place, shape [3]."""
     return np.array([math.sin(bearing.contact_angle), 0.0, math.cos(bearing.contact_angle)])
 
 
 def nominal_centre(bearing: Bearing) -> Float:
-    """Mid-length of the roller in its place, shape [3], [m]."""
+    """Return the mid-length of the roller in its place, shape [3], [m]."""
     return np.array([0.5 * bearing.pitch_diameter, 0.0, 0.5 * bearing.row_spacing])
 
 
 def nominal_pose(bearing: Bearing) -> RollerPose:
-    """Roller in its place: it touches both raceways and the large rib."""
+    """Put the roller in its place: it touches both raceways and the large rib."""
     return RollerPose(nominal_centre(bearing), nominal_axis(bearing), np.zeros(3))
 
 
 def abscissae(bearing: Bearing) -> Float:
-    """Places of the discs along the roller, shape [SLICES], [m]."""
+    """Return the places of the discs along the roller, shape [SLICES], [m]."""
     return ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * bearing.effective_length
 
 
 def disc_radius(bearing: Bearing, abscissa: float) -> float:
-    """Radius of the roller cone, [m]."""
+    """Return the radius of the roller cone, [m]."""
     return (bearing.apex_distance + abscissa) * math.tan(bearing.half_angle)
 
 
@@ -133,13 +133,13 @@ class RibFace:
         return self.axial * self.normal_axial + self.radial * self.normal_radial
 
     def shape(self, cone: Float) -> Cone:
-        """The face with the cone displaced."""
+        """Return the face with the cone displaced."""
         angle = math.atan2(-self.normal_axial, self.normal_radial)
         return Cone(placed(cone + np.array([0.0, 0.0, self.axial]), (0, 0, 1)), self.radial, angle, -1.0)
 
 
 def large_rib(bearing: Bearing) -> RibFace:
-    """Face of the large rib through the nominal contact."""
+    """Build the face of the large rib through the nominal contact."""
     lean = bearing.contact_angle - bearing.rib_polar_angle
     centre = nominal_centre(bearing) + bearing.sphere_centre * nominal_axis(bearing)
     return RibFace(
@@ -151,7 +151,7 @@ def large_rib(bearing: Bearing) -> RibFace:
 
 
 def small_rib(bearing: Bearing) -> RibFace:
-    """Face of the small rib: through the lowest point of the small end, less the clearance."""
+    """Build the face of the small rib: through the lowest point of the small end, less the clearance."""
     lean = bearing.contact_angle + SMALL_RIB_RELIEF
     along = -0.5 * bearing.roller_length - bearing.small_rib_clearance
     point = nominal_centre(bearing) + along * nominal_axis(bearing)
@@ -165,19 +165,19 @@ def small_rib(bearing: Bearing) -> RibFace:
 
 
 def end_sphere(bearing: Bearing, pose: RollerPose) -> Arc:
-    """Spherical large end, swept about the roller axis as in the text."""
+    """Build the spherical large end, swept about the roller axis as in the text."""
     centre = pose.centre + bearing.sphere_centre * pose.axis
     return Arc(placed(centre, pose.axis), 0.0, bearing.sphere_radius)
 
 
 def crown_sphere(bearing: Bearing, pose: RollerPose) -> Arc:
-    """The same sphere swept about an axis across the roller: at its crown the other has a pole."""
+    """Sweep the same sphere about an axis across the roller: at its crown the other has a pole."""
     centre = pose.centre + bearing.sphere_centre * pose.axis
     return Arc(placed(centre, (0.0, 1.0, 0.0), pose.axis), 0.0, bearing.sphere_radius)
 
 
 def raceway(bearing: Bearing, name: str, cone: Float) -> Cone:
-    """Raceway of the cone (``Inner``) or the cup (``Outer``)."""
+    """Build the raceway of the cone (``Inner``) or the cup (``Outer``)."""
     angle, side = (bearing.cone_angle, 1.0) if name == "Inner" else (bearing.cup_angle, -1.0)
     apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
     origin = np.array([0.0, 0.0, apex]) + (cone if name == "Inner" else 0.0)
@@ -185,12 +185,12 @@ def raceway(bearing: Bearing, name: str, cone: Float) -> Cone:
 
 
 def disc(bearing: Bearing, pose: RollerPose, abscissa: float) -> Circle:
-    """Edge of a disc of the roller."""
+    """Build the edge of a disc of the roller."""
     return Circle(placed(pose.centre + abscissa * pose.axis, pose.axis), disc_radius(bearing, abscissa))
 
 
 def pocket_line(bearing: Bearing, name: str) -> Straight:
-    """Line of the pocket that a contact of the cage meets."""
+    """Build the line of the pocket that a contact of the cage meets."""
     centre, axis = nominal_centre(bearing), nominal_axis(bearing)
     ahead = np.array([0.0, 1.0, 0.0])
     if name in ("C3.1", "C3.2"):
@@ -231,7 +231,7 @@ def pairs_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -> l
 
 
 def nominal_starts(bearing: Bearing) -> list[Float]:
-    """Parameters of the contacts of the nominal roller, in the order of `pairs_of`."""
+    """Return the parameters of the contacts of the nominal roller, in the order of `pairs_of`."""
     apex, phi = bearing.apex_distance, bearing.half_angle
     # the angle pi of a placement with east = x is the side of the bearing axis
     raceways = [
@@ -253,7 +253,7 @@ def nominal_starts(bearing: Bearing) -> list[Float]:
 
 
 def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -> list[Contact]:
-    """All searches of a roller with the starts of the nominal roller.
+    """Search all contacts of a roller from the starts of the nominal roller.
 
     Parameters
     ----------
@@ -271,7 +271,7 @@ def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -
 
 
 def turned(pose: RollerPose, tilt: float, skew: float) -> RollerPose:
-    """Pose with its axis turned in the meridian plane (+: large end outwards) and out of it (+: y)."""
+    """Turn the axis of a pose in the meridian plane (+: large end outwards) and out of it (+: y)."""
     across = np.cross(np.array([0.0, 1.0, 0.0]), pose.axis)
     axis = unit(pose.axis + tilt * across + skew * np.array([0.0, 1.0, 0.0]))
     return RollerPose(pose.centre, axis, pose.cone)

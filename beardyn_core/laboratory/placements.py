@@ -24,12 +24,12 @@ _CONE_SHIFT = 30e-6
 
 
 def random_place(random: Random, reach: float = 0.0) -> Placement:
-    """Any direction, and an origin within a cube of twice ``reach``."""
+    """Draw any direction, and an origin within a cube of twice ``reach``."""
     return placed(random.uniform(-reach, reach, 3), random.normal(size=3), random.normal(size=3))
 
 
 def _apart(random: Random) -> Float:
-    """A place 8 to 12 cm from the origin."""
+    """Draw a place 8 to 12 cm from the origin."""
     direction = random.normal(size=3)
     return random.uniform(0.08, 0.12) * direction / np.linalg.norm(direction)
 
@@ -77,7 +77,7 @@ class RandomCase:
     truth: Callable[..., float]
 
     def draw(self, random: Random) -> Pair:
-        """One placement."""
+        """Draw one placement."""
         q = self.q(random)
         return Pair(_moved(self.p(random), _apart(random)), q, self.form)
 
@@ -109,13 +109,13 @@ RANDOM_CASES = (
 
 
 def near_start(pair: Pair) -> Float:
-    """Parameters of P nearest to Q's origin, and of Q nearest to that point of P."""
+    """Return the parameters of P nearest to Q's origin, and of Q nearest to that point of P."""
     first = pair.p.nearest_parameters(pair.q.place.origin)
     return np.concatenate([first, pair.q.nearest_parameters(pair.p.frame(first).point)])
 
 
 def random_start(pair: Pair, random: Random) -> Float:
-    """Any angles, and lengths within 10 cm."""
+    """Draw any angles, and lengths within 10 cm."""
 
     def of(shape: Shape) -> Float:
         angles = random.uniform(-math.pi, math.pi, shape.parameter_count)
@@ -127,7 +127,7 @@ def random_start(pair: Pair, random: Random) -> Float:
 
 
 def random_rollers(bearing: Bearing, count: int, seed: int) -> Iterator[RollerPose]:
-    """Rollers shifted and turned at random about their place, and the cone shifted."""
+    """Shift and turn rollers at random about their place, and shift the cone."""
     random = np.random.default_rng(seed)
     nominal = nominal_pose(bearing)
     for _ in range(count):
@@ -141,7 +141,7 @@ def random_rollers(bearing: Bearing, count: int, seed: int) -> Iterator[RollerPo
 
 
 def loaded_row(bearing: Bearing, force: float, end_play: float) -> list[RollerPose]:
-    """Rollers of the row at +y at the first time step: static equilibrium under a radial load.
+    """Place the rollers of the row at +y as at the first time step: static equilibrium under a radial load.
 
     Parameters
     ----------

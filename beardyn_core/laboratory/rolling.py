@@ -100,7 +100,7 @@ class Trough:
     transition_speed: float = 2.0e-3
 
     def floor(self) -> Cone:
-        """The floor: axis along z, body outside; its sweep angle starts at the lowest line."""
+        """Build the floor: axis along z, body outside; its sweep angle starts at the lowest line."""
         east, north, pole = np.array([0.0, -1.0, 0.0]), np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
         return Cone(Placement(np.zeros(3), east, north, pole), self.radius, 0.0, -1.0)
 
@@ -113,7 +113,7 @@ STEP = 1.0e-5  # [s]
 
 @inline
 def _turned(q: Any, v0: Any, v1: Any, v2: Any) -> Any:
-    """Body axes to world axes."""
+    """Return the matrix from body axes to world axes."""
     w, x, y, z = q
     t0, t1, t2 = 2.0 * (y * v2 - z * v1), 2.0 * (z * v0 - x * v2), 2.0 * (x * v1 - y * v0)
     return (
@@ -127,7 +127,7 @@ def _turned(q: Any, v0: Any, v1: Any, v2: Any) -> Any:
 def _rates(
     s: Any, body: Any, places: Any, floor: Any, laws: Any, form: Any, circle: Any, x: Any, w: Any, r: Any
 ) -> Any:
-    """Derivative of the state to ``r``; elastic energy, deepest penetration, and failed searches."""
+    """Write the derivative of the state to ``r``; return energy, deepest penetration, failures."""
     mass, axial, transverse, radius = body[0], body[1], body[2], body[3]
     q = (s[3], s[4], s[5], s[6])
     ex = _turned(q, 1.0, 0.0, 0.0)
@@ -209,7 +209,7 @@ def roll(
     every: Any,
     out: Any,
 ) -> Any:
-    """Runge-Kutta steps; writes state, energies and contact parameters every ``every`` steps.
+    """Make Runge-Kutta steps; write state, energies and contact parameters every ``every`` steps.
 
     Returns how many searches failed.
     """

@@ -45,7 +45,7 @@ class Form:
     signed: bool = True
 
     def coded(self) -> NDArray[np.int64]:
-        """Equations as an array, shape [4, 2], unused rows -1."""
+        """Return the equations as an array, shape [4, 2], unused rows -1."""
         found = np.full((4, 2), -1, dtype=np.int64)
         found[: len(self.equations)] = self.equations
         return found
@@ -109,20 +109,20 @@ class Found:
 
 
 def vectors(pair: Pair, parameters: Float) -> Float:
-    """Rows d, t_P, b_P, n_P, t_Q, b_Q, n_Q, shape [ROWS, 3]."""
+    """Return the rows d, t_P, b_P, n_P, t_Q, b_Q, n_Q, shape [ROWS, 3]."""
     cut = pair.p.parameter_count
     p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
     return np.concatenate([[p.point - q.point], p.vectors, q.vectors])
 
 
 def residual(pair: Pair, parameters: Float) -> Float:
-    """Scalar products that must vanish."""
+    """Compute the scalar products that must vanish."""
     table = vectors(pair, parameters)
     return np.array([table[a] @ table[b] for a, b in pair.form.equations])
 
 
 def jacobian(pair: Pair, parameters: Float) -> Float:
-    """Derivatives of the residual, shape [equation, parameter]."""
+    """Compute the derivatives of the residual, shape [equation, parameter]."""
     cut = pair.p.parameter_count
     p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
     table = np.concatenate([[p.point - q.point], p.vectors, q.vectors])
@@ -135,7 +135,7 @@ def jacobian(pair: Pair, parameters: Float) -> Float:
 
 
 def numeric_jacobian(pair: Pair, parameters: Float, here: Float) -> Float:
-    """The same by forward differences; ``here`` is the residual at ``parameters``."""
+    """Compute the same by forward differences; ``here`` is the residual at ``parameters``."""
     found = np.empty((here.size, parameters.size))
     for i in range(parameters.size):
         moved = parameters.copy()
@@ -191,7 +191,7 @@ def _by_root_finder(pair: Pair, parameters: Float) -> Found:
 
 
 def found_at(pair: Pair, parameters: Float, iterations: int, converged: bool) -> Found:
-    """Points and gap at parameters."""
+    """Return the points and gap at parameters."""
     cut = pair.p.parameter_count
     with np.errstate(all="ignore"):
         p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
@@ -201,5 +201,5 @@ def found_at(pair: Pair, parameters: Float, iterations: int, converged: bool) ->
 
 
 def condition_number(pair: Pair, parameters: Float) -> float:
-    """Of the Jacobian; infinite where the conditions do not fix the points."""
+    """Return the condition number of the Jacobian; infinite where the conditions do not fix the points."""
     return float(np.linalg.cond(jacobian(pair, parameters)))

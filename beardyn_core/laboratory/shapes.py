@@ -23,7 +23,7 @@ CONE, ARC, CIRCLE, FACE_CIRCLE, STRAIGHT = range(5)
 
 
 def unit(vector: ArrayLike) -> Float:
-    """Vector of length one, shape [3]."""
+    """Scale a vector to length one, shape [3]."""
     found = np.asarray(vector, dtype=np.float64)
     return found / math.sqrt(found @ found)
 
@@ -49,7 +49,7 @@ class Placement:
 
 
 def placed(origin: ArrayLike, pole: ArrayLike, east: ArrayLike = (1.0, 0.0, 0.0)) -> Placement:
-    """Placement with a given axis; `east` is made square to it, or replaced when it is parallel."""
+    """Place along an axis; `east` is made square to it, or replaced when it is parallel."""
     axis = unit(pole)
     wanted = np.asarray(east, dtype=np.float64)
     across = wanted - (wanted @ axis) * axis
@@ -93,22 +93,22 @@ class Shape(ABC):
 
     @abstractmethod
     def frame(self, parameters: Float) -> Frame:
-        """Frame at ``parameters``: along the meridian and sweep angle of a surface, or along a line."""
+        """Return the frame at ``parameters``: along meridian and sweep angle, or along a line."""
 
     @abstractmethod
     def _numbers(self) -> tuple[int, float, float, float]: ...
 
     @abstractmethod
     def nearest_parameters(self, point: Float) -> Float:
-        """Parameters near the point of the shape that is nearest to `point`."""
+        """Return parameters near the point of the shape that is nearest to `point`."""
 
     def coded(self) -> Float:
-        """The shape as numbers, shape [SHAPE_NUMBERS]."""
+        """Return the surface as numbers, shape [SHAPE_NUMBERS]."""
         place = self.place
         return np.concatenate([self._numbers(), place.origin, place.east, place.north, place.pole])
 
     def _local(self, point: Float) -> tuple[float, float, float]:
-        """Distance from the axis, angle and height of a point."""
+        """Return distance from the axis, angle and height of a point."""
         arm = point - self.place.origin
         east, north = float(arm @ self.place.east), float(arm @ self.place.north)
         return math.hypot(east, north), math.atan2(north, east), float(arm @ self.place.pole)
@@ -176,7 +176,7 @@ class Cone(_Revolved):
         return CONE, self.radius, self.angle, self.side
 
     def nearest_parameters(self, point: Float) -> Float:
-        """Foot of the square on the generator at the azimuth of the point."""
+        """Return the foot of the square on the generator at the azimuth of the point."""
         distance, angle, height = self._local(point)
         along = (distance - self.radius) * math.sin(self.angle) + height * math.cos(self.angle)
         return np.array([along, angle])
@@ -210,7 +210,7 @@ class Arc(_Revolved):
         return ARC, self.ring_radius, self.radius, self.side
 
     def nearest_parameters(self, point: Float) -> Float:
-        """Direction of the point from the centre of the arc at its azimuth."""
+        """Return the direction of the point from the centre of the arc at its azimuth."""
         distance, angle, height = self._local(point)
         return np.array([math.atan2(height, distance - self.ring_radius), angle])
 
@@ -236,7 +236,7 @@ class Circle(_Line):
     radius: float
 
     def frame(self, parameters: Float) -> Frame:
-        """Frame at a place along the line."""
+        """Return the frame at a place along the line."""
         out, around = self._directions(float(parameters[0]))
         return Frame(
             point=self.place.origin + self.radius * out,
@@ -254,7 +254,7 @@ class Circle(_Line):
         return CIRCLE, self.radius, 0.0, 1.0
 
     def nearest_parameters(self, point: Float) -> Float:
-        """Azimuth of the point."""
+        """Return the azimuth of the point."""
         return np.array([self._local(point)[1]])
 
 
@@ -271,7 +271,7 @@ class FaceCircle(Circle):
     side: float = 1.0
 
     def frame(self, parameters: Float) -> Frame:
-        """Frame at a place along the line."""
+        """Return the frame at a place along the line."""
         out, around = self._directions(float(parameters[0]))
         return Frame(
             point=self.place.origin + self.radius * out,
@@ -289,7 +289,7 @@ class Straight(_Line):
     """Straight line along the pole through the origin; its normal is `east`."""
 
     def frame(self, parameters: Float) -> Frame:
-        """Frame at a place along the line."""
+        """Return the frame at a place along the line."""
         here = self.place
         return Frame(
             point=here.origin + float(parameters[0]) * here.pole,
@@ -302,5 +302,5 @@ class Straight(_Line):
         return STRAIGHT, 0.0, 0.0, 1.0
 
     def nearest_parameters(self, point: Float) -> Float:
-        """Foot of the square on the line."""
+        """Return the foot of the square on the line."""
         return np.array([self._local(point)[2]])

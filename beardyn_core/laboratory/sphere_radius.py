@@ -76,7 +76,7 @@ class SphereCase:
 
 @entry
 def bounded_contact(centre: Any, axis: Any, rib: Any, window: Any, end: Any, out: Any) -> None:
-    """Depth, normal and arm of the rib contact with edges and rim to ``out`` [7]."""
+    """Write depth, normal and arm of the rib contact with edges and rim to ``out`` [7]."""
     depth, normal, arm = rib_gap(
         (centre[0], centre[1], centre[2]), (axis[0], axis[1], axis[2]), (0.0, 0.0, 1.0), rib, window, end
     )
@@ -86,12 +86,12 @@ def bounded_contact(centre: Any, axis: Any, rib: Any, window: Any, end: Any, out
 
 
 def with_sphere(bearing: Bearing, ratio: float) -> Bearing:
-    """The bearing with another sphere on its rollers; its rib would follow, so use the face of the first."""
+    """Put another sphere on the rollers; the rib would follow, so use the face of the first."""
     return replace(bearing, sphere_ratio=ratio, forced=True)
 
 
 def _contact_height(bearing: Bearing, pose: RollerPose, point: Float) -> float:
-    """Of a point over the cone raceway, square to the roller axis, [m]."""
+    """Return the height of a point over the cone raceway, square to the roller axis, [m]."""
     arm = point - pose.centre
     across = arm - (arm @ pose.axis) * pose.axis
     inwards = -float(across[0]) / math.hypot(pose.axis[2], 0.0)
@@ -122,7 +122,7 @@ def _moved(pose: RollerPose, along: float) -> RollerPose:
 
 
 def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
-    """What both methods find for one sphere on the rib of a sound bearing.
+    """Compare what both methods find for one sphere on the rib of a sound bearing.
 
     The roller, skewed by `SKEW`, is moved along its axis until the bounded roller end just touches, then
     pushed in by `PUSH`.
@@ -173,5 +173,5 @@ def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
 
 
 def sphere_cases(bearing: Bearing) -> list[SphereCase]:
-    """All of `SPHERE_RATIOS`."""
+    """Compare all of `SPHERE_RATIOS`."""
     return [sphere_case(bearing, ratio) for ratio in SPHERE_RATIOS]

@@ -1,7 +1,7 @@
-"""Time, iterations, failures and gap errors of every way to find the contacts.
+"""Time, iterations, failures and gap errors of every method to find the contacts.
 
-Times are of the processor, not of the wall, and ways are timed block by block in turn, so that a busy machine
-disturbs little and meets all of them alike; medians.
+Times are of the processor, not of the wall, and methods are timed block by block in turn, so that a busy
+machine disturbs little and disturbs all of them alike; medians.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from beardyn_core.laboratory.shapes import Cone, Shape, Straight
 
 Float = NDArray[np.float64]
 
-WAYS = (
+METHODS = (
     "fsolve, plain",
     "numeric Newton, plain",
     "analytic Newton, plain",
@@ -46,17 +46,17 @@ WAYS = (
 FAILURE = 1e-9  # a gap that is farther off is a failure, [m]
 # from one evaluation to the next a disc turns by about this, and a body moves by this
 WARM_TURN, WARM_SHIFT = 1e-3, 1e-6
-_PLAIN_METHODS = {WAYS[0]: "fsolve", WAYS[1]: "numeric", WAYS[2]: "analytic"}
+_PLAIN_SOLVERS = {METHODS[0]: "fsolve", METHODS[1]: "numeric", METHODS[2]: "analytic"}
 
 
 @dataclass(frozen=True)
-class WayResult:
-    """What one way did on a set of pairs.
+class MethodResult:
+    """What one method did on a set of pairs.
 
     Parameters
     ----------
-    way : str
-        One of `WAYS`.
+    method : str
+        One of `METHODS`.
     microseconds : float
         Per search, median over blocks.
     iterations : float or None
@@ -67,7 +67,7 @@ class WayResult:
         Of the gap, among those that did not fail, [m].
     """
 
-    way: str
+    method: str
     microseconds: float
     iterations: float | None
     failures: float
@@ -76,7 +76,7 @@ class WayResult:
 
 @dataclass(frozen=True)
 class Setting:
-    """Pairs with starts and true gaps, for all ways.
+    """Pairs with starts and true gaps, for all methods.
 
     Parameters
     ----------
@@ -101,15 +101,15 @@ class Setting:
 
 
 def _rated(
-    way: str, seconds: list[float], count: int, found: tuple[Float, Float | None], truth: Float
-) -> WayResult:
+    method: str, seconds: list[float], count: int, found: tuple[Float, Float | None], truth: Float
+) -> MethodResult:
     gaps, iterations = found
     error = np.abs(gaps - truth)
     good = error <= FAILURE
     if iterations is not None:
         good &= iterations >= 0
-    return WayResult(
-        way,
+    return MethodResult(
+        method,
         1e6 * float(np.median(seconds)) / count,
         None
         if iterations is None or not (iterations >= 0).any()
@@ -119,54 +119,58 @@ def _rated(
     )
 
 
-def compare(setting: Setting, *, blocks: int, sweeps: int, ways: Sequence[str] = WAYS) -> list[WayResult]:
-    """Run all ways on a setting.
+def compare(
+    setting: Setting, *, blocks: int, sweeps: int, methods: Sequence[str] = METHODS
+) -> list[MethodResult]:
+    """Run all methods on a setting.
 
     Parameters
     ----------
     setting : Setting
     blocks : int
-        Timed blocks of each way, in turn.
+        Timed blocks of each method, in turn.
     sweeps : int
-        Sweeps over all pairs in a block of a compiled way; plain ways make one.
-    ways : sequence of str
+        Sweeps over all pairs in a block of a compiled method; plain methods make one.
+    methods : sequence of str
 
     Returns
     -------
-    list of WayResult
+    list of MethodResult
     """
     arrays = batch(setting.pairs, setting.starts)
     x, out = np.zeros((len(setting.pairs), 4)), np.zeros((len(setting.pairs), 2))
     jobs: dict[str, tuple[Callable[[], object], int]] = {}
     results: dict[str, tuple[Float, Float | None]] = {}
-    for way in ways:
-        if way in _PLAIN_METHODS:
-            method = _PLAIN_METHODS[way]
-            jobs[way] = (partial(_plain, setting, method), 1)
-            results[way] = _plain(setting, method)
-        elif way == WAYS[4]:
-            jobs[way] = (partial(_root_finder_compiled, setting, arrays), 1)
-            results[way] = _root_finder_compiled(setting, arrays)
-        elif way in (WAYS[5], WAYS[6]):
-            analytic = way == WAYS[6]
-            jobs[way] = (partial(arrays.solve_into, x, out, analytic=analytic), sweeps)
+    for method in methods:
+        if method in _PLAIN_SOLVERS:
+            solver = _PLAIN_SOLVERS[method]
+            jobs[method] = (partial(_plain, setting, solver), 1)
+            results[method] = _plain(setting, solver)
+        elif method == METHODS[4]:
+            jobs[method] = (partial(_root_finder_compiled, setting, arrays), 1)
+            results[method] = _root_finder_compiled(setting, arrays)
+        elif method in (METHODS[5], METHODS[6]):
+            analytic = method == METHODS[6]
+            jobs[method] = (partial(arrays.solve_into, x, out, analytic=analytic), sweeps)
             _, iterations, gaps = arrays.solve(analytic=analytic)
-            results[way] = gaps, iterations.astype(float)
-        elif way == WAYS[3] and setting.plain_closed is not None:
-            jobs[way] = (setting.plain_closed, 1)
-            results[way] = setting.plain_closed(), None
-        elif way == WAYS[7] and setting.compiled_closed is not None:
+            results[method] = gaps, iterations.astype(float)
+        elif method == METHODS[3] and setting.plain_closed is not None:
+            jobs[method] = (setting.plain_closed, 1)
+            results[method] = setting.plain_closed(), None
+        elif method == METHODS[7] and setting.compiled_closed is not None:
             assert setting.closed_compiled_in_place is not None
-            jobs[way] = (setting.closed_compiled_in_place, 10 * sweeps)
-            results[way] = setting.compiled_closed(), None
-    seconds: dict[str, list[float]] = {way: [] for way in jobs}
+            jobs[method] = (setting.closed_compiled_in_place, 10 * sweeps)
+            results[method] = setting.compiled_closed(), None
+    seconds: dict[str, list[float]] = {method: [] for method in jobs}
     for _ in range(blocks):
-        for way, (job, times) in jobs.items():
+        for method, (job, times) in jobs.items():
             begun = time.thread_time()
             for _ in range(times):
                 job()
-            seconds[way].append((time.thread_time() - begun) / times)
-    return [_rated(way, seconds[way], len(setting.pairs), results[way], setting.truth) for way in jobs]
+            seconds[method].append((time.thread_time() - begun) / times)
+    return [
+        _rated(method, seconds[method], len(setting.pairs), results[method], setting.truth) for method in jobs
+    ]
 
 
 def _plain(setting: Setting, method: str) -> tuple[Float, Float]:
@@ -179,7 +183,7 @@ def _plain(setting: Setting, method: str) -> tuple[Float, Float]:
 
 
 def _root_finder_compiled(setting: Setting, arrays: Batch) -> tuple[Float, Float]:
-    """SciPy's root finder with the compiled residual."""
+    """Run SciPy's root finder with the compiled residual."""
     import warnings
 
     gaps, iterations = np.empty(len(setting.pairs)), np.empty(len(setting.pairs))
@@ -208,7 +212,7 @@ def _compiled_residual(
 
 
 def warm_start(shape: Shape, parameters: Float, random: np.random.Generator) -> Float:
-    """Parameters an evaluation earlier: `WARM_TURN` and `WARM_SHIFT` away, either way."""
+    """Draw the parameters an evaluation earlier: `WARM_TURN` and `WARM_SHIFT` away, either way."""
     away = np.full(parameters.size, WARM_TURN)
     if isinstance(shape, (Cone, Straight)):
         away[0] = WARM_SHIFT
@@ -218,7 +222,7 @@ def warm_start(shape: Shape, parameters: Float, random: np.random.Generator) -> 
 def bearing_setting(
     name: str, bearing: Bearing, poses: Sequence[RollerPose], *, warm: bool, only: str | None = None
 ) -> Setting:
-    """All searches of many rollers, or those of one contact.
+    """Collect all searches of many rollers, or those of one contact.
 
     Parameters
     ----------
@@ -274,19 +278,19 @@ class RandomResult:
     ----------
     case, start : str
         Start: ``near`` (nearest to the other's centre) or ``random``.
-    ways : tuple of WayResult
+    methods : tuple of MethodResult
     elsewhere : float
         Share that converged, but to another stationary pair of points, [-].
     """
 
     case: str
     start: str
-    ways: tuple[WayResult, ...]
+    methods: tuple[MethodResult, ...]
     elsewhere: float
 
 
 def random_results(count: int, *, blocks: int, sweeps: int, seed: int = 11) -> list[RandomResult]:
-    """All of `RANDOM_CASES` from both starts."""
+    """Run all of `RANDOM_CASES` from both starts."""
     found = []
     for case in RANDOM_CASES:
         pairs, truth, random = _drawn(case, count, seed)
@@ -295,10 +299,10 @@ def random_results(count: int, *, blocks: int, sweeps: int, seed: int = 11) -> l
                 near_start(pair) if start == "near" else random_start(pair, random) for pair in pairs
             )
             setting = Setting(case.name, pairs, starts, truth)
-            ways = compare(setting, blocks=blocks, sweeps=sweeps, ways=(*WAYS[:3], WAYS[6]))
+            methods = compare(setting, blocks=blocks, sweeps=sweeps, methods=(*METHODS[:3], METHODS[6]))
             _, iterations, gaps = batch(pairs, starts).solve()
             elsewhere = (iterations >= 0) & (np.abs(gaps - truth) > FAILURE)
-            found.append(RandomResult(case.name, start, tuple(ways), float(elsewhere.mean())))
+            found.append(RandomResult(case.name, start, tuple(methods), float(elsewhere.mean())))
     return found
 
 
@@ -333,7 +337,7 @@ class FormResult:
 
 
 def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[Form]) -> list[FormResult]:
-    """The surface-surface contact FR with several forms, from the nominal roller."""
+    """Search the surface-surface contact FR with several forms, from the nominal roller."""
     found = []
     sound = [_of_rib(bearing, pose, SURFACES) for pose in poses]
     truth = np.array(

@@ -1,22 +1,25 @@
 """From a railway operation to the load on the journal.
 
-| module | responsibility |
-|---|---|
-| `table` | a CSV file of numbers, with all its mistakes at once |
-| `spectra` | power spectral densities of the rail, what the contact patch leaves of them |
-| `irregularity` | random-phase or measured profile over the distance |
-| `excitation` | flats and waves of the wheel; joints, welds, crossings, corrugation, over the distance |
-| `track` | the rail as standing waves of a long beam on two layers of seats |
-| `suspension` | progressive springs and friction of a freight bogie, and how the twin feels them |
-| `vehicle` | vertical share of one axlebox on its rail, wheel-rail contact with loss of contact |
-| `course` | curvature and cant over the run, load transfer to the outer side |
-| `lateral` | wheelset, bogie and body sideways: creep, conicity, flanges |
-| `longitudinal` | braking and starting at one axle |
-| `running` | what curves, alignment and a changing speed add to journal load and bogie motion |
-| `measured` | load and speed from a CSV file or a recording |
-| `replay` | a measured operation to a `scene.load.LoadHistory` |
-| `build` | any `scene.operation.Operation` to a `scene.load.LoadHistory` |
-| `events` | what a run meets on its way, as truth |
+============ ===============================================================================
+module       responsibility
+============ ===============================================================================
+table        a CSV file of numbers, with all its mistakes at once
+spectra      power spectral densities of the rail, and what the contact patch leaves of them
+low_pass     symmetric low-pass filters
+irregularity random-phase or measured profile over the distance
+excitation   defects of wheel and rail over the distance
+track        the rail as standing waves of a long beam on two layers of seats
+suspension   progressive springs and friction of a freight bogie
+vehicle      vertical share of one axlebox on its rail, contact that can open
+course       curvature and cant over the run, load transfer to the outer side
+lateral      wheelset, bogie and body sideways: creep, conicity, flanges
+longitudinal braking and starting at one axle
+running      what curves, alignment and a changing speed add to load and bogie motion
+measured     load and speed from a CSV file or a recording
+replay       a measured operation to a `scene.load.LoadHistory`
+build        any `scene.operation.Operation` to a `scene.load.LoadHistory`
+events       what a run meets on its way, as truth
+============ ===============================================================================
 
 A further excitation is one more function of position in `excitation`, which `build` adds to the profile
 before the vehicle runs over it.

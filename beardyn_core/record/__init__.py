@@ -1,28 +1,29 @@
 """Recording and viewing: the topic table, its messages, MCAP files, and the rerun view.
 
-In the order of the data:
-
-=================  =============================================================================
-topics             the one topic table: names, types, QoS
-messages           CDR bytes without ROS; templates for small messages; diagnostics, clock, text
-clouds             columns of samples as ``sensor_msgs/PointCloud2`` and back
-encoding           a `Block` as the messages of the topic table
-load_stream        load histories as messages of ``load/blocks`` and back
-load_reading       load and speed of a recording, for an operation from a file
-description        what a run says about itself (the content of ``truth``)
-sinks              where blocks go: memory, MCAP
-mcap_writing       crash-safe MCAP that rosbag2 reads
-mcap_scanning      reading that survives a cut file
-reading            a recording as arrays
-reporting          what a recording holds, in words and as JSON
-envelope           envelope order spectrum of a whole recording
-meshes             triangle meshes of the bearing's parts from its recorded shape
-rerun_bearing      the bearing in 3-D: motion, loads, contact forces
-rerun_plots        curves beside it
-rerun_spectrum     the envelope spectrum as a drawn plot
-rerun_view         a whole recording with its blueprint; ``.rrd`` files
-rerun_live         a running twin, fed with messages
-rerun_stream       where a live view goes: window, browser, file
-viewer             the rerun program: window, web page, picture without a screen
-=================  =============================================================================
+============== =============================================================================
+module         responsibility
+============== =============================================================================
+topics         the one topic table: names, types, QoS
+messages       CDR bytes without ROS; templates for small messages; diagnostics, clock, text
+clouds         columns of samples as ``sensor_msgs/PointCloud2`` and back
+encoding       a `Block` as the messages of the topic table
+load_stream    load histories as messages of ``load/blocks`` and back
+load_reading   load and speed of a recording, for an operation from a file
+description    what a run says about itself (the content of ``truth``)
+sinks          where blocks go: memory, MCAP
+mcap_writing   crash-safe MCAP that rosbag2 reads
+mcap_scanning  reading that survives a cut file
+reading        a recording as arrays
+reporting      what a recording holds, in words and as JSON
+envelope       envelope order spectrum of a whole recording
+meshes         triangle meshes of the bearing's parts from its recorded shape
+rerun_bearing  the bearing in 3-D: motion, loads, contact forces
+rerun_plots    curves beside it
+rerun_spectrum the envelope spectrum as a drawn plot
+rerun_rolling  coin and roller of the contact laboratory as an animation
+rerun_view     a whole recording with its blueprint; ``.rrd`` files
+rerun_live     a running twin, fed with messages
+rerun_stream   where a live view goes: window, browser, file
+viewer         the rerun program: window, web page, picture without a screen
+============== =============================================================================
 """

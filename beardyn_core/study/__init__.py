@@ -1,24 +1,32 @@
 """What is done with a twin on the desk.
 
-=================== ==========================================================================================
-module              responsibility, in the order of the data
-=================== ==========================================================================================
+=================== =========================================================================
+module              responsibility
+=================== =========================================================================
 desk_run            a scene from start to end, with its means
 monitored_recording a monitor beside a recording, or over one
 finding             a monitor's result in words and messages
+rating_life         rating life under a load history, as numbers and as text
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 trial_run           one run of a trial of a monitor
 trial               all its runs, kept and taken up again
 trial_result        rates with intervals, smallest sizes
-trial_report        table and JSON; trial_picture draws it
-rating_life         rating life under a load history
-life_text           rating life in words
+trial_report        a trial as table and JSON
+trial_picture       a trial in one picture
+signals             channels of a run in one piece, and windows of them
+measures            the numbers by which runs are compared
+ladder_levels       the levels of a ladder: tier, effects, laminae, step; their expected cost
+ladder              all levels of a scene against a converged reference
+ladder_errors       errors of a level, each with the scatter between runs
+ladder_result       which levels meet an accuracy, which are efficient
+ladder_report       a ladder as table and JSON
+ladder_picture      accuracy against wall time in one picture
+table               tables for the terminal and for pages, numbers in few digits
+contacts_tables     results of the contact laboratory as tables
+contacts_report     the same for the terminal and as JSON
+contacts_picture    pictures of the contact laboratory
 output_folder       whether the folder of --output can be written to
-hard                the battery of hard cases
-ancestor            the runs of BearDyn (2017) again
-contacts_tables     the contact laboratory as tables; contacts_report and contacts_picture show them
-ladder              tiers, effects, laminae and steps against a reference; ladder_* judge, print and draw it
-=================== ==========================================================================================
+=================== =========================================================================
 """

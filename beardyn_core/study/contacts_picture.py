@@ -50,7 +50,7 @@ def write_pictures(found: Findings, folder: Path) -> list[Path]:
 
 
 def _along_roller(found: Findings, points: Float) -> tuple[Float, Float, Float]:
-    """Along the roller axis from mid-length, square to it (outwards), and around, [mm]."""
+    """Return places along the roller axis from mid-length, square to it (outwards), and around, [mm]."""
     axis = nominal_axis(found.bearing)
     outward = np.array([axis[2], 0.0, -axis[0]])
     arm = np.asarray(points, dtype=float) - nominal_centre(found.bearing)
@@ -58,7 +58,7 @@ def _along_roller(found: Findings, points: Float) -> tuple[Float, Float, Float]:
 
 
 def nine_figure(found: Findings) -> Figure:
-    """The roller with its partners and the contact points: meridian plane, and from the outside."""
+    """Draw the roller with its partners and the contact points: meridian plane, and from the outside."""
     figure = _figure(12.0, 5.2)
     left, right = figure.subplots(1, 2, width_ratios=(1.45, 1.0))
     _meridian(left, found)
@@ -163,7 +163,7 @@ def _mark(axes: Axes, found: Findings, first: int, second: int, names: tuple[str
 
 
 def sphere_figure(found: Findings) -> Figure:
-    """Roller ends of growing radius: height of the contact, and the gap each method gives."""
+    """Draw roller ends of growing radius: height of the contact, and the gap each method gives."""
     bearing = found.bearing
     figure = _figure(11.0, 4.4)
     left, right = figure.subplots(1, 2, width_ratios=(1.2, 1.0))
@@ -207,12 +207,12 @@ def sphere_figure(found: Findings) -> Figure:
 
 
 def _felt(case: SphereCase) -> float:
-    """Depth of a contact that lies on both parts."""
+    """Return the depth of a contact that lies on both parts."""
     return max(-case.search_gap, 0.0) if case.on_face and case.in_rim else 0.0
 
 
 def rolling_figure(found: Findings) -> Figure:
-    """Coin and roller in the trough: where they are, how high, where the energy is."""
+    """Draw coin and roller in the trough: where they are, how high, where the energy is."""
     figure = _figure(12.0, 4.4)
     left, middle, right = figure.subplots(1, 3, width_ratios=(1.1, 1.0, 1.0))
     coin, roller = found.rolling[0], found.rolling[-1]

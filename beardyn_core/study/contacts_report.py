@@ -7,19 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.laboratory.findings import ANCESTOR_HOURS, EVALUATIONS, Findings
+from beardyn_core.laboratory.findings import EVALUATIONS, SANTOS_HOURS, Findings
 from beardyn_core.study.contacts_tables import rolling_summary, tables
 from beardyn_core.study.ladder_report import machine
 
 
 def report(found: Findings) -> str:
-    """All tables for the terminal."""
+    """Write all tables for the terminal."""
     parts = [table.text() for table in tables(found)]
     return "\n\n".join([*parts, f"all of this took {found.seconds:.0f} s on {machine()['processor']}"])
 
 
 def json_object(found: Findings) -> dict[str, Any]:
-    """Everything as one JSON object; SI units."""
+    """Give everything as one JSON object; SI units."""
     return {
         "bearing": found.bearing.name,
         "quick": found.quick,
@@ -27,7 +27,7 @@ def json_object(found: Findings) -> dict[str, Any]:
         "seconds": found.seconds,
         "evaluations": EVALUATIONS,
         "searches_per_evaluation": found.searches_per_evaluation,
-        "ancestor_hours": ANCESTOR_HOURS,
+        "santos_hours": SANTOS_HOURS,
         "row_difference": found.row_difference,
         "located": [asdict(contact) for contact in found.located],
         "random_rollers": [asdict(result) for result in found.random_rollers],

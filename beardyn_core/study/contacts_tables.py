@@ -15,12 +15,12 @@ from beardyn_core.laboratory.findings import (
     MEAN_STEP,
     RUN_SECONDS,
     Findings,
-    ancestor_hours,
     largest_lean,
+    santos_hours,
 )
 from beardyn_core.laboratory.nine_contacts import PAIRINGS, SEARCHES_PER_ROLLER
 from beardyn_core.laboratory.rolling import Rolling
-from beardyn_core.laboratory.timing import WAYS, WayResult
+from beardyn_core.laboratory.timing import METHODS, MethodResult
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.study.table import Table, digits, duration_text, nanometres, percent
 
@@ -29,7 +29,7 @@ TWIN_EVALUATIONS = round(RUN_SECONDS * WAVEFORM_RATE * TWIN_STEPS_PER_SAMPLE)
 
 
 def located_table(found: Findings) -> Table:
-    """The nine contacts at the first time step."""
+    """List the nine contacts at the first time step."""
     rows = []
     for contact in found.located:
         name = contact.name
@@ -56,7 +56,7 @@ def located_table(found: Findings) -> Table:
     )
 
 
-def _cells(result: WayResult) -> tuple[str, ...]:
+def _cells(result: MethodResult) -> tuple[str, ...]:
     return (
         digits(result.microseconds),
         "-" if result.iterations is None else f"{result.iterations:.1f}",
@@ -66,11 +66,11 @@ def _cells(result: WayResult) -> tuple[str, ...]:
 
 
 def ways_table(found: Findings) -> Table:
-    """All ways on random rollers."""
+    """Set all methods side by side on random rollers."""
     return Table(
         "Random rollers (shifted by 50 um, turned by 2 mrad; start: the nominal roller)",
-        ("way", "CPU us per search", "iterations", "failures [%]", "gap error [nm]"),
-        tuple((result.way, *_cells(result)) for result in found.random_rollers),
+        ("method", "CPU us per search", "iterations", "failures [%]", "gap error [nm]"),
+        tuple((result.method, *_cells(result)) for result in found.random_rollers),
         (
             "iterations of fsolve: evaluations of the equations; gap error: largest, against the plain "
             "closed form (nine contacts of the text, 19 searches a roller)",
@@ -82,12 +82,12 @@ def contacts_table(found: Findings) -> Table:
     """Time and iterations of each contact."""
     rows = []
     for name, results in found.by_contact.items():
-        by_way = {result.way: result for result in results}
-        analytic = by_way[WAYS[6]]
+        by_method = {result.method: result for result in results}
+        analytic = by_method[METHODS[6]]
         rows.append(
             (
                 f"{name}: {PAIRINGS[name][0]}",
-                *(digits(by_way[way].microseconds) for way in (*WAYS[:7],)),
+                *(digits(by_method[method].microseconds) for method in (*METHODS[:7],)),
                 f"{analytic.iterations:.1f}" if analytic.iterations is not None else "-",
                 percent(max(result.failures for result in results)),
             )
@@ -111,20 +111,20 @@ def contacts_table(found: Findings) -> Table:
 
 
 def run_table(found: Findings) -> Table:
-    """The ancestor's Table 1, extrapolated."""
+    """Set Santos (2017), Table 1, beside ours, extrapolated to its run."""
     rows = []
     for result in found.whole_bearing:
-        ancestor = ancestor_hours(result.way)
+        hours = santos_hours(result.method)
         rows.append(
             (
-                result.way,
+                result.method,
                 digits(result.microseconds),
                 "-" if result.iterations is None else f"{result.iterations:.1f}",
                 percent(result.failures),
                 nanometres(result.largest_error),
                 duration_text(found.run_hours(result)),
-                f"{CONTACT_SHARE * ancestor:.1f} h of {ancestor:g} h"
-                if ancestor is not None and result.way.endswith("plain")
+                f"{CONTACT_SHARE * hours:.1f} h of {hours:g} h"
+                if hours is not None and result.method.endswith("plain")
                 else "-",
             )
         )
@@ -143,26 +143,26 @@ def run_table(found: Findings) -> Table:
     return Table(
         f"A whole row, warm starts, and contact detection of a run of {RUN_SECONDS:g} s",
         (
-            "way",
+            "method",
             "CPU us per search",
             "iterations",
             "failures [%]",
             "gap error [nm]",
             "run",
-            "ancestor (2017)",
+            "Santos (2017)",
         ),
         tuple(rows),
         (
             f"run: {found.searches_per_evaluation} searches x {EVALUATIONS} evaluations "
             f"(Runge-Kutta 4(5), mean step {MEAN_STEP * 1e6:g} us, {EVALUATIONS_PER_STEP} evaluations a "
             f"step), detection alone; the twin's step: {TWIN_EVALUATIONS} evaluations",
-            f"ancestor: {CONTACT_SHARE:.0%} of its whole time, which it says goes into the contact points",
+            f"Santos (2017): {CONTACT_SHARE:.0%} of its time, which it says goes into the contact points",
         ),
     )
 
 
 def forms_table(found: Findings) -> Table:
-    """Three readings of the surface-surface conditions."""
+    """Compare three readings of the surface-surface conditions."""
     return Table(
         "Conditions of the surface-surface contact FR (sphere on rib), random rollers",
         ("conditions", "failures [%]", "Newton steps", "condition number", "unskewed"),
@@ -184,17 +184,17 @@ def forms_table(found: Findings) -> Table:
 
 
 def shapes_table(found: Findings) -> Table:
-    """Random circles, spheres, cylinders."""
+    """List random circles, spheres, cylinders."""
     rows = []
     for result in found.shapes:
-        ways = {way.way: way for way in result.ways}
-        analytic = ways[WAYS[6]]
+        methods = {method.method: method for method in result.methods}
+        analytic = methods[METHODS[6]]
         rows.append(
             (
                 f"{result.case}, {result.start} start",
-                *(digits(ways[way].microseconds) for way in (*WAYS[:3], WAYS[6])),
+                *(digits(methods[method].microseconds) for method in (*METHODS[:3], METHODS[6])),
                 "-" if analytic.iterations is None else f"{analytic.iterations:.1f}",
-                *(percent(ways[way].failures) for way in WAYS[:3]),
+                *(percent(methods[method].failures) for method in METHODS[:3]),
                 percent(result.elsewhere),
                 nanometres(analytic.largest_error),
             )
@@ -224,7 +224,7 @@ def shapes_table(found: Findings) -> Table:
 
 
 def spheres_table(found: Findings) -> Table:
-    """Roller ends of growing radius."""
+    """List roller ends of growing radius."""
     bearing = found.bearing
     rows = tuple(
         (
@@ -281,7 +281,7 @@ class RollingSummary:
 
 
 def rolling_summary(run: Rolling) -> RollingSummary:
-    """The numbers of a run."""
+    """List the numbers of a run."""
     k, energies = run.turning_sample, run.energies
     return RollingSummary(
         name=run.body.name,
@@ -302,7 +302,7 @@ def rolling_summary(run: Rolling) -> RollingSummary:
 
 
 def rolling_table(found: Findings) -> Table:
-    """Coin and roller in the trough."""
+    """List coin and roller in the trough."""
     rows = []
     for run in found.rolling:
         s = rolling_summary(run)
@@ -384,7 +384,7 @@ def _largest_difference(loads: BarrelLoads) -> float:
 
 
 def tables(found: Findings) -> tuple[Table, ...]:
-    """All tables in the order of the page."""
+    """Make all tables in the order of the page."""
     return (
         located_table(found),
         ways_table(found),

@@ -200,7 +200,7 @@ def _close(sinks: Sequence[Sink], status: str) -> list[str]:
         for sink in sinks:
             try:
                 sink.close(status)
-            except InputError as error:  # noqa: PERF203 - the others are closed all the same
+            except InputError as error:  # the others are closed all the same
                 failures += error.problems
     return failures
 

@@ -1,6 +1,6 @@
 """The ladder: a scene over tiers, effects, laminae and steps against a converged reference of itself.
 
-All rungs feel the same load history and sensor noise, one after the other in one process. Repeated runs begin
+All levels get the same load history and sensor noise, one after the other in one process. Repeated runs begin
 a hair apart: `varied`.
 """
 
@@ -23,10 +23,9 @@ from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Scene
 from beardyn_core.study.ladder_errors import errors
-from beardyn_core.study.ladder_result import Cost, Ladder, RungResult
-from beardyn_core.study.ladder_rungs import RungList, expected_cost
+from beardyn_core.study.ladder_levels import Level, LevelList, expected_cost
+from beardyn_core.study.ladder_result import Cost, Ladder, LevelResult
 from beardyn_core.study.measures import FaultLine, Outcome, fault_line_of, outcome
-from beardyn_core.study.rung import Rung
 from beardyn_core.study.signals import SignalCollector
 from beardyn_core.twin import Twin
 
@@ -37,7 +36,7 @@ SETTLING_S = 0.4
 SHORTEST_COMPARISON_S, FEWEST_CAGE_REVOLUTIONS = 1.2, 4
 MOST_WINDOWS = 10
 REFERENCE_RUNS, CHEAP_RUNS = 3, 2
-# rungs that are expected to cost less than this run more than once, [s/s]
+# levels that are expected to cost less than this run more than once, [s/s]
 CHEAP = 1.5
 # the filters' delay: the trends of a run end this much before its last block does, rounded up, [s]
 _DELAY = 0.04
@@ -52,7 +51,7 @@ class Plan:
     ----------
     scene : Scene
     load : LoadHistory
-        Made once, felt by all rungs.
+        Made once, felt by all levels.
     settling : float
         [s].
     edges : tuple of float
@@ -74,7 +73,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Run:
-    """One run of a rung.
+    """One run of a level.
 
     Parameters
     ----------
@@ -127,7 +126,7 @@ def plan_of(scene: Scene, duration: float | None = None, settling: float | None 
 
 
 def _usual_duration(scene: Scene, longest: float) -> float:
-    """A second or a few cage revolutions at the scene's first speed, [s]."""
+    """Return a second or a few cage revolutions at the scene's first speed, [s]."""
     probe = load_history(scene.operation, scene.mounting, min(0.1, scene.duration), scene.seed)
     speed = cage_speed_ratio(scene.bearing) * float(np.abs(probe.shaft_speed).mean())
     turns = FEWEST_CAGE_REVOLUTIONS * 2.0 * math.pi / speed if speed > 0.0 else 0.0
@@ -135,7 +134,7 @@ def _usual_duration(scene: Scene, longest: float) -> float:
 
 
 def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> tuple[tuple[float, ...], int]:
-    """Ends of equal windows of whole cage revolutions before an end.
+    """Find the ends of equal windows of whole cage revolutions before an end.
 
     Parameters
     ----------
@@ -164,7 +163,7 @@ def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> t
 
 
 def varied(scene: Scene, number: int) -> Scene:
-    """The same scene begun a hair apart: end play by nanometres, cage speed by 1e-4 at the start.
+    """Begin the same scene a hair apart: end play by nanometres, cage speed by 1e-4 at the start.
 
     Parameters
     ----------
@@ -182,7 +181,7 @@ def varied(scene: Scene, number: int) -> Scene:
 
 
 def simulate(scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
-    """Run a scene of a rung; compiling and starting are not timed."""
+    """Run a scene of a level; compiling and starting are not timed."""
     twin, collector = Twin(scene), SignalCollector()
     walls: list[float] = []
     warnings, block = 0, None
@@ -209,57 +208,57 @@ def simulate(scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
     )
 
 
-def compile_rungs(plan: Plan, rungs: RungList, progress: Progress = lambda _name, _count: None) -> None:
-    """Compile the kernels of all rungs, or load them from the cache, before anything is timed.
+def compile_levels(plan: Plan, levels: LevelList, progress: Progress = lambda _name, _count: None) -> None:
+    """Compile the kernels of all levels, or load them from the cache, before anything is timed.
 
     Parameters
     ----------
     plan : Plan
-    rungs : RungList
+    levels : LevelList
     progress : callable, optional
-        Told before every rung which one is next, and that one more (0 at first) is ready.
+        Told before every level which one is next, and that one more (0 at first) is ready.
     """
     ready = set()
-    for number, rung in enumerate((rungs.reference, *rungs.rungs)):
-        progress(rung.name, min(number, 1))
-        kernels = (rung.tier, rung.effects)
+    for number, level in enumerate((levels.reference, *levels.levels)):
+        progress(level.name, min(number, 1))
+        kernels = (level.tier, level.effects)
         if kernels not in ready:
-            Twin(rung.applied(plan.scene)).warm()
+            Twin(level.applied(plan.scene)).warm()
             ready.add(kernels)
 
 
-def repeats_of(rung: Rung) -> int:
-    """How often a rung is run."""
-    return CHEAP_RUNS if expected_cost(rung) <= CHEAP else 1
+def repeats_of(level: Level) -> int:
+    """Say how often a level is run."""
+    return CHEAP_RUNS if expected_cost(level) <= CHEAP else 1
 
 
-def expected_wall(rungs: RungList, plan: Plan) -> float:
-    """Wall time to expect of a ladder, for the time left, [s]."""
-    costs = REFERENCE_RUNS * expected_cost(rungs.reference)
-    costs += sum(repeats_of(rung) * expected_cost(rung) for rung in rungs.rungs)
+def expected_wall(levels: LevelList, plan: Plan) -> float:
+    """Return the wall time to expect of a ladder, for the time left, [s]."""
+    costs = REFERENCE_RUNS * expected_cost(levels.reference)
+    costs += sum(repeats_of(level) * expected_cost(level) for level in levels.levels)
     return costs * plan.block_count * Twin.block_ns * 1e-9
 
 
 def climb(
     plan: Plan,
-    rungs: RungList,
+    levels: LevelList,
     accuracy: float,
     asked: tuple[str, ...] = USUAL_QUANTITIES,
     progress: Progress = lambda _name, _wall: None,
     runner: Runner | None = None,
 ) -> Ladder:
-    """Run all rungs, the reference first, then the cheapest first.
+    """Run all levels, the reference first, then the cheapest first.
 
     Parameters
     ----------
     plan : Plan
-    rungs : RungList
+    levels : LevelList
     accuracy : float
-        A share; what rungs are judged by.
+        A share; what levels are judged by.
     asked : tuple of str
         Quantities it is asked of.
     progress : callable, optional
-        Told after every block which rung it was of, and the wall time that was expected of it, [s].
+        Told after every block which level it was of, and the wall time that was expected of it, [s].
     runner : callable, optional
         Runs one scene; `simulate` when not given.
 
@@ -277,21 +276,21 @@ def climb(
     """
     runner = runner or simulate
 
-    def run(rung: Rung, number: int) -> Run:
-        expected = expected_cost(rung) * Twin.block_ns * 1e-9
-        return runner(varied(rung.applied(plan.scene), number), plan, lambda: progress(rung.name, expected))
+    def run(level: Level, number: int) -> Run:
+        expected = expected_cost(level) * Twin.block_ns * 1e-9
+        return runner(varied(level.applied(plan.scene), number), plan, lambda: progress(level.name, expected))
 
     truth: list[Run] = []
-    rows: list[RungResult] = []
+    rows: list[LevelResult] = []
     interrupted = False
     try:
         for number in range(REFERENCE_RUNS):
-            truth.append(run(rungs.reference, number))
+            truth.append(run(levels.reference, number))
             if truth[-1].outcome is None:
                 raise ValidityError(f"the reference cannot be computed: {truth[-1].status}")
-        for rung in rungs.rungs:
-            done = [run(rung, number) for number in range(repeats_of(rung))]
-            rows.append(_result(rung, done, truth))
+        for level in levels.levels:
+            done = [run(level, number) for number in range(repeats_of(level))]
+            rows.append(_result(level, done, truth))
     except KeyboardInterrupt:
         if len(truth) < 2:
             raise
@@ -306,15 +305,15 @@ def climb(
         revolutions=plan.revolutions,
         fault_line=plan.fault_line,
         reference=replace(
-            _result(rungs.reference, truth, truth), errors=_result(rungs.reference, truth[:1], truth).errors
+            _result(levels.reference, truth, truth), errors=_result(levels.reference, truth[:1], truth).errors
         ),
-        neighbour=next((row for row in rows if row.rung == rungs.neighbour), None),
+        neighbour=next((row for row in rows if row.level == levels.neighbour), None),
         rows=tuple(rows),
         interrupted=interrupted,
     )
 
 
-def _result(rung: Rung, runs: list[Run], truth: list[Run]) -> RungResult:
+def _result(level: Level, runs: list[Run], truth: list[Run]) -> LevelResult:
     walls = np.concatenate([run.walls for run in runs])
     lower, median, upper = np.quantile(walls, (0.25, 0.5, 0.75)) if len(walls) else np.full(3, np.nan)
     cost = Cost(float(median), float(lower), float(upper))
@@ -323,8 +322,8 @@ def _result(rung: Rung, runs: list[Run], truth: list[Run]) -> RungResult:
     status = next((run.status for run in runs if run.status != COMPLETE), COMPLETE)
     if len(outcomes) < len(runs):
         status = next(run.status for run in runs if run.outcome is None)
-        return RungResult(rung, len(runs), cost, (), (), status)
+        return LevelResult(level, len(runs), cost, (), (), status)
     values = tuple(
         np.mean([found.whole[index] for found in outcomes], axis=0) for index in range(len(outcomes[0].whole))
     )
-    return RungResult(rung, len(runs), cost, errors(outcomes, reference), values, status)
+    return LevelResult(level, len(runs), cost, errors(outcomes, reference), values, status)

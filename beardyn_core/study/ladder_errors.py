@@ -1,4 +1,4 @@
-"""Errors of a rung against the reference, each with the band that runs of one rung scatter in.
+"""Errors of a level against the reference, each with the band that runs of one level scatter in.
 
 The bearing is chaotic: two runs that begin a hair apart share statistics, not trajectories. Repeated runs
 give the variance of every component twice: between whole runs, and between the same windows of two runs
@@ -48,7 +48,7 @@ class Part:
         return abs(self.error) > self.band
 
     def verdict(self, limit: float) -> str:
-        """``yes`` surely within the limit, ``no`` surely beyond, ``open`` where the band crosses it."""
+        """Judge: ``yes`` surely within, ``no`` surely beyond, ``open`` where the band crosses the limit."""
         if abs(self.error) + self.band <= limit:
             return "yes"
         return "no" if abs(self.error) - self.band > limit else "open"
@@ -78,17 +78,17 @@ class QuantityError:
         return max(resolved or self.parts, key=lambda part: abs(part.error), default=None)
 
     def limit(self, accuracy: float) -> float:
-        """Largest error at an accuracy (share) by the definition: the accuracy itself, or 1.5 dB."""
+        """Return the largest error at an accuracy (share): the accuracy itself, or 1.5 dB."""
         return accuracy if self.unit == "%" else BAND_LIMIT_DB
 
     def verdict(self, accuracy: float) -> str:
-        """``yes``, ``no`` or ``open`` for all components."""
+        """Judge all components together: ``yes``, ``no`` or ``open``."""
         found = {part.verdict(self.limit(accuracy)) for part in self.parts}
         return "no" if "no" in found else "open" if "open" in found else "yes"
 
 
 def errors(found: Sequence[Outcome], reference: Sequence[Outcome]) -> tuple[QuantityError, ...]:
-    """Errors of the runs of a rung against the runs of the reference.
+    """Compare the runs of a level with the runs of the reference.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def _parts(
 
 
 def variance(runs: Sequence[Outcome], index: int) -> Float:
-    """Variance of a component of a whole run among repeated runs.
+    """Return the variance of a component of a whole run among repeated runs.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from beardyn_core.study.ladder_report import percent
-from beardyn_core.study.ladder_result import Ladder, RungResult
+from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import QUANTITIES
 
 WIDTH_PX, HEIGHT_PX, DPI = 1400, 860, 100
@@ -25,9 +25,9 @@ _SIDE_PANELS = (4, 2)
 
 @dataclass(frozen=True)
 class _Point:
-    """A rung in a panel; heights in units of the panel."""
+    """A level in a panel; heights in units of the panel."""
 
-    row: RungResult
+    row: LevelResult
     value: float
     bar: float
     resolved: bool
@@ -52,11 +52,11 @@ def ladder_picture(ladder: Ladder, path: Path) -> None:
 
 
 def ladder_figure(ladder: Ladder) -> Figure:
-    """The picture as a figure; its first axes are the main panel."""
+    """Draw the picture as a figure; its first axes are the main panel."""
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.65, 1.0))[0]
-    names = list(dict.fromkeys(row.rung.effects_name for row in (*ladder.rows, ladder.reference)))
+    names = list(dict.fromkeys(row.level.effects_name for row in (*ladder.rows, ladder.reference)))
     colours = {name: _COLOURS[i % len(_COLOURS)] for i, name in enumerate(names)}
     main = left.subplots()
     points = [
@@ -78,8 +78,8 @@ def ladder_figure(ladder: Ladder) -> Figure:
     return figure
 
 
-def _point(row: RungResult, quantity: str) -> _Point | None:
-    """A rung's error in one quantity, in % or dB."""
+def _point(row: LevelResult, quantity: str) -> _Point | None:
+    """Return a level's error in one quantity, in % or dB."""
     error = row.of(quantity)
     if error is None or error.worst is None:
         return None
@@ -107,18 +107,18 @@ def _panel(
     colours: dict[str, str],
     size: float = 8.0,
 ) -> None:
-    """Points with their bands on logarithmic axes; the limit and what is good below it."""
+    """Draw points with their bands on logarithmic axes; the limit and what is good below it."""
     axes.set_xscale("log")
     axes.set_yscale("log")
     lowest = _LOWEST * limit
     heights = [max(point.value, lowest) for point in points] or [limit]
     bottom, top = min(0.5 * min(heights), 0.6 * limit), max(1.8 * max(heights), 2.0 * limit)
     for point, height in zip(points, heights, strict=True):
-        colour = colours[point.row.rung.effects_name]
+        colour = colours[point.row.level.effects_name]
         below = min(point.bar, height - 0.5 * bottom)
         axes.errorbar(
             point.wall, height, yerr=[[below], [point.bar]],
-            color=colour, marker=_MARKERS[point.row.rung.tier], ms=size, mew=0.18 * size,
+            color=colour, marker=_MARKERS[point.row.level.tier], ms=size, mew=0.18 * size,
             mfc=colour if point.resolved else "white", elinewidth=0.9, capsize=0.3 * size, ls="none",
         )  # fmt: skip
     axes.set_ylim(bottom, top)
@@ -136,9 +136,9 @@ def _panel(
 
 
 def _dress(axes: Axes, ladder: Ladder, points: list[_Point], colours: dict[str, str]) -> None:
-    """Title, names and legend of the main panel."""
-    names = {row.rung.name for row in ladder.efficient}
-    efficient = [point for point in points if point.row.rung.name in names]
+    """Write title, names and legend of the main panel."""
+    names = {row.level.name for row in ladder.efficient}
+    efficient = [point for point in points if point.row.level.name in names]
     efficient.sort(key=lambda point: point.wall)
     axes.plot(
         [point.wall for point in efficient],
@@ -154,9 +154,9 @@ def _dress(axes: Axes, ladder: Ladder, points: list[_Point], colours: dict[str, 
             place, 0.012, f" {text}",
             transform=axes.get_xaxis_transform(), color="0.4", fontsize=9, rotation=90, va="bottom",
         )  # fmt: skip
-    for tier in dict.fromkeys(point.row.rung.tier for point in points):
+    for tier in dict.fromkeys(point.row.level.tier for point in points):
         axes.plot([], [], color="0.4", marker=_MARKERS[tier], ls="none", label=tier)
-    for name in dict.fromkeys(point.row.rung.effects_name for point in points):
+    for name in dict.fromkeys(point.row.level.effects_name for point in points):
         axes.plot([], [], color=colours[name], lw=6, label=f"effects {name}")
     axes.plot([], [], color="0.4", marker="o", mfc="white", ls="none", label="not resolved")
     axes.set_xlabel("wall time per simulated second [s]")
@@ -171,7 +171,7 @@ def _dress(axes: Axes, ladder: Ladder, points: list[_Point], colours: dict[str, 
 
 
 def _name(axes: Axes, efficient: list[_Point], ladder: Ladder) -> None:
-    """Write the names of the efficient rungs beside them, the higher ones first, none over another."""
+    """Write the names of the efficient levels beside them, the higher ones first, none over another."""
     to_axes = axes.transData + axes.transAxes.inverted()
     free = 1.0
     for point in sorted(efficient, key=lambda point: -point.value):
@@ -182,7 +182,7 @@ def _name(axes: Axes, efficient: list[_Point], ladder: Ladder) -> None:
         free = min(y + 0.025, free - _LABEL_HEIGHT)
         right = x < 0.55
         axes.annotate(
-            f"{point.row.rung.name}: {score.quantity}",
+            f"{point.row.level.name}: {score.quantity}",
             place, xycoords="data",
             xytext=(x + (0.025 if right else -0.025), free), textcoords="axes fraction",
             fontsize=8.5, ha="left" if right else "right", va="center",

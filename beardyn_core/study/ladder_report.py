@@ -16,29 +16,28 @@ from numpy.typing import NDArray
 
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.study.ladder_errors import BAND_LIMIT_DB, Part, QuantityError
-from beardyn_core.study.ladder_result import Ladder, RungResult
-from beardyn_core.study.ladder_rungs import AUTO, OF_THE_SCENE
+from beardyn_core.study.ladder_levels import AUTO, OF_THE_SCENE, Level
+from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS
-from beardyn_core.study.rung import Rung
 
 _BAND_ROW = "reference, and the band of a single run"
 _LEGEND = (
-    "6 laminae x 4: 4 steps for each sample of 25.6 kHz; a rung without a tier is of the full tier",
+    "6 laminae x 4: 4 steps for each sample of 25.6 kHz; a level without a tier is of the full tier",
     "wall: wall time per simulated second, median over blocks; RTF: its inverse",
     "errors: the worst component of each quantity, in % or dB; (in brackets): not resolved, within the "
     "run-to-run band",
-    "*: efficient, no cheaper rung is as good; yes: good enough with the whole band; open: the band crosses "
+    "*: efficient, no cheaper level is as good; yes: good enough with the whole band; open: the band crosses "
     "the limit",
 )
 
 
 def percent(share: float) -> str:
-    """A share in percent without needless digits."""
+    """Write a share in percent without needless digits."""
     return f"{100.0 * share:g} %"
 
 
 def error_text(error: QuantityError | None) -> str:
-    """The worst error of a quantity, in %, or dB; in brackets when it is not resolved."""
+    """Write the worst error of a quantity, in % or dB; in brackets when it is not resolved."""
     if error is None or error.worst is None:
         return "-"
     text = amount(abs(error.worst.error), error.unit)
@@ -46,7 +45,7 @@ def error_text(error: QuantityError | None) -> str:
 
 
 def amount(value: float, unit: str) -> str:
-    """Two digits of a share in percent, or of dB."""
+    """Write two digits of a share in percent, or of dB."""
     shown = 100.0 * value if unit == "%" else value
     if not math.isfinite(shown):
         return "?"
@@ -59,7 +58,7 @@ def _band_text(error: QuantityError | None) -> str:
 
 
 def heading(ladder: Ladder) -> list[str]:
-    """What is compared with what."""
+    """Say what is compared with what."""
     count, windows = ladder.revolutions, len(ladder.edges) - 1
     turns = counted(count, "whole cage revolution") if count else "no whole cage revolution"
     reference = ladder.reference
@@ -74,25 +73,25 @@ def heading(ladder: Ladder) -> list[str]:
 
 
 def counted(number: int, what: str) -> str:
-    """A number of things."""
+    """Write a number of things."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def limits_of(ladder: Ladder) -> list[str]:
-    """Which quantities have to be within what."""
+    """Say which quantities have to be within what."""
     words = {"%": percent(ladder.accuracy), "dB": f"{BAND_LIMIT_DB:g} dB"}
     asked = {unit: [name for name in ladder.asked if UNITS[name] == unit] for unit in words}
     return [f"{', '.join(names)} within {words[unit]}" for unit, names in asked.items() if names]
 
 
-def _described(result: RungResult) -> str:
-    rung = result.rung
-    micro = 1e6 / (WAVEFORM_RATE * rung.steps_per_sample)
-    return f"{rung.tier}, effects {rung.effects_name}, {rung.laminae} laminae, step {micro:.1f} µs"
+def _described(result: LevelResult) -> str:
+    level = result.level
+    micro = 1e6 / (WAVEFORM_RATE * level.steps_per_sample)
+    return f"{level.tier}, effects {level.effects_name}, {level.laminae} laminae, step {micro:.1f} µs"
 
 
 def convergence(ladder: Ladder) -> str:
-    """How far the reference is converged, in a sentence; empty when its neighbour was not run."""
+    """Say how far the reference is converged; empty when its neighbour was not run."""
     if ladder.neighbour is None:
         return ""
     differences = [
@@ -100,7 +99,7 @@ def convergence(ladder: Ladder) -> str:
         for error in ladder.neighbour.errors
         if error.worst is not None
     ]
-    name = ladder.neighbour.rung.name
+    name = ladder.neighbour.level.name
     sentence = f"the reference with half of its laminae and twice its step ({name}): {', '.join(differences)}"
     if ladder.unconverged:
         sentence += f"; not converged within {percent(ladder.accuracy)}: {', '.join(ladder.unconverged)}"
@@ -108,37 +107,38 @@ def convergence(ladder: Ladder) -> str:
 
 
 def closing(ladder: Ladder) -> list[str]:
-    """What the table comes to."""
+    """Say what the table comes to."""
     best = ladder.cheapest
     if best is not None:
-        found = f"{best.rung.name}, {best.cost.median:.2f} s for each simulated second"
+        found = f"{best.level.name}, {best.cost.median:.2f} s for each simulated second"
     else:
-        undecided = [row.rung.name for row in ladder.rows if ladder.verdict(row) == "open"]
+        undecided = [row.level.name for row in ladder.rows if ladder.verdict(row) == "open"]
         found = "none" + (f"; open: {'; '.join(undecided)}" if undecided else "")
-    lines = [f"cheapest rung within {percent(ladder.accuracy)}: {found}", *choices(ladder)]
+    lines = [f"cheapest level within {percent(ladder.accuracy)}: {found}", *choices(ladder)]
     lines += [
-        f"{row.rung.name}: {row.status}"
+        f"{row.level.name}: {row.status}"
         for row in (ladder.reference, *ladder.rows)
         if row.status != "complete"
     ]
     if ladder.interrupted:
-        lines.append("interrupted: some rungs are missing")
+        lines.append("interrupted: some levels are missing")
     return lines
 
 
 def choices(ladder: Ladder) -> list[str]:
-    """What the rungs are computed with whose names do not say it."""
+    """Say what those levels are computed with whose names do not say it."""
     return [
-        f"{row.rung.name}: {row.rung.tier} tier, {row.rung.laminae} laminae x {row.rung.steps_per_sample}, "
-        f"effects: {_effects_text(ladder, row.rung)}"
+        f"{row.level.name}: {row.level.tier} tier, "
+        f"{row.level.laminae} laminae x {row.level.steps_per_sample}, "
+        f"effects: {_effects_text(ladder, row.level)}"
         for row in ladder.rows
-        if row.rung.effects_name in (AUTO, OF_THE_SCENE)
+        if row.level.effects_name in (AUTO, OF_THE_SCENE)
     ]
 
 
-def _effects_text(ladder: Ladder, rung: Rung) -> str:
-    """Names of the effects, or what is left out of the reference's and what is otherwise than there."""
-    held, absent, other = _against_reference(ladder, rung)
+def _effects_text(ladder: Ladder, level: Level) -> str:
+    """Name the effects, or what is left out of the reference's and what is otherwise than there."""
+    held, absent, other = _against_reference(ladder, level)
     if len(absent) > len(held):
         text = ", ".join(held)
     else:
@@ -146,34 +146,34 @@ def _effects_text(ladder: Ladder, rung: Rung) -> str:
     return text + (f"; with other parameters than in full: {', '.join(other)}" if other else "")
 
 
-def _against_reference(ladder: Ladder, rung: Rung) -> tuple[list[str], list[str], list[str]]:
-    """Effects that a rung has, lacks of those of the reference, and has with other parameters."""
-    every, held = ladder.reference.rung.effects, list(rung.effects.names())
+def _against_reference(ladder: Ladder, level: Level) -> tuple[list[str], list[str], list[str]]:
+    """List the effects that a level has, lacks of the reference's, and has with other parameters."""
+    every, held = ladder.reference.level.effects, list(level.effects.names())
     absent = [name for name in every.names() if name not in held]
-    other = [name for name in held if getattr(rung.effects, name) != getattr(every, name)]
+    other = [name for name in held if getattr(level.effects, name) != getattr(every, name)]
     return held, absent, other
 
 
 def table(ladder: Ladder) -> str:
-    """Readable table with heading and legend."""
+    """Write a readable table with heading and legend."""
     names = [*(f"{quantity} {UNITS[quantity]}" for quantity in QUANTITIES)]
     widths = [len(name) + 2 for name in names]
-    efficient = {row.rung.name for row in ladder.efficient}
+    efficient = {row.level.name for row in ladder.efficient}
     good = f"{percent(ladder.accuracy)}"
-    wide = 2 + max(len(name) for name in (_BAND_ROW, *(row.rung.name for row in ladder.rows)))
-    head = f"{'rung':{wide}}{'wall':>8}{'RTF':>8}"
+    wide = 2 + max(len(name) for name in (_BAND_ROW, *(row.level.name for row in ladder.rows)))
+    head = f"{'level':{wide}}{'wall':>8}{'RTF':>8}"
     head += "".join(f"{name:>{width}}" for name, width in zip(names, widths, strict=True)) + f"{good:>7}"
 
-    def line(row: RungResult, name: str, texts: Sequence[str], verdict: str) -> str:
+    def line(row: LevelResult, name: str, texts: Sequence[str], verdict: str) -> str:
         wall = row.cost.median
         cells = "".join(f"{text:>{width}}" for text, width in zip(texts, widths, strict=True))
         return f"{name:{wide}}{wall:>8.3f}{1.0 / wall:>8.2f}{cells}{verdict:>7}"
 
     lines = [*heading(ladder), "", head]
     for row in ladder.by_cost:
-        mark = "* " if row.rung.name in efficient else "  "
+        mark = "* " if row.level.name in efficient else "  "
         texts = [error_text(row.of(quantity)) for quantity in QUANTITIES]
-        lines.append(line(row, mark + row.rung.name, texts, ladder.verdict(row)))
+        lines.append(line(row, mark + row.level.name, texts, ladder.verdict(row)))
     bands = [_band_text(ladder.reference.of(quantity)) for quantity in QUANTITIES]
     lines.append(line(ladder.reference, f"  {_BAND_ROW}", bands, ""))
     if ladder.neighbour is not None:
@@ -182,7 +182,7 @@ def table(ladder: Ladder) -> str:
 
 
 def json_object(ladder: Ladder) -> dict[str, Any]:
-    """Everything that a ladder found, for `json.dumps`."""
+    """Give everything that a ladder found, for `json.dumps`."""
     return {
         "scene": ladder.scene,
         "purpose": ladder.purpose,
@@ -198,29 +198,29 @@ def json_object(ladder: Ladder) -> dict[str, Any]:
         "asked": list(ladder.asked),
         "vibration_limit_dB": BAND_LIMIT_DB,
         "reference": _row(ladder, ladder.reference),
-        "neighbour": None if ladder.neighbour is None else ladder.neighbour.rung.name,
+        "neighbour": None if ladder.neighbour is None else ladder.neighbour.level.name,
         "unconverged": list(ladder.unconverged),
-        "rungs": [_row(ladder, row) for row in ladder.rows],
-        "efficient": [row.rung.name for row in ladder.efficient],
-        "cheapest": None if ladder.cheapest is None else ladder.cheapest.rung.name,
+        "levels": [_row(ladder, row) for row in ladder.rows],
+        "efficient": [row.level.name for row in ladder.efficient],
+        "cheapest": None if ladder.cheapest is None else ladder.cheapest.level.name,
         "interrupted": ladder.interrupted,
     }
 
 
-def _row(ladder: Ladder, row: RungResult) -> dict[str, Any]:
-    rung, score = row.rung, ladder.score(row)
-    held, absent, other = _against_reference(ladder, rung)
+def _row(ladder: Ladder, row: LevelResult) -> dict[str, Any]:
+    level, score = row.level, ladder.score(row)
+    held, absent, other = _against_reference(ladder, level)
     return {
-        "name": rung.name,
-        "tier": rung.tier,
-        "effects": rung.effects_name,
+        "name": level.name,
+        "tier": level.tier,
+        "effects": level.effects_name,
         "effect_names": held,
         "less_than_reference": absent,
         "other_than_reference": other,
-        "effect_set": asdict(rung.effects),
-        "laminae": rung.laminae,
-        "steps_per_sample": rung.steps_per_sample,
-        "step_s": 1.0 / (WAVEFORM_RATE * rung.steps_per_sample),
+        "effect_set": asdict(level.effects),
+        "laminae": level.laminae,
+        "steps_per_sample": level.steps_per_sample,
+        "step_s": 1.0 / (WAVEFORM_RATE * level.steps_per_sample),
         "runs": row.runs,
         "status": row.status,
         "wall_per_simulated_s": {name: _number(value) for name, value in asdict(row.cost).items()},
@@ -257,7 +257,7 @@ def _part(part: Part) -> dict[str, Any]:
 
 
 def _number(value: float) -> float | None:
-    """JSON has no NaN."""
+    """Replace NaN, which JSON does not have, by ``None``."""
     return value if math.isfinite(value) else None
 
 
@@ -273,7 +273,7 @@ def _version(name: str) -> str:
 
 
 def machine() -> dict[str, Any]:
-    """What the wall times were measured on."""
+    """Describe the machine that the wall times were measured on."""
     cpu = Path("/proc/cpuinfo")
     models = [
         line.partition(":")[2].strip()

@@ -1,4 +1,4 @@
-"""What a ladder found: rungs with cost and errors, which of them meet an accuracy, which are efficient."""
+"""What a ladder found: levels with cost and errors, which of them meet an accuracy, which are efficient."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.study.ladder_errors import QuantityError
+from beardyn_core.study.ladder_levels import Level
 from beardyn_core.study.measures import FaultLine
-from beardyn_core.study.rung import Rung
 
 Float = NDArray[np.float64]
 
-# a dearer rung has to lower the worst error by this share
+# a dearer level has to lower the worst error by this share
 _WORTH_IT = 0.1
 
 
@@ -57,12 +57,12 @@ class Score:
 
 
 @dataclass(frozen=True)
-class RungResult:
-    """A rung with its cost and its errors.
+class LevelResult:
+    """A level with its cost and its errors.
 
     Parameters
     ----------
-    rung : Rung
+    level : Level
     runs : int
         How often it was run.
     cost : Cost
@@ -74,7 +74,7 @@ class RungResult:
         ``complete``, with warnings if there were any, or how a run ended.
     """
 
-    rung: Rung
+    level: Level
     runs: int
     cost: Cost
     errors: tuple[QuantityError, ...]
@@ -82,11 +82,11 @@ class RungResult:
     status: str
 
     def of(self, quantity: str) -> QuantityError | None:
-        """Error of one quantity; ``None`` when there is none."""
+        """Return the error of one quantity; ``None`` when there is none."""
         return next((error for error in self.errors if error.quantity == quantity), None)
 
     def score(self, asked: tuple[str, ...], accuracy: float) -> Score | None:
-        """The worst of the asked errors; ``None`` when a run left the model's validity."""
+        """Return the worst of the asked errors; ``None`` when a run left the model's validity."""
         found = [
             Score(
                 error.quantity,
@@ -99,7 +99,7 @@ class RungResult:
         return max(found, key=lambda score: score.value, default=None)
 
     def verdict(self, asked: tuple[str, ...], accuracy: float) -> str:
-        """Whether the rung meets an accuracy: ``yes``, ``no``, ``open`` (the band hides it).
+        """Return whether the level meets an accuracy: ``yes``, ``no``, ``open`` (the band hides it).
 
         ``-`` where the scene has nothing of what is asked for.
         """
@@ -113,7 +113,7 @@ class RungResult:
 
 @dataclass(frozen=True)
 class Ladder:
-    """The rungs of a scene against its reference.
+    """The levels of a scene against its reference.
 
     Parameters
     ----------
@@ -129,14 +129,14 @@ class Ladder:
     revolutions : int
         Whole cage revolutions from the first to the last edge; 0 when there is none.
     fault_line : FaultLine or None
-    reference : RungResult
+    reference : LevelResult
         Its errors are those of its first run against the mean of all.
-    neighbour : RungResult
+    neighbour : LevelResult
         The reference with half of its laminae and twice its step: how far the reference is converged.
-    rows : tuple of RungResult
-        The rungs in the order in which they were run.
+    rows : tuple of LevelResult
+        The levels in the order in which they were run.
     interrupted : bool
-        Whether rungs are missing.
+        Whether levels are missing.
     """
 
     scene: str
@@ -147,22 +147,22 @@ class Ladder:
     edges: tuple[float, ...]
     revolutions: int
     fault_line: FaultLine | None
-    reference: RungResult
-    neighbour: RungResult | None
-    rows: tuple[RungResult, ...]
+    reference: LevelResult
+    neighbour: LevelResult | None
+    rows: tuple[LevelResult, ...]
     interrupted: bool = False
 
-    def score(self, row: RungResult) -> Score | None:
-        """The worst of the asked errors of a row."""
+    def score(self, row: LevelResult) -> Score | None:
+        """Return the worst of the asked errors of a row."""
         return row.score(self.asked, self.accuracy)
 
-    def verdict(self, row: RungResult) -> str:
-        """Whether a row meets the accuracy that is asked for."""
+    def verdict(self, row: LevelResult) -> str:
+        """Return whether a row meets the accuracy that is asked for."""
         return row.verdict(self.asked, self.accuracy)
 
     @property
-    def by_cost(self) -> tuple[RungResult, ...]:
-        """The rungs, the cheapest first."""
+    def by_cost(self) -> tuple[LevelResult, ...]:
+        """The levels, the cheapest first."""
         return tuple(sorted(self.rows, key=lambda row: row.cost.median))
 
     @property
@@ -173,26 +173,26 @@ class Ladder:
         return tuple(e.quantity for e in self.neighbour.errors if e.verdict(self.accuracy) == "no")
 
     @property
-    def efficient(self) -> tuple[RungResult, ...]:
-        """Rungs for which no cheaper one is as good, the cheapest first.
+    def efficient(self) -> tuple[LevelResult, ...]:
+        """Levels for which no cheaper one is as good, the cheapest first.
 
         As good is what is not worse by more than the run-to-run band and a tenth.
         """
         scored = [(row.cost.median, row, score) for row in self.rows if (score := self.score(row))]
         scored.sort(key=lambda item: item[0])
-        kept: list[tuple[RungResult, Score]] = []
+        kept: list[tuple[LevelResult, Score]] = []
         for _, row, score in scored:
             if all(_better(score, cheaper) for _, cheaper in kept):
                 kept.append((row, score))
         return tuple(row for row, _ in kept)
 
     @property
-    def cheapest(self) -> RungResult | None:
-        """The cheapest rung that meets the accuracy."""
+    def cheapest(self) -> LevelResult | None:
+        """The cheapest level that meets the accuracy."""
         meeting = [row for row in self.rows if self.verdict(row) == "yes"]
         return min(meeting, key=lambda row: row.cost.median, default=None)
 
 
 def _better(one: Score, other: Score) -> bool:
-    """Whether the first is better by more than both bands together let it seem, and worth its cost."""
+    """Return whether the first is better beyond both bands together, and worth its cost."""
     return other.value - one.value > max(math.hypot(one.bar, other.bar), _WORTH_IT * other.value)

@@ -52,7 +52,7 @@ class FaultLine:
 
 
 def fault_line_of(scene: Scene) -> FaultLine | None:
-    """Line of the first defect of the bearing, else of the wheel; ``None`` for a healthy scene."""
+    """Return the line of the first defect of the bearing, else of the wheel; ``None`` for a healthy scene."""
     if not scene.defects:
         wheel = scene.operation.wheel_defects if isinstance(scene.operation, QuarterVehicleOperation) else ()
         order = wheel[0].order if wheel and isinstance(wheel[0], WheelPolygon) else 1
@@ -69,7 +69,7 @@ def fault_line_of(scene: Scene) -> FaultLine | None:
 
 
 def third_octave_levels(acceleration: Float, rate: float = WAVEFORM_RATE) -> Float:
-    """Level of the acceleration in each third-octave band, all axes together.
+    """Compute the level of the acceleration in each third-octave band, all axes together.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def third_octave_levels(acceleration: Float, rate: float = WAVEFORM_RATE) -> Flo
 
 
 def load_distribution(azimuth: Float, load: Float) -> Float:
-    """Mean roller load over azimuth, in bins of one roller pitch around 2 pi k / Z.
+    """Average the roller load over azimuth, in bins of one roller pitch around 2 pi k / Z.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def load_distribution(azimuth: Float, load: Float) -> Float:
 
 
 def line_level(signals: Signals, order: float) -> float:
-    """Amplitude of a line of the envelope order spectrum, re 1 µm/s^2, [dB].
+    """Measure a line of the envelope order spectrum, re 1 µm/s^2, [dB].
 
     Parameters
     ----------
@@ -249,12 +249,12 @@ class Outcome:
 
 
 def measured(signals: Signals, line: FaultLine | None) -> tuple[Float, ...]:
-    """Components of all `MEASURES` of a stretch."""
+    """Compute the components of all `MEASURES` of a stretch."""
     return tuple(measure.take(signals, line) for measure in MEASURES)
 
 
 def outcome(signals: Signals, edges: tuple[float, ...], line: FaultLine | None) -> Outcome:
-    """What a run came to over windows with the given ends, [s]."""
+    """Measure a run over windows with the given ends, [s]."""
     whole = signals.between(edges[0], edges[-1])
     windows = tuple(measured(whole.between(start, end), line) for start, end in pairwise(edges))
     return Outcome(measured(whole, line), windows)

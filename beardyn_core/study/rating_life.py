@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,7 @@ from beardyn_core.scene.scene import Scene
 # ISO 281, normal cleanliness of a greased, sealed bearing above 100 mm pitch diameter: 0.6 to 0.8.
 USUAL_CONTAMINATION = 0.6
 _RADIAL_CLASSES, _AXIAL_CLASSES = 8, 4
+_MILLION = 1.0e6
 
 Float = NDArray[np.float64]
 
@@ -83,7 +85,7 @@ class RatingLife:
 def scene_life(
     scene: Scene, load: LoadHistory, contamination: float = USUAL_CONTAMINATION
 ) -> RatingLife | None:
-    """Life under the load history of a scene; ``None`` when the shaft never turns."""
+    """Compute the life under the load history of a scene; ``None`` when the shaft never turns."""
     mounting = scene.mounting
     free = mounting.journal_tilt == "free" or mounting.cup == "suspended"
     return rating_life(
@@ -98,7 +100,7 @@ def scene_life(
 
 
 def load_classes(load: LoadHistory) -> tuple[LoadClass, ...]:
-    """Classes of equal radial and axial force, weighted with the revolutions made under them.
+    """Sort a load history into classes of radial and axial force, weighted by the revolutions under them.
 
     Parameters
     ----------
@@ -148,7 +150,7 @@ def rating_life(
     contamination: float = USUAL_CONTAMINATION,
     laminae: int = SMALLEST_LAMINA_COUNT,
 ) -> RatingLife | None:
-    """Life under classes of load, their damage added by revolutions (Palmgren and Miner).
+    """Compute the life under classes of load, their damage added by revolutions (Palmgren and Miner).
 
     Parameters
     ----------
@@ -214,8 +216,50 @@ def rating_life(
 
 
 def _class_of(values: Float, count: int) -> NDArray[np.int64]:
-    """Index of the class of equal width that each value falls into; one class when all are alike."""
+    """Sort values into classes of equal width, by index; one class when all are alike."""
     low, high = float(values.min()), float(values.max())
     if high - low <= 1e-9 * max(abs(low), abs(high), 1.0):
         return np.zeros(len(values), dtype=np.int64)
     return np.minimum(((values - low) / (high - low) * count).astype(np.int64), count - 1)
+
+
+def _millions(revolutions: float) -> str:
+    return f"{revolutions / _MILLION:,.0f}" if math.isfinite(revolutions) else "endless"
+
+
+def life_sentence(life: RatingLife) -> str:
+    """Write the lives in one line."""
+    return (
+        f"basic {_millions(life.basic)} (ISO 281), {_millions(life.reference_basic)} (ISO 16281); modified "
+        f"{_millions(life.modified)}, {_millions(life.reference_modified)} million revolutions"
+    )
+
+
+def life_object(life: RatingLife) -> dict[str, Any]:
+    """Give the lives as the object that ``--json`` prints; endless ones are null."""
+
+    def millions(revolutions: float) -> float | None:
+        return revolutions / _MILLION if math.isfinite(revolutions) else None
+
+    return {
+        "equivalent_load_N": life.equivalent_load,
+        "L10_million_rev": millions(life.basic),
+        "L10m_million_rev": millions(life.modified),
+        "L10r_million_rev": millions(life.reference_basic),
+        "L10mr_million_rev": millions(life.reference_modified),
+        "viscosity_ratio": life.viscosity_ratio,
+        "contamination": life.contamination,
+        "load_classes": life.classes,
+    }
+
+
+def life_lines(life: RatingLife) -> list[str]:
+    """Write the lives as lines of text."""
+    return [
+        "Rating life, million revolutions at 90 % reliability",
+        f"  ISO 281    basic {_millions(life.basic)}, modified {_millions(life.modified)}; "
+        f"equivalent load {life.equivalent_load / 1e3:.1f} kN",
+        f"  ISO 16281  basic {_millions(life.reference_basic)}, "
+        f"modified {_millions(life.reference_modified)}",
+        f"  viscosity ratio {life.viscosity_ratio:.2f}, contamination {life.contamination:g}",
+    ]

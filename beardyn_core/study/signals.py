@@ -60,7 +60,7 @@ class Signals:
     acceleration: Float
 
     def between(self, start: float, end: float) -> Signals:
-        """The samples from a time to before another one, [s]."""
+        """Cut out the samples from a time to before another one, [s]."""
         trend, snapshot, wave = (
             slice(*np.searchsorted(times, (start - 1e-9, end - 1e-9)))
             for times in (self.trend_time, self.snapshot_time, self.wave_time)
@@ -109,5 +109,5 @@ class SignalCollector:
         )
 
     def signals(self) -> Signals:
-        """All blocks in one piece."""
+        """Join all blocks in one piece."""
         return Signals(*(np.concatenate(parts) for parts in zip(*self._parts, strict=True)))

@@ -24,7 +24,7 @@ class Table:
     remarks: tuple[str, ...] = ()
 
     def text(self) -> str:
-        """For the terminal: first column to the left, the others to the right."""
+        """Write for the terminal: first column to the left, the others to the right."""
         widths = [max(len(row[i]) for row in (self.head, *self.rows)) for i in range(len(self.head))]
         lines = [self.title, ""]
         for row in (self.head, *self.rows):
@@ -33,14 +33,14 @@ class Table:
         return "\n".join([*lines, *self.remarks])
 
     def markdown(self) -> str:
-        """For a page, without the title."""
+        """Write for a page, without the title."""
         lines = [f"| {' | '.join(self.head)} |", f"|---|{'--:|' * (len(self.head) - 1)}"]
         lines += [f"| {' | '.join(row)} |" for row in self.rows]
         return "\n".join([*lines, *(f"\n{remark}" for remark in self.remarks)])
 
 
 def digits(value: float, count: int = 3) -> str:
-    """Few digits without an exponent where that is readable."""
+    """Write few digits, without an exponent where that is readable."""
     if not math.isfinite(value):
         return "-"
     if value == 0.0:
@@ -52,17 +52,17 @@ def digits(value: float, count: int = 3) -> str:
 
 
 def nanometres(value: float) -> str:
-    """Size of a length [m] in nm."""
+    """Write the size of a length [m] in nm."""
     return f"{abs(value) * 1e9:.1e}" if math.isfinite(value) else "-"
 
 
 def percent(share: float) -> str:
-    """A share in percent."""
+    """Write a share in percent."""
     return f"{100.0 * share:.1f}" if 0.0 < share < 0.9995 else f"{100.0 * share:.0f}"
 
 
 def duration_text(hours: float) -> str:
-    """Hours, minutes or seconds."""
+    """Write hours, minutes or seconds."""
     if hours >= 0.95:
         return f"{hours:.1f} h"
     seconds = 3600.0 * hours

@@ -68,7 +68,7 @@ def test_energy_residual_of_a_rough_start_shrinks_with_the_step() -> None:
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("ratio", [0.9, 1.0, 1.1])
 def test_cages_come_to_the_epicyclic_speed_from_wherever_they_start(name: str, ratio: float) -> None:
-    """D27: within 0.5 % under load, over whole cage revolutions, both rows."""
+    """Within 0.5 % under load, over whole cage revolutions, both rows."""
     run = shipped(name, 0.6, ratio)
     start = (
         run.trend("cage_speed")[0] / run.trend("shaft_speed")[0] / fault_frequencies(run.scene.bearing).ftf
@@ -125,7 +125,7 @@ def rotated_axes(quaternion: Float) -> Float:
 
 
 def test_roller_does_a_quarter_of_the_pitch_circle_in_30_ms() -> None:
-    """D2: cage 52.4 rad/s with the cone at 122 rad/s = 1165 rpm."""
+    """Cage 52.4 rad/s with the cone at 122 rad/s = 1165 rpm."""
     run = shipped("static_80kN")
     angle = run.trend("roller_angle")[:, 0, 0]
     travelled = np.interp(0.03, run.time, angle) - angle[0]

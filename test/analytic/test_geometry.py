@@ -90,7 +90,7 @@ def test_cage_speed_of_the_cones_is_the_textbook_ftf(bearing):
 
 
 def test_rib_slides_at_2_m_per_s_at_2000_rpm():
-    """Physics dossier 0.11: 829 rad/s x 2.5 mm = 2.1 m/s."""
+    """Derived: 829 rad/s x 2.5 mm = 2.1 m/s."""
     spin = roller_cone_spin(HS, 2000.0 * math.pi / 30.0)
     assert spin == pytest.approx(829.0, rel=2e-3)
     assert spin * HS.rib_contact_height == pytest.approx(2.1, rel=0.02)

@@ -161,7 +161,7 @@ def test_line_carries_its_load_and_turns_with_its_tilt(kind: str, coupling: Lami
 
 
 def test_straight_aligned_line_without_coupling_is_loaded_evenly_at_the_hertz_pressure() -> None:
-    """Dossier B.3: 787 MPa at 9.8 kN with the roller's radius; a cup is flatter, a cone more curved."""
+    """Derived: 787 MPa at 9.8 kN with the roller's radius; a cup is flatter, a cone more curved."""
     pressures = [line_load(HS, 9.8e3, ring=ring).pressure.mean() for ring in ("cup", "cone")]
     line = line_load(HS, 9.8e3)
     np.testing.assert_allclose(line.load_per_length, 9.8e3 / HS.effective_length, rtol=1e-9)

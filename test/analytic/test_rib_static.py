@@ -163,7 +163,7 @@ def test_fit_of_hamrock_and_brewe_is_within_1_percent_for_ribs() -> None:
 
 
 def test_ellipse_of_the_main_bearing_at_10_kN() -> None:
-    """Dossier A.1: 6.6 x 1.6 mm and 97 MPa under the 530 N of a 10 kN roller."""
+    """Derived: 6.6 x 1.6 mm and 97 MPa under the 530 N of a 10 kN roller."""
     ellipse = rib_ellipse(HS, 526.0)
     assert 2e3 * ellipse.around == pytest.approx(6.6, rel=0.01)
     assert 2e3 * ellipse.along == pytest.approx(1.6, rel=0.02)
@@ -183,7 +183,7 @@ def test_ellipse_beyond_face_and_rim_is_reported_with_numbers() -> None:
 
 
 def test_power_of_the_rib_is_54_W_per_10_kN_roller() -> None:
-    """Dossier B.11 and Zhao et al. 2026, T = mu Q_f h R_o/Dm, at 2000 rpm and mu = 0.05."""
+    """Zhao et al. 2026, T = mu Q_f h R_o/Dm, at 2000 rpm and mu = 0.05."""
     speed = 2000.0 * math.pi / 30.0
     _, rib_load = roller_forces(1e4, HS.cup_angle, HS.cone_angle, HS.rib_angle)
     sliding = roller_cone_spin(HS, speed) * HS.rib_contact_height
@@ -196,7 +196,7 @@ def test_power_of_the_rib_is_54_W_per_10_kN_roller() -> None:
 
 
 def test_film_of_the_rib_grows_with_speed_and_hardly_falls_with_load() -> None:
-    """Order of the dossier: full film in a warm bearing at speed, mixed at a crawl."""
+    """Expected order: full film in a warm bearing at speed, mixed at a crawl."""
     oil = load_lubricant("L055")
     orbit = cage_speed(HS, 122.0)
     speed = (122.0 - orbit) * 0.085

@@ -29,7 +29,7 @@ def most_loaded(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, An
 
 
 def test_most_loaded_roller_of_80_kN_is_at_its_hertz_pressure(capsys: pytest.CaptureFixture[str]) -> None:
-    """Dossier B.3: 787 MPa at 9.8 kN, the contact with the cone; 0.5 % for its rounded load."""
+    """Derived: 787 MPa at 9.8 kN, the contact with the cone; 0.5 % for its rounded load."""
     roller = most_loaded(capsys)
     assert np.mean(roller["cone_pressure_Pa"]) == pytest.approx(787e6, rel=5e-3)
     assert np.mean(roller["cup_pressure_Pa"]) < 0.95 * np.mean(roller["cone_pressure_Pa"])

@@ -41,7 +41,7 @@ def test_gyroscopic_moment_is_that_of_a_body_precessing_with_the_cage():
     gyroscopic = -float(needed @ model.tilt_axis[1, 0])
     offset = model.inertia_load[0] * HS.roller_mass_offset * math.cos(HS.contact_angle)
     assert model.inertia_load[2] == pytest.approx(gyroscopic + offset, rel=1e-6)
-    # Dossier B.1: 0.24 N m from the spin alone; the turning of the roller with the cage adds a quarter.
+    # Derived: 0.24 N m from the spin alone; the turning of the roller with the cage adds a quarter.
     leading = HS.roller_axial_inertia * spin * cage * math.sin(HS.contact_angle)
     assert leading == pytest.approx(0.24, abs=5e-3)
     assert 1.0 < gyroscopic / leading < 1.3

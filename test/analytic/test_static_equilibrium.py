@@ -291,7 +291,7 @@ def test_profile_softens_the_contact():
 
 
 def test_unloaded_rollers_carry_their_centrifugal_force():
-    """At 2000 rpm: 170 N per roller (dossier B.1) on cup and rib, by the force triangle."""
+    """At 2000 rpm: 170 N per roller on cup and rib, by the force triangle."""
     speed = 2000.0 * math.pi / 30.0
     solution = solve(HS, (0, 0, 80e3), end_play=2e-4, speed=speed)
     radius = 0.5 * HS.pitch_diameter + HS.roller_mass_offset * math.sin(HS.contact_angle)

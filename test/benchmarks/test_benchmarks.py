@@ -11,7 +11,7 @@ import pytest
 from beardyn_core.model.layout import CONE_BODY, CUP_BODY, LINEAR
 from benchmarks.naive_model import NaiveModel, forces_against_kernel
 from benchmarks.runs import Table, straight_line
-from docs.write_performance import goal_rows, page
+from evidence.performance.page import goal_rows, page
 from test.kernels.rig import Rig, standard_scene
 from test.kernels.test_step import shaken
 

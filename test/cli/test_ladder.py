@@ -35,7 +35,7 @@ def one_run(scene: Any, plan: Plan, on_block: Any) -> Run:
 
 @pytest.fixture
 def runs(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
-    """Rungs that were run, with stand-ins for compiling and running."""
+    """Levels that were run, with stand-ins for compiling and running."""
     seen: list[Any] = []
 
     def runner(scene: Any, plan: Plan, on_block: Any) -> Run:
@@ -86,15 +86,15 @@ def test_table_json_and_picture(tmp_path: Path, capsys: pytest.CaptureFixture[st
     words = ["ladder", "static_80kN", "--quick", "--duration", "0.3", "--accuracy", "10", "-o", str(folder)]
     assert command.main(words) == command.DONE
     told = capsys.readouterr()
-    assert "cheapest rung within 10 %: effects " in told.out
+    assert "cheapest level within 10 %: effects " in told.out
     found = json.loads((folder / "ladder.json").read_text())
     assert found["accuracy"] == pytest.approx(0.1)
     # (1/4^2 - 1/8^2) / (1 + 1/8^2) = 4.6 %, with 2 steps 23 %
-    verdicts = {(row["tier"], row["steps_per_sample"]): row["verdict"] for row in found["rungs"]}
-    # the automatic rung takes 2, for the cup is held and does not vibrate
+    verdicts = {(row["tier"], row["steps_per_sample"]): row["verdict"] for row in found["levels"]}
+    # the automatic level takes 2, for the cup is held and does not vibrate
     assert verdicts == dict.fromkeys([*FAST, ("full", 2)], "no") | {("full", 4): "yes"}
     assert "auto 10 %: full tier, " in told.out
-    assert [row["name"] for row in found["rungs"] if row["name"].startswith("auto")] == ["auto 10 %"]
+    assert [row["name"] for row in found["levels"] if row["name"].startswith("auto")] == ["auto 10 %"]
     assert (folder / "ladder.png").stat().st_size > 10_000
     assert {scene.tier for scene in runs} == {"lumped", "quasistatic", "full"}
 
@@ -106,7 +106,7 @@ def test_json_alone_on_standard_output(capsys: pytest.CaptureFixture[str], runs:
     assert found["asked"] == list(USUAL_QUANTITIES)
 
 
-def test_an_interrupt_keeps_the_rungs_done_so_far(
+def test_an_interrupt_keeps_the_levels_done_so_far(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, runs: list[Any]
 ) -> None:
     def impatient(scene: Any, plan: Plan, on_block: Any) -> Run:
@@ -118,10 +118,10 @@ def test_an_interrupt_keeps_the_rungs_done_so_far(
     words = ["ladder", "static_80kN", "--quick", "--duration", "0.3", "-o", str(tmp_path / "out")]
     assert command.main(words) == command.INTERRUPTED
     told = capsys.readouterr()
-    assert "interrupted: some rungs are missing" in told.out
+    assert "interrupted: some levels are missing" in told.out
     found = json.loads((tmp_path / "out" / "ladder.json").read_text())
     assert found["interrupted"]
-    done = {(row["tier"], row["steps_per_sample"]) for row in found["rungs"]}
+    done = {(row["tier"], row["steps_per_sample"]) for row in found["levels"]}
     assert done == {*FAST, ("full", 2)}
 
 

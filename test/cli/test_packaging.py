@@ -61,7 +61,11 @@ def test_wheel_holds_every_module_and_data_file_of_the_packages(
         for path in (repository / package).rglob("*"):
             if path.is_file() and "__pycache__" not in path.parts:
                 assert path.relative_to(repository).as_posix() in names
-    assert not any(name.startswith("test/") for name in names)
+    assert not any(name.startswith(("test/", "evidence/", "benchmarks/")) for name in names)
+
+
+def test_wheel_says_that_both_packages_are_typed(wheel: zipfile.ZipFile) -> None:
+    assert {"beardyn_core/py.typed", "beardyn_ros/py.typed"} <= set(wheel.namelist())
 
 
 def test_package_xml_and_setup_agree(repository: Path, wheel: zipfile.ZipFile) -> None:

@@ -44,7 +44,7 @@ def largest_load(profile: Profile, laminae: int, coupling: LaminaCoupling | None
 @COUPLINGS
 @pytest.mark.parametrize("name", PROFILES)
 def test_largest_roller_load_settles(name: str, coupling: LaminaCoupling | None) -> None:
-    """Acceptance 0.5 % (dossier F); 0.3 % holds at 8 laminae, 0.1 % at 20."""
+    """Acceptance 0.5 % (design); 0.3 % holds at 8 laminae, 0.1 % at 20."""
     reference = largest_load(PROFILES[name], 60, coupling)
     errors = [abs(largest_load(PROFILES[name], n, coupling) / reference - 1.0) for n in COUNTS]
     assert max(errors) < 3e-3

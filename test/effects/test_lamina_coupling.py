@@ -73,7 +73,7 @@ def run(kind: str, coupling: LaminaCoupling | None, laminae: int) -> Record:
     ("kind", "laminae"), [("straight", 6), ("lundberg", 6), ("lundberg", 20), ("iso_16281", 20)]
 )
 def test_energy_audit_closes_with_coupled_laminae(kind: str, laminae: int) -> None:
-    """The loads are the gradient of an energy, but for laminae about to come free: D31, below 0.02 %."""
+    """The loads are the gradient of an energy, but for laminae about to come free: ADORE.jl has 0.02 %."""
     coupled = run(kind, LaminaCoupling(), laminae)
     assert coupled.status == 0
     assert coupled.residual < 2e-4

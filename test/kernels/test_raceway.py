@@ -195,7 +195,7 @@ def test_elastic_force_does_no_work_on_the_spin(side: str) -> None:
 
 @pytest.mark.parametrize("side", SIDES)
 def test_dry_friction_at_full_slip_is_a_tenth_of_the_normal_force(lanes: Any, side: str) -> None:
-    """D4, the ancestor's dry mode: ratio 0.100; at 12 m/s the regularisation of 10 mm/s costs 3.5e-7."""
+    """Santos (2017), dry friction: ratio 0.100; at 12 m/s the regularisation of 10 mm/s costs 3.5e-7."""
     p = only(parameters(), coulomb=CoulombParams(0.1, 0.01))
     plain = only(parameters())
     for motion in motions(side, 8, 8, skew=0.0, tilt=0.0, moving=False):

@@ -130,7 +130,7 @@ def assert_step_is_that_of_dense_algebra(rig: Rig) -> None:
             state = cartesian(before[:, row, k])
             expected, reactions = naive_step.step_roller(state, rings, pocket, (law(0), law(1)), p)
             found = cartesian(after[:, row, k])
-            impulse = p.step * (max(np.linalg.norm(r[:3]) for r in reactions) + 10.0)
+            impulse = p.step * (max(float(np.linalg.norm(r[:3])) for r in reactions) + 10.0)
             largest = max(largest, impulse)
             assert np.linalg.norm(found.centre - expected.centre) < 1e-15
             assert np.linalg.norm(found.axis - expected.axis) < 1e-10

@@ -4,15 +4,12 @@ import argparse
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from beardyn_core.cli.contacts import option_problems
 from beardyn_core.cli.main import BAD_INPUT, DONE, main
 from beardyn_core.study.table import Table, digits, duration_text
-
-WRITER = Path(__file__).parents[2] / "docs" / "write_contacts.py"
 
 
 def test_all_mistakes_are_named_at_once_and_nothing_is_written(tmp_path, capsys) -> None:
@@ -59,19 +56,19 @@ def test_quick_run_prints_writes_and_makes_the_page(tmp_path, capsys) -> None:
     found = json.loads(capsys.readouterr().out)
     assert found == json.loads((folder / "contacts.json").read_text())
     assert found["row_difference"] < 1e-9
-    time = {entry["way"]: entry["microseconds"] for entry in found["whole_bearing"]}
+    time = {entry["method"]: entry["microseconds"] for entry in found["whole_bearing"]}
     assert time["closed form, compiled"] < time["analytic Newton, compiled"] < time["analytic Newton, plain"]
     assert (folder / "a.rrd").stat().st_size > 10_000
     page = tmp_path / "docs"
     page.mkdir()
-    write = [sys.executable, str(WRITER), str(folder), "--to", str(page)]
+    write = [sys.executable, "-m", "evidence.contacts.page", str(folder), "--to", str(page)]
     subprocess.run(write, check=True)
     (page / "contacts.md").write_text(
         (page / "contacts.md").read_text().replace("Not yet on this page.", "Kept.")
     )
     subprocess.run(write, check=True)
     text = (page / "contacts.md").read_text()
-    assert text.count("<!-- ancestor's runs -->") == 1
+    assert text.count("<!-- the runs of Santos (2017) -->") == 1
     assert "\nKept.\n" in text
     for line in text.splitlines():
         if line.startswith("!["):

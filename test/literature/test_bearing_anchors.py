@@ -24,9 +24,9 @@ from beardyn_core.bearing.lubricant import gold_pressure_viscosity
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing, load_lubricant, shipped_names
 
-# Closed geometry and fault frequencies of the shipped bearings, physics dossier A.2: cone, cup and half angle
+# Closed geometry and fault frequencies of the shipped bearings, derived: cone, cup and half angle
 # [deg], apex distance, large end, small end, sphere radius [mm], rib angle [deg], roller mass [kg], Jx, Jy
-# [kg m^2], zc [mm], gamma, FTF, BPFO, BPFI, BSF. None where the dossier gives no number.
+# [kg m^2], zc [mm], gamma, FTF, BPFO, BPFI, BSF. None where no number was derived.
 PRESETS = {
     "HS130x230": (
         *("8.993", "12.007", "1.5066", "507.58", "14.034", "12.666", "480.4", "80.88"),
@@ -55,8 +55,8 @@ def half_a_digit(printed: str) -> float:
 
 
 @pytest.mark.parametrize("name", PRESETS)
-def test_shipped_bearing_closes_to_the_dossier_numbers(name):
-    """Source: physics dossier A.2, to the last digit printed."""
+def test_shipped_bearing_closes_to_the_derived_numbers(name):
+    """Derived, to the last digit printed."""
     bearing = load_bearing(name)
     found = fault_frequencies(bearing)
     degrees = math.degrees
@@ -174,7 +174,7 @@ def test_curvature_of_the_209_ball_bearing():
 
 
 def test_rib_contact_of_the_high_speed_bearing():
-    """Physics dossier B.4: concave rib radius 542 mm, Ry about 4.2 m, K 2.0e11 N/m^1.5 (two digits)."""
+    """Derived: concave rib radius 542 mm, Ry about 4.2 m, K 2.0e11 N/m^1.5 (two digits)."""
     contact = rib_contact(load_bearing("HS130x230"))
     concave = 1.0 / (1.0 / contact.radius_x - 1.0 / contact.radius_y)
     assert concave == pytest.approx(0.542, rel=2e-3)
@@ -187,7 +187,7 @@ def test_rib_contact_of_the_high_speed_bearing():
     [(0.3, 0.2050, 0.2327, 0.881), (0.5, 0.2448, 0.3080, 0.795), (1.0, 0.2525, 0.4798, 0.526)],
 )
 def test_load_zone_integrals(extent, radial, axial, thrust):
-    """Physics dossier D6, exponent 10/9."""
+    """Derived, exponent 10/9."""
     assert radial_integral(extent) == pytest.approx(radial, abs=1e-4)
     assert axial_integral(extent) == pytest.approx(axial, abs=1e-4)
     assert radial_integral(extent) / axial_integral(extent) == pytest.approx(thrust, abs=1e-3)
@@ -224,9 +224,9 @@ def test_rating_factor_of_iso_281(gamma, factor):
     [("HS130x230", 977e3, 0.319), ("FR130x230x150", 923e3, 0.266), ("METRO120x220", 826e3, None)],
 )
 def test_dynamic_rating_of_the_shipped_bearings(name, rating, limit):
-    """Physics dossier A.2 and D24, three digits printed.
+    """Derived, three digits printed.
 
-    The dossier takes the mean angle in C_r where ISO 281 takes the cup angle: the test converts one into
+    They take the mean angle in C_r where ISO 281 takes the cup angle: the test converts one into
     the other (0.4 to 0.5 %).
     """
     bearing = load_bearing(name)
@@ -251,7 +251,7 @@ def test_dynamic_rating_of_the_shipped_bearings(name, rating, limit):
     ],
 )
 def test_viscosity_follows_walther(name, at_60, at_80):
-    """Physics dossier B.7, Walther interpolation in mm^2/s, printed to 0.1."""
+    """Derived, Walther interpolation in mm^2/s, printed to 0.1."""
     lubricant = load_lubricant(name)
     assert lubricant.kinematic_viscosity(333.15) * 1e6 == pytest.approx(at_60, abs=0.06)
     assert lubricant.kinematic_viscosity(353.15) * 1e6 == pytest.approx(at_80, abs=0.06)

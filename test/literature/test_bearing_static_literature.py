@@ -1,4 +1,4 @@
-"""Static equilibrium of the double row against published and dossier numbers."""
+"""Static equilibrium of the double row against published and derived numbers."""
 
 import dataclasses
 import math
@@ -9,13 +9,13 @@ import pytest
 from beardyn_core.bearing.load_zone import axial_integral, radial_integral
 from beardyn_core.config import load_bearing
 from beardyn_core.integrate.static import solve
-from test.anchors.zhang import published_model, solved_model
+from evidence.validation.zhang import published_model, solved_model
 
 HALF_PITCH = math.pi / 17
 
 
 def test_largest_roller_load_of_the_high_speed_bearing():
-    """Issue and physics dossier D7: 9.83 kN with a roller on the load line, 9.63 kN half a pitch further."""
+    """Derived: 9.83 kN with a roller on the load line, 9.63 kN half a pitch further."""
     bearing = load_bearing("HS130x230")
     on_line = solve(bearing, (0, 0, 80e3), end_play=0.0)
     between = solve(bearing, (0, 0, 80e3), end_play=0.0, roller_phase=HALF_PITCH)
@@ -31,7 +31,7 @@ def test_largest_roller_load_is_stribecks_number():
     assert solve(bearing, (0, 0, 80e3), end_play=0.0).largest_roller_load == pytest.approx(expected, rel=5e-3)
 
 
-# Physics dossier D, end: load [N], tilt, loaded rollers, Q_max of each row [N], radial and axial
+# Derived: load [N], tilt, loaded rollers, Q_max of each row [N], radial and axial
 # displacement [um], radial and axial stiffness [GN/m], tilt held.
 STATIC_TABLE = [
     ((0, 0, 80e3), "locked", {9}, (9835, 9835), 13.9, 0.0, 6.38, 0.58),
@@ -43,10 +43,10 @@ STATIC_TABLE = [
 @pytest.mark.parametrize(
     ("load", "tilt", "loaded", "largest", "radial", "axial", "stiff", "soft"), STATIC_TABLE
 )
-def test_static_table_of_the_dossier(load, tilt, loaded, largest, radial, axial, stiff, soft):
+def test_static_table_is_met(load, tilt, loaded, largest, radial, axial, stiff, soft):
     """Loads within 0.1 %: they hardly depend on the stiffness.
 
-    Displacement and stiffness within 3.5 %: the dossier used the ISO constant, whose contact is 3.7 % softer
+    Displacement and stiffness within 3.5 %: the table took the ISO constant, whose contact is 3.7 % softer
     than Palmgren's at equal load (77 652 against 80 589), hence 3.4 % more displacement, and took two
     contacts in series along one normal where here the roller is wedged between cup, cone and a yielding rib.
     """

@@ -7,11 +7,11 @@ import math
 import pytest
 
 from beardyn_core.bearing.film_thickness import line_film
-from test.anchors.films import example_film, mixed_coefficient
+from evidence.validation.films import example_film, mixed_coefficient
 
 
 def test_film_of_the_worked_example_is_0_38_um() -> None:
-    """Dossier B.6: h = 0.38 um (Dowson-Higginson) on the cone, Lambda about 1 at 0.3 um; two digits given."""
+    """Derived: h = 0.38 um (Dowson-Higginson) on the cone, Lambda about 1 at 0.3 um; two digits given."""
     film = example_film("cone")
     assert film == pytest.approx(0.38e-6, abs=0.02e-6)
     assert film / 0.3e-6 == pytest.approx(1.27, abs=0.1)

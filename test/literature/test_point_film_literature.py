@@ -14,7 +14,7 @@ from beardyn_core.bearing.film_thickness import (
     starvation_central,
     thermal_factor,
 )
-from test.anchors.films import HALF_WIDTH, ball_on_inner_ring
+from evidence.validation.films import HALF_WIDTH, ball_on_inner_ring
 
 
 def test_far_meniscus_starves_nothing() -> None:

@@ -20,7 +20,7 @@ from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.errors import InputError
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.torque import running_torque
-from test.anchors.losses import RPM, bearing_32216
+from evidence.validation.losses import RPM, bearing_32216
 
 
 def line_contact(load: float = 5e3, speed: float = 5.0) -> RollingContact:

@@ -8,7 +8,7 @@ import pytest
 
 from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction
 from beardyn_core.model.contact_parameters import LAMINA_PRESSURE
-from test.anchors.films import (
+from evidence.validation.films import (
     NO_ASPERITIES,
     boundary_blend,
     coefficient,
@@ -23,7 +23,7 @@ from test.anchors.films import (
 
 @pytest.mark.parametrize("slip", [0.0201, 0.1, 5.0])
 def test_dry_mode_has_a_tenth_of_the_normal_force(slip: float) -> None:
-    """D4, Santos (2017): F_t / F_n = 0.100 in the dry and boundary setting, from the regularisation on."""
+    """Santos (2017): F_t / F_n = 0.100 in the dry and boundary setting, from the regularisation on."""
     for p in (dry(), boundary_blend()):
         assert coefficient(p, 800.0, slip, 5.0) == pytest.approx(0.1, rel=1e-9)
 
@@ -33,19 +33,19 @@ def test_dry_mode_has_a_tenth_of_the_normal_force(slip: float) -> None:
     [(0.3, 0.3459), (0.5, 0.5432), (1.0, 0.8347), (1.5, 0.9465), (2.0, 0.9840)],
 )
 def test_share_of_the_film(film_parameter: float, share: float) -> None:
-    """f = 1 - exp(-1.8 Lambda^1.2) to four digits; dossier B.8 prints two."""
+    """f = 1 - exp(-1.8 Lambda^1.2) to four digits; derived to two."""
     assert film_share(film_parameter) == pytest.approx(share, abs=1e-4)
 
 
 def test_smooth_dry_mode_reaches_a_tenth_in_the_limit_of_full_slip() -> None:
-    """D4 with u / sqrt(u^2 + u_r^2): short of 0.1 by (u_r / u)^2 / 2."""
+    """The same with u / sqrt(u^2 + u_r^2): short of 0.1 by (u_r / u)^2 / 2."""
     for slip, missing in ((0.1, 5e-3), (1.0, 5e-5), (20.0, 1.25e-7)):
         found = coefficient(parameters(CoulombTraction(), None), 800.0, slip, 5.0)
         assert 1.0 - found / 0.1 == pytest.approx(missing, rel=0.02)
 
 
 def test_threlfalls_law_has_95_percent_at_and_beyond_its_speed() -> None:
-    """Dossier B.8: 1 - exp(-3) = 0.9502 at v_r, 0.95 beyond; half of it at v_r ln(1/0.525) / 3."""
+    """Derived: 1 - exp(-3) = 0.9502 at v_r, 0.95 beyond; half of it at v_r ln(1/0.525) / 3."""
     p = parameters(CoulombTraction(regularisation="threlfall"), None)
     assert coefficient(p, 800.0, 0.01, 5.0) == pytest.approx(0.1 * (1.0 - math.exp(-3.0)), rel=1e-6)
     assert coefficient(p, 800.0, 0.5, 5.0) == pytest.approx(0.095, rel=1e-12)

@@ -17,10 +17,10 @@ from beardyn_core.integrate.status import SENTENCES, Status, describe
 from beardyn_core.model.layout import LOSS_DAMPING
 from beardyn_core.observe.block import SMALLEST_LOSS
 from beardyn_core.scene.scene import Scene
-from beardyn_core.study.hard.case import Point, through
-from beardyn_core.study.hard.case_scene import history, merged
-from beardyn_core.study.hard.watch import Watch
 from beardyn_core.twin import Twin
+from evidence.hard.case import Point, through
+from evidence.hard.case_scene import history, merged
+from evidence.hard.watch import Watch
 
 # Effect sets and tiers that the other fast tests compile as well.
 KERNELS: tuple[dict[str, Any], ...] = (

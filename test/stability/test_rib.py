@@ -60,7 +60,7 @@ def test_edge_of_the_rib_carries_when_the_sphere_misses_the_face(height: float) 
 
 @pytest.mark.parametrize("ratio", [0.97, 1.0, 1.02])
 def test_sphere_as_large_as_the_apex_distance_is_survived_when_forced(ratio: float) -> None:
-    """The ancestor's bad contacts: here the rim of the roller end carries, and the thrust is balanced."""
+    """Santos (2017) lost such contacts: here the rim of the roller end carries, the thrust is balanced."""
     blocks, ended = blocks_of(forced(Rib(roller_end=True), sphere_ratio=ratio), (0.0, 0.0, 8e4), 6)
     finite(blocks)
     assert ended == ""

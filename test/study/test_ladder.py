@@ -1,4 +1,4 @@
-"""The ladder: which rungs, which of them are efficient or good enough, and what a run of it leaves behind."""
+"""The ladder: its levels, which are efficient or good enough, and what a run of it leaves behind."""
 
 from __future__ import annotations
 
@@ -19,12 +19,11 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS, contradictions
 from beardyn_core.study.ladder import REFERENCE_RUNS, Plan, Run, climb, plan_of, repeats_of, varied
 from beardyn_core.study.ladder_errors import Part
+from beardyn_core.study.ladder_levels import Level, LevelList, automatic, expected_cost, level_of, levels_of
 from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
 from beardyn_core.study.ladder_report import json_object, table
 from beardyn_core.study.ladder_result import Ladder
-from beardyn_core.study.ladder_rungs import RungList, automatic, expected_cost, rung_of, rungs_of
 from beardyn_core.study.measures import MEASURES, QUANTITIES, Outcome
-from beardyn_core.study.rung import Rung
 from beardyn_core.twin import Twin
 
 ASKED = ("force", "deflection", "roller_load", "torque", "vibration")
@@ -32,15 +31,14 @@ STANDARD = load_effects("standard")
 SIZES = [2 * 20 if measure.weighed else len(measure.parts) for measure in MEASURES]
 
 
-def rung(name: str, tier: str = "full", laminae: int = 6, steps: int = 4) -> Rung:
-    return Rung(name, tier, "standard", STANDARD, laminae, steps)
+def level(name: str, tier: str = "full", laminae: int = 6, steps: int = 4) -> Level:
+    return Level(name, tier, "standard", STANDARD, laminae, steps)
 
 
-REFERENCE = rung("reference", laminae=20, steps=16)
-FAST, MIDDLE, EXACT, SLOW = (
-    rung("fast", "lumped", 1, 1), rung("middle", "quasistatic"), rung("exact", steps=7), rung("slow", steps=8)
-)  # fmt: skip
-RUNGS = RungList(REFERENCE, SLOW, (FAST, MIDDLE, EXACT, SLOW))
+REFERENCE = level("reference", laminae=20, steps=16)
+FAST, MIDDLE = level("fast", "lumped", 1, 1), level("middle", "quasistatic")
+EXACT, SLOW = level("exact", steps=7), level("slow", steps=8)
+LEVELS = LevelList(REFERENCE, SLOW, (FAST, MIDDLE, EXACT, SLOW))
 # wall time per simulated second, error of the torque, level of all bands [dB]
 TRUTH = {
     (1, 1): (0.1, 0.5, 4.0),
@@ -89,23 +87,23 @@ def plan() -> Plan:
 
 
 def climbed(plan: Plan, runs: FakeRuns, accuracy: float = 0.05) -> Ladder:
-    return climb(plan, RUNGS, accuracy, ASKED, runner=runs)
+    return climb(plan, LEVELS, accuracy, ASKED, runner=runs)
 
 
-def test_efficient_rungs_and_the_cheapest_good_one(plan: Plan) -> None:
+def test_efficient_levels_and_the_cheapest_good_one(plan: Plan) -> None:
     ladder = climbed(plan, FakeRuns())
-    verdicts = {row.rung.name: ladder.verdict(row) for row in ladder.rows}
+    verdicts = {row.level.name: ladder.verdict(row) for row in ladder.rows}
     assert verdicts == {"fast": "no", "middle": "yes", "exact": "yes", "slow": "yes"}
     # `slow` costs more than `exact` and is not better
-    assert [row.rung.name for row in ladder.efficient] == ["fast", "middle", "exact"]
+    assert [row.level.name for row in ladder.efficient] == ["fast", "middle", "exact"]
     assert ladder.cheapest is not None
-    assert ladder.cheapest.rung.name == "middle"
+    assert ladder.cheapest.level.name == "middle"
 
 
 def test_what_is_good_enough_depends_on_the_accuracy_asked_for(plan: Plan) -> None:
     ladder = climbed(plan, FakeRuns(), accuracy=0.01)
     assert ladder.cheapest is not None
-    assert ladder.cheapest.rung.name == "exact"
+    assert ladder.cheapest.level.name == "exact"
     score = ladder.score(ladder.rows[1])
     assert score is not None
     assert score.quantity == "torque"
@@ -130,7 +128,7 @@ def test_a_band_that_crosses_the_limit_leaves_the_verdict_open(
     assert Part("mean", error, band).verdict(0.05) == verdict
 
 
-def test_only_a_rung_that_is_surely_within_is_the_cheapest_within(plan: Plan) -> None:
+def test_only_a_level_that_is_surely_within_is_the_cheapest_within(plan: Plan) -> None:
     ladder = climbed(plan, FakeRuns())
     middle = ladder.rows[1]
     torque = middle.of("torque")
@@ -142,21 +140,21 @@ def test_only_a_rung_that_is_surely_within_is_the_cheapest_within(plan: Plan) ->
     unsure = replace(ladder, rows=rows)
     assert unsure.verdict(rows[1]) == "open"
     assert unsure.cheapest is not None
-    assert unsure.cheapest.rung.name == "exact"
+    assert unsure.cheapest.level.name == "exact"
 
 
-def test_the_choices_of_the_automatic_rung_stand_below_the_table(plan: Plan) -> None:
+def test_the_choices_of_the_automatic_level_stand_below_the_table(plan: Plan) -> None:
     """By what it holds when that is less, else by what it leaves out of the reference."""
     every = load_effects("full")
-    rungs = replace(RUNGS, reference=replace(REFERENCE, effects_name="full", effects=every))
+    levels = replace(LEVELS, reference=replace(REFERENCE, effects_name="full", effects=every))
     less = replace(every, drag=None, seal=None)
-    auto = Rung("auto 5 %", "full", "auto", less, 6, 7)
-    own = Rung("own", "full", "of the scene", replace(load_effects("dry"), gravity=None), 6, 8)
-    ladder = climb(plan, replace(rungs, rungs=(auto, own)), 0.05, ASKED, runner=FakeRuns())
+    auto = Level("auto 5 %", "full", "auto", less, 6, 7)
+    own = Level("own", "full", "of the scene", replace(load_effects("dry"), gravity=None), 6, 8)
+    ladder = climb(plan, replace(levels, levels=(auto, own)), 0.05, ASKED, runner=FakeRuns())
     text = table(ladder)
     assert "auto 5 %: full tier, 6 laminae x 7, effects: full less drag, seal" in text
     assert f"own: full tier, 6 laminae x 8, effects: {', '.join(own.effects.names())}" in text
-    found = json_object(ladder)["rungs"][0]
+    found = json_object(ladder)["levels"][0]
     assert found["less_than_reference"] == ["drag", "seal"]
     assert found["effect_names"] == list(less.names())
 
@@ -172,43 +170,43 @@ def test_a_fault_line_is_asked_of_the_vibration() -> None:
 def test_tiers_are_judged_with_the_steps_that_they_take_unasked() -> None:
     for quick in (True, False):
         found = {
-            (rung.tier, rung.steps_per_sample) for rung in rungs_of(load_scene("cup_spall"), quick).rungs
+            (level.tier, level.steps_per_sample) for level in levels_of(load_scene("cup_spall"), quick).levels
         }
         assert {(tier.name, tier.steps_per_sample) for tier in TIERS.values()} <= found
 
 
 def test_a_quantity_that_is_not_asked_for_does_not_count(plan: Plan) -> None:
-    ladder = climb(plan, RUNGS, 0.01, ("force",), runner=FakeRuns())
+    ladder = climb(plan, LEVELS, 0.01, ("force",), runner=FakeRuns())
     assert ladder.cheapest is not None
-    assert ladder.cheapest.rung.name == "fast"
+    assert ladder.cheapest.level.name == "fast"
 
 
 def test_an_error_inside_the_band_is_not_resolved_and_nothing_is_claimed(plan: Plan) -> None:
     ladder = climbed(plan, FakeRuns(scatter=0.2))
-    middle = next(row for row in ladder.rows if row.rung.name == "middle")
+    middle = next(row for row in ladder.rows if row.level.name == "middle")
     torque = middle.of("torque")
     assert torque is not None
     assert torque.worst is not None
     assert not torque.worst.resolved
     assert ladder.verdict(middle) == "open"
     assert ladder.cheapest is None
-    # a cheaper rung that may be as good leaves a dearer one inefficient
-    assert [row.rung.name for row in ladder.efficient] == ["fast"]
+    # a cheaper level that may be as good leaves a dearer one inefficient
+    assert [row.level.name for row in ladder.efficient] == ["fast"]
     text = table(ladder)
     assert "(" in next(line for line in text.splitlines() if line.strip().startswith("middle"))
-    assert "cheapest rung within 5 %: none; open: " in text
+    assert "cheapest level within 5 %: none; open: " in text
 
 
 def test_every_error_and_band_is_in_the_json_and_the_table_names_all_quantities(plan: Plan) -> None:
     ladder = climbed(plan, FakeRuns())
     found = json.loads(json.dumps(json_object(ladder), allow_nan=False))
-    assert [row["name"] for row in found["rungs"]] == ["fast", "middle", "exact", "slow"]
+    assert [row["name"] for row in found["levels"]] == ["fast", "middle", "exact", "slow"]
     assert found["efficient"] == ["fast", "middle", "exact"]
     assert found["cheapest"] == "middle"
     assert found["neighbour"] == "slow"
     assert found["machine"]["cores"] >= 1
     assert found["versions"]["numpy"] == np.__version__
-    fast = found["rungs"][0]
+    fast = found["levels"][0]
     assert fast["wall_per_simulated_s"]["median"] == pytest.approx(0.1)
     assert fast["errors"]["torque"]["worst"]["error"] == pytest.approx(0.5, abs=0.01)
     assert len(fast["errors"]["vibration"]["parts"]) == 26
@@ -225,18 +223,18 @@ def test_every_error_and_band_is_in_the_json_and_the_table_names_all_quantities(
 
 def test_a_reference_that_is_not_converged_is_said_to_be_so(plan: Plan) -> None:
     assert climbed(plan, FakeRuns()).unconverged == ()
-    ladder = climb(plan, replace(RUNGS, neighbour=FAST), 0.05, ASKED, runner=FakeRuns())
+    ladder = climb(plan, replace(LEVELS, neighbour=FAST), 0.05, ASKED, runner=FakeRuns())
     assert ladder.unconverged == ("torque", "vibration")
     assert "not converged within 5 %: torque, vibration" in table(ladder)
     assert json_object(ladder)["unconverged"] == ["torque", "vibration"]
 
 
-def test_a_rung_that_leaves_its_validity_is_reported_and_never_good(plan: Plan) -> None:
+def test_a_level_that_leaves_its_validity_is_reported_and_never_good(plan: Plan) -> None:
     ladder = climbed(plan, FakeRuns(invalid=4))
-    middle = next(row for row in ladder.rows if row.rung.name == "middle")
+    middle = next(row for row in ladder.rows if row.level.name == "middle")
     assert ladder.verdict(middle) == "no"
     assert ladder.score(middle) is None
-    assert [row.rung.name for row in ladder.efficient] == ["fast", "exact"]
+    assert [row.level.name for row in ladder.efficient] == ["fast", "exact"]
     assert "middle: the run ended at 0.1 s: a number became NaN" in table(ladder)
     json.dumps(json_object(ladder), allow_nan=False)
 
@@ -249,9 +247,9 @@ def test_a_reference_that_leaves_its_validity_ends_the_ladder(plan: Plan) -> Non
 def test_an_interrupt_keeps_what_was_done(plan: Plan) -> None:
     ladder = climbed(plan, FakeRuns(interrupted=7))
     assert ladder.interrupted
-    assert [row.rung.name for row in ladder.rows] == ["fast", "middle"]
+    assert [row.level.name for row in ladder.rows] == ["fast", "middle"]
     assert ladder.neighbour is None
-    assert "some rungs are missing" in table(ladder)
+    assert "some levels are missing" in table(ladder)
     with pytest.raises(KeyboardInterrupt):
         climbed(plan, FakeRuns(interrupted=16))
 
@@ -268,7 +266,7 @@ def test_repeated_runs_begin_a_hair_apart_and_feel_the_same(plan: Plan) -> None:
     assert other.effects.cage is not None
     assert plan.scene.effects.cage is not None
     assert other.effects.cage.initial_speed_ratio == pytest.approx(1.0001)
-    assert len(runs.scenes) == REFERENCE_RUNS + sum(repeats_of(rung) for rung in RUNGS.rungs)
+    assert len(runs.scenes) == REFERENCE_RUNS + sum(repeats_of(level) for level in LEVELS.levels)
 
 
 def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(plan: Plan) -> None:
@@ -280,49 +278,51 @@ def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(plan: Pl
 
 @pytest.mark.parametrize("name", ["smooth_run", "cup_spall", "static_5kN"])
 @pytest.mark.parametrize(("quick", "each_effect"), [(True, False), (False, False), (False, True)])
-def test_every_rung_of_a_scene_can_be_computed_and_has_its_own_name(
+def test_every_level_of_a_scene_can_be_computed_and_has_its_own_name(
     name: str, quick: bool, each_effect: bool
 ) -> None:
     scene = load_scene(name)
-    rungs = rungs_of(scene, quick, each_effect)
-    every = [rungs.reference, *rungs.rungs]
-    assert len({rung.name for rung in every}) == len(every)
-    assert rungs.neighbour in rungs.rungs
+    levels = levels_of(scene, quick, each_effect)
+    every = [levels.reference, *levels.levels]
+    assert len({level.name for level in every}) == len(every)
+    assert levels.neighbour in levels.levels
     for found in every:
         applied = found.applied(scene)
         assert not contradictions(applied.tier, applied.effects.rib is not None, applied.numerics.laminae)
         assert applied.defects == scene.defects
         Twin(applied)
-    costs = [expected_cost(rung) for rung in rungs.rungs]
+    costs = [expected_cost(level) for level in levels.levels]
     assert costs == sorted(costs)
-    assert expected_cost(rungs.reference) > max(costs)
+    assert expected_cost(levels.reference) > max(costs)
     own = (scene.tier, scene.effects, scene.numerics.laminae, scene.numerics.steps_per_sample)
-    assert own in [(rung.tier, rung.effects, rung.laminae, rung.steps_per_sample) for rung in rungs.rungs]
-    assert {rung.tier for rung in rungs.rungs} == {"lumped", "quasistatic", "full"}
-    assert {"dry", "standard", "full"} <= {rung.effects_name for rung in rungs.rungs}
+    assert own in [
+        (level.tier, level.effects, level.laminae, level.steps_per_sample) for level in levels.levels
+    ]
+    assert {level.tier for level in levels.levels} == {"lumped", "quasistatic", "full"}
+    assert {"dry", "standard", "full"} <= {level.effects_name for level in levels.levels}
 
 
-def test_effects_of_the_scene_itself_are_a_rung(plan: Plan) -> None:
+def test_effects_of_the_scene_itself_are_a_level(plan: Plan) -> None:
     scene = replace(plan.scene, effects=replace(STANDARD, cage=None))
-    rungs = rungs_of(scene)
-    assert "of the scene" in {rung.effects_name for rung in rungs.rungs}
+    levels = levels_of(scene)
+    assert "of the scene" in {level.effects_name for level in levels.levels}
     # the scene's own choice may be the neighbour itself
-    usual = rungs.neighbour.applied(plan.scene)
-    assert len(rungs_of(usual).rungs) == len(rungs_of(plan.scene).rungs)
-    assert rung_of(usual, "full") == rungs.neighbour
-    assert rung_of(usual, "auto", name="auto 5 %").name == "auto 5 %"
+    usual = levels.neighbour.applied(plan.scene)
+    assert len(levels_of(usual).levels) == len(levels_of(plan.scene).levels)
+    assert level_of(usual, "full") == levels.neighbour
+    assert level_of(usual, "auto", name="auto 5 %").name == "auto 5 %"
 
 
-def test_another_rung_takes_its_place_by_cost(plan: Plan) -> None:
-    rungs = rungs_of(plan.scene, quick=True)
-    more = rung("auto 5 %", "quasistatic", laminae=4, steps=2)
-    found = rungs.including(more)
-    assert more in found.rungs
-    assert set(found.rungs) - {more} == set(rungs.rungs)
-    assert [expected_cost(r) for r in found.rungs] == sorted(expected_cost(r) for r in found.rungs)
+def test_another_level_takes_its_place_by_cost(plan: Plan) -> None:
+    levels = levels_of(plan.scene, quick=True)
+    more = level("auto 5 %", "quasistatic", laminae=4, steps=2)
+    found = levels.including(more)
+    assert more in found.levels
+    assert set(found.levels) - {more} == set(levels.levels)
+    assert [expected_cost(r) for r in found.levels] == sorted(expected_cost(r) for r in found.levels)
 
 
-def test_the_picture_names_the_efficient_rungs(plan: Plan, tmp_path: Path) -> None:
+def test_the_picture_names_the_efficient_levels(plan: Plan, tmp_path: Path) -> None:
     ladder = climbed(plan, FakeRuns())
     axes = ladder_figure(ladder).axes[0]
     written = [text.get_text() for text in axes.texts]
@@ -337,15 +337,15 @@ def test_the_picture_names_the_efficient_rungs(plan: Plan, tmp_path: Path) -> No
     ladder_picture(climbed(plan, FakeRuns(invalid=4)), path)
 
 
-def test_a_real_ladder_of_two_rungs() -> None:
+def test_a_real_ladder_of_two_levels() -> None:
     """Full tier against quasi-static rollers: the same force, torque without sliding friction."""
     scene = load_scene("static_80kN")
     plan = plan_of(scene, 0.25, 0.1)
-    neighbour = rung("neighbour", steps=4, laminae=5)
-    rungs = RungList(
-        rung("reference", steps=4), neighbour, (rung("rollers in balance", "quasistatic"), neighbour)
+    neighbour = level("neighbour", steps=4, laminae=5)
+    levels = LevelList(
+        level("reference", steps=4), neighbour, (level("rollers in balance", "quasistatic"), neighbour)
     )
-    ladder = climb(plan, rungs, 0.05, ASKED)
+    ladder = climb(plan, levels, 0.05, ASKED)
     balanced, near = ladder.rows
     assert ladder.revolutions == 2
     assert balanced.status == near.status == "complete"
@@ -368,8 +368,8 @@ def test_a_real_ladder_of_two_rungs() -> None:
 def test_the_reference_is_converged() -> None:
     """Half the laminae and twice the step of the reference move it by less than the accuracy."""
     plan = plan_of(load_scene("static_80kN"), 0.5, 0.25)
-    rungs = rungs_of(plan.scene, quick=True)
-    ladder = climb(plan, replace(rungs, rungs=(rungs.neighbour,)), 0.05, ASKED)
+    levels = levels_of(plan.scene, quick=True)
+    ladder = climb(plan, replace(levels, levels=(levels.neighbour,)), 0.05, ASKED)
     assert ladder.neighbour is not None
     for quantity in ("force", "deflection", "roller_load", "torque"):
         error = ladder.neighbour.of(quantity)
@@ -388,9 +388,9 @@ def test_the_automatic_choice_is_not_surely_beyond_the_accuracy(
 ) -> None:
     """What the accuracy asks for is judged against every effect, many laminae and a small step."""
     plan = plan_of(load_scene(name), duration, settling)
-    rungs, scene = rungs_of(plan.scene, quick=True), plan.scene
+    levels, scene = levels_of(plan.scene, quick=True), plan.scene
     auto = automatic(scene, 0.05, scene.quantities)
-    ladder = climb(plan, replace(rungs, rungs=(auto,)), 0.05, scene.quantities)
+    ladder = climb(plan, replace(levels, levels=(auto,)), 0.05, scene.quantities)
     (row,) = ladder.rows
     assert row.status == "complete"
     assert ladder.verdict(row) != "no", table(ladder)

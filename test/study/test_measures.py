@@ -251,7 +251,7 @@ def noisy(generator: np.random.Generator, shift: float = 0.0, windows: int = 5) 
     return Outcome(whole, tuple(scattered))
 
 
-def test_equal_rungs_are_seldom_told_apart_and_different_ones_are() -> None:
+def test_equal_levels_are_seldom_told_apart_and_different_ones_are() -> None:
     generator = np.random.default_rng(11)
     trials, told_apart, found = 200, {"vibration": 0, "torque": 0, "force": 0}, 0
     for _ in range(trials):

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import Field, StrictBool, model_validator
-from typing_extensions import Self
 
 from beardyn_core.config.file_model import (
     FileModel,

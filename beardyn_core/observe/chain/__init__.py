@@ -1,17 +1,21 @@
-"""The reference monitoring chain, one step a module, in the order of the data.
+"""The reference monitoring chain: plain functions, each of which can be replaced.
 
-settings     what can be tuned
-stretch      what an algorithm is given: vibration, shaft angle, load, temperature
-kurtogram    select_band: where the spectral kurtosis is largest
-tracking     envelope, and track: order tracking by the shaft angle
-wheel        what turns with the wheel (flats, polygons) is taken out
-fault_lines  score: power on the lines of each fault against noise, and the threshold
-levels       RMS, kurtosis, crest factor and their trend
-hot_box      the temperature rule
-verdict      decide
-result       what an algorithm answers
-chain        `Chain`: the steps put together, each replaceable
-named        an algorithm by its name ``module:function``
+=========== ========================================================================
+module      responsibility
+=========== ========================================================================
+settings    what can be tuned
+stretch     what an algorithm gets: vibration, shaft angle, load, temperature
+kurtogram   select_band: where the spectral kurtosis is largest
+tracking    envelope, and track: order tracking by the shaft angle
+wheel       takes out what turns with the wheel (flats, polygons)
+fault_lines score: power on the lines of each fault against noise, and the threshold
+levels      RMS, kurtosis, crest factor and their trend
+hot_box     the temperature rule
+verdict     decide: which fault is called, and why
+result      what an algorithm answers
+chain       `Chain`: the steps put together, each replaceable
+named       finds an algorithm by its name ``module:function``
+=========== ========================================================================
 """
 
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm, Chain

@@ -1,0 +1,239 @@
+"""The levels of a ladder, each a choice of tier, effects, laminae and step, and their expected cost."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+from beardyn_core.choice.choose import choose
+from beardyn_core.choice.outcome import Choice
+from beardyn_core.config import load_effects
+from beardyn_core.effects import EffectSet
+from beardyn_core.integrate.step_choice import usual_steps
+from beardyn_core.scene.scene import QUANTITIES, Numerics, Scene
+from beardyn_core.scene.sensor import RATES
+from beardyn_core.scene.tier import TIERS
+
+REFERENCE_LAMINAE, REFERENCE_STEPS = 40, 8
+# effects named by these are known by what they hold only
+AUTO, OF_THE_SCENE = "auto", "of the scene"
+# measured as a level in the spectrum of the vibration: what one asks of it, the choice has to hold there
+_CHOSEN_AS = {"fault_line": "vibration"}
+# wall time per simulated second on one core of a 2.5 GHz machine, for the progress bar and the order of runs
+_FAST_COST = {"lumped": (0.06, 0.002), "quasistatic": (0.06, 0.012)}
+_FULL_COST = (0.10, 0.025)
+_FAST_EFFECTS = "standard"
+_MANY_EFFECTS, _MANY_EFFECTS_FACTOR = 10, 1.8
+
+
+@dataclass(frozen=True)
+class Level:
+    """One choice of what a scene is computed with.
+
+    Parameters
+    ----------
+    name : str
+        Names the level in tables and pictures.
+    tier : str
+        Name of a tier, see `scene.tier`.
+    effects_name : str
+        What the set of effects is called.
+    effects : EffectSet
+    laminae : int
+        Of each roller.
+    steps_per_sample : float
+        Time steps per waveform sample (25.6 kHz), [-].
+    """
+
+    name: str
+    tier: str
+    effects_name: str
+    effects: EffectSet
+    laminae: int
+    steps_per_sample: float
+
+    def applied(self, scene: Scene) -> Scene:
+        """Apply this choice to a scene; bearing, load, faults and seed stay, all sensors run at 25.6 kHz.
+
+        Parameters
+        ----------
+        scene : Scene
+
+        Returns
+        -------
+        Scene
+        """
+        numerics = Numerics(self.laminae, self.steps_per_sample)
+        sensors = tuple(replace(sensor, rate=RATES[0]) for sensor in scene.sensors)
+        return replace(scene, tier=self.tier, effects=self.effects, numerics=numerics, sensors=sensors)
+
+
+@dataclass(frozen=True)
+class LevelList:
+    """The reference, its coarser neighbour, and the levels to be judged.
+
+    Parameters
+    ----------
+    reference : Level
+        Every effect, many laminae, a small step.
+    neighbour : Level
+        Half of the reference's laminae and twice its step.
+    levels : tuple of Level
+        The cheapest first.
+    """
+
+    reference: Level
+    neighbour: Level
+    levels: tuple[Level, ...]
+
+    def including(self, *more: Level) -> LevelList:
+        """Add further levels to those to be judged."""
+        return replace(self, levels=tuple(sorted([*self.levels, *more], key=expected_cost)))
+
+
+def _level(tier: str, effects_name: str, effects: EffectSet, laminae: int, steps: float) -> Level:
+    words = [] if tier == "full" else [tier]
+    if tier == "full" or effects_name != _FAST_EFFECTS:
+        words.append(f"effects {effects_name}")
+    name = ", ".join([*words, f"{laminae} laminae x {steps}"])
+    return Level(name, tier, effects_name, effects, laminae, steps)
+
+
+def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> LevelList:
+    """Make the levels of a scene's ladder.
+
+    Parameters
+    ----------
+    scene : Scene
+    quick : bool
+        Few levels, and none with effects that the shipped presets do not have.
+    each_effect : bool
+        Also `full` less each of its effects in turn.
+
+    Returns
+    -------
+    LevelList
+    """
+    full, standard, dry = (load_effects(name) for name in ("full", "standard", "dry"))
+    reference = replace(_level("full", "full", full, REFERENCE_LAMINAE, REFERENCE_STEPS), name="reference")
+    neighbour = _level("full", "full", full, REFERENCE_LAMINAE // 2, REFERENCE_STEPS // 2)
+    lumped, balanced, usual = (TIERS[name].steps_per_sample for name in ("lumped", "quasistatic", "full"))
+    fast: dict[str, tuple[tuple[int, int], ...]] = {"lumped": ((6, lumped),), "quasistatic": ((6, balanced),)}
+    steps: dict[str, tuple[EffectSet, tuple[tuple[int, int], ...]]] = {
+        "dry": (dry, ((6, usual_steps(dry, 6)),)),
+        "standard": (standard, ((6, usual),)),
+        "full": (full, ((6, usual),)),
+    }
+    if not quick:
+        fast = {
+            "lumped": ((1, lumped), (6, lumped), (6, 4 * lumped)),
+            "quasistatic": (
+                (3, balanced),
+                (6, balanced),
+                (6, 2 * balanced),
+                (6, 4 * balanced),
+                (20, balanced),
+            ),
+        }
+        losses = {name: getattr(full, name) for name in ("rolling_resistance", "drag", "seal")}
+        lossy = replace(standard, **losses)
+        steps |= {
+            "standard": (
+                standard,
+                ((3, usual), (6, 2), (6, 3), (6, usual), (6, 2 * usual), (20, usual)),
+            ),
+            "standard + losses": (lossy, ((6, usual),)),
+            "standard + losses + ring_flexibility": (
+                replace(lossy, ring_flexibility=full.ring_flexibility),
+                ((6, usual),),
+            ),
+            "full - lamina_coupling": (replace(full, lamina_coupling=None), ((6, usual),)),
+            "full": (
+                full,
+                (
+                    (3, usual),
+                    (6, 2),
+                    (6, 3),
+                    (6, usual),
+                    (6, 2 * usual),
+                    (6, 4 * usual),
+                    (10, usual),
+                ),
+            ),
+        }
+    if each_effect:
+        steps |= {f"full - {name}": (less, ((6, usual),)) for name, less in _one_less(full)}
+    found = [
+        _level(tier, _FAST_EFFECTS, standard, laminae, count)
+        for tier, choices in fast.items()
+        for laminae, count in choices
+    ]
+    found += [
+        _level("full", name, effects, laminae, count)
+        for name, (effects, choices) in steps.items()
+        for laminae, count in choices
+    ]
+    found.append(neighbour)
+    known = {effects: name for name, (effects, _) in steps.items()}
+    own = level_of(scene, known.get(scene.effects, OF_THE_SCENE))
+    if _choices(own) not in [_choices(level) for level in found]:
+        found.append(own)
+    return LevelList(reference, neighbour, tuple(sorted(found, key=expected_cost)))
+
+
+def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
+    """Describe what a scene itself is computed with as a level.
+
+    Parameters
+    ----------
+    scene : Scene
+    effects_name : str
+        What its effects are called.
+    name : str, optional
+        Of the level; from its choices when not given.
+    """
+    numerics = scene.numerics
+    level = _level(scene.tier, effects_name, scene.effects, numerics.laminae, numerics.steps_per_sample)
+    return replace(level, name=name) if name else level
+
+
+def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
+    """Choose for a scene as `effects: auto` does, whatever the scene is computed with itself.
+
+    Parameters
+    ----------
+    scene : Scene
+    accuracy : float
+        Asked for, [-].
+    asked : tuple of str
+        Quantities that it is asked of; a fault line is asked of the vibration.
+    """
+    wanted = {_CHOSEN_AS.get(name, name) for name in asked}
+    quantities = tuple(name for name in QUANTITIES if name in wanted)
+    return choose(replace(scene, effects=load_effects("full"), accuracy=accuracy, quantities=quantities))
+
+
+def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Level:
+    """Make the level of `chosen_for`, to be judged against every effect."""
+    return level_of(
+        chosen_for(scene, accuracy, asked).applied(scene), AUTO, name=f"auto {100.0 * accuracy:g} %"
+    )
+
+
+def _choices(level: Level) -> tuple[str, EffectSet, int, float]:
+    return level.tier, level.effects, level.laminae, level.steps_per_sample
+
+
+def _one_less(effects: EffectSet) -> list[tuple[str, EffectSet]]:
+    """List the sets with one effect less that can be computed, by the name of that effect."""
+    needed = {"film", "traction"}  # each asks for the other
+    names = [field.name for field in fields(effects) if field.name not in needed]
+    return [(name, replace(effects, **{name: None})) for name in names if getattr(effects, name) is not None]
+
+
+def expected_cost(level: Level) -> float:
+    """Estimate the wall time per simulated second: for the order of runs and the time left only."""
+    base, per_lamina = _FAST_COST.get(level.tier, _FULL_COST)
+    many = len(level.effects.names()) > _MANY_EFFECTS and level.tier == "full"
+    return (
+        level.steps_per_sample * (base + per_lamina * level.laminae) * (_MANY_EFFECTS_FACTOR if many else 1.0)
+    )

@@ -1,0 +1,28 @@
+"""Shared by all tests: no user configuration leaks in, nothing is written outside temporary folders."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+REPOSITORY = Path(__file__).resolve().parent
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """The fast suite draws the same examples every time; the long battery looks for new ones."""
+    settings.register_profile("repeatable", derandomize=True)
+    if config.getoption("markexpr") == "not slow":
+        settings.load_profile("repeatable")
+
+
+@pytest.fixture(autouse=True)
+def _shipped_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("BEARDYN_CONFIG", raising=False)
+
+
+@pytest.fixture
+def repository() -> Path:
+    """Root of the checkout."""
+    return REPOSITORY

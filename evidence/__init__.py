@@ -1,0 +1,20 @@
+"""Evidence behind the documentation: a folder for each page, with its cases, run, page writer and tests.
+
+=========== ======================================================================================
+folder      page
+=========== ======================================================================================
+validation  docs/validation.md: published numbers and trends beside ours
+santos2017  docs/santos2017.md: the runs of Santos (2017) again
+contacts    docs/contacts.md: the contact laboratory
+hard        docs/hard.md: situations in which codes of this kind break
+step        docs/step.md: chosen time steps beside an explicit one of 0.1 us
+ladder      docs/ladder.md: what accuracy costs
+automatic   docs/automatic.md: what `effects: auto` chooses, on trial
+trial       docs/trial.md: the monitor on trial
+performance docs/performance.md: speeds measured by `benchmarks`
+pages       where pages and pictures go, and how pictures are made small
+=========== ======================================================================================
+
+``python -m evidence.NAME.page`` writes the page. The numbers of `hard` and `step` are made before that, by
+``python -m evidence.hard`` and ``python -m evidence.step``. None of this is installed with the package.
+"""

@@ -1,0 +1,8 @@
+"""The contact laboratory on a page. The laboratory itself is a command, `beardyn contacts`.
+
+====== ==============================================================
+module responsibility
+====== ==============================================================
+page   docs/contacts.md and its pictures from what the command wrote
+====== ==============================================================
+"""

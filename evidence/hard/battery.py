@@ -1,0 +1,155 @@
+"""All hard cases side by side, each in a process of its own kind; what is done is not done again.
+
+A case is done when a result of the same case and the same sources lies in the folder. Long cases keep a
+checkpoint there and are continued from it.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import logging
+import pickle
+import traceback
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from multiprocessing import get_context
+from pathlib import Path
+
+import numba
+import numpy as np
+
+import beardyn_core
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.integrate.tiers import TIERS
+from beardyn_core.model.arrangement import Arrangement
+from beardyn_core.model.build import build_parameters
+from beardyn_core.twin import LANE_WIDTH
+from evidence.hard.case import HardCase
+from evidence.hard.case_scene import scene_of
+from evidence.hard.run import keep, run_case
+from evidence.hard.verdict import FAILED, Outcome
+
+_CORE = Path(beardyn_core.__path__[0])
+_HERE = Path(__file__).resolve().parent
+_NOT_IN_A_RESULT = ("catalogue", "cases_", "report", "battery", "page", "test_", "__main__")
+_NO_KERNEL = ("refused scene", "explicit")
+
+
+def run_battery(
+    cases: Iterable[HardCase], folder: Path, jobs: int, report: Callable[[Outcome, int, int], None]
+) -> list[Outcome]:
+    """Run cases and keep their outcomes in a folder; returns them in the order of the cases.
+
+    Parameters
+    ----------
+    cases : iterable of HardCase
+    folder : Path
+        Of results and checkpoints.
+    jobs : int
+        Processes side by side.
+    report : callable
+        Gets every outcome, how many are there and of how many.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    cases = list(cases)
+    done = {case.name: found for case in cases if (found := _kept(case, folder)) is not None}
+    for number, outcome in enumerate(list(done.values()), start=1):
+        report(outcome, number, len(cases))
+    todo = [case for case in cases if case.name not in done]
+    if not todo:
+        return [done[case.name] for case in cases]
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_quiet) as pool:
+        for outcome in _as_done(pool, todo, folder, jobs):
+            done[outcome.name] = outcome
+            report(outcome, len(done), len(cases))
+    return [done[case.name] for case in cases]
+
+
+def _as_done(pool: ProcessPoolExecutor, cases: list[HardCase], folder: Path, jobs: int) -> Iterator[Outcome]:
+    """Yield outcomes as they come; two processes never compile the same kernel."""
+    kernels = {case.name: kernel_of(case) for case in cases}
+    size = Counter(kernels.values())
+    # kernels of many cases first; of each a short case first, then the long ones
+    waiting = sorted(cases, key=lambda case: (-size[kernels[case.name]], not case.long))
+    ready: set[str] = set(_NO_KERNEL)
+    running: dict[Future[Outcome], str] = {}
+    while waiting or running:
+        for case in list(waiting):
+            kernel = kernels[case.name]
+            alone = kernel not in ready
+            if len(running) < jobs and not (alone and (kernel in running.values() or case.long)):
+                running[pool.submit(_one, case, _place(case, folder))] = kernel
+                waiting.remove(case)
+        if not running:  # only long ones of a new kernel are left
+            ready.update(kernels.values())
+            continue
+        for future in wait(running, return_when=FIRST_COMPLETED).done:
+            ready.add(running.pop(future))
+            yield future.result()
+
+
+def _quiet() -> None:
+    logging.getLogger("beardyn").setLevel(logging.WARNING)
+
+
+def _one(case: HardCase, place: Path) -> Outcome:
+    """Run a case in this process; a crash of the model is a verdict too."""
+    try:
+        outcome = run_case(case, place.with_suffix(".checkpoint"))
+    except Exception:
+        outcome = Outcome(case.name, FAILED, (f"crashed: {traceback.format_exc(limit=-3)}",))
+    keep(place.with_suffix(".outcome"), outcome)
+    place.with_suffix(".checkpoint").unlink(missing_ok=True)
+    return outcome
+
+
+def _kept(case: HardCase, folder: Path) -> Outcome | None:
+    path = _place(case, folder).with_suffix(".outcome")
+    if not path.exists():
+        return None
+    outcome = pickle.loads(path.read_bytes())
+    assert isinstance(outcome, Outcome)
+    return outcome
+
+
+def _place(case: HardCase, folder: Path) -> Path:
+    """Name the file of a case; the name has no dot, so that a suffix can follow."""
+    return folder / f"{case.name.replace('.', '_')}-{_mark(case)}"
+
+
+def _mark(case: HardCase) -> str:
+    """Hash of the case and of all sources and shipped configuration a result depends on."""
+    return hashlib.sha256((repr(case) + _sources()).encode()).hexdigest()[:12]
+
+
+_SOURCES: list[str] = []
+
+
+def _sources() -> str:
+    if not _SOURCES:
+        digest = hashlib.sha256()
+        core = [path for path in _CORE.rglob("*.py") if path.parent.name not in ("cli", "record")]
+        own = [path for path in _HERE.glob("*.py") if not path.name.startswith(_NOT_IN_A_RESULT)]
+        for path in (*sorted(core), *sorted(own)):
+            digest.update(ast.dump(ast.parse(path.read_bytes())).encode())
+        _SOURCES.append(digest.hexdigest())
+    return _SOURCES[0]
+
+
+def kernel_of(case: HardCase) -> str:
+    """Name the compiled kernel that a case needs by the types of its parameters."""
+    if case.run_as in _NO_KERNEL:
+        return case.run_as
+    try:
+        scene = scene_of(case)
+        parameters = build_parameters(scene, Arrangement(scene.bearing.roller_count, LANE_WIDTH), np.zeros(6))
+        return f"{scene.tier}: {numba.typeof(TIERS[scene.tier].parameters(scene, parameters))}"
+    except (InputError, ValidityError):
+        return "none"
+
+
+def kernels_of(cases: Iterable[HardCase]) -> int:
+    """Count the kernels that cases need."""
+    return len({kernel_of(case) for case in cases if case.run_as not in _NO_KERNEL} - {"none"})

@@ -1,0 +1,56 @@
+"""The twin's own kernel with a step far beyond what a scene may ask for: it has to say so."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.integrate.imex import advance
+from beardyn_core.integrate.state import initial_state, work_space
+from beardyn_core.integrate.static import solve
+from beardyn_core.integrate.status import assess, chatter_index
+from beardyn_core.kernels.lanes import Lanes
+from beardyn_core.model.arrangement import Arrangement
+from beardyn_core.model.build import build_parameters
+from beardyn_core.model.layout import ENERGY_TERMS, PENETRATION, SIGNAL_CHANNELS
+from beardyn_core.model.spring_share import spring_time
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import LANE_WIDTH
+from evidence.hard.case import Point
+from evidence.hard.watch import Measures
+
+STEPS = 500
+
+
+def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
+    """Make 500 steps under one load with the scene's step times `factor`."""
+    bearing, arrangement = scene.bearing, Arrangement(scene.bearing.roller_count, LANE_WIDTH)
+    parameters = build_parameters(scene, arrangement, np.zeros(6))
+    step = parameters.step * factor
+    damped = scene.effects.contact_damping is not None
+    parameters = parameters._replace(
+        step=step, spring_time=spring_time(bearing, parameters.laminae, step, damped)
+    )
+    static = solve(
+        bearing, point.force, end_play=scene.end_play, laminae=scene.numerics.laminae, speed=point.speed
+    )
+    state = initial_state(bearing, arrangement, static, point.speed, cage_speed(bearing, point.speed))
+    work = work_space(arrangement)
+    signals = np.zeros((STEPS, SIGNAL_CHANNELS))
+    load = np.array([*point.force, *point.moment, point.speed, 0.0, 0.0, 0.0])
+    advance(
+        Lanes(LANE_WIDTH), state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches,
+        work.box, np.repeat(load[None], STEPS + 1, axis=0), signals, np.empty((1, *state.rollers.shape)),
+        np.empty((1, *state.bodies.shape)), state.energy, np.zeros(ENERGY_TERMS), parameters,
+    )  # fmt: skip
+    status = assess(state, STEPS, bearing.large_end_radius, parameters.effects.rib)
+    force = np.linalg.norm(signals[:, :3], axis=1)
+    return Measures(
+        simulated=STEPS * parameters.step,
+        status=int(status),
+        finite=bool(np.isfinite(signals).all()),
+        penetration=float(state.rollers[:, PENETRATION].max()),
+        chatter_index=float(chatter_index(state, STEPS).max()),
+        mean_force=float(force[STEPS // 2 :].mean()),
+        peak_force=float(force.max()),
+    )

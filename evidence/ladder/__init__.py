@@ -1,0 +1,8 @@
+"""What accuracy costs: the ladders of three scenes. The ladder itself is a command, `beardyn ladder`.
+
+====== =======================================================
+module responsibility
+====== =======================================================
+page   climbs the ladders, writes docs/ladder.md and its pictures
+====== =======================================================
+"""

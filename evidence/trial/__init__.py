@@ -1,0 +1,8 @@
+"""The monitor on trial, on a page. The trial itself is a command, `beardyn trial`.
+
+====== ==============================================================
+module responsibility
+====== ==============================================================
+page   docs/trial.md and its picture from what the command wrote
+====== ==============================================================
+"""

@@ -1,0 +1,209 @@
+"""Write docs/trial.md from the trial.json of a trial: ``python -m evidence.trial.page FOLDER``.
+
+The folder is that of ``beardyn trial -o FOLDER``; its trial.png becomes docs/pictures/trial.png.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from beardyn_core.observe.chain import MonitorSettings
+from evidence.pages import DOCS, PICTURES, save_small
+
+PAGE = DOCS / "trial.md"
+PICTURE = PICTURES / "trial.png"
+COLOURS = 64
+EXAMPLE = DOCS / "examples" / "my_monitor.py"
+
+ABOUT = """
+## The monitor
+
+Five plain functions, put together by `beardyn_core.observe.chain.Chain`:
+
+| step | ours | what it does |
+|---|---|---|
+| `select_band` | `kurtogram.by_kurtogram` | largest spectral kurtosis, else 2 to 10 kHz |
+| `envelope` | `tracking.squared_envelope` | squared envelope, all axes added |
+| `track` | `tracking.by_angle` | by shaft angle, less what the wheel does |
+| `score` | `fault_lines.comb_score` | power on the lines of each part, over noise |
+| `decide` | `verdict.strongest_pattern` | the part most over its threshold; a hot box |
+
+The kurtogram is the 1/3-binary tree of Antoni (2007). Order tracking takes out the mean over the revolutions
+at each angle of the wheel, which holds every whole order, and leaves out the sectors in which the wheel
+strikes in three of four revolutions: flats and polygons. A score adds five harmonics of BPFO, or of BPFI or
+2 BSF with a sideband on both sides, less the strongest line. A part is not called when a line that is no
+chance is stronger than all of its own and belongs to none of them.
+
+**The threshold is not tuned on this matrix.** In stationary noise the lines of a squared-envelope spectrum
+are independent and exponentially distributed over their local mean; the sum of L of them less the largest has
+a known tail (Renyi's representation, saddle point of Lugannani and Rice). The threshold is where that tail,
+times the number of independent places searched and the three parts, comes to {rate:g} an analysis. What a
+bearing, track and wheel do beyond stationary noise is what the trial shows. The chain before it was
+not blind to this twin: what counts as a strike of the wheel (`wheel.py`), which whole orders are left out,
+how sidebands count, the limits of the band and when a part is not called were set by eye on its runs, some
+of them of `quick`; `default` has other speeds and seeds, but no other twin.
+
+The temperature rule calls a hot box from {hot:.0f} °C on, or from {heating:g} K a minute
+above {floor:.0f} °C.
+EN 15437-2 leaves such levels to the vehicle; these are assumed.
+
+Replace one function with yours:
+
+```python
+{example}```
+
+```bash
+beardyn trial quick --monitor my_monitor:chain      # from the folder of my_monitor.py
+beardyn monitor run.mcap --monitor my_monitor:chain # over a recording
+ros2 run beardyn monitor --ros-args -p algorithm:=my_monitor:chain
+```
+"""
+
+LIMITS = """
+## What it does not say
+
+- **The spalls are round numbers**: a rectangular pit with sharp edges, twice as long as wide, a tenth as deep
+  as wide, at most 100 µm; on the cup within 30 degrees of the middle of the load zone. A larger one of
+  another shape may be quieter.
+- **The background is the sensor's noise, the track and the wheel.** There is no gear, motor or neighbour
+  axle, and the axlebox rings only with its suspension and its bearing: on a train
+  it takes larger spalls.
+- **Fast tiers** have no cage slip and no skid, so their lines are sharper than those of the full tier; the
+  check says by how much scores and verdicts differ. [ladder.md](ladder.md) has the errors of the tiers.
+- **A flat can hide a spall on the cone**, also a large one: the sectors in which the wheel strikes and rings
+  are left out, and with them the cone's part of the load zone.
+"""
+
+
+def main() -> None:
+    """Write the page."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path, help="of `beardyn trial -o`")
+    folder = parser.parse_args().folder
+    found = json.loads((folder / "trial.json").read_text(encoding="utf-8"))
+    PAGE.write_text(page(found), encoding="utf-8")
+    save_small(folder / "trial.png", PICTURE, COLOURS)
+
+
+def page(found: dict[str, Any]) -> str:
+    """Write the page of a trial's JSON object."""
+    settings = MonitorSettings()
+    about = ABOUT.format(
+        rate=settings.false_alarm_rate,
+        hot=settings.hot - 273.15,
+        heating=60.0 * settings.heating,
+        floor=settings.heating_floor - 273.15,
+        example=EXAMPLE.read_text(encoding="utf-8"),
+    )
+    lines = [
+        "# The monitor on trial",
+        "",
+        f"Written by `python -m evidence.trial.page` from `beardyn trial {found['trial']}`: "
+        f"{found['runs']} runs of {found['revolutions']:g} shaft revolutions in the tier `{found['tier']}`, "
+        f"seed {found['seed']}. Brackets are exact 95 % intervals (Clopper and Pearson).",
+        "",
+        f"{found['purpose']} The matrix is [config/trials/{found['trial']}.yaml]"
+        f"(../config/trials/{found['trial']}.yaml); `beardyn trial MATRIX.yaml -o FOLDER` runs one of your "
+        "own, keeps every run as it ends and goes on where it was stopped.",
+        "",
+        "![Detection rate over size, and scores](pictures/trial.png)",
+        "",
+        "## What it finds",
+        "",
+        "| spall on | width mm | found and named right | another part named | score dB, median (range) |",
+        "|---|--:|---|--:|---|",
+        *(_size_row(row) for row in found["sizes"]),
+        "",
+        "Smallest width found in 90 % of the runs and at every larger one:",
+        "",
+        *(f"- {_smallest(row)}" for row in found["smallest"]),
+        "",
+        "## Where, and false alarms",
+        "",
+        "A run counts as found when most of its analyses name the part; a healthy run is a false alarm when "
+        "a single one of them calls a fault.",
+        "",
+        "| | found | healthy runs with a false alarm |",
+        "|---|---|---|",
+        *(
+            f"| {row['name']} | {_rate(row['found'])} | {_rate(row['false_alarms'])} |"
+            for row in found["slices"]
+        ),
+        "",
+        _analyses(found),
+        *_check(found),
+        *_invalid(found),
+    ]
+    return "\n".join(lines) + "\n" + about + LIMITS
+
+
+def _rate(rate: dict[str, Any]) -> str:
+    if not rate["total"]:
+        return "-"
+    return (
+        f"{rate['count']}/{rate['total']}, {100 * rate['rate']:.3g} % "
+        f"({100 * rate['low']:.2g} to {100 * rate['high']:.3g})"
+    )
+
+
+def _size_row(row: dict[str, Any]) -> str:
+    low, middle, high = row["score_dB"]
+    score = "-" if middle is None else f"{middle:.1f} ({low:.1f} to {high:.1f})"
+    return f"| {row['fault']} | {row['width_mm']:g} | {_rate(row['found'])} | {row['wrong']} | {score} |"
+
+
+def _smallest(row: dict[str, Any]) -> str:
+    if row["width_mm"] is None:
+        return f"{row['fault']}: none of these sizes"
+    high = "beyond the largest" if row["high_mm"] is None else f"{row['high_mm']:g} mm"
+    low = row["width_mm"] if row["low_mm"] is None else row["low_mm"]
+    return f"{row['fault']}: {row['width_mm']:g} mm ({low:g} mm to {high})"
+
+
+def _analyses(found: dict[str, Any]) -> str:
+    analyses = found["false_analyses"]
+    said = f"Analyses of healthy runs with an alarm: {_rate(analyses)}."
+    if found["monitor"]:
+        return said
+    rate = found["stated_false_alarm_rate"]
+    allowed = f"{100 * rate:g} %: {rate * analyses['total']:.2g} of them"
+    return f"{said} In stationary noise the threshold allows {allowed}."
+
+
+def _check(found: dict[str, Any]) -> list[str]:
+    check = found["check"]
+    if check is None:
+        return []
+    low, middle, high = check["score_difference_dB"]
+    lines = [
+        "",
+        f"## `{found['tier']}` against `{found['check_tier']}`",
+        "",
+        f"Some runs were repeated in the tier `{found['check_tier']}`: the same verdict in "
+        f"{_rate(check['agreement'])}; false alarms there: {_rate(check['false_alarms'])}.",
+    ]
+    if middle is not None:
+        lines.append(
+            f"Where both found the spall its score in `{found['check_tier']}` was {middle:+.1f} dB away "
+            f"(median; {low:+.1f} to {high:+.1f})."
+        )
+    lines += [f"- {row['run']}: {row['own']}, in the check {row['check']}" for row in check["different"]]
+    return lines
+
+
+def _invalid(found: dict[str, Any]) -> list[str]:
+    if not found["invalid"]:
+        return []
+    first = found["invalid"][0]
+    return [
+        "",
+        f"{len(found['invalid'])} runs left the model's validity and count nowhere, such as "
+        f"{first['run']}: {first['status']}",
+    ]
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,25 @@
+"""Published numbers and trends beside ours: what the tests assert and the validation page lists.
+
+================ ===================================================================
+module           responsibility
+================ ===================================================================
+anchor           a published number or trend, and ours
+statics          load zones, static equilibrium, stiffness, roller bounce
+zhang            the bearing and the model of Zhang et al. (2023)
+contact          closed-form contact points against a search
+films            film thickness, mixed friction, inlet heating, traction
+losses           rolling resistance, torque, heat
+catalogue_values load ratings, fault frequencies, viscosities
+life             rating life
+dynamics         mean forces, cage speed, energy, wall time
+posture          skew and tilt of the rollers under a load
+trends           how skew and tilt change with load, speed and temperature
+cage_whirl       the path of a cage's centre
+whirl            how cage whirl changes with speed and load
+skid             cage slip at light load
+rail             standard deviation of track irregularities
+every            all of them, in the order of the page
+pictures         small plots of the page
+page             writes docs/validation.md and its pictures
+================ ===================================================================
+"""

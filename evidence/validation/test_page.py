@@ -1,0 +1,45 @@
+"""The validation page shows every anchor and every trend as they stand in its modules."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from evidence.validation.anchor import Anchor, Trend
+from evidence.validation.every import ANCHORS, TRENDS, UNREACHED
+from evidence.validation.page import reference_cells, unreached_line
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+LINES = PAGE.splitlines()
+LARGEST_PICTURE = 60_000
+
+
+@pytest.mark.parametrize("anchor", ANCHORS, ids=lambda anchor: f"{anchor.topic}-{anchor.quantity}")
+def test_page_lists_the_anchor_once_with_its_reference_and_verdict(anchor: Anchor) -> None:
+    start = "| " + " | ".join(reference_cells(anchor)) + " | "
+    found = [line for line in LINES if line.startswith(start)]
+    assert len(found) == 1, "run make validation"
+    assert found[0].endswith(f" | {anchor.source} |")
+    assert (f"**misses**: {anchor.misses} |" if anchor.misses else "| agrees |") in found[0]
+
+
+@pytest.mark.parametrize("trend", TRENDS, ids=lambda trend: f"{trend.topic}-{trend.claim}")
+def test_page_has_a_paragraph_for_the_trend_with_its_verdict_and_picture(trend: Trend) -> None:
+    start = LINES.index(f"### {trend.topic}: {trend.claim}")
+    verdict, source = LINES[start + 2], LINES[start + 4]
+    ending = f"Verdict: **does not hold**: {trend.misses}." if trend.misses else "Verdict: holds."
+    assert verdict.endswith(ending)
+    assert source == f"Source: {trend.source}."
+    if trend.picture:
+        assert f"(pictures/{trend.picture})" in LINES[start + 6]
+        assert (ROOT / "docs" / "pictures" / trend.picture).stat().st_size < LARGEST_PICTURE
+
+
+def test_page_lists_nothing_else() -> None:
+    rows = [line for line in LINES if line.startswith("| ")]
+    assert len(rows) == len(ANCHORS) + 1
+    assert sum(line.startswith("### ") for line in LINES) == len(TRENDS)
+    shown = LINES[LINES.index("## Not compared") + 2 :]
+    assert shown == [unreached_line(label, why) for label, why in UNREACHED]

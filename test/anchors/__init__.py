@@ -1,1 +1,0 @@
-"""Published numbers beside ours: what the literature tests assert and the validation page lists."""

@@ -1,0 +1,71 @@
+"""The table in every package's docstring names each of its modules once, and nothing else."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+ROOTS = ("beardyn_core", "beardyn_ros", "evidence")
+PACKAGES = sorted(path.parent for root in ROOTS for path in (REPOSITORY / root).rglob("__init__.py"))
+BAR = re.compile(r"(=+) +=+")
+
+
+def rows_of(docstring: str) -> list[tuple[str, str]]:
+    """Module names and responsibilities between the second and the third bar of a table."""
+    lines = docstring.splitlines()
+    bars = [(number, match) for number, line in enumerate(lines) if (match := BAR.fullmatch(line.strip()))]
+    if len(bars) != 3:
+        return []
+    (_, first), (start, _), (end, _) = bars
+    width = len(first[1])
+    return [(line[:width].strip(), line[width:].strip()) for line in lines[start + 1 : end]]
+
+
+def modules_of(package: Path) -> set[str]:
+    """Modules and packages inside a package; tests and entry points speak for themselves."""
+    modules = {path.stem for path in package.glob("*.py") if not path.name.startswith(("__", "test_"))}
+    return modules | {path.parent.name for path in package.glob("*/__init__.py")}
+
+
+def problems(package: Path) -> list[str]:
+    docstring = ast.get_docstring(ast.parse((package / "__init__.py").read_text(encoding="utf-8"))) or ""
+    rows = rows_of(docstring)
+    if not rows:
+        return ["no table of modules: three lines of === with `module  responsibility` between the first two"]
+    named, modules = Counter(name for name, _ in rows), modules_of(package)
+    return [
+        *(f"{name} is not in the table" for name in sorted(modules - set(named))),
+        *(f"{name} is in the table and does not exist" for name in sorted(set(named) - modules)),
+        *(f"{name} is in the table {count} times" for name, count in named.items() if count > 1),
+        *(f"{name} has no responsibility" for name, text in rows if not text),
+    ]
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=lambda path: path.relative_to(REPOSITORY).as_posix())
+def test_table_names_every_module_once_and_nothing_else(package: Path) -> None:
+    assert problems(package) == []
+
+
+def test_every_kind_of_mistake_is_found(tmp_path: Path) -> None:
+    for name in ("present", "forgotten", "__main__", "test_present"):
+        (tmp_path / f"{name}.py").touch()
+    (tmp_path / "inner").mkdir()
+    (tmp_path / "inner" / "__init__.py").touch()
+    table = "======= ====\nmodule  responsibility\n======= ====\n{}\n======= ===="
+    rows = "present is here\npresent twice\ngone    was here\nempty"
+    (tmp_path / "__init__.py").write_text(f'"""A package.\n\n{table.format(rows)}\n"""\n')
+    (tmp_path / "empty.py").touch()
+    assert problems(tmp_path) == [
+        "forgotten is not in the table",
+        "inner is not in the table",
+        "gone is in the table and does not exist",
+        "present is in the table 2 times",
+        "empty has no responsibility",
+    ]
+    (tmp_path / "__init__.py").write_text('"""A package without a table."""\n')
+    assert len(problems(tmp_path)) == 1
