@@ -17,7 +17,10 @@ twin        a scene that advances block by block
 record      the topic table, MCAP files, the rerun view
 study       desk runs, summaries, pictures, the demo's report
 cli         the beardyn command, a file a subcommand
-jit, errors how kernels are compiled; errors a user sees
+jit         how kernels are compiled
+outputs     files that a command writes: nothing is replaced unasked
+interrupts  Ctrl-C, also while something is compiled
+errors      errors a user sees
 =========== ==================================================================
 
 Imports run upwards only, from `cli` to `effects`; `pyproject.toml` holds the contract.

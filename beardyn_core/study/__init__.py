@@ -10,12 +10,12 @@ summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 trial_run           one run of a trial of a monitor
+code_digest         hashes of the code of a monitor and of the simulator
 trial               all its runs, kept and taken up again
 trial_result        rates with intervals, smallest sizes
 trial_report        table and JSON; trial_picture draws it
 rating_life         rating life under a load history
 life_text           rating life in words
-output_folder       whether the folder of --output can be written to
 hard                the battery of hard cases
 ancestor            the runs of BearDyn (2017) again
 contacts_tables     the contact laboratory as tables; contacts_report and contacts_picture show them
