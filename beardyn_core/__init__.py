@@ -5,6 +5,8 @@ module     responsibility
 ========== ===================================================================
 jit        how kernels are compiled
 errors     errors a user sees
+outputs    files that a command writes: nothing is replaced unasked
+interrupts Ctrl-C, also while something is compiled
 versions   versions of what computed a run
 effects    the catalogue of effects and sets of them
 bearing    geometry, kinematics, materials, lubricants

@@ -25,6 +25,9 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.registry import CPUDispatcher
 
+from beardyn_core.interrupts import enter as enter_leavable
+from beardyn_core.interrupts import leave as leave_leavable
+
 # No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars then differ by the rounding of
 # fused multiplications only, and one machine always gives the same bits.
 FASTMATH = ("nsz", "arcp", "contract", "afn")
@@ -180,6 +183,21 @@ def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH) -> A
         return numba.njit(cache=True, **options)(function)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
+
+
+class _Leavable(event.Listener):
+    """Lets Ctrl-C end the process while something is compiled: a file of the cache is written whole."""
+
+    def on_start(self, event: Any) -> None:
+        """Begin to compile a function, perhaps inside of another one."""
+        enter_leavable()
+
+    def on_end(self, event: Any) -> None:
+        """Have compiled it, or failed to."""
+        leave_leavable()
+
+
+event.register("numba:compile", _Leavable())
 
 
 class _CompilerWatch(event.Listener):

@@ -69,7 +69,7 @@ def _demo(args: argparse.Namespace) -> int:
     from beardyn_core.study.demo_report import RECORDING_NAME, Pace, demo_folder, report
 
     scene = load_scene(args.scene, duration=args.duration)
-    folder = demo_folder(args.out).resolve()
+    folder = demo_folder(args.out, force=args.force).resolve()
     logs = folder / "logs"
     logs.mkdir(exist_ok=True)
     recording = folder / RECORDING_NAME

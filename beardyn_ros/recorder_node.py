@@ -39,8 +39,9 @@ PARAMETERS = (
     NodeParameter(
         "output",
         "",
-        "file to write, replaced when it exists; further runs get _2, _3; empty: <scene>_<date>.mcap here",
+        "file to write; further runs get _2, _3; empty: <scene>_<date>.mcap here",
     ),
+    NodeParameter("replace", False, "replace the file when it exists, instead of refusing to start"),
     NodeParameter("exit_when_done", True, "close the file and end the process when the twin has ended"),
     NodeParameter(
         "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
@@ -57,7 +58,7 @@ class RecorderNode(Node):
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
         self._check_output()
-        self._recording = Recording(self._path_of, self.get_namespace())
+        self._recording = Recording(self._path_of, self.get_namespace(), replace=self._values.replace)
         self._out = TopicPublishers(self, "/diagnostics")
         self._intake = RawIntake(self)
         self._names: set[str] = set()
@@ -79,14 +80,22 @@ class RecorderNode(Node):
             )
         if output and Path(output).expanduser().is_dir():
             raise InputError(f"node recorder: output '{output}' is a folder; a file name is needed")
+        if output and Path(output).expanduser().is_file() and not self._values.replace:
+            raise InputError(
+                f"node recorder: output '{output}': the file exists; give another name, or replace:=true"
+            )
 
     def _path_of(self, scene: str, number: int) -> Path:
         if self._values.output:
             path = Path(self._values.output).expanduser()
         else:
             path = Path(f"{scene}_{time.strftime('%Y%m%d_%H%M%S')}.mcap")
+        named = path
         if number > 1:
-            path = path.with_name(f"{path.stem}_{number}{path.suffix}")
+            path = named.with_name(f"{named.stem}_{number}{named.suffix}")
+        while path.is_file() and not (self._values.replace and number == 1):
+            number += 1  # a run that has begun goes into the next free name rather than into nothing
+            path = named.with_name(f"{named.stem}_{number}{named.suffix}")
         self.get_logger().info(f"recording into {path}")
         return path
 

@@ -68,16 +68,18 @@ class RunFile:
     namespace : str
     truth : str or None
         Content of the topic; ``None`` when none has come.
+    replace : bool
+        Whether an existing file is replaced.
     """
 
-    def __init__(self, path: Path, namespace: str, truth: str | None) -> None:
+    def __init__(self, path: Path, namespace: str, truth: str | None, *, replace: bool = False) -> None:
         self.path = path
         self.run_id = ""
         self.problem = ""
         self.loss = LossWatch()
         self.last_ns: dict[str, int] = {}
         self._simulated_ns = 0
-        self._writer = McapWriter(path, namespace)
+        self._writer = McapWriter(path, namespace, replace=replace)
         if truth is None:
             self.problem = "no truth has come: the file does not say which scene it holds"
             return
@@ -124,6 +126,8 @@ class Recording:
         ``path_of(scene, number)`` gives the path of the next file; `number` counts from 1.
     namespace : str
         Of the topics.
+    replace : bool
+        Whether existing files are replaced.
 
     Notes
     -----
@@ -131,8 +135,9 @@ class Recording:
     until its stamps jump back, which is when its part of the new run begins.
     """
 
-    def __init__(self, path_of: Callable[[str, int], Path], namespace: str) -> None:
+    def __init__(self, path_of: Callable[[str, int], Path], namespace: str, *, replace: bool = False) -> None:
         self._path_of = path_of
+        self._replace = replace
         self._namespace = namespace
         self._early: list[tuple[Topic, bytes]] = []
         self._old: RunFile | None = None
@@ -169,7 +174,7 @@ class Recording:
         if truth is not None:
             scene = str(parsed_truth(truth).get("scene", "run"))
         path = self._path_of(scene, len(self.paths) + 1)
-        self.current = RunFile(path, self._namespace, truth)
+        self.current = RunFile(path, self._namespace, truth, replace=self._replace)
         self.paths.append(path)
         early, self._early = self._early, []
         for entry, cdr in early:

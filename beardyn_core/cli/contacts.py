@@ -4,15 +4,23 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from beardyn_core.errors import InputError
-from beardyn_core.study.output_folder import folder_problems
+from beardyn_core.interrupts import last_words, may_be_left
+from beardyn_core.outputs import file_problems, files_read, folder_problems, write_whole
 
 DONE = 0
 _BEARING = "HS130x230"
+FILES = (
+    "contacts.json",
+    "contacts_nine.png",
+    "contacts_sphere.png",
+    "contacts_rolling.png",
+    "contacts_barrel.png",
+)
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -39,6 +47,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=Path,
         help="write coin and roller as an animation for rerun",
     )
+    parser.add_argument("--force", action="store_true", help="replace files that exist")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
     parser.set_defaults(run=run)
 
@@ -47,11 +56,13 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import load_bearing
 
-    problems = option_problems(args)
-    try:
-        bearing = load_bearing(args.bearing)
-    except InputError as error:
-        raise InputError([*error.problems, *problems]) from None
+    problems: list[str] = []
+    with files_read() as inputs:
+        try:
+            bearing = load_bearing(args.bearing)
+        except InputError as error:
+            problems = error.problems
+    problems = problems + option_problems(args, inputs)
     if problems:
         raise InputError(problems)
 
@@ -62,7 +73,11 @@ def run(args: argparse.Namespace) -> int:
     def say(what: str) -> None:
         print(f"beardyn: {what}", file=sys.stderr)
 
-    with when_compiling(lambda: say("compiling the searches, some 20 s once")):
+    with (
+        last_words(lambda: "nothing has been written"),
+        may_be_left(),
+        when_compiling(lambda: say("compiling the searches, some 20 s once")),
+    ):
         found = find(bearing, quick=args.quick, say=say)
     result = json_object(found)
     if args.output is not None:
@@ -70,7 +85,7 @@ def run(args: argparse.Namespace) -> int:
 
         try:
             args.output.mkdir(exist_ok=True)
-            (args.output / "contacts.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+            write_whole(args.output / FILES[0], json.dumps(result, indent=1) + "\n")
             write_pictures(found, args.output)
         except OSError as error:
             raise InputError(
@@ -84,17 +99,10 @@ def run(args: argparse.Namespace) -> int:
     return DONE
 
 
-def option_problems(args: argparse.Namespace) -> list[str]:
-    """What is wrong with the options; nothing is created."""
-    problems = folder_problems(args.output)
-    file = args.rrd
-    if file is not None:
-        if file.is_dir():
-            problems.append(f"--rrd {file}: is a folder; give the name of a file")
-        elif file.parent == args.output:
-            pass  # made before it is written
-        elif not file.parent.is_dir():
-            problems.append(f"--rrd {file}: the folder {file.parent} does not exist; create it first")
-        elif not os.access(file if file.exists() else file.parent, os.W_OK):
-            problems.append(f"--rrd {file}: cannot be written; choose a folder you may write to")
+def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> list[str]:
+    """List what is wrong with the options; nothing is created."""
+    problems = folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force)
+    if args.rrd is not None and (args.rrd.parent != args.output or args.output.is_dir()):
+        # a folder that is missing is made before the file is written
+        problems += file_problems("--rrd", args.rrd, inputs=inputs, force=args.force)
     return problems

@@ -9,10 +9,14 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
+from beardyn_core.interrupts import last_words
 from beardyn_core.study.demo_console import Progress, add_arguments, say
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from beardyn_core.observe.block import Block
+    from beardyn_core.study.desk_run import RunSummary
 
 DONE, INVALID = 0, 3
 
@@ -33,21 +37,37 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import load_scene
     from beardyn_core.study import desk_run
-    from beardyn_core.study.demo_report import RECORDING_NAME, Pace, demo_folder, report
+    from beardyn_core.study.demo_report import RECORDING_NAME, demo_folder
     from beardyn_core.study.monitored_recording import MonitoredRecording
 
     scene = load_scene(args.scene, duration=args.duration)
-    folder = demo_folder(args.out)
+    folder = demo_folder(args.out, force=args.force)
     say(f"{scene.name}: {scene.purpose}")
     say("compiling ... (a minute the first time, kept for the next)")
     progress = Progress(scene.duration)
     recording = MonitoredRecording(
-        folder / RECORDING_NAME, scene.bearing, lambda finding: progress.hear(finding.verdict)
+        folder / RECORDING_NAME,
+        scene.bearing,
+        lambda finding: progress.hear(finding.verdict),
+        replace=args.force,
     )
-    try:
-        summary = desk_run.run(scene, [recording], _BlockProgress(progress))
-    finally:
-        progress.close()
+
+    def kept() -> str:
+        exists = (folder / RECORDING_NAME).exists()
+        return f"{folder / RECORDING_NAME} holds the run so far" if exists else "nothing has been written"
+
+    with last_words(kept):
+        try:
+            summary = desk_run.run(scene, [recording], _BlockProgress(progress))
+        finally:
+            progress.close()
+        return _report(folder, summary, args)
+
+
+def _report(folder: Path, summary: RunSummary, args: argparse.Namespace) -> int:
+    """Draw and say what was found; gives the exit code."""
+    from beardyn_core.study.demo_report import Pace, report
+
     pace = Pace(summary.duration, summary.real_time_factor)
     report(folder, pace, say, picture_of_view=not args.no_view)
     if not summary.complete:

@@ -6,19 +6,21 @@ import argparse
 import json
 import logging
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.errors import InputError
-from beardyn_core.study.output_folder import folder_problems
+from beardyn_core.interrupts import last_words
+from beardyn_core.outputs import files_read, folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
     from beardyn_core.study.ladder_result import Ladder
 
 DONE, INTERRUPTED = 0, 130
+FILES = ("ladder.json", "ladder.png")
 _USUAL_ACCURACY = 5.0
 _LONGEST_S = 3600.0
 # [%], as in a scene file
@@ -56,6 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--each-effect", action="store_true", help="also `full` less each of its effects in turn"
     )
+    parser.add_argument("--force", action="store_true", help="replace files that exist")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
     parser.set_defaults(run=run)
 
@@ -67,11 +70,13 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.ladder_levels import automatic, levels_of
     from beardyn_core.study.ladder_report import json_object, table
 
-    problems = option_problems(args)
-    try:
-        scene = load_scene(args.scene)
-    except InputError as error:
-        raise InputError([*error.problems, *problems]) from None
+    problems: list[str] = []
+    with files_read() as inputs:
+        try:
+            scene = load_scene(args.scene)
+        except InputError as error:
+            problems = error.problems
+    problems = problems + option_problems(args, inputs)
     if problems:
         raise InputError(problems)
 
@@ -90,16 +95,23 @@ def run(args: argparse.Namespace) -> int:
         file=sys.stderr,
     )
     with _quiet():
-        with _Bar("compiled", "{n:.0f}/{total:.0f}", len(levels.levels) + 1) as bar:
+        with (
+            last_words(lambda: "no level has been run; what is compiled is kept for the next time"),
+            _Bar("compiled", "{n:.0f}/{total:.0f}", len(levels.levels) + 1) as bar,
+        ):
             compile_levels(plan, levels, bar)
-        with _Bar("run", "{percentage:.0f} %", expected) as bar:
+        with (
+            last_words(lambda: "the reference was not done, so nothing has been written"),
+            _Bar("run", "{percentage:.0f} %", expected) as bar,
+        ):
             ladder = climb(plan, levels, accuracy, asked, bar)
     found = json_object(ladder)
     if args.output is not None:
         write(ladder, found, args.output)
     print(json.dumps(found) if args.json else table(ladder))
     if ladder.interrupted:
-        print("beardyn: interrupted; the levels done so far are kept", file=sys.stderr)
+        kept = f"are in {args.output}" if args.output else "are printed; with -o they are written too"
+        print(f"beardyn: interrupted; the {len(ladder.rows)} levels done so far {kept}", file=sys.stderr)
     return INTERRUPTED if ladder.interrupted else DONE
 
 
@@ -119,8 +131,8 @@ def _names(text: str) -> tuple[str, ...]:
     return tuple(name.strip() for name in text.split(","))
 
 
-def option_problems(args: argparse.Namespace) -> list[str]:
-    """What is wrong with the options; nothing is created."""
+def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> list[str]:
+    """List what is wrong with the options; nothing is created."""
     from beardyn_core.study.measures import QUANTITIES
 
     problems = [
@@ -140,7 +152,7 @@ def option_problems(args: argparse.Namespace) -> list[str]:
     problems += [
         f"--quantities: {name!r} is not known; known are {', '.join(QUANTITIES)}" for name in unknown
     ]
-    return problems + folder_problems(args.output)
+    return problems + folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force)
 
 
 def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
@@ -149,8 +161,8 @@ def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
 
     try:
         folder.mkdir(exist_ok=True)
-        (folder / "ladder.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-        ladder_picture(ladder, folder / "ladder.png")
+        write_whole(folder / FILES[0], json.dumps(found, indent=1) + "\n")
+        ladder_picture(ladder, folder / FILES[1])
     except OSError as error:
         raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None
 

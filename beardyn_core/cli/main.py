@@ -9,8 +9,10 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from beardyn_core import interrupts
 from beardyn_core.errors import InputError, ValidityError
 
 # The rest is imported inside `main`, where a Ctrl-C while it loads is answered.
@@ -75,26 +77,36 @@ def main(argv: Sequence[str] | None = None) -> int:
         The exit code.
     """
     try:
-        args = build_parser().parse_args(argv)
-        _announce_on_stderr()
-        return int(args.run(args))
+        with interrupts.watching():
+            args = build_parser().parse_args(argv)
+            _announce_on_stderr()
+            code = int(args.run(args))
+            sys.stdout.flush()  # a pipe or disk that refuses is told here, not at exit
+            return code
     except InputError as error:
         _complain(error.problems)
         return BAD_INPUT
     except ValidityError as error:
         _complain([str(error)])
         return INVALID
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # the end is near; a second one would only be noise
-        _complain(["interrupted"])
+        _complain([interrupts.sentence(interrupt)])
         return INTERRUPTED
-    except BrokenPipeError:
-        # The reader of a pipe has gone; keep the interpreter from complaining about it at exit.
-        from contextlib import suppress
-
-        with suppress(OSError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except BrokenPipeError:  # the reader of a pipe has gone
+        _give_up_stdout()
         return DONE
+    except OSError as error:
+        _give_up_stdout()
+        where = error.filename or "the output"
+        _complain([f"{where}: {error.strerror or error}; free space, or choose another place"])
+        return BAD_INPUT
+
+
+def _give_up_stdout() -> None:
+    """Keep the interpreter from complaining at exit about what it could not print."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _complain(problems: Sequence[str]) -> None:

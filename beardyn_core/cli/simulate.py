@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.errors import InputError
+from beardyn_core.interrupts import last_words
+from beardyn_core.outputs import file_problems, files_read
 
 if TYPE_CHECKING:
     from beardyn_core.observe.block import Block
@@ -31,6 +32,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument("-o", "--output", metavar="run.mcap", type=Path, help="record the run to this file")
+    parser.add_argument("--force", action="store_true", help="replace the file of -o when it exists")
     parser.add_argument("--duration", metavar="S", type=float, help="simulated time, s (the scene's own)")
     parser.add_argument("--effects", metavar="NAME", help="preset or file of effects, or auto")
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto")
@@ -46,21 +48,22 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import load_scene
 
-    problems = [] if args.output is None else output_problems(args.output)
-    try:
-        scene = load_scene(
-            args.scene,
-            effects=args.effects,
-            tier=args.tier,
-            duration=args.duration,
-            laminae=args.laminae,
-            seed=args.seed,
-            accuracy_percent=args.accuracy,
-            quantities=None if args.quantities is None else args.quantities.split(","),
-        )
-    except InputError as error:
-        named = [p.replace("--accuracy_percent", "--accuracy") for p in error.problems]
-        raise InputError([*named, *problems]) from None
+    with files_read() as inputs:
+        try:
+            scene = load_scene(
+                args.scene,
+                effects=args.effects,
+                tier=args.tier,
+                duration=args.duration,
+                laminae=args.laminae,
+                seed=args.seed,
+                accuracy_percent=args.accuracy,
+                quantities=None if args.quantities is None else args.quantities.split(","),
+            )
+            problems = []
+        except InputError as error:
+            problems = [p.replace("--accuracy_percent", "--accuracy") for p in error.problems]
+    problems += file_problems("--output", args.output, inputs=inputs, force=args.force)
     if problems:
         raise InputError(problems)
 
@@ -70,12 +73,14 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study import desk_run
 
     print(f"beardyn: {scene.name}, {scene.purpose}", file=sys.stderr)
-    sinks = [] if args.output is None else [McapSink(args.output)]
+    sinks = [] if args.output is None else [McapSink(args.output, replace=args.force)]
     bar_format = "{desc} {bar} {n:.2f}/{total:.2f} s{postfix} [{elapsed}<{remaining}]"
     with tqdm(
         total=scene.duration, desc="simulated", bar_format=bar_format, disable=None, leave=False
     ) as bar:
-        summary = desk_run.run(scene, sinks, _Progress(bar))
+        progress = _Progress(bar)
+        with last_words(lambda: progress.kept(args.output)):
+            summary = desk_run.run(scene, sinks, progress)
     if args.json:
         print(json.dumps(json_object(summary, args.output)))
     else:
@@ -83,18 +88,6 @@ def run(args: argparse.Namespace) -> int:
     if not summary.complete:
         print(f"beardyn: {summary.status}", file=sys.stderr)
     return DONE if summary.complete else INVALID
-
-
-def output_problems(path: Path) -> list[str]:
-    """Why a recording cannot be written to a path; nothing is created."""
-    folder = path.parent
-    if path.is_dir():
-        return [f"--output {path}: is a folder; give the name of a file, such as {path / 'run.mcap'}"]
-    if not folder.is_dir():
-        return [f"--output {path}: the folder {folder} does not exist; create it or choose another"]
-    if not os.access(path if path.exists() else folder, os.W_OK):
-        return [f"--output {path}: cannot be written; choose a file you may write to"]
-    return []
 
 
 class _Progress:
@@ -112,6 +105,12 @@ class _Progress:
         if self._wall > 0.0:
             self._bar.set_postfix_str(f"RTF {self._simulated / self._wall:.2f}", refresh=False)
         self._bar.update(min(step, max(self._bar.total - self._bar.n, 0.0)))
+
+    def kept(self, recording: Path | None) -> str:
+        """Say what an interrupted run has left behind."""
+        if recording is None or not self._simulated:
+            return "nothing has been written"
+        return f"{recording} holds the run until {self._simulated:.2f} s, and is closed and readable"
 
 
 def _number(value: float | None) -> float | None:

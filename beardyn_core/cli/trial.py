@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from beardyn_core.errors import InputError
-from beardyn_core.study.output_folder import folder_problems
+from beardyn_core.interrupts import last_words
+from beardyn_core.outputs import folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.trial import Trial
@@ -30,7 +31,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "print how often it finds the fault, how often it alarms on a healthy bearing, and the smallest "
         "spall it finds, with 95 % intervals. `quick` takes under a minute, `default` some minutes on two "
         "cores, and a minute more for every set of effects that is not compiled yet. "
-        "With -o a run that is done is kept, and an interrupted trial goes on where it was.",
+        "With -o a run that is done is kept, and an interrupted trial goes on where it was; a folder of "
+        "another trial or monitor is refused.",
     )
     parser.add_argument(
         "matrix", metavar="TRIAL", nargs="?", default="default", help="shipped trial or YAML file (default)"
@@ -43,6 +45,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, help="keep the runs here; write trial.json and trial.png"
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="start over in a folder that holds runs, and lose them"
     )
     parser.add_argument("--jobs", metavar="N", type=int, help="processes (one a core)")
     parser.add_argument("--tier", help="instead of the trial's: lumped, quasistatic or full")
@@ -65,13 +70,21 @@ def run(args: argparse.Namespace) -> int:
         raise InputError([*error.problems, *problems]) from None
     if problems:
         raise InputError(problems)
-    plan = plan_of(trial, args.monitor, args.output)
+    plan = plan_of(trial, args.monitor, args.output, force=args.force)
     folder = _made(args.output)
     jobs = args.jobs or len(os.sched_getaffinity(0))
     if plan.kept:
         print(f"beardyn: {len(plan.kept)} of {len(trial.cells())} runs were done before", file=sys.stderr)
+    if plan.outdated:
+        print(
+            f"beardyn: {plan.outdated} runs are out of date, for the code or a file they depend on has "
+            "changed; they are run again, and kept until then",
+            file=sys.stderr,
+        )
+    again = "the same command goes on from here" if folder else "with -o a trial can be taken up again"
     if plan.missing:
-        warm(trial)
+        with last_words(lambda: f"{len(plan.kept)} runs are kept; {again}"):
+            warm(trial)
     progress = _Bar(trial, len(plan.kept))
     interrupted = False
     try:
@@ -82,13 +95,14 @@ def run(args: argparse.Namespace) -> int:
     finally:
         progress.close()
     result = TrialResult.of(trial, args.monitor, runs)
-    found = json_object(result)
-    if folder is not None and not interrupted:
-        _write(result, found, folder)
+    found = {**json_object(result), "complete": not interrupted}
+    if folder is not None:
+        _write(result, found, folder, drawn=not interrupted)
     print(json.dumps(found) if args.json else table(result))
     if interrupted:
-        again = "the same command goes on from here" if folder else "with -o a trial can be taken up again"
-        print(f"beardyn: interrupted after {len(runs)} runs; {again}", file=sys.stderr)
+        print(
+            f"beardyn: interrupted after {len(runs)} of {len(trial.cells())} runs; {again}", file=sys.stderr
+        )
     return INTERRUPTED if interrupted else DONE
 
 
@@ -97,7 +111,7 @@ def option_problems(args: argparse.Namespace) -> list[str]:
     problems = []
     if args.jobs is not None and not 1 <= args.jobs <= _MOST_JOBS:
         problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")
-    return problems + folder_problems(args.output)
+    return problems + folder_problems("--output", args.output)
 
 
 def _made(folder: Path | None) -> Path | None:
@@ -106,12 +120,16 @@ def _made(folder: Path | None) -> Path | None:
     return folder
 
 
-def _write(result: TrialResult, found: dict[str, object], folder: Path) -> None:
-    from beardyn_core.study.trial_picture import trial_picture
-
+def _write(result: TrialResult, found: dict[str, object], folder: Path, *, drawn: bool) -> None:
+    """Write trial.json of the runs there are, and trial.png, which only a complete trial has."""
     try:
-        (folder / "trial.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-        trial_picture(result, folder / "trial.png")
+        write_whole(folder / "trial.json", json.dumps(found, indent=1) + "\n")
+        if drawn:
+            from beardyn_core.study.trial_picture import trial_picture
+
+            trial_picture(result, folder / "trial.png")
+        else:
+            (folder / "trial.png").unlink(missing_ok=True)
     except OSError as error:
         raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None
 

@@ -10,6 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import file_problems
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -23,34 +24,30 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("recording", metavar="run.mcap")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--web", action="store_true", help="serve the viewer to a browser on this machine")
-    where.add_argument("--save", metavar="FILE.rrd", help="write a rerun file and open nothing")
-    where.add_argument("--screenshot", metavar="FILE.png", help="write a picture, without a screen too")
+    where.add_argument("--save", metavar="FILE.rrd", type=Path, help="write a rerun file and open nothing")
+    where.add_argument(
+        "--screenshot", metavar="FILE.png", type=Path, help="write a picture, without a screen too"
+    )
+    parser.add_argument("--force", action="store_true", help="replace the file of --save or --screenshot")
     parser.add_argument("--port", type=int, help="port of the page with --web (a free one by default)")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Run the command.
-
-    Returns
-    -------
-    int
-        0 done, 2 bad input.
-    """
-    try:
-        return _view(args)
-    except InputError as error:
-        print(error, file=sys.stderr)
-        return 2
-
-
-def _view(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
     from beardyn_core.record import viewer
     from beardyn_core.record.reading import read_run
     from beardyn_core.record.rerun_view import save
 
     if not (args.web or args.save or args.screenshot):
         viewer.require_display()
+    problems = [
+        problem
+        for option, file in (("--save", args.save), ("--screenshot", args.screenshot))
+        for problem in file_problems(option, file, inputs=[Path(args.recording)], force=args.force)
+    ]
+    if problems:
+        raise InputError(problems)
     recording = read_run(args.recording)
     if recording.problem:
         print(f"{recording.problem}; showing what is there", file=sys.stderr)
@@ -61,7 +58,7 @@ def _view(args: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory(prefix="beardyn-view-") as folder:
         target = save(recording, Path(folder) / f"{recording.path.stem}.rrd")
         if args.screenshot:
-            print(viewer.take_picture(target, Path(args.screenshot)))
+            print(viewer.take_picture(target, args.screenshot))
         elif args.web:
             _serve(target, args.port)
         else:

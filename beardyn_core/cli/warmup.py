@@ -7,6 +7,8 @@ import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from beardyn_core.interrupts import last_words
+
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
 
@@ -37,14 +39,16 @@ def run(args: argparse.Namespace) -> int:
         named = [(name, load_scene(name, effects=args.effects, tier=args.tier)) for name in args.scene]
     else:
         named = list(_shipped(args.effects, args.tier))
-    for name, scene in named:
-        began = time.perf_counter()
-        with when_compiling(lambda: None) as compiled:
-            Twin(scene).warm()
-        came = "compiled" if compiled else "in the cache"
-        print(
-            f"{name:28} {scene.tier:12} {came}, ready after {time.perf_counter() - began:.1f} s", flush=True
-        )
+    ready = 0
+    with last_words(lambda: f"{ready} of {len(named)} are ready, and kept for the next time"):
+        for name, scene in named:
+            began = time.perf_counter()
+            with when_compiling(lambda: None) as compiled:
+                Twin(scene).warm()
+            took = time.perf_counter() - began
+            came = "compiled" if compiled else "in the cache"
+            print(f"{name:28} {scene.tier:12} {came}, ready after {took:.1f} s", flush=True)
+            ready += 1
     return 0
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import note_read
 
 
 def _float(text: str) -> float:
@@ -107,6 +108,7 @@ def read_mapping(text: str, label: str) -> dict[str, Any]:
 
 def read_file(path: Path) -> dict[str, Any]:
     """Mapping in a YAML file; see `read_mapping`."""
+    note_read(path)
     try:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError:

@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import note_read
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.load import LoadHistory
 
@@ -91,6 +92,7 @@ def read_measurement(path: Path, take: str = "both") -> Measurement:
         With everything that is wrong with the file, each with its line numbers.
     """
     path = Path(path)
+    note_read(path)
     try:
         changed = path.stat().st_mtime_ns
     except OSError:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import note_read
 
 Float = NDArray[np.float64]
 Rows = list[list[str]]
@@ -91,6 +92,7 @@ def read_table(path: Path, layout: Layout) -> dict[str, Float]:
         With everything that is wrong with the file, each with its line numbers.
     """
     path = Path(path)
+    note_read(path)
     names, lines, rows = _read_rows(path, layout)
     problems = _header_problems(path, names, layout)
     units = [] if not rows or any(map(_is_number, rows[0])) else [cell.strip(" []()") for cell in rows[0]]

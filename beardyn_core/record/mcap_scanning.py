@@ -6,10 +6,14 @@ records are read in the order they were written, so everything up to the last co
 
 from __future__ import annotations
 
+import os
 import struct
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
+from typing import BinaryIO
 
 import zstandard
 from mcap.exceptions import McapError
@@ -18,8 +22,9 @@ from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.writer import CompressionType, Writer
 
 from beardyn_core.errors import InputError
-from beardyn_core.record.mcap_writing import END_RECORD
+from beardyn_core.outputs import is_being_written, open_to_write
 
+END_RECORD = "beardyn_end"
 LONGEST_RECORD = 256 * 1024 * 1024
 MAGIC = b"\x89MCAP0\r\n"
 
@@ -185,22 +190,32 @@ class Recovery:
         )
 
 
-def recover(path: Path | str, target: Path | str | None = None) -> Recovery:
+def recovered_name(path: Path | str) -> Path:
+    """Name the file that a cut-off one is recovered into, ``<name>.recovered.mcap`` beside it."""
+    return Path(path).with_suffix(".recovered.mcap")
+
+
+def recover(path: Path | str, target: Path | str | None = None, *, replace: bool = False) -> Recovery:
     """Copy everything that is readable in a cut-off file into a properly closed one.
 
     Parameters
     ----------
     path : Path
     target : Path, optional
-        ``<name>.recovered.mcap`` beside the file by default.
+        `recovered_name` by default.
+    replace : bool
+        Whether an existing target is replaced.
 
     Raises
     ------
     InputError
-        Nothing is recoverable, or the target cannot be written.
+        Nothing is recoverable, the file is still being written, or the target exists or cannot be written;
+        then there is no new target.
     """
     source = Path(path)
-    target = Path(target) if target is not None else source.with_suffix(".recovered.mcap")
+    target = Path(target) if target is not None else recovered_name(source)
+    if is_being_written(source):
+        raise InputError(f"{source}: another process is writing this file; it will be closed at its end")
     scan = McapScan(source)
     messages = iter(scan.raw_messages())
     first = next(messages, None)
@@ -210,35 +225,80 @@ def recover(path: Path | str, target: Path | str | None = None) -> Recovery:
             f"{scan.size_bytes} bytes"
         )
     try:
-        file = target.open("wb")
+        file = open_to_write(target, replace=replace)
     except OSError as error:
         raise InputError(f"{target}: cannot write the recovered recording ({error.strerror})") from error
-    count, begin, end = 0, first.log_time, first.log_time
-    with file:
-        writer = Writer(file, compression=CompressionType.ZSTD)
-        writer.start(profile="ros2", library="beardyn recover")
-        schemas: dict[int, int] = {}
-        channels: dict[int, int] = {}
-        message: Message | None = first
-        while message is not None:
-            channel = scan.channels[message.channel_id]
-            if channel.id not in channels:
-                schema = scan.schemas[channel.schema_id]
-                if schema.id not in schemas:
-                    schemas[schema.id] = writer.register_schema(schema.name, schema.encoding, schema.data)
-                channels[channel.id] = writer.register_channel(
-                    channel.topic, channel.message_encoding, schemas[schema.id], dict(channel.metadata)
-                )
-            writer.add_message(
-                channels[channel.id], message.log_time, message.data, message.publish_time, message.sequence
-            )
-            count, begin, end = count + 1, min(begin, message.log_time), max(end, message.log_time)
-            message = next(messages, None)
-        for name, data in scan.attachments.items():
-            writer.add_attachment(0, 0, name, "application/octet-stream", data)
-        for name, facts in scan.metadata.items():
-            writer.add_metadata(name, facts)
-        if END_RECORD not in scan.metadata:
-            writer.add_metadata(END_RECORD, {"status": f"cut off; recovered from {source.name}"})
-        writer.finish()
+    try:
+        with file:
+            count, begin, end = _copy(scan, chain([first], messages), file)
+    except BaseException as error:
+        with suppress(OSError):
+            target.unlink()
+        if isinstance(error, OSError):
+            raise InputError(
+                f"{target}: cannot write the recovered recording ({error.strerror}); {source} is as it was, "
+                "copy it to a disk with space and report it there"
+            ) from error
+        raise
     return Recovery(source, target, scan.size_bytes, scan.usable_bytes, count, (end - begin) * 1e-9)
+
+
+def _copy(scan: McapScan, messages: Iterator[Message], file: BinaryIO) -> tuple[int, int, int]:
+    """Write what a scan finds to a file; count of messages, first and last log time [ns]."""
+    count, begin, end = 0, 1 << 63, 0
+    writer = Writer(file, compression=CompressionType.ZSTD)
+    writer.start(profile="ros2", library="beardyn recover")
+    schemas: dict[int, int] = {}
+    channels: dict[int, int] = {}
+    for message in messages:
+        channel = scan.channels[message.channel_id]
+        if channel.id not in channels:
+            schema = scan.schemas[channel.schema_id]
+            if schema.id not in schemas:
+                schemas[schema.id] = writer.register_schema(schema.name, schema.encoding, schema.data)
+            channels[channel.id] = writer.register_channel(
+                channel.topic, channel.message_encoding, schemas[schema.id], dict(channel.metadata)
+            )
+        writer.add_message(
+            channels[channel.id], message.log_time, message.data, message.publish_time, message.sequence
+        )
+        count, begin, end = count + 1, min(begin, message.log_time), max(end, message.log_time)
+    for name, data in scan.attachments.items():
+        writer.add_attachment(0, 0, name, "application/octet-stream", data)
+    for name, facts in scan.metadata.items():
+        writer.add_metadata(name, facts)
+    if END_RECORD not in scan.metadata:
+        writer.add_metadata(END_RECORD, {"status": f"cut off; recovered from {scan.path.name}"})
+    writer.finish()
+    return count, begin, end
+
+
+def trim(path: Path) -> str:
+    """Cut a file that its writer could not go on with behind its last whole record, and say what it holds.
+
+    Its index would need space that is not there, so it stays a cut-off file, which everything here reads. A
+    file without any message goes altogether.
+
+    Parameters
+    ----------
+    path : Path
+    """
+    if not path.is_file():
+        return "nothing of the run has been kept"
+    try:
+        scan = McapScan(path)
+        count, last = 0, 0
+        for message in scan.raw_messages():
+            count, last = count + 1, max(last, message.log_time)
+        if count:
+            os.truncate(path, scan.usable_bytes)
+    except (InputError, OSError):
+        count = 0
+    if not count:
+        with suppress(OSError):
+            path.unlink()
+        return "nothing of the run could be kept, and the file has been removed"
+    return (
+        f"the file holds the run until {last * 1e-9:.3f} s, {count} messages, without an index: "
+        "`beardyn report` makes a copy with one"
+    )

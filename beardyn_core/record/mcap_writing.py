@@ -14,7 +14,9 @@ from mcap.well_known import MessageEncoding, SchemaEncoding
 from mcap.writer import CompressionType, Writer
 
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import open_to_write
 from beardyn_core.record.description import RunDescription
+from beardyn_core.record.mcap_scanning import END_RECORD, trim
 from beardyn_core.record.messages import typestore
 from beardyn_core.record.topics import NAMESPACE, Topic, topic
 
@@ -23,7 +25,6 @@ FLUSH_SECONDS = 0.5
 DESCRIPTION_FILE = "run.json"
 SCENE_FILE = "scene.yaml"
 SUMMARY_RECORD = "beardyn"
-END_RECORD = "beardyn_end"
 COMPLETE = "complete"
 
 _FOREVER = {"sec": 9223372036, "nsec": 854775807}
@@ -34,22 +35,24 @@ class McapWriter:
 
     Messages are gathered into zstd chunks of at most `CHUNK_BYTES`; `flush_if_due`, which every
     `add` calls, hands the chunk in progress to the operating system twice a second. A caller that
-    can fall silent calls it from a timer too. A disk that refuses is an `InputError`; the file is then
-    left with what it holds, further writing raises the same and `close` does nothing.
+    can fall silent calls it from a timer too. A disk that refuses is an `InputError` that says what the
+    file holds, up to its last whole chunk; further writing raises the same and `close` does nothing.
+    The file is locked while it is open, so that no other process writes it too.
 
     Parameters
     ----------
     path : Path
-        An existing file is replaced.
     namespace : str
         Of the topics with relative names.
+    replace : bool
+        Whether an existing file is replaced; otherwise it is an `InputError`.
     """
 
-    def __init__(self, path: Path | str, namespace: str = NAMESPACE) -> None:
+    def __init__(self, path: Path | str, namespace: str = NAMESPACE, *, replace: bool = False) -> None:
         self.path = Path(path)
         self._namespace = namespace
         try:
-            self._file = open(self.path, "wb")  # noqa: SIM115 - closed by close()
+            self._file = open_to_write(self.path, replace=replace)
         except OSError as error:
             raise InputError(
                 f"{self.path}: cannot write the recording ({error.strerror}); "
@@ -63,7 +66,6 @@ class McapWriter:
         self._first_ns: int | None = None
         self._last_ns = 0
         self._flushed = monotonic()
-        self._kept_ns: int | None = None
         self._failure: InputError | None = None
         self._closed = False
         with self._disk():
@@ -109,7 +111,6 @@ class McapWriter:
             self._flushed = now
             with self._disk():
                 self._writer.flush()
-            self._kept_ns = self._last_ns if self._counts else None
 
     def close(self, status: str = "") -> None:
         """Write the summary and close the file; a second call does nothing.
@@ -149,13 +150,9 @@ class McapWriter:
             self._closed = True
             with suppress(OSError):  # it tries once more to write what the disk has refused
                 self._file.close()
-            kept = (
-                f"what was written until {self._kept_ns * 1e-9:.3f} s is readable with `beardyn report`"
-                if self._kept_ns is not None
-                else "nothing of the run has been kept"
-            )
+            reason = error.strerror or str(error)
             self._failure = InputError(
-                f"cannot write on {self.path}: {error.strerror or error}; {kept}; "
+                f"cannot write on {self.path}: {reason}; {trim(self.path)}; "
                 "free space or choose a file on another disk"
             )
             raise self._failure from error

@@ -17,8 +17,8 @@ from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES, force_template, imu_template, joint_template
 from beardyn_core.record.load_stream import decode_load
-from beardyn_core.record.mcap_scanning import McapScan
-from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, SCENE_FILE
+from beardyn_core.record.mcap_scanning import END_RECORD, McapScan
+from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, SCENE_FILE
 from beardyn_core.record.messages import Diagnostic, Template, decode, decode_diagnostics, decode_string
 from beardyn_core.record.topics import IMU, JOINTS, NAMESPACE, WRENCH, namespace_of, relative_name
 from beardyn_core.scene.load import WRENCH_AXES, LoadHistory

@@ -71,10 +71,20 @@ class McapSink:
         Of the topics.
     frame : str
         Of the headers.
+    replace : bool
+        Whether an existing file is replaced; otherwise `open` raises an `InputError`.
     """
 
-    def __init__(self, path: Path | str, namespace: str = NAMESPACE, frame: str = FRAME) -> None:
+    def __init__(
+        self,
+        path: Path | str,
+        namespace: str = NAMESPACE,
+        frame: str = FRAME,
+        *,
+        replace: bool = False,
+    ) -> None:
         self._path = Path(path)
+        self._replace = replace
         self._namespace = namespace
         self._frame = frame
         self._writer: McapWriter | None = None
@@ -86,7 +96,7 @@ class McapSink:
         self._encoder = BlockEncoder(run.roller_count, run.sensor_names, self._frame)
         self._load_written = 0
         self._first = True
-        self._writer = McapWriter(self._path, self._namespace)
+        self._writer = McapWriter(self._path, self._namespace, replace=self._replace)
         self._writer.describe(run)
 
     def write(self, block: Block) -> None:

@@ -11,6 +11,7 @@ summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 trial_run           one run of a trial of a monitor
+code_digest         hashes of the code of a monitor and of the simulator
 trial               all its runs, kept and taken up again
 trial_result        rates with intervals, smallest sizes
 trial_report        a trial as table and JSON
@@ -27,6 +28,5 @@ table               tables for the terminal and for pages, numbers in few digits
 contacts_tables     results of the contact laboratory as tables
 contacts_report     the same for the terminal and as JSON
 contacts_picture    pictures of the contact laboratory
-output_folder       whether the folder of --output can be written to
 =================== =========================================================================
 """

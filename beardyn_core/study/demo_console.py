@@ -13,6 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", default=Path("demo"), type=Path, metavar="DIR", help="folder for the results (demo)"
     )
+    parser.add_argument("--force", action="store_true", help="replace the results of an earlier demo")
     parser.add_argument("--duration", type=float, metavar="S", help="simulated time, s (the scene's own)")
     parser.add_argument(
         "--no-view", action="store_true", help="take no picture of the rerun view (saves some ten seconds)"

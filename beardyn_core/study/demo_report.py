@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import folder_problems
 from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.reading import Run, read_run
 from beardyn_core.scene.defect import Defect
@@ -19,6 +20,7 @@ RECORDING_NAME = "run.mcap"
 RERUN_NAME = "run.rrd"
 SUMMARY_NAME = "summary.png"
 VIEW_NAME = "view.png"
+FILES = (RECORDING_NAME, RERUN_NAME, SUMMARY_NAME, VIEW_NAME)
 SETTLING_S = 0.25
 HIGHEST_HARMONIC = 5.0
 LABEL_WIDTH = 22
@@ -45,19 +47,24 @@ class Pace:
     overall: float | None = None
 
 
-def demo_folder(folder: Path) -> Path:
-    """Folder for the results, made when it is missing.
+def demo_folder(folder: Path, *, force: bool = False) -> Path:
+    """Make the folder for the results when it is missing.
+
+    Parameters
+    ----------
+    folder : Path
+    force : bool
+        Whether the results of an earlier demonstration may be replaced.
 
     Raises
     ------
     InputError
-        It cannot be made or written.
+        It cannot be made or written, or it holds results already.
     """
+    if folder.exists() and (problems := folder_problems("--out", folder, FILES, force=force)):
+        raise InputError(problems)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        probe = folder / ".writable"
-        probe.touch()
-        probe.unlink()
     except OSError as error:
         raise InputError(f"--out {folder}: cannot be written ({error.strerror}); choose another") from error
     return folder

@@ -36,6 +36,8 @@ class MonitoredRecording(McapSink):
         Told of every result.
     algorithm : function, optional
         In place of the reference chain.
+    replace : bool
+        Whether an existing file is replaced.
     """
 
     def __init__(
@@ -44,8 +46,10 @@ class MonitoredRecording(McapSink):
         bearing: Bearing,
         on_finding: Callable[[Finding], None] | None = None,
         algorithm: Algorithm = REFERENCE,
+        *,
+        replace: bool = False,
     ) -> None:
-        super().__init__(str(path), NAMESPACE, FRAME)
+        super().__init__(str(path), NAMESPACE, FRAME, replace=replace)
         self._bearing = bearing
         self._on_finding = on_finding
         self._algorithm = algorithm

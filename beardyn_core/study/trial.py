@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 import json
+import multiprocessing
 import os
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
-from dataclasses import dataclass
-from multiprocessing import get_context
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from multiprocessing import connection, get_context, parent_process
 from pathlib import Path
+from typing import Any, BinaryIO
 
 from beardyn_core.config import trial_scene
+from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import algorithm_named
+from beardyn_core.outputs import is_being_written, open_to_append, write_whole
 from beardyn_core.scene.trial import Cell, Trial
-from beardyn_core.study.trial_run import TrialRun, conduct_run, monitor_digest, run_digest
+from beardyn_core.study.code_digest import monitor_digest, simulator_digest
+from beardyn_core.study.trial_run import TrialRun, conduct_run, run_digest
 from beardyn_core.twin import Twin
 
 RUNS_FILE = "runs.jsonl"
+_NOT_OF_THE_RUNS = ("purpose", "folder")  # fields of a trial that no run depends on
 
 Progress = Callable[[TrialRun], None]
 
@@ -34,12 +43,19 @@ class Plan:
         Of every run, by the key of its cell.
     kept : dict of TrialRun
         Runs of an earlier go whose digest is still the same, by key.
+    outdated : int
+        Runs of an earlier go whose code or files have changed since; they are run again, and stay in the
+        folder until then.
+    fresh : bool
+        Whether the folder starts over.
     """
 
     trial: Trial
     algorithm: str
     digests: dict[str, str]
     kept: dict[str, TrialRun]
+    outdated: int = 0
+    fresh: bool = False
 
     @property
     def missing(self) -> tuple[Cell, ...]:
@@ -48,42 +64,100 @@ class Plan:
         return tuple(sorted(cells, key=lambda cell: (not cell.checks, cell.speed)))
 
 
-def plan_of(trial: Trial, algorithm: str, folder: Path | None) -> Plan:
-    """What is to be run, after what a folder already holds.
+def plan_of(trial: Trial, algorithm: str, folder: Path | None, *, force: bool = False) -> Plan:
+    """Plan what is to be run, after what a folder already holds.
 
     Parameters
     ----------
     trial : Trial
     algorithm : str
-        ``module:function``, '' for ours; raises `InputError` when there is none.
+        ``module:function``, '' for ours.
     folder : Path or None
         Where runs are kept.
+    force : bool
+        Whether the folder starts over, whatever it holds.
+
+    Raises
+    ------
+    InputError
+        There is no such algorithm, or the folder holds the runs of another trial or monitor.
     """
     algorithm_named(algorithm)
-    monitor = monitor_digest(algorithm)
-    digests = {cell.key: run_digest(trial_scene(trial, cell), trial, monitor) for cell in trial.cells()}
-    earlier = read_runs(folder / RUNS_FILE) if folder is not None else []
+    code = f"{simulator_digest()} {monitor_digest(algorithm)}"
+    digests = {cell.key: run_digest(trial_scene(trial, cell), trial, code) for cell in trial.cells()}
+    if folder is None or force:
+        return Plan(trial, algorithm, digests, {}, fresh=True)
+    path = folder / RUNS_FILE
+    earlier = read_runs(path)
+    if problems := _other_trial(path, earlier, identity(trial, algorithm), digests):
+        raise InputError(problems)
     kept = {run.key: run for run in earlier if digests.get(run.key) == run.digest}
-    return Plan(trial, algorithm, digests, kept)
+    outdated = {run.key for run in earlier} - set(kept)
+    return Plan(trial, algorithm, digests, kept, len(outdated))
+
+
+def identity(trial: Trial, algorithm: str) -> dict[str, Any]:
+    """Describe a trial as the first line of its file of runs does: matrix and monitor."""
+    fields = {name: value for name, value in asdict(trial).items() if name not in _NOT_OF_THE_RUNS}
+    described: dict[str, Any] = json.loads(json.dumps({**fields, "monitor": algorithm}))
+    return described
 
 
 def read_runs(path: Path) -> list[TrialRun]:
-    """Runs in a file of JSON lines; a line that was cut off is passed over.
+    """Read the runs in a file of JSON lines; a line that was cut off is passed over.
 
     Parameters
     ----------
     path : Path
         Need not exist.
     """
-    lines = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
-    return [run for run in map(_run_of, lines) if run is not None]
+    return [run for run in map(_run_of, _lines(path)) if run is not None]
 
 
-def _run_of(line: str) -> TrialRun | None:
+def _lines(path: Path) -> list[dict[str, Any]]:
+    if not path.is_file():
+        return []
+    found = []
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        try:
+            content = json.loads(line)
+        except ValueError:
+            continue
+        if isinstance(content, dict):
+            found.append(content)
+    return found
+
+
+def _run_of(content: dict[str, Any]) -> TrialRun | None:
     try:
-        return TrialRun.from_json(json.loads(line))
+        return TrialRun.from_json(content)
     except (ValueError, TypeError, KeyError):
         return None
+
+
+def _other_trial(
+    path: Path, earlier: Sequence[TrialRun], mine: dict[str, Any], digests: dict[str, str]
+) -> list[str]:
+    """Say why runs in a folder cannot be gone on with: they are of another trial, or being written."""
+    if is_being_written(path):
+        return [f"{path}: another trial is writing this file; wait for its end or give another folder"]
+    about = next((line["of"] for line in _lines(path) if isinstance(line.get("of"), dict)), None)
+    if about is not None:
+        names = dict.fromkeys([*mine, *about])
+        different = [name for name in names if mine.get(name) != about.get(name)]
+        what = "; ".join(
+            f"{name} is {json.dumps(about.get(name))} there and {json.dumps(mine.get(name))} here"
+            for name in different
+        )
+    else:  # a folder of an earlier version says nothing about itself
+        strange = next((run.key for run in earlier if run.key not in digests), None)
+        what = "" if strange is None else f"it has a run {strange!r} that this trial has not"
+    if not what:
+        return []
+    return [
+        f"{path}: its {len(earlier)} runs are of another trial or monitor: {what}; "
+        "give another folder, or --force to start over and lose them"
+    ]
 
 
 def warm(trial: Trial) -> None:
@@ -112,33 +186,39 @@ def conduct(plan: Plan, folder: Path | None, jobs: int, progress: Progress) -> l
     """
     runs = dict(plan.kept)
     missing = plan.missing
-    keep = _Keeper(folder, runs.values())
-    try:
-        if jobs == 1:
-            for cell in missing:
-                run = conduct_run(plan.trial, cell, plan.algorithm, plan.digests[cell.key])
-                runs[run.key] = keep(run)
-                progress(run)
-        elif missing:
-            with ProcessPoolExecutor(jobs, get_context("spawn"), _quiet_worker, (os.getcwd(),)) as pool:
-                _gather(pool, plan, missing, runs, keep, progress)
-    finally:
-        keep.close()
+    if missing or plan.fresh:
+        keep = _Keeper(plan, folder)
+        try:
+            if jobs == 1:
+                for cell in missing:
+                    run = conduct_run(plan.trial, cell, plan.algorithm, plan.digests[cell.key])
+                    runs[run.key] = keep(run)
+                    progress(run)
+            elif missing:
+                _gather(plan, missing, jobs, runs, keep, progress)
+            keep.tidy(runs)
+        finally:
+            keep.close()
     return [runs[cell.key] for cell in plan.trial.cells() if cell.key in runs]
 
 
 def _gather(
-    pool: ProcessPoolExecutor,
     plan: Plan,
     missing: Sequence[Cell],
+    jobs: int,
     runs: dict[str, TrialRun],
     keep: _Keeper,
     progress: Progress,
 ) -> None:
-    waiting = {
-        pool.submit(conduct_run, plan.trial, cell, plan.algorithm, plan.digests[cell.key]) for cell in missing
-    }
+    """Conduct runs on several processes, which end with the first failure or interrupt."""
+    others = set(multiprocessing.active_children())
+    pool = ProcessPoolExecutor(jobs, get_context("spawn"), _quiet_worker, (os.getcwd(),))
     try:
+        waiting: set[Future[TrialRun]] = set()
+        with _interrupts_held():  # the processes that begin here inherit it
+            for cell in missing:
+                digest = plan.digests[cell.key]
+                waiting.add(pool.submit(conduct_run, plan.trial, cell, plan.algorithm, digest))
         while waiting:
             done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
             for future in done:
@@ -147,37 +227,81 @@ def _gather(
                 progress(run)
     except BaseException:
         pool.shutdown(wait=False, cancel_futures=True)
+        for process in set(multiprocessing.active_children()) - others:
+            process.terminate()  # a run takes long, and nothing of one that is not done is kept
         raise
+    pool.shutdown()
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Hold Ctrl-C back; it comes at the end."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class _Keeper:
-    """Writes runs to the folder as they end."""
+    """Appends runs to the file in the folder as they end, behind a line that says of which trial they are."""
 
-    def __init__(self, folder: Path | None, earlier: Iterable[TrialRun]) -> None:
-        self._file = None
-        if folder is not None:
-            path = folder / RUNS_FILE
-            # what is out of date or was cut off goes
-            lines = [json.dumps(run.to_json()) + "\n" for run in earlier]
-            fresh = path.with_suffix(".new")
-            fresh.write_text("".join(lines), encoding="utf-8")
-            fresh.replace(path)
-            self._file = path.open("a", encoding="utf-8")
+    def __init__(self, plan: Plan, folder: Path | None) -> None:
+        self._plan = plan
+        self._about = json.dumps({"of": identity(plan.trial, plan.algorithm)}) + "\n"
+        self._path = None if folder is None else folder / RUNS_FILE
+        self._kept = len(plan.kept)
+        self._file: BinaryIO | None = None
+        if self._path is not None:
+            with self._disk():
+                self._file = open_to_append(self._path, empty=plan.fresh)
+                if self._file.tell() == 0 or not any("of" in line for line in _lines(self._path)):
+                    self._write(self._about)
 
     def __call__(self, run: TrialRun) -> TrialRun:
         if self._file is not None:
-            self._file.write(json.dumps(run.to_json()) + "\n")
-            self._file.flush()
+            with self._disk():
+                self._write(json.dumps(run.to_json()) + "\n")
+        self._kept += 1
         return run
 
+    def tidy(self, runs: dict[str, TrialRun]) -> None:
+        """Drop the outdated runs, now that each of them has been run again."""
+        if self._path is not None and self._plan.outdated:
+            lines = [json.dumps(runs[cell.key].to_json()) + "\n" for cell in self._plan.trial.cells()]
+            with self._disk():
+                write_whole(self._path, "".join([self._about, *lines]))
+
     def close(self) -> None:
+        """Close the file, which unlocks it."""
         if self._file is not None:
             self._file.close()
 
+    def _write(self, line: str) -> None:
+        assert self._file is not None
+        self._file.write(line.encode())
+        self._file.flush()
+
+    @contextmanager
+    def _disk(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise InputError(
+                f"{self._path}: cannot be written: {error.strerror or error}; the {self._kept} runs before "
+                "are kept, and the same command goes on from there"
+            ) from error
+
 
 def _quiet_worker(folder: str) -> None:
-    """A process ends with its parent, without a word, and works in its folder with one thread."""
-    import signal
-
+    """Prepare a process: it ends with its parent, without a word, and works in its parent's folder."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.chdir(folder)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        connection.wait([parent.sentinel])
+        os._exit(1)

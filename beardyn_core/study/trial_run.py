@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib
 import time
 from dataclasses import asdict, dataclass
 from math import ceil, isfinite
@@ -12,8 +11,7 @@ from typing import Any
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import trial_scene
-from beardyn_core.errors import ValidityError
-from beardyn_core.observe import chain
+from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.rail.build import load_history
@@ -79,37 +77,23 @@ class TrialRun:
         return cls(**{**found, "scores": tuple(found["scores"])})
 
 
-def monitor_digest(name: str) -> str:
-    """Digest of the code that a monitor consists of: its own module, and the chain beside it.
-
-    Parameters
-    ----------
-    name : str
-        ``module:function``, '' for ours.
-    """
-    own = [Path(chain.__file__).parent / "..", Path(chain.__file__).parent]
-    files = [path for folder in own for path in sorted(folder.resolve().glob("*.py"))]
-    module = importlib.import_module(name.partition(":")[0]) if name else chain
-    if module.__file__:
-        files.append(Path(module.__file__))
-    digest = hashlib.sha256(name.encode())
-    for path in files:
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def run_digest(scene: Scene, trial: Trial, monitor: str) -> str:
-    """Digest of all that a run depends on.
+def run_digest(scene: Scene, trial: Trial, code: str) -> str:
+    """Hash all that a run depends on: its scene with the files it names, the interval, the code.
 
     Parameters
     ----------
     scene : Scene
     trial : Trial
-    monitor : str
-        Digest of the monitor.
+    code : str
+        Digest of simulator and monitor.
     """
-    text = f"{scene.source_text}\n{trial.interval}\n{monitor}"
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
+    digest = hashlib.sha256(f"{scene.source_text}\n{trial.interval}\n{code}".encode())
+    irregularity = getattr(scene.operation, "irregularity", None)
+    for owner in (scene.operation, irregularity):
+        path = getattr(owner, "path", None)
+        if path is not None:
+            digest.update(Path(path).read_bytes())
+    return digest.hexdigest()[:16]
 
 
 def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialRun:
@@ -133,7 +117,10 @@ def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialR
         settings=settings,
         algorithm=algorithm_named(algorithm),
     )
-    results, status = listen(scene, monitor)
+    try:
+        results, status = listen(scene, monitor)
+    except InputError as error:
+        raise InputError([f"{cell.key}: {problem}" for problem in error.problems]) from error
     findings = [Finding.of(result) for result in results]
     judged = [result for result in results if result.verdict != WAITING]
     conclusion = conclude(findings)

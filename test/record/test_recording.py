@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import time
-from argparse import ArgumentParser
 from contextlib import suppress
 from pathlib import Path
 
@@ -22,7 +21,7 @@ from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import ConnectionExtRosbag2
 
-from beardyn_core.cli import report as report_command
+from beardyn_core.cli import main as command
 from beardyn_core.errors import InputError
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.load_stream import encode_load
@@ -248,7 +247,7 @@ def test_a_file_cut_anywhere_yields_a_prefix_or_says_why_not(
         return
     assert read_run(path).complete == scan.complete
     if not scan.complete:
-        recovery = recover(path)
+        recovery = recover(path, replace=True)
         assert recovery.message_count == len(found)
         with AnyReader([recovery.target]) as reader:
             assert reader.message_count == len(found)
@@ -321,10 +320,7 @@ def test_a_killed_writer_loses_at_most_a_second(tmp_path: Path) -> None:
 
 
 def run_report(arguments: list[str]) -> int:
-    parser = ArgumentParser()
-    report_command.add_parser(parser.add_subparsers())
-    args = parser.parse_args(["report", *arguments])
-    return int(args.run(args))
+    return command.main(["report", *arguments])
 
 
 def test_report_says_what_a_recording_holds(recording: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -410,11 +406,15 @@ def test_what_came_before_the_disk_was_full_is_readable(tmp_path: Path) -> None:
         timeout=60,
         check=True,
     )
-    said = re.search(r"File too large; what was written until ([0-9.]+) s is readable", done.stdout)
+    said = re.search(r"File too large; the file holds the run until ([0-9.]+) s, (\d+) messages", done.stdout)
     assert said, done.stdout
     found = report(path)
     assert not found.complete
-    assert 0.0 < float(said[1]) <= max(found.end, 1e-9) + 0.02
+    assert found.usable_bytes == found.size_bytes <= 500_000
+    assert sum(topic.count for topic in found.topics) == int(said[2])
+    assert found.end == pytest.approx(float(said[1]), abs=0.03)
+    assert found.end > 0.02
+    assert recover(path).message_count == int(said[2])
 
 
 def test_a_load_stream_that_runs_ahead_does_not_stretch_the_recording(tmp_path: Path) -> None:

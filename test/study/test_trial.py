@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from scipy.stats import beta
 
 from beardyn_core.config import load_trial, trial_scene
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import open_to_append
 from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Trial
 from beardyn_core.study import trial as trial_module
 from beardyn_core.study.trial import RUNS_FILE, conduct, plan_of, read_runs
@@ -167,9 +169,110 @@ def test_an_interrupted_trial_goes_on_where_it_was(
     assert [run.key for run in runs] == [cell.key for cell in trial.cells()]
     assert not set(first) & set(done)
     assert not plan_of(trial, "", tmp_path).missing
-    # another monitor, another interval: nothing of it is valid any more
-    assert not plan_of(trial, "beardyn_core.observe.chain:REFERENCE", tmp_path).kept
-    assert not plan_of(replace(trial, interval=0.5), "", tmp_path).kept
+
+
+@pytest.fixture
+def small(quick: Trial) -> Trial:
+    return replace(quick, check_tier=None, sizes=(0.006,), faults=("cup",), healthy_repeats=1)
+
+
+@pytest.fixture
+def conducted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Keys of the runs that were conducted, with a stand-in for the simulation."""
+    done: list[str] = []
+
+    def stand_in(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialRun:
+        done.append(cell.key)
+        return replace(run_of(cell, "healthy"), digest=digest)
+
+    monkeypatch.setattr(trial_module, "conduct_run", stand_in)
+    return done
+
+
+def no_progress(_run: TrialRun) -> None:
+    pass
+
+
+@pytest.mark.parametrize(
+    ("changes", "monitor", "named"),
+    [
+        ({"interval": 0.5}, "", "interval is 1.0 there and 0.5 here"),
+        ({"seed": 9}, "", "and 9 here"),
+        ({}, "test.study.test_trial:no_monitor", 'monitor is "" there and "test.study'),
+        ({"sizes": (0.002, 0.006)}, "", "sizes is [0.006] there and [0.002, 0.006] here"),
+    ],
+)
+def test_a_folder_of_another_trial_or_monitor_is_refused_and_keeps_its_runs(
+    small: Trial,
+    tmp_path: Path,
+    conducted: list[str],
+    changes: dict[str, Any],
+    monitor: str,
+    named: str,
+) -> None:
+    conduct(plan_of(small, "", tmp_path), tmp_path, 1, no_progress)
+    before = (tmp_path / RUNS_FILE).read_bytes()
+    assert len(read_runs(tmp_path / RUNS_FILE)) == len(conducted) > 0
+    with pytest.raises(InputError) as refused:
+        plan_of(replace(small, **changes), monitor, tmp_path)
+    assert named in str(refused.value)
+    assert "--force" in str(refused.value)
+    assert (tmp_path / RUNS_FILE).read_bytes() == before
+
+
+def no_monitor(*_: object) -> None:
+    """Stand for somebody's algorithm; it is never called."""
+
+
+def test_force_starts_a_folder_over(small: Trial, tmp_path: Path, conducted: list[str]) -> None:
+    conduct(plan_of(small, "", tmp_path), tmp_path, 1, no_progress)
+    other = replace(small, seed=9)
+    conduct(plan_of(other, "", tmp_path, force=True), tmp_path, 1, no_progress)
+    assert not plan_of(other, "", tmp_path).missing
+    with pytest.raises(InputError, match="seed is 9 there"):
+        plan_of(small, "", tmp_path)
+
+
+def test_runs_of_changed_code_are_counted_and_stay_until_they_have_been_run_again(
+    small: Trial, tmp_path: Path, conducted: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    conduct(plan_of(small, "", tmp_path), tmp_path, 1, no_progress)
+    old, count = (tmp_path / RUNS_FILE).read_bytes(), len(conducted)
+    monkeypatch.setattr(trial_module, "simulator_digest", lambda: "edited")
+    plan = plan_of(small, "", tmp_path)
+    assert (plan.outdated, len(plan.missing)) == (count, count)
+
+    def stop(run: TrialRun) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        conduct(plan, tmp_path, 1, stop)
+    assert (tmp_path / RUNS_FILE).read_bytes().startswith(old)
+    assert plan_of(small, "", tmp_path).outdated == count - 1
+    conduct(plan_of(small, "", tmp_path), tmp_path, 1, no_progress)
+    assert len(read_runs(tmp_path / RUNS_FILE)) == count
+    assert len(conducted) == 2 * count
+    assert not plan_of(small, "", tmp_path).missing
+
+
+def test_two_trials_cannot_write_one_folder(small: Trial, tmp_path: Path, conducted: list[str]) -> None:
+    conduct(plan_of(small, "", tmp_path), tmp_path, 1, no_progress)
+    with (
+        open_to_append(tmp_path / RUNS_FILE),
+        pytest.raises(InputError, match="another trial is writing this file"),
+    ):
+        plan_of(small, "", tmp_path)
+
+
+def test_a_folder_of_an_earlier_version_is_refused_when_it_has_other_runs(
+    small: Trial, tmp_path: Path, conducted: list[str]
+) -> None:
+    conduct(plan_of(small, "", tmp_path), tmp_path, 1, no_progress)
+    path = tmp_path / RUNS_FILE
+    path.write_text("".join(path.read_text().splitlines(keepends=True)[1:]))  # the line about the trial
+    assert not plan_of(small, "", tmp_path).missing
+    with pytest.raises(InputError, match="has a run 'cup 6 mm"):
+        plan_of(replace(small, sizes=(0.002,)), "", tmp_path)
 
 
 def test_scores_grow_with_the_spall_and_runs_repeat_bit_by_bit(quick: Trial) -> None:

@@ -1,0 +1,200 @@
+"""What exists is not replaced unasked, an input never, and no two processes write one file."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from beardyn_core.cli import main as command
+from beardyn_core.config import config_folder
+from beardyn_core.errors import InputError
+from beardyn_core.outputs import file_problems, open_to_write, write_whole
+from beardyn_core.record.mcap_scanning import recover, recovered_name
+from beardyn_core.record.reading import read_run
+from beardyn_core.record.sinks import McapSink
+from test.record.conftest import write_recording
+from test.record.synthetic_run import SyntheticRun, description
+
+ROOT = Path(__file__).resolve().parents[2]
+SHORT = ("--duration", "0.02")
+
+
+def start(*words: str, cwd: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-m", "beardyn_core.cli.main", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=cwd,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    """A scene of one's own, with its own bearing file."""
+    for kind, name in (("scenes", "static_5kN"), ("bearings", "HS130x230")):
+        text = (config_folder() / kind / f"{name}.yaml").read_text(encoding="utf-8")
+        (tmp_path / f"{name}.yaml").write_text(text.replace("bearing: HS130x230", "bearing: HS130x230.yaml"))
+    return tmp_path / "static_5kN.yaml"
+
+
+@pytest.fixture
+def recording(tmp_path: Path) -> Path:
+    return write_recording(tmp_path / "recorded.mcap", 60)
+
+
+@pytest.mark.parametrize("link", ["same", "other path", "symbolic", "hard", "bearing"])
+@pytest.mark.parametrize("force", [(), ("--force",)])
+def test_an_input_is_never_replaced(
+    scene: Path, link: str, force: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    source = scene if link != "bearing" else scene.parent / "HS130x230.yaml"
+    output = source
+    if link == "other path":
+        (scene.parent / "sub").mkdir()
+        output = scene.parent / "sub" / ".." / scene.name
+    elif link in ("symbolic", "hard"):
+        output = scene.parent / "run.mcap"
+        (output.symlink_to if link == "symbolic" else output.hardlink_to)(scene)
+    before = source.read_bytes()
+    assert command.main(["simulate", str(scene), "-o", str(output), *SHORT, *force]) == command.BAD_INPUT
+    assert f"--output {output}: the command reads this file" in capsys.readouterr().err
+    assert source.read_bytes() == before
+
+
+def test_existing_files_are_replaced_only_with_force(
+    tmp_path: Path, recording: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    notes, folder = tmp_path / "notes.txt", tmp_path / "results"
+    notes.write_text("of last week")
+    folder.mkdir()
+    for name in ("ladder.json", "contacts_nine.png", "summary.png"):
+        (folder / name).write_text("of last week")
+    for words, named in (
+        (["simulate", "static_5kN", "-o", str(notes)], f"--output {notes}"),
+        (["view", str(recording), "--save", str(notes)], f"--save {notes}"),
+        (["view", str(recording), "--screenshot", str(notes)], f"--screenshot {notes}"),
+        (["contacts", "--rrd", str(notes)], f"--rrd {notes}"),
+        (["contacts", "-o", str(folder)], f"--output {folder / 'contacts_nine.png'}"),
+        (["ladder", "static_5kN", "-o", str(folder)], f"--output {folder / 'ladder.json'}"),
+        (["demo", "--out", str(folder)], f"--out {folder / 'summary.png'}"),
+    ):
+        assert command.main(words) == command.BAD_INPUT
+        assert f"{named}: the file exists; --force replaces it" in capsys.readouterr().err
+    assert {path.read_text() for path in [notes, *folder.iterdir()]} == {"of last week"}
+    assert command.main(["view", str(recording), "--save", str(notes), "--force"]) == command.DONE
+    assert notes.stat().st_size > 10_000
+
+
+def test_a_recording_is_never_replaced_by_what_is_made_of_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    recording = write_recording(tmp_path / "run.mcap", 5)
+    before = recording.read_bytes()
+    words = ["view", str(recording), "--save", str(recording), "--force"]
+    assert command.main(words) == command.BAD_INPUT
+    assert "the command reads this file" in capsys.readouterr().err
+    assert recording.read_bytes() == before
+
+
+def test_an_earlier_recovery_stays_unless_forced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cut = write_recording(tmp_path / "cut.mcap", 60)
+    os.truncate(cut, cut.stat().st_size // 2)
+    recovered_name(cut).write_text("edited since")
+    assert command.main(["report", str(cut)]) == command.DONE
+    told = capsys.readouterr().out
+    assert f"{recovered_name(cut)}: is there already and stays as it is; --force" in told
+    assert recovered_name(cut).read_text() == "edited since"
+    with pytest.raises(InputError, match="the file exists"):
+        recover(cut)
+    assert command.main(["report", str(cut), "--force"]) == command.DONE
+    assert read_run(recovered_name(cut)).complete
+
+
+def test_of_two_runs_to_one_file_the_second_is_refused_while_the_first_writes(tmp_path: Path) -> None:
+    words, recording = ["simulate", "static_5kN", "-o", "run.mcap"], tmp_path / "run.mcap"
+    first = start(*words, "--duration", "600", cwd=tmp_path)
+    try:
+        deadline = time.monotonic() + 120.0
+        while not (recording.exists() and recording.stat().st_size > 100_000):
+            assert first.poll() is None
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        for force in ([], ["--force"]):
+            second = start(*words, *SHORT, *force, cwd=tmp_path)
+            _, told = second.communicate(timeout=60)
+            assert second.returncode == command.BAD_INPUT
+            assert "run.mcap: another process is writing this file" in told
+        watched = start("report", "run.mcap", cwd=tmp_path)
+        told, _ = watched.communicate(timeout=60)
+        assert watched.returncode == command.DONE
+        assert "another process is writing this file; this is what it holds now" in told
+        assert not recovered_name(recording).exists()
+    finally:
+        first.kill()
+        first.communicate()
+    # what a crash has left is readable and blocks nobody, but is not replaced unasked either
+    assert read_run(recording).problem
+    left = recording.read_bytes()
+    refused = start(*words, *SHORT, cwd=tmp_path)
+    _, told = refused.communicate(timeout=60)
+    assert refused.returncode == command.BAD_INPUT
+    assert "the file exists; --force replaces it" in told
+    assert recording.read_bytes() == left
+    done = start(*words, *SHORT, "--force", "--json", cwd=tmp_path)
+    told, complaints = done.communicate(timeout=120)
+    assert done.returncode == command.DONE, complaints
+    assert json.loads(told)["recording"] == "run.mcap"
+    assert read_run(recording).complete
+
+
+def test_two_runs_that_begin_together_do_not_share_a_file(tmp_path: Path) -> None:
+    """Both have found no file; the one that opens it second is refused, with or without force."""
+    path = tmp_path / "run.mcap"
+    first = McapSink(path)
+    first.open(description())
+    for replace in (False, True):
+        with pytest.raises(InputError, match=r"another process is writing|the file exists"):
+            McapSink(path, replace=replace).open(description())
+    for block in SyntheticRun().blocks(5):
+        first.write(block)
+    first.close()
+    assert read_run(path).complete
+
+
+def test_a_device_is_no_file_that_could_be_lost(tmp_path: Path) -> None:
+    assert file_problems("--output", Path(os.devnull)) == []
+    open_to_write(Path(os.devnull)).close()
+    dangling = tmp_path / "link"
+    dangling.symlink_to(tmp_path / "nowhere")
+    assert "link to a file that does not exist" in file_problems("--output", dangling)[0]
+
+
+def test_a_text_file_is_written_as_a_whole_or_not_at_all(tmp_path: Path) -> None:
+    path = tmp_path / "trial.json"
+    write_whole(path, "one")
+    script = (
+        "import resource, signal, sys; from pathlib import Path\n"
+        "from beardyn_core.outputs import write_whole\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
+        "write_whole(Path(sys.argv[1]), 'two' * 1000)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script, str(path)],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert "File too large" in done.stderr
+    assert path.read_text() == "one"
+    assert list(tmp_path.iterdir()) == [path]
