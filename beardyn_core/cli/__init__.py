@@ -1,1 +1,24 @@
-"""The ``beardyn`` command; `main` dispatches, every other module is one subcommand."""
+"""The ``beardyn`` command, a module for each subcommand.
+
+=========== ========================================================================
+module      responsibility
+=========== ========================================================================
+main        the parser, the list of subcommands, exit codes, complaints
+json_output strict JSON with a version, for every ``--json``
+quantities  numbers with units in options
+demo        the main job in one go
+scenes      what scenes, bearings, lubricants, vehicles, effects and trials there are
+new         a copy of a shipped file to start from
+simulate    a desk run
+explain     which effects a scene is computed with, why, and what each costs
+ladder      what accuracy costs
+warmup      kernels compiled ahead
+view        a recording in 3-D
+report      what a recording holds
+monitor     what a monitor says over a recording
+bearing     static answers about one bearing
+trial       a monitor over a matrix of scenes
+contacts    the contact laboratory
+schema      JSON schemas for editors
+=========== ========================================================================
+"""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import sys
 from pathlib import Path
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.study.output_folder import folder_problems
 
@@ -70,7 +70,9 @@ def run(args: argparse.Namespace) -> int:
 
         try:
             args.output.mkdir(exist_ok=True)
-            (args.output / "contacts.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+            (args.output / "contacts.json").write_text(
+                json_text("contacts", result, indent=1) + "\n", encoding="utf-8"
+            )
             write_pictures(found, args.output)
         except OSError as error:
             raise InputError(
@@ -80,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
         from beardyn_core.record.rerun_rolling import save_rolling
 
         say(f"{save_rolling(found.rolling, args.rrd)}: open it with: rerun {args.rrd}")
-    print(json.dumps(result) if args.json else report(found))
+    print(json_text("contacts", result) if args.json else report(found))
     return DONE
 
 

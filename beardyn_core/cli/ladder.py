@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import logging
 import sys
 from collections.abc import Iterator
@@ -11,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.study.output_folder import folder_problems
 
@@ -97,7 +97,7 @@ def run(args: argparse.Namespace) -> int:
     found = json_object(ladder)
     if args.output is not None:
         write(ladder, found, args.output)
-    print(json.dumps(found) if args.json else table(ladder))
+    print(json_text("ladder", found) if args.json else table(ladder))
     if ladder.interrupted:
         print("beardyn: interrupted; the rungs done so far are kept", file=sys.stderr)
     return INTERRUPTED if ladder.interrupted else DONE
@@ -149,7 +149,7 @@ def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
 
     try:
         folder.mkdir(exist_ok=True)
-        (folder / "ladder.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        (folder / "ladder.json").write_text(json_text("ladder", found, indent=1) + "\n", encoding="utf-8")
         ladder_picture(ladder, folder / "ladder.png")
     except OSError as error:
         raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
     ) as bar:
         summary = desk_run.run(scene, sinks, _Progress(bar))
     if args.json:
-        print(json.dumps(json_object(summary, args.output)))
+        print(json_text("simulate", json_object(summary, args.output)))
     else:
         print(text(summary, args.output))
     if not summary.complete:
@@ -114,38 +114,29 @@ class _Progress:
         self._bar.update(min(step, max(self._bar.total - self._bar.n, 0.0)))
 
 
-def _number(value: float | None) -> float | None:
-    """JSON has no NaN."""
-    return None if value is None or not math.isfinite(value) else value
-
-
 def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
-    """What ``--json`` prints."""
+    """Gather what ``--json`` prints."""
     from beardyn_core.study.life_text import life_object
 
     return {
         "scene": summary.scene,
         "tier": summary.tier,
-        "effects": list(summary.effects),
-        "not_in_tier": list(summary.not_in_tier),
-        "faults": list(summary.faults),
+        "effects": summary.effects,
+        "not_in_tier": summary.not_in_tier,
+        "faults": summary.faults,
         "duration_s": summary.duration,
-        "wall_s": summary.wall_time,
-        "rtf": _number(summary.real_time_factor),
+        "wall_time_s": summary.wall_time,
+        "real_time_factor": summary.real_time_factor,
         "status": summary.status,
-        "mean_force_N": [_number(component) for component in summary.mean_force],
-        "shaft_torque_Nm": _number(summary.shaft_torque),
-        "cage_speed_ratio": [_number(ratio) for ratio in summary.cage_speed_ratio],
-        "energy_residual": _number(summary.energy_residual),
+        "mean_force_N": summary.mean_force,
+        "shaft_torque_N_m": summary.shaft_torque,
+        "cage_speed_ratio": summary.cage_speed_ratio,
+        "energy_residual": summary.energy_residual,
         "life": None if summary.life is None else life_object(summary.life),
         "torque_budget": None if summary.budget is None else summary.budget.to_json(),
-        **(
-            {"temperatures_C": {part: kelvin - _ZERO_CELSIUS for part, kelvin in summary.temperatures}}
-            if summary.temperatures
-            else {}
-        ),
+        "temperature_K": dict(summary.temperatures) or None,
         "stages_s": {each.stage: each.seconds for each in summary.stages},
-        "recording": None if recording is None else str(recording),
+        "recording": recording,
     }
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.study.output_folder import folder_problems
 
@@ -85,7 +85,7 @@ def run(args: argparse.Namespace) -> int:
     found = json_object(result)
     if folder is not None and not interrupted:
         _write(result, found, folder)
-    print(json.dumps(found) if args.json else table(result))
+    print(json_text("trial", found) if args.json else table(result))
     if interrupted:
         again = "the same command goes on from here" if folder else "with -o a trial can be taken up again"
         print(f"beardyn: interrupted after {len(runs)} runs; {again}", file=sys.stderr)
@@ -110,7 +110,7 @@ def _write(result: TrialResult, found: dict[str, object], folder: Path) -> None:
     from beardyn_core.study.trial_picture import trial_picture
 
     try:
-        (folder / "trial.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        (folder / "trial.json").write_text(json_text("trial", found, indent=1) + "\n", encoding="utf-8")
         trial_picture(result, folder / "trial.png")
     except OSError as error:
         raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None

@@ -69,15 +69,15 @@ class TorqueBudget:
         return math.fsum(share.torque for share in self.shares)
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-able content; JSON has no NaN."""
+        """Give the budget as a mapping, units in the keys; torques are NaN with the shaft at rest."""
         return {
             "begin_s": self.begin,
             "end_s": self.end,
-            "shaft_speed_rad_per_s": _number(self.shaft_speed),
-            "power_W": {share.source: _number(share.power) for share in self.shares},
-            "torque_Nm": {share.source: _number(share.torque) for share in self.shares},
-            "power_sum_W": _number(self.power),
-            "torque_sum_Nm": _number(self.torque),
+            "shaft_speed_rad_per_s": self.shaft_speed,
+            "power_W": {share.source: share.power for share in self.shares},
+            "torque_N_m": {share.source: share.torque for share in self.shares},
+            "power_sum_W": self.power,
+            "torque_sum_N_m": self.torque,
         }
 
     def lines(self) -> list[str]:
@@ -88,10 +88,6 @@ class TorqueBudget:
             f"{'loss':20} {'power W':>10} {'torque N m':>11}   {self.begin:.3f} s to {self.end:.3f} s",
             *(f"{row.source.replace('_', ' '):20} {row.power:10.2f} {row.torque:11.4f}" for row in rows),
         ]
-
-
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def torque_budget(
