@@ -364,7 +364,7 @@ def _geometry_lines(bearing: Bearing) -> list[str]:
 
 
 def _rib_lines(bearing: Bearing, load: float, speed: float) -> list[str]:
-    """Contact of the heaviest rib: ellipse, pressure, pressure times sliding speed, and what it passes."""
+    """Describe the contact of the heaviest rib: ellipse, pressure, sliding speed, and its limits."""
     from beardyn_core.bearing.hertz import rib_ellipse, rib_truncation
     from beardyn_core.bearing.kinematics import roller_cone_spin
 

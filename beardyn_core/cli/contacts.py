@@ -87,7 +87,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def option_problems(args: argparse.Namespace) -> list[str]:
-    """What is wrong with the options; nothing is created."""
+    """List what is wrong with the options; nothing is created."""
     problems = folder_problems(args.output)
     file = args.rrd
     if file is not None:

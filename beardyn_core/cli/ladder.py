@@ -120,7 +120,7 @@ def _names(text: str) -> tuple[str, ...]:
 
 
 def option_problems(args: argparse.Namespace) -> list[str]:
-    """What is wrong with the options; nothing is created."""
+    """List what is wrong with the options; nothing is created."""
     from beardyn_core.study.measures import QUANTITIES
 
     problems = [

@@ -86,7 +86,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def output_problems(path: Path) -> list[str]:
-    """Why a recording cannot be written to a path; nothing is created."""
+    """List why a recording cannot be written to a path; nothing is created."""
     folder = path.parent
     if path.is_dir():
         return [f"--output {path}: is a folder; give the name of a file, such as {path / 'run.mcap'}"]
@@ -141,7 +141,7 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
 
 
 def _means(summary: RunSummary) -> list[tuple[str, str]]:
-    """Lines of the mean values."""
+    """Write the lines of the mean values."""
     if summary.nothing_to_average:
         why = f"too little: {summary.duration:g} s end before the first values have passed their filters"
         return [("means", f"{why}; simulate 0.06 s or more")]
@@ -166,7 +166,7 @@ def _means(summary: RunSummary) -> list[tuple[str, str]]:
 
 
 def text(summary: RunSummary, recording: Path | None) -> str:
-    """Readable summary."""
+    """Write the summary for the terminal."""
     from beardyn_core.observe.stage_clock import stage_lines
     from beardyn_core.study.life_text import life_sentence
 

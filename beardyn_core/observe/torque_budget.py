@@ -81,7 +81,7 @@ class TorqueBudget:
         }
 
     def lines(self) -> list[str]:
-        """Table for a terminal, the sources that lose something."""
+        """Write a table for a terminal, with the sources that lose something."""
         rows = [share for share in self.shares if share.power != 0.0]
         rows = [*sorted(rows, key=lambda share: -abs(share.power)), LossShare("sum", self.power, self.torque)]
         return [
@@ -93,7 +93,7 @@ class TorqueBudget:
 def torque_budget(
     times: Sequence[float], lost: NDArray[np.float64], shaft_speed: float
 ) -> TorqueBudget | None:
-    """Budget from the energies lost up to some times; ``None`` when the times span nothing.
+    """Compute the budget from the energies lost up to some times; ``None`` when the times span nothing.
 
     Parameters
     ----------
