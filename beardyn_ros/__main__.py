@@ -40,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def usage() -> str:
-    """Overview of the programs."""
+    """Write the overview of the programs."""
     lines = ["usage: python -m beardyn_ros NODE [--ros-args -p NAME:=VALUE ... --params-file FILE]", ""]
     lines += [f"  {name:9} {purpose}" for name, (_, purpose) in PROGRAMS.items()]
     lines += ["", "exit codes:", *(f"  {code:<9} {meaning}" for code, meaning in EXIT_CODES.items())]
@@ -48,7 +48,7 @@ def usage() -> str:
 
 
 def node_help(name: str) -> str:
-    """Parameters of a node, from its table."""
+    """Describe the parameters of a node, from its table."""
     module, purpose = PROGRAMS[name]
     lines = [f"{name}: {purpose}", "", "parameters (--ros-args -p NAME:=VALUE):"]
     for parameter in import_module(f"beardyn_ros.{module}").PARAMETERS:

@@ -158,7 +158,7 @@ class _Nodes:
         self.processes.start(node, *words)
 
     def failure(self, tolerate: Sequence[str]) -> NodeFailureError | None:
-        """What to tell when a node has ended with an error."""
+        """Describe in a sentence that a node has ended with an error; ``None`` when none has."""
         for name in self.processes.failed():
             if name in tolerate:
                 continue
@@ -219,16 +219,16 @@ class _Observer:
             self._latest[status.name.rpartition("/")[2]] = status
 
     def heard(self, part: str) -> Diagnostic | None:
-        """Latest status of a part."""
+        """Find the latest status of a part."""
         return self._latest.get(part)
 
     def state(self) -> str:
-        """State of the twin; '' before its first words."""
+        """Return the state of the twin; '' before its first status."""
         twin = self.heard("twin")
         return (twin.value("state") or "") if twin else ""
 
     def is_connected(self, part: str) -> bool:
-        """Whether a listening node has found the twin."""
+        """Check whether a listening node has found the twin."""
         status = self.heard(part)
         return status is not None and status.value("connected") == "true"
 

@@ -27,7 +27,7 @@ def diagnostic_name(namespace: str, part: str) -> str:
 
 
 def is_from(diagnostic: Diagnostic, part: str) -> bool:
-    """Whether a status comes from that part of any axlebox."""
+    """Check whether a status comes from that part of any axlebox."""
     return diagnostic.name == part or diagnostic.name.endswith(f"/{part}")
 
 
@@ -40,7 +40,7 @@ def twin_diagnostic(
     speed_factor: float,
     load_publishers: int,
 ) -> Diagnostic:
-    """State of the twin: progress, pace, load, validity."""
+    """Report the state of the twin: progress, pace, load, validity."""
     level, sentence = OK, report.sentence
     if report.state == STOPPED:
         level = ERROR
@@ -91,7 +91,7 @@ def twin_diagnostic(
 
 
 def load_diagnostic(name: str, state: str, replay: Replay, lead: float, lost_messages: int) -> Diagnostic:
-    """State of the load node: where the stream stands in the scenario, how far ahead of the credit, [s]."""
+    """Report the load node: where the stream stands in the scenario, how far ahead of the credit, [s]."""
     values = (
         ("state", state),
         ("position", f"{replay.position_s:.4f}"),
@@ -106,5 +106,5 @@ def load_diagnostic(name: str, state: str, replay: Replay, lead: float, lost_mes
 
 
 def needs_attention(report: SessionReport) -> bool:
-    """Whether a person would want to know this state at once."""
+    """Check whether a person would want to know this state at once."""
     return report.state in (COMPILING, WAITING_FOR_LOAD, FINISHED, STOPPED)

@@ -19,7 +19,7 @@ MISSING_ROS = (
 
 
 def ros_available() -> bool:
-    """Whether rclpy can be found; nothing is imported."""
+    """Check whether rclpy can be found; nothing is imported."""
     return importlib.util.find_spec("rclpy") is not None
 
 
@@ -46,7 +46,7 @@ def prepare_environment() -> None:
 
 
 def _wheel_prefix() -> Path:
-    """Folder that holds `share/ament_index` of the wheels."""
+    """Find the folder that holds `share/ament_index` of the wheels."""
     spec = importlib.util.find_spec("rclpy")
     if spec is not None and spec.origin:
         for folder in Path(spec.origin).parents:

@@ -61,7 +61,7 @@ class Refusals:
         return sentence
 
     def report(self) -> RefusalReport:
-        """Counts so far."""
+        """Return the counts so far."""
         with self._lock:
             return RefusalReport(self._counts.total(), tuple(sorted(self._counts.items())), self._last)
 
@@ -69,7 +69,7 @@ class Refusals:
 def unphysical(
     wrench: NDArray[np.float64], shaft_speed: NDArray[np.float64], bogie: NDArray[np.float64]
 ) -> tuple[str, str] | None:
-    """Reason and sentence when numbers are not finite or absurd, ``None`` when they are fine.
+    """Give reason and sentence when numbers are not finite or absurd, ``None`` when they are fine.
 
     Parameters
     ----------
@@ -225,7 +225,7 @@ class LoadGate:
         return None
 
     def take_through(self, end_ns: int) -> LoadHistory | None:
-        """Samples up to the first at or after `end_ns`, or all that wait; ``None`` when nothing waits."""
+        """Take the samples up to the first at or after `end_ns`, or all that wait; ``None`` without any."""
         with self.condition:
             taken: list[LoadHistory] = []
             covered = False
@@ -241,7 +241,7 @@ class LoadGate:
         return joined(taken) if taken else None
 
     def first_time_ns(self) -> int | None:
-        """Time of the first waiting sample."""
+        """Return the time of the first waiting sample."""
         with self.condition:
             return int(self._parts[0].time_ns[0]) if self._parts else None
 
@@ -260,14 +260,14 @@ class LoadGate:
 
 
 def shifted(load: LoadHistory, by_ns: int) -> LoadHistory:
-    """The same samples at later times."""
+    """Shift samples to later times."""
     if by_ns == 0:
         return load
     return LoadHistory(load.time_ns + by_ns, load.wrench, load.shaft_speed, load.bogie)
 
 
 def joined(parts: list[LoadHistory]) -> LoadHistory:
-    """One history from consecutive ones."""
+    """Join consecutive histories to one."""
     if len(parts) == 1:
         return parts[0]
     return LoadHistory(
@@ -361,7 +361,7 @@ class LiveLoad:
             self._stamp.clear()
 
     def held(self) -> HeldLoad | None:
-        """Last value, ``None`` until both messages have come."""
+        """Return the last value, ``None`` until both messages have come."""
         with self.condition:
             if self._wrench is None or self._speed is None:
                 return None

@@ -273,7 +273,7 @@ class LoadNode(Node):
             self._timer.reset()
 
     def _twin_listens(self) -> bool:
-        """Whether the twin gets what is sent; looked up at intervals, it costs more than a send."""
+        """Check whether the twin gets what is sent; looked up at intervals, it costs more than a send."""
         now = time.monotonic()
         if now - self._looked_at < LOOK_PERIOD_S:
             return self._heard
@@ -298,7 +298,7 @@ class LoadNode(Node):
         return self._heard
 
     def _all_connected(self) -> bool:
-        """Whether the twin, and every other listener that the graph knows, is connected.
+        """Check whether the twin, and every other listener that the graph knows, is connected.
 
         Recorder and monitor listen to the load too; the twin is the one that gives credit.
         """
@@ -371,7 +371,7 @@ class LoadNode(Node):
 
 
 def encode_wrench(wrench: np.ndarray, stamp_ns: int) -> bytes:
-    """CDR of one ``load/wrench``, shape [6], [N, N m]."""
+    """Encode one ``load/wrench`` as CDR, shape [6], [N, N m]."""
     force = make("geometry_msgs/msg/Vector3", x=wrench[0], y=wrench[1], z=wrench[2])
     torque = make("geometry_msgs/msg/Vector3", x=wrench[3], y=wrench[4], z=wrench[5])
     content = make("geometry_msgs/msg/Wrench", force=force, torque=torque)
@@ -379,7 +379,7 @@ def encode_wrench(wrench: np.ndarray, stamp_ns: int) -> bytes:
 
 
 def encode_shaft(speed: float, stamp_ns: int) -> bytes:
-    """CDR of one ``load/shaft``, [rad/s] about +y."""
+    """Encode one ``load/shaft`` as CDR, [rad/s] about +y."""
     zero = make("geometry_msgs/msg/Vector3", x=0.0, y=0.0, z=0.0)
     turning = make("geometry_msgs/msg/Vector3", x=0.0, y=speed, z=0.0)
     content = make("geometry_msgs/msg/Twist", linear=zero, angular=turning)

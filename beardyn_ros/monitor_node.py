@@ -167,7 +167,7 @@ class MonitorNode(Node):
         self._out.publish("monitor/result", encode_diagnostics(stamp, FRAME, [status]))
 
     def _sum_up(self) -> None:
-        """Last word about the run: the most frequent verdict."""
+        """Log the last word about the run: the most frequent verdict."""
         self._summed_up = True
         conclusion = conclude(self._findings)
         finding = conclusion.finding or Finding("waiting", "not enough signal for a verdict", 0.0)
@@ -198,7 +198,7 @@ class MonitorNode(Node):
         self._out.publish("/diagnostics", encode_diagnostics(stamp, FRAME, [status]))
 
     def close(self) -> bool:
-        """Nothing to save; there is no thread to end."""
+        """Do nothing: there is nothing to save and no thread to end."""
         return False
 
 

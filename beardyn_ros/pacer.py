@@ -50,7 +50,7 @@ class Pacer:
             self._origin_wall += seconds
 
     def delay(self, end_ns: int) -> float:
-        """Seconds until a block that ends at `end_ns` is due; 0 or negative: due."""
+        """Compute the seconds until a block that ends at `end_ns` is due; 0 or negative: due."""
         with self._lock:
             if self._speed_factor == 0.0:
                 return 0.0

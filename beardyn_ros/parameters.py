@@ -45,7 +45,7 @@ class NodeParameter:
         return {bool: "bool", int: "integer", float: "double", str: "string"}[type(self.default)]
 
     def convert(self, value: bool | int | float | str) -> bool | int | float | str:
-        """Value in the parameter's type, or an `InputError` that says what is allowed."""
+        """Convert a value to the parameter's type, or raise an `InputError` that says what is allowed."""
         wanted = type(self.default)
         if wanted is float and isinstance(value, int) and not isinstance(value, bool):
             value = float(value)

@@ -19,7 +19,7 @@ PR_SET_PDEATHSIG = 1
 
 
 def free_domain_id(taken: Sequence[int] = ()) -> int:
-    """A ROS domain that no process of this machine uses: its first discovery ports are free."""
+    """Find a ROS domain that no process of this machine uses: its first discovery ports are free."""
     span = LAST_DOMAIN - FIRST_DOMAIN + 1
     begin = os.getpid() % span
     for offset in range(span):
@@ -39,7 +39,7 @@ def _port_is_free(port: int) -> bool:
 
 
 def local_environment(domain_id: int) -> dict[str, str]:
-    """Environment of a child that talks to this machine only, in one domain."""
+    """Make the environment of a child that talks to this machine only, in one domain."""
     return {
         **os.environ,
         "ROS_DOMAIN_ID": str(domain_id),
@@ -79,27 +79,27 @@ class Processes:
         return child
 
     def log_path(self, name: str) -> Path:
-        """Where a child's output goes."""
+        """Name the file that a child's output goes to."""
         return self._log_folder / f"{name}.log"
 
     def log(self, name: str) -> str:
-        """Output of a child so far."""
+        """Read the output of a child so far."""
         return self.log_path(name).read_text(errors="replace")
 
     def exit_code(self, name: str) -> int | None:
-        """Exit code of a child, ``None`` while it runs."""
+        """Return the exit code of a child, ``None`` while it runs."""
         return self._children[name].poll()
 
     def pid(self, name: str) -> int:
-        """Process id of a child."""
+        """Return the process id of a child."""
         return self._children[name].pid
 
     def failed(self) -> list[str]:
-        """Names of the children that have ended with something else than 0."""
+        """List the children that have ended with another exit code than 0."""
         return [name for name, child in self._children.items() if child.poll() not in (None, 0)]
 
     def wait(self, name: str, timeout: float) -> int:
-        """Exit code of a child once it has ended."""
+        """Wait until a child has ended and return its exit code."""
         return self._children[name].wait(timeout)
 
     def signal(self, name: str, number: signal.Signals) -> None:
@@ -107,7 +107,7 @@ class Processes:
         _signal_group(self._children[name], number)
 
     def end(self, patience: float = 5.0) -> None:
-        """SIGINT, then SIGTERM, then SIGKILL to whoever is still there."""
+        """Send SIGINT, then SIGTERM, then SIGKILL to the children that are still there."""
         for number, wait in ((signal.SIGINT, patience), (signal.SIGTERM, 2.0), (signal.SIGKILL, 2.0)):
             running = [child for child in self._children.values() if child.poll() is None]
             for child in running:
@@ -132,7 +132,7 @@ def _signal_group(child: subprocess.Popen[bytes], number: signal.Signals) -> Non
 
 
 def _end_with_parent() -> Callable[[], None] | None:
-    """For Linux: the kernel tells the child when its parent is gone, however that happened."""
+    """Ask the kernel, on Linux, to end the child when its parent is gone, however that happened."""
     if not sys.platform.startswith("linux"):
         return None
     library = ctypes.CDLL(None, use_errno=True)

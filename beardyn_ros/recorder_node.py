@@ -129,7 +129,7 @@ class RecorderNode(Node):
     # --- state -------------------------------------------------------------------------------------
 
     def missing(self) -> list[str]:
-        """Topics of the twin that have no publisher yet."""
+        """List the topics of the twin that have no publisher yet."""
         counts = self._intake.publisher_counts()
         namespace = self.get_namespace()
         return [name for name in TWIN_TOPICS if not counts.get(topic(name).path(namespace), 0)]

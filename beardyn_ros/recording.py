@@ -224,7 +224,7 @@ def run_id_of(truth: str) -> str:
 
 
 def parsed_truth(truth: str) -> dict[str, object]:
-    """Content of ``truth`` as an object; empty when it is none."""
+    """Read the content of ``truth`` as an object; empty when it is none."""
     try:
         content = json.loads(truth)
     except ValueError:

@@ -112,7 +112,7 @@ class Replay:
         return int(self._history.time_ns[min(self._position, len(self._history) - 1)])
 
     def samples_before(self, stamp_ns: int) -> int:
-        """How many of the next samples have stamps below `stamp_ns`, should the stream be that long."""
+        """Count the next samples with stamps below `stamp_ns`, should the stream be that long."""
         if self._even:
             return max(-((self.next_ns - stamp_ns) // self._spacing_ns), 0)
         return max(int(np.searchsorted(self._history.time_ns, stamp_ns)) - self._position, 0)
@@ -124,7 +124,7 @@ class Replay:
         return float(self._history.time_ns[at] - self._history.time_ns[0]) / 1e9
 
     def problem_of_seek(self, position: float) -> str:
-        """Why there is no such place; '' when there is."""
+        """Say why there is no such place; '' when there is."""
         if not self._even and position != 0.0:
             return UNEVEN
         if 0.0 <= position <= self.length_s:
@@ -132,7 +132,7 @@ class Replay:
         return f"position {position:g} s is outside the scenario, which is {self.length_s:g} s long"
 
     def problem_of_loop(self, loop: bool) -> str:
-        """Why the scenario cannot be repeated; '' when it can."""
+        """Say why the scenario cannot be repeated; '' when it can."""
         if loop and not self._even:
             return UNEVEN
         if not loop or 2 * self._fade <= len(self._history):
@@ -153,7 +153,7 @@ class Replay:
         return self.next_sample >= LAST_SAMPLE or not (moving or self._position < len(self._history))
 
     def take(self, count: int) -> LoadHistory:
-        """The next samples of the stream; fewer, or none, at its end.
+        """Take the next samples of the stream; fewer, or none, at its end.
 
         Parameters
         ----------
@@ -193,7 +193,7 @@ class Replay:
         self._begin_passage(self._fade * self._spacing_ns / 1e9)
 
     def _piece(self, count: int) -> NDArray[np.float64]:
-        """Samples up to the next turn, shape [sample, 10]."""
+        """Take the samples up to the next turn, shape [sample, 10]."""
         if self._old is None:
             last = len(self._history) - (self._fade if self.loop else 0)
             count = max(min(count, last - self._position), 0)
@@ -210,7 +210,7 @@ class Replay:
         return piece
 
     def _columns(self, first: int, count: int) -> NDArray[np.float64]:
-        """Wrench, speed and bogie from a sample of the scenario on, the last one held, shape [count, 10]."""
+        """Gather wrench, speed and bogie from a sample on, the last one held, shape [count, 10]."""
         at = np.minimum(first + np.arange(count), len(self._history) - 1)
         load = self._history
         return np.column_stack([load.wrench[at], load.shaft_speed[at], load.bogie[at]])

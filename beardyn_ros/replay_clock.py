@@ -24,7 +24,7 @@ class ReplayClock:
         self.restart()
 
     def restart(self) -> None:
-        """Stand at 0 until `start`."""
+        """Stop at 0 until `start`."""
         self._passed = 0.0
         self._since: float | None = None
 
@@ -34,7 +34,7 @@ class ReplayClock:
             self._since = self._now()
 
     def passed(self) -> float:
-        """Seconds of the stream since the start."""
+        """Compute the seconds of the stream since the start."""
         if self._since is None or self._paused:
             return self._passed
         return self._passed + (self._now() - self._since) * self._pace
@@ -45,7 +45,7 @@ class ReplayClock:
         self._pace = pace
 
     def pause(self, paused: bool) -> None:
-        """Stand still, or go on."""
+        """Stop the stream, or let it go on."""
         self._settle()
         self._paused = paused
 

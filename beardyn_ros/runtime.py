@@ -106,7 +106,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
 
 
 def stray_arguments(argv: Sequence[str]) -> list[str]:
-    """Arguments outside of ``--ros-args ... --``, which no node understands."""
+    """List the arguments outside of ``--ros-args ... --``, which no node understands."""
     stray, inside = [], False
     for word in argv:
         if word == "--ros-args":

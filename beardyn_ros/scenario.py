@@ -65,12 +65,12 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
 
 
 def scenario_events(scene: Scene) -> dict[str, Any]:
-    """What a scene does to the load, JSON-able, in SI units."""
+    """List what a scene does to the load, JSON-able, in SI units."""
     return {"scene": scene.name, "seed": scene.seed, **events_of(scene)}
 
 
 def truth_text(scenario: Scenario, replay: Replay, state: str, run_id: str) -> str:
-    """Content of ``load/truth``: the events of the scenario, and where in it the stream stands when.
+    """Write ``load/truth``: the events of the scenario, and where in it the stream stands when.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def truth_text(scenario: Scenario, replay: Replay, state: str, run_id: str) -> s
 
 
 def says_paused(truth: str) -> bool:
-    """Whether the sender of a ``load/truth`` is paused knowingly; False when it cannot be read."""
+    """Check whether the sender of a ``load/truth`` is paused knowingly; False when it cannot be read."""
     try:
         replay = json.loads(truth).get("replay", {})
         return bool(replay.get("state") == PAUSED)

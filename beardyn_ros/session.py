@@ -130,7 +130,7 @@ class TwinSession:
         return self._thread.is_alive()
 
     def collect(self) -> list[Outgoing]:
-        """Everything that waits to be published, oldest first."""
+        """Collect everything that waits to be published, oldest first."""
         with self._condition:
             waiting = list(self._outgoing)
             self._outgoing.clear()
@@ -310,5 +310,5 @@ class _InterruptedError(Exception):
 
 
 def _heard(block: Block) -> int:
-    """Samples of the first accelerometer."""
+    """Return the samples of the first accelerometer."""
     return len(block.vibration[0].time_ns) if block.vibration else 0

@@ -329,7 +329,7 @@ class TwinNode(LifecycleNode):
             self._wait_for_readers()
 
     def _wait_for_readers(self) -> None:
-        """Without a pace the readers set it: what a reliable reader wants is not overwritten.
+        """Wait for the readers when there is no pace: what a reliable reader wants is not overwritten.
 
         A reader that has died must not hold the twin, so its silence is believed for a while.
         """

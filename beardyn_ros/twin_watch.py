@@ -36,7 +36,7 @@ class TwinWatch:
                 self.last = status
 
     def value(self, key: str, default: Any = None) -> Any:
-        """A value of the twin's last status."""
+        """Look up a value of the twin's last status."""
         found = self.last.value(key) if self.last else None
         return default if found is None else found
 
@@ -51,13 +51,13 @@ class TwinWatch:
         return "" if self.value("state") == FINISHED or self.last is None else self.last.message
 
     def absent_for(self) -> float:
-        """Seconds since the twin was last there, or since the start of the watch, [s]."""
+        """Compute the seconds since the twin was last there, or since the start of the watch, [s]."""
         if self._publisher_count() > 0:
             self._absent_since = time.monotonic()
         return time.monotonic() - self._absent_since
 
     def vanished(self) -> bool:
-        """Whether the twin was there and is gone without a word."""
+        """Check whether the twin was there and is gone without a word."""
         if self._publisher_count() > 0:
             self._seen, self._missing_since = True, None
             return False

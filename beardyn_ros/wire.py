@@ -31,7 +31,7 @@ LONGEST_SWEEP = 5000
 
 @cache
 def message_class(type_name: str) -> Any:
-    """Python class of ``package/msg/Type``."""
+    """Find the Python class of ``package/msg/Type``."""
     package, kind, name = type_name.split("/")
     return getattr(import_module(f"{package}.{kind}"), name)
 
@@ -39,7 +39,7 @@ def message_class(type_name: str) -> Any:
 def quality_of_service(
     entry: Topic, keep_all: bool = False, complete: bool = False, offered: bool = False
 ) -> QoSProfile:
-    """QoS of a topic of the table.
+    """Choose the QoS of a topic of the table.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class TopicPublishers:
             self.publisher(name)
 
     def publisher(self, name: str) -> Any:
-        """Publisher of a topic of the table."""
+        """Create the publisher of a topic of the table."""
         if name not in self._publishers:
             entry = topic(name)
             self._publishers[name] = self._node.create_publisher(
@@ -104,7 +104,7 @@ class TopicPublishers:
         return False
 
     def wait_until_received(self, name: str, timeout: float) -> bool:
-        """Whether every reliable reader has acknowledged everything on a topic within `timeout` seconds."""
+        """Wait until every reliable reader has acknowledged a topic, for at most `timeout` seconds."""
         publisher = self._publishers.get(name)
         if publisher is None or publisher.get_subscription_count() == 0:
             return True
@@ -162,7 +162,7 @@ class RawIntake:
         return count
 
     def publisher_counts(self) -> dict[str, int]:
-        """Publishers that each subscription is connected to, by absolute topic name."""
+        """Count the publishers that each subscription is connected to, by absolute topic name."""
         return {
             subscription.topic_name: subscription.get_publisher_count()
             for subscription, _, _ in self._subscriptions

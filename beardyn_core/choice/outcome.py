@@ -75,17 +75,17 @@ class Choice:
         return replace(scene, tier=self.tier, effects=self.effects, numerics=kept, chosen=self.reasons)
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-able content; JSON has no NaN."""
+        """Give the choice as a mapping for JSON; unknown errors and costs are NaN."""
         return {
             "tier": self.tier,
-            "effects": list(self.effects.names()),
+            "effects": self.effects.names(),
             "laminae": self.laminae,
             "steps_per_sample": self.steps_per_sample,
-            "accuracy_percent": 100.0 * self.accuracy,
-            "quantities": list(self.quantities),
+            "accuracy": self.accuracy,
+            "quantities": self.quantities,
             "within_accuracy": self.within,
-            "expected_error": {name: _number(error) for name, error in self.expected.items()},
-            "expected_rtf": self.real_time_factor,
+            "expected_error": _errors(self.expected),
+            "real_time_factor": self.real_time_factor,
             "step_cost": self.step_cost,
             "reasons": {
                 "tier": self.tier_reason,
@@ -98,16 +98,19 @@ class Choice:
                     "on": decision.on,
                     "choice": decision.word,
                     "reason": decision.reason,
-                    "cost_share": _number(decision.cost_share),
-                    "error": {name: _number(error) for name, error in decision.influence.items()},
+                    "cost_share": decision.cost_share,
+                    "error": _errors(decision.influence),
                 }
                 for decision in self.decisions
             ],
         }
 
 
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None
+def _errors(errors: Mapping[str, float]) -> dict[str, dict[str, Any]]:
+    return {
+        name: {"error": error, "unit": "dB" if name == "vibration" else "share"}
+        for name, error in errors.items()
+    }
 
 
 def error_text(quantity: str, error: float) -> str:

@@ -1,20 +1,24 @@
-"""The ``beardyn`` command: `main` dispatches, every other module is one subcommand.
+"""The ``beardyn`` command, a module for each subcommand.
 
-======== ===============================================================
-module   responsibility
-======== ===============================================================
-main     command line to subcommand; errors to exit codes
-simulate a desk run of a scene, recorded if asked for
-demo     the main job in one process, without ROS
-explain  which effects are on, why, and what each costs
-bearing  geometry, fault frequencies, load distribution, stiffness, life
-ladder   what accuracy costs, for one scene
-trial    a monitor on trial over a matrix of scenes
-monitor  what a monitor says over a finished recording
-contacts the general contact search beside closed forms
-view     a recording in 3-D with its curves
-report   what a recording holds; a cut-off one is recovered
-schema   JSON schema of the configuration files
-warmup   compiles the kernels of scenes ahead of their first run
-======== ===============================================================
+=========== ========================================================================
+module      responsibility
+=========== ========================================================================
+main        the parser, the list of subcommands, exit codes, complaints
+json_output strict JSON with a version, for every ``--json``
+quantities  numbers with units in options
+demo        the main job in one go
+scenes      what scenes, bearings, lubricants, vehicles, effects and trials there are
+new         a copy of a shipped file to start from
+simulate    a desk run
+explain     which effects a scene is computed with, why, and what each costs
+ladder      what accuracy costs
+warmup      kernels compiled ahead
+view        a recording in 3-D
+report      what a recording holds
+monitor     what a monitor says over a recording
+bearing     static answers about one bearing
+trial       a monitor over a matrix of scenes
+contacts    the contact laboratory
+schema      JSON schemas for editors
+=========== ========================================================================
 """

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
-import re
-import sys
 import textwrap
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.quantities import NEGATIVE_QUANTITY, read_quantity
+from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from beardyn_core.study.rating_life import RatingLife
 
 TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
-_DEFAULT_LOAD = (0.0, 0.0, 80.0e3)
+_DEFAULT_LOAD = ("0", "0", "80")  # [kN]
+_MOST_END_PLAY = 5.0e-3  # that of integrate.static
 _BAR_WIDTH = 28
 _RPM = 2.0 * math.pi / 60.0
 _ZERO_CELSIUS = 273.15
@@ -30,20 +31,23 @@ def add_parser(subparsers: Any) -> None:
     parser = subparsers.add_parser(
         "bearing",
         help="geometry, fault frequencies, load distribution, stiffness and life of a bearing",
-        description="Geometry, fault frequencies, static load distribution, stiffness and life of a bearing.",
+        description="Geometry, fault frequencies, static load distribution, stiffness and life of a bearing. "
+        "Numbers are in the units of scene files (kN, mm, rpm, degrees Celsius); another unit is written "
+        "behind a number: 80000N, 0.1mm, 50Hz.",
     )
     # Before Python 3.14 argparse takes -1e-5 for an option.
-    parser._negative_number_matcher = re.compile(r"^-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
+    parser._negative_number_matcher = NEGATIVE_QUANTITY
     parser.add_argument("bearing", metavar="BEARING", help="name of a shipped bearing or path of a YAML file")
     parser.add_argument(
         "--load",
         nargs=3,
-        type=float,
-        metavar=("FX", "FY", "FZ"),
-        help="force on the cone, axlebox frame (x forward, y left along the axle, z up), N; default 0 0 8e4",
+        metavar=("FX_KN", "FY_KN", "FZ_KN"),
+        help="force on the cone, axlebox frame (x forward, y left along the axle, z up), kN; default 0 0 80",
     )
     parser.add_argument(
-        "--end-play", type=float, metavar="M", help="total axial travel, m, negative: preload"
+        "--end-play",
+        metavar="MM",
+        help="total axial travel, mm, negative: preload; default that of the bearing file",
     )
     parser.add_argument(
         "--tilt",
@@ -51,15 +55,21 @@ def add_parser(subparsers: Any) -> None:
         default="locked",
         help="tilt of the cone against the cup; default locked",
     )
-    parser.add_argument("--speed", type=float, default=0.0, metavar="RPM", help="shaft speed, rpm; default 0")
+    parser.add_argument("--speed", default="0", metavar="RPM", help="shaft speed, rpm; default 0")
     parser.add_argument(
         "--laminae", type=int, default=1, metavar="N", help="laminae of each raceway contact; default 1"
     )
     parser.add_argument(
-        "--lubricant", metavar="NAME", help="shipped lubricant or path of a YAML file; with it film and life"
+        "--lubricant",
+        metavar="NAME",
+        help="shipped lubricant or path of a YAML file; with it film and life; default none",
     )
     parser.add_argument(
-        "--temperature", type=float, default=70.0, metavar="C", help="of the lubricant, deg C; default 70"
+        "--temperature",
+        type=float,
+        default=70.0,
+        metavar="CELSIUS",
+        help="of the lubricant, degrees Celsius; default 70",
     )
     parser.add_argument(
         "--contamination",
@@ -68,75 +78,107 @@ def add_parser(subparsers: Any) -> None:
         help="e_C of ISO 281, 0 to 1: 1 extreme cleanliness; default 0.6, sealed and greased",
     )
     parser.add_argument(
-        "--coupled-laminae", action="store_true", help="laminae sink with each other: edge load"
+        "--coupled-laminae",
+        action="store_true",
+        help="laminae sink with each other: edge load; default independent",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
     parser.set_defaults(run=run)
 
 
+@dataclass(frozen=True)
+class _Operation:
+    """What the bearing is solved for, from the options.
+
+    Parameters
+    ----------
+    load : tuple of 3 floats
+        On the cone, [N].
+    end_play : float or None
+        [m]; ``None``: that of the bearing.
+    speed : float
+        Of the shaft, [rad/s].
+    """
+
+    load: tuple[float, float, float]
+    end_play: float | None
+    speed: float
+
+    @property
+    def rpm(self) -> float:
+        """Speed of the shaft, [rpm]."""
+        return round(self.speed / _RPM, 9)
+
+
 def run(args: argparse.Namespace) -> int:
-    """Solve and print; 0 on success, 2 for bad input, 3 when no equilibrium is found."""
+    """Run the command; gives the exit code."""
     from beardyn_core.config import load_bearing
     from beardyn_core.effects import LaminaCoupling
     from beardyn_core.integrate.static import solve
-
-    try:
-        _refuse_absurd(args)
-        bearing = load_bearing(args.bearing)
-        load = _DEFAULT_LOAD if args.load is None else tuple(args.load)
-        end_play = bearing.end_play if args.end_play is None else args.end_play
-        solution = solve(
-            bearing,
-            load,
-            end_play=end_play,
-            tilt=args.tilt,
-            laminae=args.laminae,
-            speed=args.speed * _RPM,
-            coupling=LaminaCoupling() if args.coupled_laminae else None,
-        )
-        life = _life(bearing, load, end_play, args)
-    except InputError as error:
-        for problem in error.problems:
-            print(problem, file=sys.stderr)
-        return 2
-    except ValidityError as error:
-        print(error, file=sys.stderr)
-        return 3
     from beardyn_core.study.rating_life import life_lines, life_object
 
+    operation = _operation(args)
+    bearing = load_bearing(args.bearing)
+    end_play = bearing.end_play if operation.end_play is None else operation.end_play
+    solution = solve(
+        bearing,
+        operation.load,
+        end_play=end_play,
+        tilt=args.tilt,
+        laminae=args.laminae,
+        speed=operation.speed,
+        coupling=LaminaCoupling() if args.coupled_laminae else None,
+    )
+    life = _life(bearing, operation, end_play, args)
     if args.json:
-        report = _report(bearing, load, end_play, args, solution)
-        print(json.dumps({**report, "life": None if life is None else life_object(life)}))
+        report = _report(bearing, operation, end_play, args, solution)
+        print(json_text("bearing", {**report, "life": None if life is None else life_object(life)}))
     else:
-        print(_table(bearing, load, end_play, args, solution))
+        print(_table(bearing, operation, end_play, args, solution))
         if life is not None:
             print("\n".join(["", *life_lines(life)]))
     return 0
 
 
-def _refuse_absurd(args: argparse.Namespace) -> None:
-    """Raise `InputError` when temperature or contamination make no sense."""
-    problems = []
+def _operation(args: argparse.Namespace) -> _Operation:
+    """Read load, end play and speed; raise `InputError` with everything that makes no sense."""
+    problems: list[str] = []
+
+    def read(option: str, text: str, dimension: str) -> float:
+        try:
+            return read_quantity(option, text, dimension)
+        except InputError as error:
+            problems.extend(error.problems)
+            return math.nan
+
+    fx, fy, fz = (read("--load", text, "force") for text in args.load or _DEFAULT_LOAD)
+    end_play = None if args.end_play is None else read("--end-play", args.end_play, "length")
+    speed = read("--speed", args.speed, "rotation")
+    if end_play is not None and abs(end_play) > _MOST_END_PLAY:
+        problems.append(f"--end-play is {end_play * 1e3:g} mm; it must lie within ±{_MOST_END_PLAY * 1e3:g}")
+    if args.laminae < 1:
+        problems.append(f"--laminae is {args.laminae}; it must be at least 1")
     if not -60.0 <= args.temperature <= 200.0:
-        problems.append(f"--temperature is {args.temperature:g}; it must be from -60 to 200 deg C")
+        problems.append(f"--temperature is {args.temperature:g}; it must be from -60 to 200 degrees Celsius")
     if args.contamination is not None and not 0.0 <= args.contamination <= 1.0:
         problems.append(f"--contamination is {args.contamination:g}; it must be from 0 to 1")
-    if args.lubricant is not None and args.speed == 0.0:
+    if args.lubricant is not None and speed == 0.0:
         problems.append("--lubricant is given, but --speed is 0; life needs a shaft that turns")
     if problems:
         raise InputError(problems)
+    return _Operation((fx, fy, fz), end_play, speed)
 
 
 def _life(
-    bearing: Bearing, load: tuple[float, ...], end_play: float, args: argparse.Namespace
+    bearing: Bearing, operation: _Operation, end_play: float, args: argparse.Namespace
 ) -> RatingLife | None:
-    """Life under the load of the command line; ``None`` without a lubricant."""
+    """Rate the life under the load of the command line; ``None`` without a lubricant."""
     if args.lubricant is None:
         return None
     from beardyn_core.config import load_lubricant
     from beardyn_core.study.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
 
-    always = LoadClass(1.0, (load[0], load[1], load[2]), (0.0, 0.0, 0.0), abs(args.speed) * _RPM)
+    always = LoadClass(1.0, operation.load, (0.0, 0.0, 0.0), abs(operation.speed))
     return rating_life(
         bearing,
         (always,),
@@ -150,40 +192,40 @@ def _life(
 
 def _report(
     bearing: Bearing,
-    load: tuple[float, ...],
+    operation: _Operation,
     end_play: float,
     args: argparse.Namespace,
     solution: StaticSolution,
 ) -> dict[str, Any]:
-    """Content of the JSON object, SI units in the keys."""
+    """Gather the content of the JSON object."""
     from beardyn_core.bearing.kinematics import fault_frequencies
 
     frequencies = fault_frequencies(bearing)
     return {
         "bearing": bearing.name,
         "geometry": _geometry(bearing),
-        "frequencies_per_rev": {
+        "fault_frequencies_per_rev": {
             "FTF": frequencies.ftf,
             "BPFO": frequencies.bpfo,
             "BPFI": frequencies.bpfi,
             "BSF": frequencies.bsf,
         },
         "static": {
-            "applied_force_N": list(load),
+            "applied_force_N": operation.load,
             "end_play_m": end_play,
             "tilt": args.tilt,
-            "speed_rpm": args.speed,
+            "shaft_speed_rad_per_s": operation.speed,
             "laminae": args.laminae,
             "coupled_laminae": args.coupled_laminae,
-            "displacement_m": solution.displacement.tolist(),
-            "tilt_rad": solution.tilt.tolist(),
-            "roller_load_N": solution.cup_load.tolist(),
+            "displacement_m": solution.displacement,
+            "tilt_rad": solution.tilt,
+            "roller_load_N": solution.cup_load,
             "loaded_roller_count": sum(solution.loaded_roller_count),
             "loaded_roller_count_per_row": list(solution.loaded_roller_count),
-            "max_roller_load_N": solution.largest_roller_load,
+            "largest_roller_load_N": solution.largest_roller_load,
             "most_loaded_roller": _most_loaded_roller(bearing, solution),
-            "stiffness_tilt_held_N_per_m": solution.stiffness_tilt_held.tolist(),
-            "stiffness_tilt_free_N_per_m": solution.stiffness_tilt_free.tolist(),
+            "stiffness_tilt_held_N_per_m": solution.stiffness_tilt_held,
+            "stiffness_tilt_free_N_per_m": solution.stiffness_tilt_free,
         },
     }
 
@@ -196,12 +238,12 @@ def _most_loaded_roller(bearing: Bearing, solution: StaticSolution) -> dict[str,
     row, roller = divmod(int(solution.cup_load.argmax()), solution.cup_load.shape[1])
     count = solution.cup_lamina_load.shape[-1]
     report: dict[str, Any] = {
-        "row": row, "roller": roller, "place_m": lamina_places(bearing, count).tolist()
+        "row": row, "roller": roller, "place_m": lamina_places(bearing, count)
     }  # fmt: skip
     for ring, loads in (("cup", solution.cup_lamina_load), ("cone", solution.cone_lamina_load)):
         load = loads[row, roller]
-        report[f"{ring}_load_per_length_N_per_m"] = (load * count / bearing.effective_length).tolist()
-        report[f"{ring}_pressure_Pa"] = lamina_pressure(bearing, load, ring).tolist()
+        report[f"{ring}_load_per_length_N_per_m"] = load * count / bearing.effective_length
+        report[f"{ring}_pressure_Pa"] = lamina_pressure(bearing, load, ring)
     return report
 
 
@@ -237,16 +279,16 @@ def _geometry(bearing: Bearing) -> dict[str, float | int]:
         "roller_diameter_m": bearing.roller_diameter,
         "effective_length_m": bearing.effective_length,
         "roller_length_m": bearing.roller_length,
-        "contact_angle_deg": math.degrees(bearing.contact_angle),
-        "cup_angle_deg": math.degrees(bearing.cup_angle),
-        "cone_angle_deg": math.degrees(bearing.cone_angle),
-        "half_angle_deg": math.degrees(bearing.half_angle),
+        "contact_angle_rad": bearing.contact_angle,
+        "cup_angle_rad": bearing.cup_angle,
+        "cone_angle_rad": bearing.cone_angle,
+        "half_angle_rad": bearing.half_angle,
         "apex_distance_m": bearing.apex_distance,
         "large_end_radius_m": bearing.large_end_radius,
         "small_end_radius_m": bearing.small_end_radius,
         "sphere_radius_m": bearing.sphere_radius,
         "rib_contact_height_m": bearing.rib_contact_height,
-        "rib_angle_deg": math.degrees(bearing.rib_angle),
+        "rib_angle_rad": bearing.rib_angle,
         "pressure_centre_spread_m": bearing.pressure_centre_spread,
         "roller_web_m": bearing.roller_web,
         "roller_mass_kg": bearing.roller_mass,
@@ -260,7 +302,7 @@ def _geometry(bearing: Bearing) -> dict[str, float | int]:
 
 def _table(
     bearing: Bearing,
-    load: tuple[float, ...],
+    operation: _Operation,
     end_play: float,
     args: argparse.Namespace,
     solution: StaticSolution,
@@ -270,16 +312,16 @@ def _table(
     lines = [f"{bearing.name}   {bearing.description}".rstrip(), "", "Geometry (closed on a common apex)"]
     lines += _geometry_lines(bearing)
     lines += ["", "Frequencies per shaft revolution"]
-    lines += _frequency_lines(fault_frequencies(bearing), args.speed)
-    force = ", ".join(f"{value / 1e3:g}" for value in load)
+    lines += _frequency_lines(fault_frequencies(bearing), operation.rpm)
+    force = ", ".join(f"{value / 1e3:g}" for value in operation.load)
     chosen = " (default)" if args.load is None else ""
     lines += [
         "",
         f"Static equilibrium under ({force}) kN on the cone{chosen}",
-        f"  end play {end_play * 1e3:g} mm, tilt {args.tilt}, {args.speed:g} rpm, laminae {args.laminae}",
+        f"  end play {end_play * 1e3:g} mm, tilt {args.tilt}, {operation.rpm:g} rpm, laminae {args.laminae}",
     ]
     lines += _static_lines(solution)
-    lines += _rib_lines(bearing, float(solution.rib_load.max()), args.speed)
+    lines += _rib_lines(bearing, float(solution.rib_load.max()), operation.rpm)
     if args.laminae > 1:
         lines += _line_lines(_most_loaded_roller(bearing, solution))
     return "\n".join(lines)
@@ -322,7 +364,7 @@ def _geometry_lines(bearing: Bearing) -> list[str]:
 
 
 def _rib_lines(bearing: Bearing, load: float, speed: float) -> list[str]:
-    """Contact of the heaviest rib: ellipse, pressure, pressure times sliding speed, and what it passes."""
+    """Describe the contact of the heaviest rib: ellipse, pressure, sliding speed, and its limits."""
     from beardyn_core.bearing.hertz import rib_ellipse, rib_truncation
     from beardyn_core.bearing.kinematics import roller_cone_spin
 

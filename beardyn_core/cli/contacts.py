@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words, may_be_left
 from beardyn_core.outputs import file_problems, files_read, folder_problems, write_whole
@@ -85,7 +85,7 @@ def run(args: argparse.Namespace) -> int:
 
         try:
             args.output.mkdir(exist_ok=True)
-            write_whole(args.output / FILES[0], json.dumps(result, indent=1) + "\n")
+            write_whole(args.output / FILES[0], json_text("contacts", result, indent=1) + "\n")
             write_pictures(found, args.output)
         except OSError as error:
             raise InputError(
@@ -95,7 +95,7 @@ def run(args: argparse.Namespace) -> int:
         from beardyn_core.record.rerun_rolling import save_rolling
 
         say(f"{save_rolling(found.rolling, args.rrd)}: open it with: rerun {args.rrd}")
-    print(json.dumps(result) if args.json else report(found))
+    print(json_text("contacts", result) if args.json else report(found))
     return DONE
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
@@ -61,12 +61,12 @@ def run(args: argparse.Namespace) -> int:
     except InputError as error:
         # the option is shorter than the key
         raise InputError([p.replace("--accuracy_percent", "--accuracy") for p in error.problems]) from None
-    print(json.dumps(json_object(found)) if args.json else text(found))
+    print(json_text("explain", json_object(found)) if args.json else text(found))
     return DONE
 
 
 def json_object(found: Explanation) -> dict[str, Any]:
-    """What ``--json`` prints."""
+    """Gather what ``--json`` prints."""
     from beardyn_core.choice.costs import measured_costs
 
     costs = measured_costs()
@@ -79,7 +79,7 @@ def json_object(found: Explanation) -> dict[str, Any]:
 
 
 def text(found: Explanation) -> str:
-    """Readable explanation."""
+    """Write the explanation for the terminal."""
     from beardyn_core.choice.costs import measured_costs
 
     costs = measured_costs()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import logging
 import sys
 from collections.abc import Iterator, Sequence
@@ -11,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import files_read, folder_problems, write_whole
@@ -108,7 +108,7 @@ def run(args: argparse.Namespace) -> int:
     found = json_object(ladder)
     if args.output is not None:
         write(ladder, found, args.output)
-    print(json.dumps(found) if args.json else table(ladder))
+    print(json_text("ladder", found) if args.json else table(ladder))
     if ladder.interrupted:
         kept = f"are in {args.output}" if args.output else "are printed; with -o they are written too"
         print(f"beardyn: interrupted; the {len(ladder.rows)} levels done so far {kept}", file=sys.stderr)
@@ -161,7 +161,7 @@ def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
 
     try:
         folder.mkdir(exist_ok=True)
-        write_whole(folder / FILES[0], json.dumps(found, indent=1) + "\n")
+        write_whole(folder / FILES[0], json_text("ladder", found, indent=1) + "\n")
         ladder_picture(ladder, folder / FILES[1])
     except OSError as error:
         raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None

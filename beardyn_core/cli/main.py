@@ -21,23 +21,23 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
-_ORDER = ("demo", "simulate", "trial", "explain", "bearing", "view", "report", "schema", "warmup")
+COMMANDS = {
+    "start here": ("demo", "scenes", "new"),
+    "simulate": ("simulate", "explain", "ladder", "warmup"),
+    "recordings": ("view", "report", "monitor"),
+    "bearings and monitors": ("bearing", "trial", "contacts"),
+    "files": ("schema",),
+}
+"""The subcommands, each a module of this package, under the headings of the help."""
 
 
 def command_names() -> list[str]:
-    """Names of the subcommands, the most used first."""
-    import pkgutil
-
-    import beardyn_core.cli
-
-    found = [
-        module.name for module in pkgutil.iter_modules(beardyn_core.cli.__path__) if module.name != "main"
-    ]
-    return sorted(found, key=lambda name: (_ORDER.index(name) if name in _ORDER else len(_ORDER), name))
+    """List the subcommands in the order of the help."""
+    return [name for names in COMMANDS.values() for name in names]
 
 
 def program_version() -> str:
-    """Version that is installed."""
+    """Find the version that is installed."""
     from importlib.metadata import PackageNotFoundError, version
 
     try:
@@ -47,19 +47,26 @@ def program_version() -> str:
 
 
 def build_parser() -> argparse.ArgumentParser:
-    """Parser of all subcommands; heavy modules are imported only by the one that runs."""
+    """Build the parser of all subcommands; heavy modules are imported only by the one that runs."""
     import argparse
     import importlib
 
     parser = argparse.ArgumentParser(
         prog="beardyn",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Real-time digital twin of a railway axlebox double-row tapered roller bearing.",
-        epilog="`beardyn COMMAND --help` explains a command.",
     )
     parser.add_argument("--version", action="version", version=f"beardyn {program_version()}")
-    subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    subparsers = parser.add_subparsers(metavar="COMMAND", required=True, help="one of those below")
     for name in command_names():
         importlib.import_module(f"beardyn_core.cli.{name}").add_parser(subparsers)
+    purposes = {action.dest: action.help for action in subparsers._choices_actions}
+    subparsers._choices_actions.clear()  # they are shown under headings instead
+    lines = []
+    for heading, names in COMMANDS.items():
+        lines += [f"{heading}:", *(f"    {name:<12}{purposes[name]}" for name in names), ""]
+    lines.append("`beardyn COMMAND --help` explains a command with its options, units and defaults.")
+    parser.epilog = "\n".join(lines) + "\n"
     return parser
 
 

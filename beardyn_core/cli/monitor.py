@@ -3,7 +3,24 @@
 from __future__ import annotations
 
 import argparse
-import json
+
+from beardyn_core.cli.json_output import json_text, renamed
+
+_KEYS = {
+    "time": "time_s",
+    "found_frequency": "found_frequency_Hz",
+    "expected_frequency": "expected_frequency_Hz",
+    "signal_to_background": "signal_to_background_dB",
+    "score": "score_dB",
+    "shaft_frequency": "shaft_frequency_Hz",
+    "load": "load_N",
+    "rms": "rms_m_per_s2",
+    "threshold": "threshold_dB",
+    "band_low": "band_low_Hz",
+    "band_high": "band_high_Hz",
+    "rms_rise": "rms_rise_dB",
+    "temperature": "temperature_K",
+}
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -28,7 +45,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from dataclasses import asdict
-    from math import isfinite
 
     from beardyn_core.config import load_bearing, scene_from_text
     from beardyn_core.errors import InputError
@@ -48,14 +64,15 @@ def run(args: argparse.Namespace) -> int:
     findings = findings_of(recording, bearing, algorithm)
     conclusion = conclude(findings)
     if args.json:
-        rows = [
-            {
-                key: None if isinstance(value, float) and not isfinite(value) else value
-                for key, value in asdict(finding).items()
-            }
-            for finding in findings
-        ]
-        print(json.dumps({"verdict": conclusion.verdict, "findings": rows}))
+        content = {
+            "recording": args.recording,
+            "bearing": bearing.name,
+            "verdict": conclusion.verdict,
+            "agreeing": conclusion.agreeing,
+            "analyses": conclusion.analyses,
+            "findings": renamed([asdict(finding) for finding in findings], _KEYS),
+        }
+        print(json_text("monitor", content))
         return 0
     for finding in findings:
         print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")

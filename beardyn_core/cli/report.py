@@ -3,12 +3,40 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.json_output import json_text, renamed
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import is_being_written
+
+if TYPE_CHECKING:
+    from beardyn_core.record.mcap_scanning import Recovery
+    from beardyn_core.record.reporting import Report
+
+_KEYS = {
+    "path": "recording",
+    "begin": "begin_s",
+    "end": "end_s",
+    "attachments": "attachment_bytes",
+    "mean_shaft_speed": "mean_shaft_speed_rad_per_s",
+    "monitor": "monitor_reason",
+    "faults": "defects",
+    "sensor_rates_Hz": "sensor_rate_Hz",
+}
+_GROWTH = {"start": "start_s", "end": "end_s", "width": "width_grows", "depth": "depth_grows"}
+_DEFECT = {
+    "azimuth": "azimuth_rad",
+    "width": "width_m",
+    "depth": "depth_m",
+    "length": "length_m",
+    "offset": "offset_m",
+    "rim_height": "rim_height_m",
+    "rim_width": "rim_width_m",
+    "diameter": "diameter_m",
+    "clearance": "clearance_m",
+}
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -34,7 +62,7 @@ def run(args: argparse.Namespace) -> int:
     int
         0 done, 2 bad input, or a cut-off file that could not be recovered.
     """
-    from beardyn_core.record.mcap_scanning import Recovery, recover, recovered_name
+    from beardyn_core.record.mcap_scanning import recover, recovered_name
     from beardyn_core.record.reporting import report
 
     found = report(args.recording)
@@ -53,9 +81,7 @@ def run(args: argparse.Namespace) -> int:
             except InputError as error:
                 problems = error.problems
     if args.json:
-        content = found.to_json()
-        content["recovered"] = str(recovery.target) if recovery else None
-        print(json.dumps(content))
+        print(json_text("report", json_object(found, recovery)))
     else:
         print(found.to_text())
     for note in notes:
@@ -63,3 +89,31 @@ def run(args: argparse.Namespace) -> int:
     if problems:
         raise InputError(problems)
     return 0
+
+
+def json_object(found: Report, recovery: Recovery | None) -> dict[str, Any]:
+    """Gather what ``--json`` prints.
+
+    Parameters
+    ----------
+    found : Report
+    recovery : Recovery or None
+        The copy of a file that was cut off.
+    """
+    from beardyn_core.scene.defect import defect_from
+
+    content = found.to_json()
+    return {
+        **{_KEYS.get(key, key): value for key, value in content.items()},
+        "topics": renamed(content["topics"], {"rate": "rate_Hz"}),
+        "gaps": renamed(content["gaps"], {"time": "time_s"}),
+        "faults": [defect_from(defect).described() for defect in content["faults"]],
+        "defects": [_defect(defect) for defect in content["faults"]],
+        "recovered": None if recovery is None else recovery.target,
+    }
+
+
+def _defect(fields: dict[str, Any]) -> dict[str, Any]:
+    if fields.get("growth") is None:
+        return {_DEFECT.get(key, key): value for key, value in fields.items()}
+    return {**_defect({**fields, "growth": None}), "growth": renamed(fields["growth"], _GROWTH)}

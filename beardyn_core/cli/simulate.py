@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import file_problems, files_read
@@ -82,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
         with last_words(lambda: progress.kept(args.output)):
             summary = desk_run.run(scene, sinks, progress)
     if args.json:
-        print(json.dumps(json_object(summary, args.output)))
+        print(json_text("simulate", json_object(summary, args.output)))
     else:
         print(text(summary, args.output))
     if not summary.complete:
@@ -113,43 +113,34 @@ class _Progress:
         return f"{recording} holds the run until {self._simulated:.2f} s, and is closed and readable"
 
 
-def _number(value: float | None) -> float | None:
-    """JSON has no NaN."""
-    return None if value is None or not math.isfinite(value) else value
-
-
 def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
-    """What ``--json`` prints."""
+    """Gather what ``--json`` prints."""
     from beardyn_core.study.rating_life import life_object
 
     return {
         "scene": summary.scene,
         "tier": summary.tier,
-        "effects": list(summary.effects),
-        "not_in_tier": list(summary.not_in_tier),
-        "faults": list(summary.faults),
+        "effects": summary.effects,
+        "not_in_tier": summary.not_in_tier,
+        "faults": summary.faults,
         "duration_s": summary.duration,
-        "wall_s": summary.wall_time,
-        "rtf": _number(summary.real_time_factor),
+        "wall_time_s": summary.wall_time,
+        "real_time_factor": summary.real_time_factor,
         "status": summary.status,
-        "mean_force_N": [_number(component) for component in summary.mean_force],
-        "shaft_torque_Nm": _number(summary.shaft_torque),
-        "cage_speed_ratio": [_number(ratio) for ratio in summary.cage_speed_ratio],
-        "energy_residual": _number(summary.energy_residual),
+        "mean_force_N": summary.mean_force,
+        "shaft_torque_N_m": summary.shaft_torque,
+        "cage_speed_ratio": summary.cage_speed_ratio,
+        "energy_residual": summary.energy_residual,
         "life": None if summary.life is None else life_object(summary.life),
         "torque_budget": None if summary.budget is None else summary.budget.to_json(),
-        **(
-            {"temperatures_C": {part: kelvin - _ZERO_CELSIUS for part, kelvin in summary.temperatures}}
-            if summary.temperatures
-            else {}
-        ),
+        "temperature_K": dict(summary.temperatures) or None,
         "stages_s": {each.stage: each.seconds for each in summary.stages},
-        "recording": None if recording is None else str(recording),
+        "recording": recording,
     }
 
 
 def _means(summary: RunSummary) -> list[tuple[str, str]]:
-    """Lines of the mean values."""
+    """Write the lines of the mean values."""
     if summary.nothing_to_average:
         why = f"too little: {summary.duration:g} s end before the first values have passed their filters"
         return [("means", f"{why}; simulate 0.06 s or more")]
@@ -174,7 +165,7 @@ def _means(summary: RunSummary) -> list[tuple[str, str]]:
 
 
 def text(summary: RunSummary, recording: Path | None) -> str:
-    """Readable summary."""
+    """Write the summary for the terminal."""
     from beardyn_core.observe.stage_clock import stage_lines
     from beardyn_core.study.rating_life import life_sentence
 

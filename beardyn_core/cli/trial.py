@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import folder_problems, write_whole
@@ -98,7 +98,7 @@ def run(args: argparse.Namespace) -> int:
     found = {**json_object(result), "complete": not interrupted}
     if folder is not None:
         _write(result, found, folder, drawn=not interrupted)
-    print(json.dumps(found) if args.json else table(result))
+    print(json_text("trial", found) if args.json else table(result))
     if interrupted:
         print(
             f"beardyn: interrupted after {len(runs)} of {len(trial.cells())} runs; {again}", file=sys.stderr
@@ -107,7 +107,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def option_problems(args: argparse.Namespace) -> list[str]:
-    """What is wrong with the options; nothing is created."""
+    """List what is wrong with the options; nothing is created."""
     problems = []
     if args.jobs is not None and not 1 <= args.jobs <= _MOST_JOBS:
         problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")
@@ -123,7 +123,7 @@ def _made(folder: Path | None) -> Path | None:
 def _write(result: TrialResult, found: dict[str, object], folder: Path, *, drawn: bool) -> None:
     """Write trial.json of the runs there are, and trial.png, which only a complete trial has."""
     try:
-        write_whole(folder / "trial.json", json.dumps(found, indent=1) + "\n")
+        write_whole(folder / "trial.json", json_text("trial", found, indent=1) + "\n")
         if drawn:
             from beardyn_core.study.trial_picture import trial_picture
 

@@ -53,7 +53,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _shipped(effects: str | None, tier: str | None) -> Iterator[tuple[str, Scene]]:
-    """Shipped scenes as they are, then every preset in every tier, with what each is called."""
+    """List shipped scenes as they are, then every preset in every tier, each with its name."""
     from beardyn_core.config import load_scene, shipped_names
     from beardyn_core.scene.tier import TIERS
 

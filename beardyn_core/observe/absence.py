@@ -39,7 +39,7 @@ class Absence:
         self._there = self.complete.to_lanes(there.astype(float))
 
     def completed(self, rollers: Float, bodies: Float) -> tuple[Float, Float]:
-        """States of all rollers and bodies of two complete rows.
+        """Fill up the states of all rollers and bodies to two complete rows.
 
         Parameters
         ----------
@@ -62,7 +62,7 @@ class Absence:
 
 
 def _mirrored(cage: Float) -> Float:
-    """A cage as in a mirror between the rows; both turn the same way."""
+    """Mirror a cage at the plane between the rows; both turn the same way."""
     image = cage.copy()
     for field in (POSITION + 1, LINEAR + 1, TILT, TILT + 2, ANGULAR, ANGULAR + 2):
         image[..., field] *= -1.0
@@ -70,6 +70,6 @@ def _mirrored(cage: Float) -> Float:
 
 
 def absence_of(arrangement: Arrangement) -> Absence | None:
-    """`Absence` of an arrangement, ``None`` when all is there."""
+    """Find the `Absence` of an arrangement, ``None`` when all rollers are there."""
     whole = arrangement.rows == BOTH_ROWS and not arrangement.missing
     return None if whole else Absence(arrangement)

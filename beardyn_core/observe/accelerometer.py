@@ -27,7 +27,7 @@ def specific_force(
     angular_acceleration: Float,
     rotation: Float,
 ) -> Float:
-    """Specific force at the sensor, in the sensor's own axes: +g on z at rest.
+    """Compute the specific force at the sensor, in the sensor's own axes: +g on z at rest.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def _specific_force(position, acceleration, angular_velocity, angular_accelerati
 
 @inline
 def force_at(position, acceleration, angular_acceleration, angular_velocity, rotation, force):
-    """One sample of `specific_force`, written to `force`."""
+    """Compute one sample of `specific_force` and write it to `force`."""
     px, py, pz = position[0], position[1], position[2]
     ax, ay, az = rotation[0], rotation[1], rotation[2]
     wx, wy, wz = angular_velocity[0], angular_velocity[1], angular_velocity[2]
@@ -86,7 +86,7 @@ def force_at(position, acceleration, angular_acceleration, angular_velocity, rot
 
 
 def white_noise(seed: int, sensor: int, first_sample: int, count: int) -> Float:
-    """Standard normal numbers that depend on the sample index only, not on the cut into blocks.
+    """Draw standard normal numbers that depend on the sample index only, not on the cut into blocks.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class NoiseStream:
         self._next = 0
 
     def at(self, first_sample: int, count: int) -> Float:
-        """Numbers of some samples, shape [count, 3]; the next samples in a row come cheapest."""
+        """Draw the numbers of some samples, shape [count, 3]; the next samples in a row come cheapest."""
         if first_sample != self._next:
             self._bits = np.random.Philox(key=self._key, counter=first_sample)
         self._next = first_sample + count

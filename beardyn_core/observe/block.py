@@ -55,7 +55,7 @@ class EnergyAudit:
 
     @classmethod
     def of(cls, since: Float) -> EnergyAudit:
-        """Audit from the kernel's sums since the start of the run, shape [ENERGY_TERMS]."""
+        """Make the audit from the kernel's sums since the start of the run, shape [ENERGY_TERMS]."""
         lost = since[ENERGY_LOST : ENERGY_LOST + LOSSES]
         return cls(
             external=float(since[ENERGY_EXTERNAL]),
@@ -185,7 +185,7 @@ class Block:
     temperature: Float | None = None
 
     def arrays(self) -> dict[str, Float | Int]:
-        """Every array by its name, with those that are worked out at the first look."""
+        """List every array by its name, those included that are computed when they are first used."""
         every = {field.name: getattr(self, field.name) for field in fields(self)}
         found = {name: value for name, value in every.items() if isinstance(value, np.ndarray)}
         found |= {name: getattr(self, name) for name in ("body_pose", "body_twist", "contacts")}

@@ -121,7 +121,7 @@ class Observer:
         wall_s: float,
         temperature: Float | None = None,
     ) -> Block:
-        """The block of what the kernel just wrote.
+        """Make the block of the signals that the kernel just wrote.
 
         Parameters
         ----------
@@ -193,7 +193,7 @@ class Observer:
         )
 
     def _trends(self, signals: Float, waves: Float, heard: Float) -> Float:
-        """Force, moment, specific force and torque at 400 Hz, shape [trend, 10]."""
+        """Gather force, moment, specific force and torque at 400 Hz, shape [trend, 10]."""
         if self._slow_decimator is None:
             channels = np.empty((len(waves), _TREND_CHANNELS))
             _select(waves, heard, channels)
@@ -210,7 +210,7 @@ class Observer:
     def _remember(
         self, end: int, rollers: Float | Instants, bodies: Float, loads: Float, first: int, count: int
     ) -> Float:
-        """Instants number `first` and following; the newest is the beginning of block `end`."""
+        """Keep the instants number `first` and following; the newest is the beginning of block `end`."""
         kept = len(self._instants)
         instants = np.empty((kept + len(bodies), self._instants.shape[1]))
         instants[:kept] = self._instants
@@ -222,7 +222,7 @@ class Observer:
         return instants[place : place + count]
 
     def _motion(self, bodies: Float) -> Float:
-        """Rotation and angular velocity of the box at 400 Hz from the last instant but one on."""
+        """Gather rotation and angular velocity of the box at 400 Hz from the last instant but one on."""
         motion = np.empty((len(bodies) + 2, 6))
         motion[:2] = self._box_motion
         motion[2:, :3] = bodies[:, CUP_BODY, TILT : TILT + 3]
@@ -231,7 +231,7 @@ class Observer:
         return motion
 
     def snapshot(self) -> tuple[Any, ...]:
-        """Everything the next block depends on."""
+        """Copy everything that the next block depends on."""
         fast = None if self._fast_decimator is None else self._fast_decimator.state
         slow = None if self._slow_decimator is None else self._slow_decimator.state
         decimators = (self._waveforms.state, self._trend_decimator.state, slow, fast)
@@ -251,7 +251,7 @@ class Observer:
 
 @entry
 def _select(waves, heard, channels):
-    """What the trends are made of: force, moment, specific force, torque."""
+    """Copy the channels that the trends are made of: force, moment, specific force, torque."""
     for i in range(len(waves)):
         for j in range(6):
             channels[i, j] = waves[i, SIGNAL_FORCE + j]

@@ -19,7 +19,7 @@ LARGEST_FACTOR = 512
 
 @cache
 def _kernel(factor: int) -> Float:
-    """Taps of the symmetric kernel, their sum 1."""
+    """Design the taps of the symmetric kernel, their sum 1."""
     if factor == 1:
         return np.ones(1)
     return np.ascontiguousarray(low_pass(2 * DELAY * factor + 1, 1.0 / factor, _KAISER_BETA))
@@ -160,7 +160,7 @@ class TwoStageDecimator:
 
 @cache
 def _two_kernels(factor: int) -> tuple[Float, Float]:
-    """Kernels of both stages; together they reach as far as that of a single one."""
+    """Design the kernels of both stages; together they reach as far as that of a single one."""
     early = factor // _SECOND
     first_half = DELAY * factor - _SECOND_HALF * early
     first = low_pass(2 * first_half + 1, 1.0 / early, _FIRST_BETA)

@@ -14,7 +14,7 @@ _EDGE = 0.1  # share of the band in each of its cosine edges
 
 
 def analytic_band(signal: Float, rate: float, band: tuple[float, float]) -> NDArray[np.complex128]:
-    """Band-pass without phase shift, and the Hilbert transform as imaginary part.
+    """Filter a band without phase shift, with the Hilbert transform as imaginary part.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def analytic_band(signal: Float, rate: float, band: tuple[float, float]) -> NDAr
 
 
 def envelope(signal: Float, rate: float, band: tuple[float, float]) -> Float:
-    """Envelope of the band-passed signal; of several axes the root of the sum of squares.
+    """Compute the envelope of the band-passed signal; of several axes the root of the sum of squares.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def envelope(signal: Float, rate: float, band: tuple[float, float]) -> Float:
 
 
 def resample_by_angle(signal: Float, angle: Float, samples_per_revolution: int) -> Float:
-    """Mean of a signal over equal steps of the shaft angle: computed order tracking.
+    """Average a signal over equal steps of the shaft angle: computed order tracking.
 
     The cumulative integral over angle is interpolated, so every sample counts and what is faster than
     the new grid is averaged away.
@@ -114,7 +114,7 @@ class OrderSpectrum:
 def order_spectrum(
     signal: Float, samples_per_revolution: int, highest_order: float, background_width: float
 ) -> OrderSpectrum:
-    """Spectrum of a signal sampled evenly in angle (Hann window, mean removed, four-fold padding).
+    """Compute the spectrum of a signal sampled evenly in angle (Hann window, mean removed, padded four-fold).
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def order_spectrum(
 
 
 def local_background(amplitude: Float, width: float) -> Float:
-    """Median of the neighbourhood of each line, which a few lines do not lift.
+    """Compute the median of the neighbourhood of each line, which a few lines do not lift.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def local_background(amplitude: Float, width: float) -> Float:
 
 
 def line_at(spectrum: OrderSpectrum, order: float, tolerance: float) -> tuple[float, float]:
-    """Highest peak near an order.
+    """Find the highest peak near an order.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def line_at(spectrum: OrderSpectrum, order: float, tolerance: float) -> tuple[fl
 
 
 def kurtosis(signal: Float) -> float:
-    """Kurtosis of the samples, 3 for Gaussian noise, [-].
+    """Compute the kurtosis of the samples, 3 for Gaussian noise, [-].
 
     Parameters
     ----------

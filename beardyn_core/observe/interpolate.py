@@ -24,13 +24,13 @@ _SPARE = {2: (5, 0), 4: (2, 0)}
 
 @cache
 def _taps(pairs: int, beta: float) -> Float:
-    """Weights of the samples before and after the middle between two, nearest first; they sum to 1/2."""
+    """Design the weights of the samples around the middle between two, nearest first; they sum to 1/2."""
     kernel = low_pass(4 * pairs - 1, 0.5, beta)[2 * pairs :: 2]
     return np.ascontiguousarray(0.5 * kernel / kernel.sum())
 
 
 def delay(factor: int) -> int:
-    """Samples of the new rate by which the output comes late."""
+    """Count the samples of the new rate by which the output comes late."""
     return 16 * factor
 
 
@@ -105,7 +105,7 @@ class Interpolator:
 
 @inline
 def _sharp(x, count, t, between):
-    """Samples between those of a stream; the first one lies behind sample 11."""
+    """Interpolate between the samples of a stream; the first result lies behind sample 11."""
     for i in range(count):
         near = t[0] * (x[i + 11] + x[i + 12]) + t[1] * (x[i + 10] + x[i + 13]) + t[2] * (x[i + 9] + x[i + 14])
         mid = t[3] * (x[i + 8] + x[i + 15]) + t[4] * (x[i + 7] + x[i + 16]) + t[5] * (x[i + 6] + x[i + 17])
@@ -116,7 +116,7 @@ def _sharp(x, count, t, between):
 
 @inline
 def _wide(x, count, t, between):
-    """Samples between those of a stream; the first one lies behind sample 5."""
+    """Interpolate between the samples of a stream; the first result lies behind sample 5."""
     for i in range(count):
         near = t[0] * (x[i + 5] + x[i + 6]) + t[1] * (x[i + 4] + x[i + 7]) + t[2] * (x[i + 3] + x[i + 8])
         far = t[3] * (x[i + 2] + x[i + 9]) + t[4] * (x[i + 1] + x[i + 10]) + t[5] * (x[i] + x[i + 11])

@@ -48,15 +48,15 @@ class Instants(Protocol):
     """Rollers at some instants that are made when somebody asks for them."""
 
     def __getitem__(self, times: slice) -> Instants:
-        """Some of them."""
+        """Take some of the instants."""
         ...
 
     def whole(self) -> Float:
-        """State of the kernel, shape [time, block, ROLLER_FIELDS, lane]."""
+        """Return the state of the kernel, shape [time, block, ROLLER_FIELDS, lane]."""
         ...
 
     def orbits(self) -> Float:
-        """The same, with no more than `write_instants` needs."""
+        """Return the same state, with no more of it than `write_instants` needs."""
         ...
 
 
@@ -89,7 +89,7 @@ class Snapshots:
         return kept
 
     def pose(self) -> Float:
-        """Place and quaternion x, y, z, w of cup, cone, cages and rollers, shape [time, body, 7].
+        """Compute place and quaternion x, y, z, w of cup, cone, cages and rollers, shape [time, body, 7].
 
         A roller's place is its mid-length, its body axis x along its axis, z facing the cup at zero spin.
         """
@@ -98,14 +98,14 @@ class Snapshots:
         return out
 
     def twist(self) -> Float:
-        """Velocity of the centre of mass and angular velocity, [m/s], [rad/s], shape [time, body, 6]."""
+        """Compute velocity of the mass centre and angular velocity, [m/s], [rad/s], shape [time, body, 6]."""
         out = np.empty((len(self._bodies), BODIES + 2 * self._count, 6))
         axial, transverse = self._roller.axial_inertia, self._roller.transverse_inertia
         _twists(self._rollers, self._bodies, self._count, axial, transverse, out)
         return out
 
     def contacts(self) -> Float:
-        """`CONTACT_FIELDS` of each of the four contacts, shape [time, row, roller, kind, 8]."""
+        """Compute the `CONTACT_FIELDS` of each of the four contacts, shape [time, row, roller, kind, 8]."""
         out = np.empty((len(self._bodies), 2, self._count, KINDS, 8))
         _contacts(self._rollers, self._bodies, self._count, out)
         return out
@@ -113,7 +113,7 @@ class Snapshots:
 
 @entry
 def write_instants(rollers: Any, bodies: Any, loads: Any, stride: Any, count: Any, out: Any) -> None:
-    """What the trends need of some instants.
+    """Write the numbers of some instants that the trends are made of.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def write_instants(rollers: Any, bodies: Any, loads: Any, stride: Any, count: An
 
 @inline
 def _place(rollers: Any, count: Any, row: Any, k: Any) -> Any:
-    """Block and lane of a roller; see `model.arrangement`."""
+    """Find block and lane of a roller; see `model.arrangement`."""
     half = rollers.shape[3] // 2
     if half == 0:
         return row * count + k, 0
@@ -153,7 +153,7 @@ def _place(rollers: Any, count: Any, row: Any, k: Any) -> Any:
 
 @inline
 def _directions(rollers: Any, t: Any, block: Any, lane: Any, row: Any) -> Any:
-    """Radial and tangential unit vectors at a roller, and the side of its row."""
+    """Find the radial and tangential unit vectors at a roller, and the side of its row."""
     angle = rollers[t, block, ANGLE, lane]
     cosine, sine = math.cos(angle), math.sin(angle)
     return (sine, 0.0, cosine), (cosine, 0.0, -sine), 2.0 * row - 1.0
@@ -161,7 +161,7 @@ def _directions(rollers: Any, t: Any, block: Any, lane: Any, row: Any) -> Any:
 
 @inline
 def _polar(rollers: Any, t: Any, block: Any, lane: Any, first: Any, directions: Any) -> Any:
-    """World vector from three components in the orbit frame."""
+    """Turn three components in the orbit frame into a world vector."""
     outward, ahead, side = directions
     across = add(
         scale(rollers[t, block, first, lane], outward), scale(rollers[t, block, first + 1, lane], ahead)
@@ -171,7 +171,7 @@ def _polar(rollers: Any, t: Any, block: Any, lane: Any, first: Any, directions: 
 
 @inline
 def _centre(rollers: Any, bodies: Any, t: Any, block: Any, lane: Any, directions: Any) -> Any:
-    """Centre of mass in the world, [m]."""
+    """Find the centre of mass in the world, [m]."""
     outward, _ahead, side = directions
     radius = rollers[t, block, RADIUS, lane]
     return (
@@ -273,7 +273,7 @@ def _contacts(rollers, bodies, count, out):
 
 @inline
 def quaternion_product(a: Any, b: Any) -> Any:
-    """Product of quaternions x, y, z, w: the turn `b` followed by `a`."""
+    """Multiply quaternions x, y, z, w: the turn `b` followed by `a`."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (
@@ -286,7 +286,7 @@ def quaternion_product(a: Any, b: Any) -> Any:
 
 @inline
 def quaternion_of(x: Any, y: Any, z: Any) -> Any:
-    """Quaternion x, y, z, w of a rotation given by the turned axes.
+    """Find the quaternion x, y, z, w of a rotation given by the turned axes.
 
     References
     ----------

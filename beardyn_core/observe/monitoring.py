@@ -117,7 +117,7 @@ class Monitor:
             self._temperatures.append((time_ns, temperature))
 
     def update(self) -> MonitorResult | None:
-        """A new result when one is due, else None."""
+        """Return a new result when one is due, else None."""
         if not len(self._time) or not len(self._shaft_time):
             return None
         end = int(min(self._time[-1], self._shaft_time[-1]))
@@ -173,7 +173,7 @@ class Monitor:
         return result
 
     def _heating(self) -> float:
-        """Rise of the temperature over the last minute, NaN with less than ten seconds of it, [K/s]."""
+        """Fit the rise of the temperature over the last minute, NaN with less than ten seconds, [K/s]."""
         if not self._temperatures:
             return np.nan
         end = self._temperatures[-1][0]

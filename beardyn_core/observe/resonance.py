@@ -15,7 +15,7 @@ _BAND_POINTS = 400
 
 
 def gain_of(frequency: Float, resonance: float, damping_ratio: float) -> NDArray[np.complex128]:
-    """Acceleration of a mass on a spring over that of its base.
+    """Compute the acceleration of a mass on a spring over that of its base.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def gain_of(frequency: Float, resonance: float, damping_ratio: float) -> NDArray
 
 
 def recursion(resonance: float, damping_ratio: float, rate: float, band: float) -> tuple[Float, Float]:
-    """Poles and taps of the filter.
+    """Design poles and taps of the filter.
 
     Returns
     -------

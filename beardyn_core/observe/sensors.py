@@ -25,7 +25,7 @@ _PASS_BAND = 0.4  # of a rate, behind its anti-alias filter
 
 
 def lookahead(scene: Scene) -> int:
-    """Samples of 25.6 kHz by which all waveforms wait for the filter of a mounting resonance."""
+    """Count the samples of 25.6 kHz by which all waveforms wait for the filter of a mounting resonance."""
     if all(sensor.mounting_resonance is None for sensor in scene.sensors):
         return 0
     return -(-LOOKAHEAD // round(scene.numerics.steps_per_sample))
@@ -66,7 +66,7 @@ class Sensors:
         self.delays = [delay if chain is None else chain.delay for chain in self._chains]
 
     def read(self, index: int, waves: Float, signals: Float, motion: Float) -> list[Float]:
-        """What every accelerometer reads, shapes [sample, 3], [m/s^2].
+        """Compute the readings of every accelerometer, shapes [sample, 3], [m/s^2].
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class Sensors:
         return found
 
     def vibration(self, index: int, readings: list[Float]) -> tuple[Vibration, ...]:
-        """Readings with their time; what lies before the start of the run is left out."""
+        """Stamp readings with their time; what lies before the start of the run is left out."""
         found = []
         for sensor, delay, values in zip(self._sensors, self.delays, readings, strict=True):
             first = self._first(index, sensor, delay)
@@ -139,7 +139,7 @@ class _Chain:
         self._decimator = Decimator(factor, 3, REST, held_back=1 + wait)
 
     def push(self, signals: Float, motion: Float) -> Float:
-        """Specific force at the rate of the sensor, shape [sample, 3], [m/s^2]."""
+        """Compute the specific force at the rate of the sensor, shape [sample, 3], [m/s^2]."""
         force = box_force(self._position, signals, motion, -1)
         return self._decimator.push(force if self._resonance is None else self._resonance.push(force))
 
@@ -154,7 +154,7 @@ class _Chain:
 
 
 def box_force(position: tuple[float, float, float], signals: Float, motion: Float, delay: int) -> Float:
-    """Specific force at a place of the box, see `specific_force`.
+    """Compute the specific force at a place of the box, see `specific_force`.
 
     Parameters
     ----------

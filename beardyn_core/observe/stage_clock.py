@@ -54,11 +54,11 @@ class StageClock:
         self._last = self._now()
 
     def lap(self, stage: str) -> None:
-        """What has passed since the last lap belongs to a stage."""
+        """Book the time since the last lap to a stage."""
         self._seconds[stage] += self._passed()
 
     def lap_kernel(self, cycles: NDArray[np.float64]) -> None:
-        """What has passed belongs to the stages of the kernel.
+        """Book the time since the last lap to the stages of the kernel.
 
         Parameters
         ----------
@@ -73,7 +73,7 @@ class StageClock:
             self._seconds[stage] += passed * part / total
 
     def times(self) -> tuple[StageTime, ...]:
-        """Wall time of every stage that took any, in the order of `STAGES`."""
+        """List the wall time of every stage that took any, in the order of `STAGES`."""
         return tuple(StageTime(stage, spent) for stage, spent in self._seconds.items() if spent > 0.0)
 
     def _passed(self) -> float:
@@ -84,7 +84,7 @@ class StageClock:
 
 
 def stage_lines(times: tuple[StageTime, ...], simulated: float) -> list[str]:
-    """Table for a terminal.
+    """Write the stages as a table for the terminal.
 
     Parameters
     ----------

@@ -69,19 +69,19 @@ class TorqueBudget:
         return math.fsum(share.torque for share in self.shares)
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-able content; JSON has no NaN."""
+        """Give the budget as a mapping, units in the keys; torques are NaN with the shaft at rest."""
         return {
             "begin_s": self.begin,
             "end_s": self.end,
-            "shaft_speed_rad_per_s": _number(self.shaft_speed),
-            "power_W": {share.source: _number(share.power) for share in self.shares},
-            "torque_Nm": {share.source: _number(share.torque) for share in self.shares},
-            "power_sum_W": _number(self.power),
-            "torque_sum_Nm": _number(self.torque),
+            "shaft_speed_rad_per_s": self.shaft_speed,
+            "power_W": {share.source: share.power for share in self.shares},
+            "torque_N_m": {share.source: share.torque for share in self.shares},
+            "power_sum_W": self.power,
+            "torque_sum_N_m": self.torque,
         }
 
     def lines(self) -> list[str]:
-        """Table for a terminal, the sources that lose something."""
+        """Write a table for a terminal, with the sources that lose something."""
         rows = [share for share in self.shares if share.power != 0.0]
         rows = [*sorted(rows, key=lambda share: -abs(share.power)), LossShare("sum", self.power, self.torque)]
         return [
@@ -90,14 +90,10 @@ class TorqueBudget:
         ]
 
 
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
 def torque_budget(
     times: Sequence[float], lost: NDArray[np.float64], shaft_speed: float
 ) -> TorqueBudget | None:
-    """Budget from the energies lost up to some times; ``None`` when the times span nothing.
+    """Compute the budget from the energies lost up to some times; ``None`` when the times span nothing.
 
     Parameters
     ----------

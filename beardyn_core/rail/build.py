@@ -72,7 +72,7 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
 
 
 def _sample_ns(operation: Operation) -> int:
-    """Time between samples of the load, [ns]."""
+    """Choose the time between samples of the load, [ns]: shorter where wheel or rail strikes."""
     strikes = isinstance(operation, QuarterVehicleOperation) and (
         operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
     )
@@ -106,7 +106,7 @@ def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistor
 
 
 def _rise(time: Float, ramp: float) -> Float:
-    """Half a cosine from 0 to 1 over the ramp that begins at time 0."""
+    """Evaluate half a cosine that rises from 0 to 1 over the ramp that begins at time 0."""
     if ramp == 0.0:
         return (time >= 0.0).astype(np.float64)
     return 0.5 - 0.5 * np.cos(np.pi * np.clip(time / ramp, 0.0, 1.0))
@@ -115,7 +115,7 @@ def _rise(time: Float, ramp: float) -> Float:
 def ride_of(
     operation: QuarterVehicleOperation, mounting: Mounting, duration: float, seed: int
 ) -> tuple[Ride, float]:
-    """The rail model's own motion behind a load history.
+    """Compute the motion of the rail model's own bodies behind a load history.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def _ride(
 def _quarter_vehicle(
     operation: QuarterVehicleOperation, mounting: Mounting, count: int, rate: float, seed: int
 ) -> LoadHistory:
-    """Wheel-rail force, less the weight of the half wheelset, and the motion of the bogie.
+    """Compute the wheel-rail force, less the weight of the half wheelset, and the motion of the bogie.
 
     The moments of the wheel-rail forces about the axle are carried by the other axlebox, as the load that
     shifts from one to the other in a curve: the wrench has no moment, and that of eccentricity comes
@@ -190,7 +190,7 @@ def _thin(signal: Float, factor: int) -> Float:
 
 
 def _columns(signals: Float, factor: int, kernel: Float, count: int) -> Float:
-    """Every factor-th sample of filtered columns; a column that stays zero is left alone."""
+    """Take every factor-th sample of filtered columns; a column that stays zero is left alone."""
     thinned = np.zeros((count, signals.shape[1]))
     for axis, column in enumerate(signals.T):
         if column.any():
@@ -199,13 +199,13 @@ def _columns(signals: Float, factor: int, kernel: Float, count: int) -> Float:
 
 
 def _low_pass(factor: int) -> Float:
-    """Symmetric kernel of odd length: flat to 0.4, 70 dB down from 0.6 of the new rate."""
+    """Design a symmetric kernel of odd length: flat to 0.4, 70 dB down from 0.6 of the new rate."""
     length, beta = kaiser_order(70.0, 0.4 / factor)
     return low_pass(length | 1, 1.0 / factor, beta)
 
 
 def _decimate(signal: Float, factor: int, kernel: Float) -> Float:
-    """Every factor-th sample of the filtered signal, without delay, ends held."""
+    """Take every factor-th sample of the filtered signal, without delay, ends held."""
     half = len(kernel) // 2
     padded = np.concatenate([np.full(half, signal[0]), signal, np.full(half, signal[-1])])
     windows = np.lib.stride_tricks.sliding_window_view(padded - signal[0], len(kernel))[::factor]

@@ -75,7 +75,7 @@ def course(curves: tuple[Curve, ...], position: Float, speed: Float) -> Course:
 
 
 def load_transfer(operation: QuarterVehicleOperation, mounting: Mounting, plan: Course) -> Float:
-    """Upward forces on the share of the left axlebox in a curve, quasi-static.
+    """Compute the upward forces on the left axlebox's share in a curve, quasi-static.
 
     Bogie and body lean on the two axleboxes of an axle, half the axlebox spacing from its middle; the
     wheels stand closer, and the wheelset rolls about them with the lateral force of the rails at its feet:

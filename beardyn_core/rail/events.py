@@ -44,7 +44,7 @@ class _Way:
         self.speed = speed_at(operation.speed_profile, self.time)
 
     def over(self, first: float, spacing: float | None, endless: bool = False) -> dict[str, Any]:
-        """Times and distances of passing places: one, evenly spaced ones from it on, or endless both ways."""
+        """List times and distances of passing places: one, evenly spaced ones on from it, or endless ones."""
         if spacing is None:  # -1 before the place, 0 behind it
             passed = (self.distance >= first).astype(np.int64) - 1
         else:
@@ -68,7 +68,7 @@ class _Way:
 
 
 def events_of(scene: Scene) -> dict[str, Any]:
-    """Everything that excites a run besides the bearing, JSON-able.
+    """List everything that excites a run besides the bearing, JSON-able.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def _rail(defects: tuple[RailDefect, ...], way: _Way) -> Iterator[Event]:
 
 
 def _stretch(begin: float, end: float, way: _Way) -> dict[str, Any]:
-    """Distances and times between which the wheel is on a stretch, `None` where it stays on it."""
+    """Find distances and times between which the wheel is on a stretch, `None` where it stays on it."""
     inside = (way.distance >= begin) & (way.distance <= end)
     if not inside.any():
         return {"count": 0, "begin_s": None, "end_s": None, "begin_m": begin, "end_m": None}
@@ -197,7 +197,7 @@ def _curves(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
 
 
 def _runs(way: _Way) -> Iterator[Event]:
-    """Standstills, and starts after them in either direction."""
+    """List standstills, and starts after them in either direction."""
     moving = np.sign(np.where(np.abs(way.speed) < 1e-6, 0.0, way.speed))
     changes = np.flatnonzero(np.diff(moving) != 0.0) + 1
     words = {0.0: "standstill", 1.0: "forwards", -1.0: "backwards"}

@@ -26,7 +26,7 @@ _STREAM = 0x7768656C  # keeps the wheel's random numbers apart from those of rai
 def wheel_height(
     defects: tuple[WheelDefect, ...], wheel_radius: float, position: Float, patch: float = 0.0
 ) -> Float:
-    """What the wheel's own shape lifts its centre, rolling without slip.
+    """Compute how far the wheel's own shape lifts its centre, rolling without slip.
 
     Flats that overlap do not add: a spot is as deep as the deepest.
 
@@ -63,7 +63,7 @@ def wheel_height(
 
 
 def waves_of(defect: WheelPolygon | WheelOutOfRound) -> tuple[WheelPolygon, ...]:
-    """Single waves that the shape of a wheel is made of."""
+    """Split the shape of a wheel into single waves."""
     if isinstance(defect, WheelPolygon):
         return (defect,)
     random = np.random.Generator(np.random.PCG64(np.random.SeedSequence([_STREAM, defect.seed])))
@@ -75,7 +75,7 @@ def waves_of(defect: WheelPolygon | WheelOutOfRound) -> tuple[WheelPolygon, ...]
 
 
 def rail_height(defects: tuple[RailDefect, ...], position: Float, patch: float = 0.0) -> Float:
-    """Height of the rail from its own defects.
+    """Compute the height of the rail from its own defects.
 
     Parameters
     ----------
@@ -144,22 +144,22 @@ def _waves(corrugation: Corrugation, position: Float) -> Float:
 
 
 def _apart(distance: Float, period: float) -> Float:
-    """Distance to the nearest of places that come back with the period, not negative."""
+    """Measure the distance to the nearest of places that come back with the period, not negative."""
     return np.abs(distance - period * np.round(distance / period))
 
 
 def _from_nearest(distance: Float, spacing: float | None) -> Float:
-    """Distance to the nearest of places that begin at 0, not negative; before the first the rail is sound."""
+    """Measure the distance to the nearest of places that begin at 0; before the first the rail is sound."""
     if spacing is None:
         return np.abs(distance)
     return np.where(distance > -0.5 * spacing, _apart(distance, spacing), np.inf)
 
 
 def _hollow(apart: Float, length: float) -> Float:
-    """One wave of a cosine, 1 in the middle and 0 at both ends; here upwards."""
+    """Evaluate one wave of a cosine, 1 in the middle and 0 at both ends; here upwards."""
     return 0.5 + 0.5 * np.cos(2.0 * np.pi * np.minimum(apart / length, 0.5))
 
 
 def _cusp(apart: Float, length: float) -> Float:
-    """Two parabolas that fall from 0 at both ends to -1, and meet there in a kink; here upwards."""
+    """Evaluate two parabolas that fall from 0 at both ends to -1, and meet there in a kink; here upwards."""
     return np.maximum(1.0 - 2.0 * apart / length, 0.0) ** 2

@@ -70,7 +70,7 @@ class RailProfile:
         return self.spacing * len(self.height)
 
     def height_at(self, position: ArrayLike) -> Float:
-        """Height by cubic Hermite interpolation, continuous with its slope.
+        """Interpolate the height by cubic Hermite polynomials, continuous with its slope.
 
         Parameters
         ----------
@@ -92,7 +92,7 @@ class RailProfile:
         return height if self.finer is None else height + self.finer.height_at(position)
 
     def slope_at(self, position: ArrayLike) -> Float:
-        """First derivative of `height_at`.
+        """Compute the first derivative of `height_at`.
 
         Parameters
         ----------
@@ -121,7 +121,7 @@ def rail_profile(
     direction: str = "vertical",
     patch: float = 0.0,
 ) -> RailProfile:
-    """Profile at least as long as the run: random phases, or as measured.
+    """Build a profile at least as long as the run: with random phases, or as measured.
 
     Every spectral line in the wavelength band gets the amplitude sqrt(2 S dOmega) and a random phase.
     The period is 4096 m times a power of two, so all runs shorter than that see the same rail for
@@ -159,7 +159,7 @@ def rail_profile(
 
 
 def irregular_height(irregularity: Irregularity, position: Float, seed: int, patch: float) -> Float:
-    """Vertical irregularity under the wheel on its way.
+    """Compute the vertical irregularity under the wheel along its path.
 
     Parameters
     ----------
@@ -203,7 +203,7 @@ def _drawn(
 
 
 def _short_waves(irregularity: Irregularity, seed: int, patch: float) -> RailProfile:
-    """What the density lacks to that of the roughness limit."""
+    """Compute the density that is missing up to that of the roughness limit."""
     period = _SHORT_WAVE_PERIOD
     line, wavenumber = _lines(period, *SHORT_WAVE_BAND)
     density = iso_3095_density(wavenumber)
@@ -223,7 +223,7 @@ def _points(period: float, shortest: float) -> int:
 
 
 def _lines(period: float, shortest: float, longest: float) -> tuple[NDArray[np.int64], Float]:
-    """Spectral lines of a period within a band of wavelengths, and their angular wavenumbers."""
+    """List the spectral lines of a period within a band of wavelengths, and their angular wavenumbers."""
     line = np.arange(int(np.ceil(period / longest)), int(np.floor(period / shortest)) + 1)
     return line, np.asarray(line * (2.0 * np.pi / period), dtype=np.float64)
 

@@ -81,7 +81,7 @@ class Sway:
 
 
 def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> LateralVehicle:
-    """Lateral share of one axlebox.
+    """Build the lateral model of one axlebox's share of the vehicle.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def _wheel(contact, speed, curvature, aside, aside_speed, yaw, yaw_speed):
 
 @inline
 def _solve(matrix, vector):
-    """Gauss elimination in place; the masses keep the diagonal the largest."""
+    """Solve by Gauss elimination in place; the masses keep the diagonal the largest."""
     for column in range(4):
         for row in range(column + 1, 4):
             factor = matrix[row, column] / matrix[column, column]

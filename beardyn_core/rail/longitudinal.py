@@ -37,7 +37,7 @@ class Pull:
 
 
 def acceleration_at(profile: Profile, time: Float) -> tuple[Float, Float]:
-    """Acceleration with the build-up of brakes and drives, and the mean speed it belongs to.
+    """Compute the acceleration with the build-up of brakes and drives, and the mean speed it belongs to.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def acceleration_at(profile: Profile, time: Float) -> tuple[Float, Float]:
 
 
 def pull(operation: QuarterVehicleOperation, mounting: Mounting, time: Float) -> Pull:
-    """Forces while the speed changes.
+    """Compute the forces that act while the speed changes.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ Float = NDArray[np.float64]
 
 
 def low_pass(length: int, cutoff: float, beta: float) -> Float:
-    """Windowed sinc with Kaiser's window, gain 1 at rest.
+    """Design a low-pass filter as a sinc under Kaiser's window, with gain 1 at rest.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def low_pass(length: int, cutoff: float, beta: float) -> Float:
 
 
 def kaiser_order(ripple: float, width: float) -> tuple[int, float]:
-    """Taps and window shape for a ripple above 50 dB and a transition over the Nyquist frequency.
+    """Compute taps and window shape for a ripple above 50 dB and a transition over the Nyquist frequency.
 
     References
     ----------
@@ -44,7 +44,7 @@ def kaiser_order(ripple: float, width: float) -> tuple[int, float]:
 
 
 def first_order(signal: Float, steps: float) -> Float:
-    """First-order lag whose time constant is a number of steps; begins settled.
+    """Filter by a first-order lag whose time constant is a number of steps; it begins settled.
 
     Parameters
     ----------

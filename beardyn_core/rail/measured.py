@@ -102,7 +102,7 @@ def read_measurement(path: Path, take: str = "both") -> Measurement:
 
 @lru_cache(maxsize=4)
 def _read(path: Path, take: str, changed: int) -> Measurement:
-    """A scene that is checked, chosen for and run reads its file once."""
+    """Read a file; kept, for a scene that is checked, chosen for and run needs it several times."""
     if path.suffix.lower() in _READERS:
         module, name = _READERS[path.suffix.lower()]
         reader: Callable[[Path, str], Measurement] = getattr(import_module(module), name)
@@ -111,7 +111,7 @@ def _read(path: Path, take: str, changed: int) -> Measurement:
 
 
 def layout_of(take: str) -> Layout:
-    """Columns of a CSV file of which both, only the force or only the speed is taken."""
+    """List the columns of a CSV file of which both, only the force or only the speed is taken."""
     wanted = take != "speed"
     return Layout(
         what="load and speed" if take == "both" else take,
@@ -146,7 +146,7 @@ def _read_csv(path: Path, take: str) -> Measurement:
 
 
 def speed_points(path: Path, wheel_diameter: float, spacing: float = 0.02) -> tuple[tuple[float, float], ...]:
-    """Speed profile of a vehicle from the measured speed of its shaft.
+    """Compute the speed profile of a vehicle from the measured speed of its shaft.
 
     Parameters
     ----------

@@ -43,7 +43,7 @@ class Running:
 def running(
     operation: QuarterVehicleOperation, mounting: Mounting, time: Float, fade: Float, seed: int
 ) -> Running | None:
-    """What acts besides the vertical profile; ``None`` while the vehicle just rolls straight on.
+    """Compute what acts besides the vertical profile; ``None`` while the vehicle just rolls straight on.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def journal_force(run: Running, operation: QuarterVehicleOperation, mounting: Mo
 
 
 def suspension_shift(run: Running, mounting: Mounting, step: float) -> Float:
-    """How far the bogie end of the suspension moves in the track's axes, besides vertically.
+    """Compute how far the bogie end of the suspension moves in the track's axes, besides vertically.
 
     Parameters
     ----------

@@ -59,7 +59,7 @@ DENSITY_LAYOUT = Layout(
 
 
 def spectral_density(kind: str, wavenumber: Float, direction: str = "vertical") -> Float:
-    """One-sided power spectral density of a spectrum by name.
+    """Compute the one-sided power spectral density of a spectrum by name.
 
     Its integral over positive angular wavenumbers is the variance.
 
@@ -114,14 +114,14 @@ def spectral_density(kind: str, wavenumber: Float, direction: str = "vertical") 
 
 
 def _china(cycles: Float, direction: str) -> Float:
-    """Density over cycles per metre, [m^3]."""
+    """Compute the density over cycles per metre, [m^3]."""
     pieces = np.array(_CHINA_PIECES[direction])
     piece = np.searchsorted(_CHINA_BREAKS[direction], cycles, side="right")
     return np.asarray(1e-6 * pieces[piece, 0] / cycles ** pieces[piece, 1])
 
 
 def target_density(irregularity: Irregularity, wavenumber: Float, direction: str = "vertical") -> Float:
-    """What a synthesised irregularity has between its shortest and longest wave, without its floor.
+    """Compute the density of a synthesised irregularity between its shortest and longest wave.
 
     Parameters
     ----------
@@ -160,7 +160,7 @@ def _density_table(path: Path) -> dict[str, Float]:
 
 
 def iso_3095_density(wavenumber: Float) -> Float:
-    """Density of a rail that just meets the roughness limit for test tracks, vertical.
+    """Compute the density of a rail that just meets the roughness limit for test tracks, vertical.
 
     Parameters
     ----------
@@ -191,7 +191,7 @@ def iso_3095_density(wavenumber: Float) -> Float:
 
 
 def patch_gain(wavenumber: Float, patch: float) -> Float:
-    """What the contact patch leaves of the amplitude of random roughness.
+    """Compute the share of the amplitude of random roughness that the contact patch passes on.
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def patch_gain(wavenumber: Float, patch: float) -> Float:
 
 
 def wave_gain(wavenumber: float, patch: float) -> float:
-    """What the contact patch leaves of a wave whose crests go straight across the rail.
+    """Compute the share of a wave, its crests straight across the rail, that the contact patch passes on.
 
     The mean of the wave over the patch, weighted with the pressure along it, 1 - (x / a)^2.
 

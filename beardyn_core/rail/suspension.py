@@ -19,7 +19,7 @@ SOFT, STIFF, MEET, AT_REST, STATIC, FRICTION, CREEP, LINEAR, VISCOUS = range(9)
 
 
 def law(suspension: ProgressiveSuspension | None, mounting: Mounting, static: float) -> Float:
-    """Row of numbers for `excess`.
+    """Gather the numbers that `excess` needs in a row.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def law(suspension: ProgressiveSuspension | None, mounting: Mounting, static: fl
 
 @inline
 def excess(row: Any, squeeze: Any, squeeze_speed: Any) -> Any:
-    """Force of the suspension beyond its static load and beyond the linear law of the mounting, [N].
+    """Compute the suspension's force beyond its static load and beyond the mounting's linear law, [N].
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def excess(row: Any, squeeze: Any, squeeze_speed: Any) -> Any:
 
 
 def shifted(force: Float, mounting: Mounting, axis: int, step: float) -> Float:
-    """How far the bogie end of a linear suspension must move to press with a further force.
+    """Compute how far the bogie end of a linear suspension must move to press with a further force.
 
     The twin holds its axlebox by the linear law of the mounting. With the bogie moved by this as well
     the box feels what the rail model's suspension does beyond that law.

@@ -182,7 +182,7 @@ def _unit_problems(path: Path, line: int, names: list[str], units: list[str], la
 def _numbers(
     path: Path, name: str, lines: list[int], cells: list[str], positive: bool
 ) -> tuple[Float, list[str]]:
-    """Numbers of a column, NaN where there is none, and what is wrong with them."""
+    """Read the numbers of a column, NaN where there is none, and say what is wrong with them."""
     problems = []
     try:
         values = np.array(cells, dtype=np.float64)
@@ -216,7 +216,7 @@ def _is_number(text: str) -> bool:
 def order_problems(
     path: Path, layout: Layout, values: Float, where: Callable[[NDArray[np.intp]], str]
 ) -> list[str]:
-    """Sentences about an ascending column: rows that do not increase, and gaps.
+    """Write sentences about an ascending column: rows that do not increase, and gaps.
 
     Parameters
     ----------
@@ -251,7 +251,7 @@ def order_problems(
 
 
 def listed(lines: list[int]) -> str:
-    """Line numbers in words, the first few of many."""
+    """Write line numbers in words, the first few of many."""
     shown = ", ".join(str(line) for line in lines[:_SHOWN])
     more = f" and {len(lines) - _SHOWN} more" if len(lines) > _SHOWN else ""
     return f"line{'s' if len(lines) > 1 else ''} {shown}{more}"

@@ -66,7 +66,7 @@ class RailWaves:
         return 1.0 / float(waves + self.residual_flexibility)
 
     def rates(self) -> Float:
-        """State matrices of the waves, displacements before speeds, shape [wave, 6, 6]."""
+        """Build the state matrices of the waves, displacements before speeds, shape [wave, 6, 6]."""
         stiffness = _chain(self.seats)[None] + np.zeros((len(self.share), 3, 3))
         stiffness[:, 0, 0] += self.stiffness
         rates = np.zeros((len(self.share), 6, 6))
@@ -77,7 +77,7 @@ class RailWaves:
 
 
 def rail_waves(track: Track) -> RailWaves:
-    """Waves of a rail on its track.
+    """Build the waves of a rail on its track.
 
     Parameters
     ----------
@@ -134,6 +134,6 @@ def rail_waves(track: Track) -> RailWaves:
 
 
 def _chain(link: Float) -> Float:
-    """Matrix of three masses on three links, the last one to the ground."""
+    """Build the matrix of three masses on three links, the last one to the ground."""
     upper, middle, lower = link
     return np.array([[upper, -upper, 0.0], [-upper, upper + middle, -middle], [0.0, -middle, middle + lower]])

@@ -191,7 +191,7 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
 
 @inline
 def _pressed(room, flexibility, give):
-    """Force of the Hertz contact in series with a spring, 0 while open; Newton from the stiff side."""
+    """Compute the force of the Hertz contact in series with a spring, 0 while open, by Newton's method."""
     if room <= 0.0:
         return 0.0
     compression = room  # a NaN profile stays visible

@@ -23,7 +23,7 @@ _LENGTH = struct.Struct("<I")
 
 
 def column_dtype(columns: tuple[tuple[str, str], ...]) -> np.dtype[Any]:
-    """Aligned structured type of named columns, ``sample`` and ``t`` in front.
+    """Build the aligned structured type of named columns, ``sample`` and ``t`` in front.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class CloudTemplate:
         self._width_at = 4 + _align(12 + frame_size, 4) + 4
 
     def encode(self, points: NDArray[Any], stamp_ns: int) -> bytes:
-        """CDR bytes of a cloud.
+        """Encode a cloud as CDR.
 
         Parameters
         ----------
@@ -74,7 +74,7 @@ class CloudTemplate:
 def points_of(
     dtype: np.dtype[Any], first_sample: int, time_ns: NDArray[np.int64], stamp_ns: int
 ) -> NDArray[Any]:
-    """Points with ``sample`` and ``t`` filled; the other columns are the caller's.
+    """Make points with ``sample`` and ``t`` filled; the other columns are left to the caller.
 
     Parameters
     ----------
@@ -92,12 +92,12 @@ def points_of(
 
 
 def encode_points(points: NDArray[Any], stamp_ns: int, frame: str) -> bytes:
-    """CDR bytes of a single cloud; `CloudTemplate` is the fast way for many."""
+    """Encode a single cloud as CDR; `CloudTemplate` is faster for many."""
     return serialize(_cloud(points, stamp_ns, frame))
 
 
 def cloud_to_arrays(cdr: bytes) -> NDArray[Any]:
-    """Structured array of any ``sensor_msgs/PointCloud2``, one column per field.
+    """Read any ``sensor_msgs/PointCloud2`` as a structured array, one column per field.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def cloud_to_arrays(cdr: bytes) -> NDArray[Any]:
 
 
 def cloud_times(cdr: bytes, points: NDArray[Any]) -> NDArray[np.int64]:
-    """Time of each point of a cloud, shape [point], [ns]."""
+    """Compute the time of each point of a cloud, shape [point], [ns]."""
     return header_stamp(cdr) + points["t"].astype(np.int64)
 
 

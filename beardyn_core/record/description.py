@@ -58,7 +58,7 @@ class BearingShape:
 
     @classmethod
     def of(cls, bearing: Bearing) -> BearingShape:
-        """Shape of a bearing."""
+        """Take the shape of a bearing."""
         return cls(**{member.name: getattr(bearing, member.name) for member in fields(cls)})
 
     @property
@@ -145,7 +145,7 @@ class RunDescription:
         body_names: Sequence[str],
         load: LoadHistory | None = None,
     ) -> RunDescription:
-        """Description of a run of a scene."""
+        """Describe a run of a scene."""
         return cls(
             scene=scene.name,
             scene_text=scene.source_text,
@@ -173,7 +173,7 @@ class RunDescription:
         return frozenset(absent)
 
     def to_json(self) -> str:
-        """Content of the ``truth`` topic: the truth, and the description under its own key."""
+        """Write the content of the ``truth`` topic: the truth, and the description under its own key."""
         description = {
             "scene": self.scene,
             "scene_text": self.scene_text,
@@ -187,7 +187,7 @@ class RunDescription:
 
     @classmethod
     def from_json(cls, text: str) -> RunDescription:
-        """Description from the content of the ``truth`` topic.
+        """Read the description from the content of the ``truth`` topic.
 
         Raises
         ------

@@ -34,7 +34,7 @@ def _vector(values: NDArray[np.float64]) -> Any:
 
 
 def force_template(frame: str) -> Template:
-    """Messages of ``force``: slot ``wrench``."""
+    """Prepare messages of ``force``: slot ``wrench``."""
 
     def build(wrench: NDArray[np.float64]) -> Any:
         content = make("geometry_msgs/msg/Wrench", force=_vector(wrench[:3]), torque=_vector(wrench[3:]))
@@ -44,7 +44,7 @@ def force_template(frame: str) -> Template:
 
 
 def imu_template(frame: str) -> Template:
-    """Messages of ``imu``: slot ``acceleration``; orientation and rate are marked as not known."""
+    """Prepare messages of ``imu``: slot ``acceleration``; orientation and rate are marked as not known."""
     unknown = np.zeros(9)
     unknown[0] = -1.0
 
@@ -64,7 +64,7 @@ def imu_template(frame: str) -> Template:
 
 
 def temperature_template(frame: str) -> Template:
-    """Messages of ``temperature`` of the part that the frame names: slot ``celsius``."""
+    """Prepare messages of ``temperature`` of the part that the frame names: slot ``celsius``."""
 
     def build(celsius: NDArray[np.float64]) -> Any:
         return make(TEMPERATURE, header=header(0, frame), temperature=celsius[0], variance=0.0)
@@ -73,7 +73,7 @@ def temperature_template(frame: str) -> Template:
 
 
 def joint_template(names: tuple[str, ...], frame: str, effort: bool) -> Template:
-    """Messages of joint states: slots ``position``, ``velocity`` and, when asked for, ``effort``."""
+    """Prepare messages of joint states: slots ``position``, ``velocity`` and, when asked for, ``effort``."""
     slots = {"position": len(names), "velocity": len(names), **({"effort": len(names)} if effort else {})}
 
     def build(**numbers: NDArray[np.float64]) -> Any:
@@ -93,7 +93,7 @@ SHAFT_JOINT = ("shaft",)
 
 
 def orbit_joints(roller_count: int) -> tuple[str, ...]:
-    """Joint names of ``joint_states``."""
+    """List the joint names of ``joint_states``."""
     rollers = (f"roller_{row}_{k}" for row in range(2) for k in range(roller_count))
     return ("cage_0", "cage_1", *rollers, "shaft")
 
@@ -125,7 +125,7 @@ class BlockEncoder:
         self._temperatures = [temperature_template(f"{frame}/{node}") for node in NODES]
 
     def encode(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
-        """Messages of a block: topic name, stamp [ns], CDR bytes; each topic in the order of time."""
+        """Encode a block as messages: topic name, stamp [ns], CDR bytes; each topic in the order of time."""
         if len(block.trend_time_ns):
             yield from self._trend(block)
         if len(block.waveform_time_ns):
@@ -214,7 +214,7 @@ class BlockEncoder:
 
 
 def block_diagnostic(block: Block) -> Diagnostic:
-    """How a block was computed: real-time factor, status bits, energy residual, energy lost by source."""
+    """Report how a block was computed: real-time factor, status bits, energy residual, losses by source."""
     span = (block.end_ns - block.start_ns) * 1e-9
     values = [
         ("block", str(block.index)),
@@ -229,12 +229,12 @@ def block_diagnostic(block: Block) -> Diagnostic:
 
 
 def loss_key(source: str) -> str:
-    """Diagnostic key of the energy lost in a source since the start of the run."""
+    """Name the diagnostic key of the energy lost in a source since the start of the run."""
     return f"lost_{source}_J"
 
 
 def _losses(audit: EnergyAudit) -> list[tuple[str, str]]:
-    """Energy lost by source up to the start of the block, [J]; nothing of sources without loss."""
+    """List the energy lost by source up to the start of the block, [J]; sources without loss are left out."""
     if not audit.losses:
         return []
     lost = (*zip(LOSS_NAMES, audit.losses, strict=True), (NUMERICAL, audit.numerical))

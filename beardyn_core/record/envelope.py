@@ -14,7 +14,7 @@ LEAST_REVOLUTIONS = 4.0
 def envelope_order_spectrum(
     vibration: Samples, shaft: Joints, highest_order: float, settings: MonitorSettings | None = None
 ) -> OrderSpectrum | None:
-    """Spectrum of the band-passed envelope over all axes, resampled over the shaft angle.
+    """Compute the spectrum of the band-passed envelope over all axes, resampled over the shaft angle.
 
     Parameters
     ----------

@@ -82,7 +82,7 @@ def _messages(path: Path) -> dict[str, list[bytes]]:
 
 
 def _stream(path: Path, cdrs: list[bytes]) -> LoadHistory:
-    """The stream from its last beginning on; it begins again when a twin was reset."""
+    """Take the stream from its last beginning on; it begins again when a twin was reset."""
     parts: list[LoadHistory] = []
     expected = 0
     for cdr in cdrs:
@@ -157,7 +157,7 @@ def _speeds(cdrs: list[bytes], topic: str) -> Iterator[tuple[int, list[float]]]:
 
 
 def _checked(path: Path, measured: Measurement) -> Measurement:
-    """The measurement, when its numbers can be a load."""
+    """Check that the numbers of a measurement can be a load, and return it."""
     if len(measured.time) < 2:
         raise InputError(f"{path}: only {len(measured.time)} sample of load; at least two are needed")
     time_ns = np.round(measured.time * 1e9).astype(np.int64)

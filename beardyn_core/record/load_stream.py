@@ -15,7 +15,7 @@ LONGEST_NS = 0xFFFFFFFF
 
 
 def encode_load(history: LoadHistory, first_sample: int, frame: str = FRAME) -> bytes:
-    """CDR of one message of ``load/blocks``; an empty history ends the stream.
+    """Encode one message of ``load/blocks`` as CDR; an empty history ends the stream.
 
     Parameters
     ----------

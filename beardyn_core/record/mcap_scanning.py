@@ -107,7 +107,7 @@ class McapScan:
         self.problem = ""
 
     def messages(self) -> Iterator[RecordedMessage]:
-        """Messages in the order of the file."""
+        """Read the messages in the order of the file."""
         for message in self.raw_messages():
             channel = self.channels[message.channel_id]
             yield RecordedMessage(
@@ -115,7 +115,7 @@ class McapScan:
             )
 
     def raw_messages(self) -> Iterator[Message]:
-        """Messages as MCAP records; their channels and schemas are in the attributes by then."""
+        """Read the messages as MCAP records; their channels and schemas are in the attributes by then."""
         with self.path.open("rb") as file:
             reader = StreamReader(file, emit_chunks=True, record_size_limit=LONGEST_RECORD)
             records = iter(reader.records)
@@ -183,7 +183,7 @@ class Recovery:
     seconds: float
 
     def sentence(self) -> str:
-        """The recovery in words."""
+        """Describe the recovery in a sentence."""
         return (
             f"{self.path} was cut off: recovered {self.message_count} messages, {self.seconds:.3f} s, from "
             f"{self.usable_bytes} of {self.size_bytes} bytes into {self.target}"

@@ -43,12 +43,12 @@ class Mesh:
     shades: Float
 
     def moved(self, offset: Float) -> Mesh:
-        """The mesh shifted by a vector, [m]."""
+        """Shift the mesh by a vector, [m]."""
         return Mesh(self.vertices + offset, self.normals, self.triangles, self.shades)
 
 
 def joined(*meshes: Mesh) -> Mesh:
-    """Several meshes as one."""
+    """Join several meshes to one."""
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     return Mesh(
         np.concatenate([mesh.vertices for mesh in meshes]),
@@ -59,7 +59,7 @@ def joined(*meshes: Mesh) -> Mesh:
 
 
 def revolve(profile: Float, azimuth: Float) -> Mesh:
-    """Surface that a polyline sweeps about the y axis, every edge of the polyline a band of its own.
+    """Sweep a polyline about the y axis to a surface, every edge of the polyline a band of its own.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def revolve(profile: Float, azimuth: Float) -> Mesh:
 
 
 def section(profile: Float, azimuth: float, facing: float) -> Mesh:
-    """Flat cut through a convex closed profile at an azimuth.
+    """Cut flat through a convex closed profile at an azimuth.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def section(profile: Float, azimuth: float, facing: float) -> Mesh:
 
 
 def raceway_radius(shape: BearingShape, angle: float, distance: float) -> tuple[float, float]:
-    """Axial distance from the row centre (towards the large end) and radius on a raceway cone.
+    """Compute axial distance from the row centre (towards the large end) and radius on a raceway cone.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def raceway_radius(shape: BearingShape, angle: float, distance: float) -> tuple[
 
 
 def cup(shape: BearingShape) -> Mesh:
-    """Cup cut open over `CUT_OPEN`."""
+    """Build the cup, cut open over `CUT_OPEN`."""
     half = shape.roller_length / 2.0
     inner_small = raceway_radius(shape, shape.cup_angle, -1.06 * half)
     inner_large = raceway_radius(shape, shape.cup_angle, 1.30 * half)
@@ -154,7 +154,7 @@ def cup(shape: BearingShape) -> Mesh:
 
 
 def cone(shape: BearingShape) -> Mesh:
-    """Both cones with their ribs and the spacer between, with a dark mark that shows the rotation."""
+    """Build both cones with their ribs and the spacer, with a dark mark that shows the rotation."""
     half = shape.roller_length / 2.0
     bore, middle = shape.bore / 2.0, shape.row_spacing / 2.0
     small = raceway_radius(shape, shape.cone_angle, -1.04 * half)
@@ -181,7 +181,7 @@ def cone(shape: BearingShape) -> Mesh:
 
 
 def roller(shape: BearingShape, segments: int = 40) -> Mesh:
-    """Roller with a dark sector that shows its spin."""
+    """Build a roller with a dark sector that shows its spin."""
     half, chamfer = shape.roller_length / 2.0, 0.04 * shape.roller_diameter
     large, small = shape.large_end_radius, shape.small_end_radius
     profile = np.array(
@@ -207,7 +207,7 @@ def roller(shape: BearingShape, segments: int = 40) -> Mesh:
 
 
 def cage(shape: BearingShape, row: int) -> Mesh:
-    """Cage of a row: a ring at either end of the rollers and a bar between every two."""
+    """Build the cage of a row: a ring at either end of the rollers and a bar between every two."""
     half, side = shape.roller_length / 2.0, ROW_SIDE[row]
     gap = 2.0 * pi / shape.roller_count
     rings = []
@@ -250,7 +250,7 @@ def cage(shape: BearingShape, row: int) -> Mesh:
 
 
 def spall(shape: BearingShape, defect: Patch) -> Mesh:
-    """A patch on a raceway of the cup or the cone, a little proud so that it is seen."""
+    """Build a patch on a raceway of the cup or the cone, a little proud so that it is seen."""
     angle = shape.cup_angle if defect.on == "cup" else shape.cone_angle
     lift = -4e-4 if defect.on == "cup" else 4e-4
     side = ROW_SIDE[defect.row]
@@ -263,7 +263,7 @@ def spall(shape: BearingShape, defect: Patch) -> Mesh:
 
 
 def marked(mesh: Mesh, where: NDArray[np.bool_]) -> Mesh:
-    """The mesh with some vertices darkened."""
+    """Darken some vertices of a mesh."""
     shades = mesh.shades.copy()
     shades[where] *= np.array(MARK_COLOUR)
     return Mesh(mesh.vertices, mesh.normals, mesh.triangles, shades)

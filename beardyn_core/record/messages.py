@@ -27,33 +27,33 @@ _STAMP = struct.Struct("<iI")
 
 @cache
 def typestore() -> Typestore:
-    """Type store of the message definitions, loaded at the first call."""
+    """Load the type store of the message definitions at the first call."""
     return get_typestore(Stores.ROS2_JAZZY)
 
 
 def make(msgtype: str, **members: Any) -> Any:
-    """Message of a type by its members."""
+    """Make a message of a type by its members."""
     return typestore().types[msgtype](**members)
 
 
 def time(stamp_ns: int) -> Any:
-    """``builtin_interfaces/Time`` of a time in nanoseconds."""
+    """Make ``builtin_interfaces/Time`` of a time in nanoseconds."""
     seconds, nanoseconds = divmod(int(stamp_ns), _SECOND)
     return make(TIME, sec=seconds, nanosec=nanoseconds)
 
 
 def header(stamp_ns: int, frame: str) -> Any:
-    """``std_msgs/Header`` of a time in nanoseconds and a frame."""
+    """Make ``std_msgs/Header`` of a time in nanoseconds and a frame."""
     return make(HEADER, stamp=time(stamp_ns), frame_id=frame)
 
 
 def serialize(message: Any) -> bytes:
-    """CDR bytes (little endian, with encapsulation header) of a message."""
+    """Encode a message as CDR (little endian, with encapsulation header)."""
     return bytes(typestore().serialize_cdr(message, message.__msgtype__))
 
 
 def decode(msgtype: str, cdr: bytes) -> Any:
-    """Message from its CDR bytes; for any type of the topic table."""
+    """Decode a message from its CDR bytes; for any type of the topic table."""
     return typestore().deserialize_cdr(cdr, msgtype)
 
 
@@ -64,22 +64,22 @@ def header_stamp(cdr: bytes) -> int:
 
 
 def encode_time(stamp_ns: int) -> bytes:
-    """CDR of ``builtin_interfaces/Time`` (the content of ``load/consumed``)."""
+    """Encode ``builtin_interfaces/Time`` (the content of ``load/consumed``) as CDR."""
     return _ENCAPSULATION + _STAMP.pack(*divmod(int(stamp_ns), _SECOND))
 
 
 def encode_clock(stamp_ns: int) -> bytes:
-    """CDR of ``rosgraph_msgs/Clock``: one time, so the same bytes as `encode_time`."""
+    """Encode ``rosgraph_msgs/Clock`` as CDR: one time, so the same bytes as `encode_time`."""
     return encode_time(stamp_ns)
 
 
 def encode_string(text: str) -> bytes:
-    """CDR of ``std_msgs/String``."""
+    """Encode ``std_msgs/String`` as CDR."""
     return serialize(make(STRING, data=text))
 
 
 def decode_string(cdr: bytes) -> str:
-    """Text of a ``std_msgs/String``."""
+    """Decode the text of a ``std_msgs/String``."""
     return str(decode(STRING, cdr).data)
 
 
@@ -103,12 +103,12 @@ class Diagnostic:
     values: tuple[tuple[str, str], ...] = ()
 
     def value(self, key: str) -> str | None:
-        """Value of a key, ``None`` when absent."""
+        """Look up the value of a key, ``None`` when absent."""
         return dict(self.values).get(key)
 
 
 def encode_diagnostics(stamp_ns: int, frame: str, statuses: Sequence[Diagnostic]) -> bytes:
-    """CDR of a ``diagnostic_msgs/DiagnosticArray``."""
+    """Encode a ``diagnostic_msgs/DiagnosticArray`` as CDR."""
     entries = [
         make(
             "diagnostic_msgs/msg/DiagnosticStatus",
@@ -177,7 +177,7 @@ class Template:
         self._fixed = fixed
 
     def encode(self, stamps_ns: NDArray[np.int64], **values: NDArray[np.float64]) -> list[bytes]:
-        """CDR bytes of one message per stamp.
+        """Encode one message per stamp as CDR.
 
         Parameters
         ----------
@@ -197,7 +197,7 @@ class Template:
         return [data[i * size : (i + 1) * size] for i in range(count)]
 
     def decode(self, cdrs: Sequence[bytes]) -> NDArray[Any] | None:
-        """Stamps and slots of many messages as a structured array.
+        """Decode stamps and slots of many messages as a structured array.
 
         ``None`` when a message was not made from this template (another frame, other names): the
         caller then decodes one by one.

@@ -73,7 +73,7 @@ class Joints:
         return len(self.time_ns)
 
     def column(self, name: str) -> int:
-        """Index of a joint."""
+        """Find the index of a joint."""
         return self.names.index(name)
 
 
@@ -161,7 +161,7 @@ class Run:
         return self.description.truth if self.description is not None else {}
 
     def described(self) -> RunDescription:
-        """The description.
+        """Return the description, or refuse a recording without one.
 
         Raises
         ------
@@ -177,7 +177,7 @@ class Run:
 
 
 def read_run(path: Path | str, namespace: str | None = None) -> Run:
-    """Arrays of a recording; of a cut-off one everything up to the last complete chunk.
+    """Read the arrays of a recording; of a cut-off one everything up to the last complete chunk.
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ def run_of_messages(
     status: str | None = None,
     scene_text: str = "",
 ) -> Run:
-    """Arrays of messages by the name of their topic, from a file or from a live graph."""
+    """Gather the arrays of messages by the name of their topic, from a file or from a live graph."""
 
     def of(name: str) -> Sequence[bytes]:
         return cdrs.get(name, ())

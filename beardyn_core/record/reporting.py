@@ -120,14 +120,14 @@ class Report:
     sensor_rates_Hz: Mapping[str, float]
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-able content."""
+        """Give the content as a mapping for JSON."""
         content = asdict(replace(self, budget=None))
         del content["budget"]
         content["torque_budget"] = None if self.budget is None else self.budget.to_json()
         return content
 
     def to_text(self) -> str:
-        """Content for a terminal."""
+        """Write the content for a terminal."""
         return "\n".join(_lines(self))
 
 
@@ -182,7 +182,7 @@ def report(path: Path | str) -> Report:
 
 
 def _twin_span(spans: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
-    """First and last log time of the twin's own signals, [ns]; of everything when there are none."""
+    """Find first and last log time of the twin's own signals, [ns]; of everything when there are none."""
     own = [span for topic, span in spans.items() if not topic.endswith(NOT_OF_THE_TWIN)] or list(
         spans.values()
     )
@@ -195,7 +195,7 @@ def _rate(count: int, span: tuple[int, int]) -> float | None:
 
 
 def gaps(run: Run) -> tuple[Gap, ...]:
-    """Every place where samples of a stream are missing, by running index or, without one, by time."""
+    """Find every place where samples of a stream are missing, by running index or, without one, by time."""
     found: list[Gap] = []
     for name, samples in (("force_waveform", run.force_waveform), *run.vibration.items()):
         found += _index_gaps(name, samples.sample, samples.time_ns)
@@ -231,7 +231,7 @@ def _diagnosed(run: Run, key: str) -> list[float]:
 
 
 def _budget(run: Run) -> TorqueBudget | None:
-    """Torque budget from the energies that the diagnostics carry, without the first part of the run."""
+    """Compute the torque budget from the energies in the diagnostics, without the first part of the run."""
     wanted = [loss_key(source) for source in (*LOSS_NAMES, NUMERICAL)]
     rows = [
         (stamp * 1e-9, *(float(status.value(key) or 0.0) for key in wanted))

@@ -68,7 +68,7 @@ def log_parts(stream: rr.RecordingStream, run: RunDescription) -> None:
 
 
 def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defect: Patch) -> None:
-    """A line from the spall to outside the bearing, with its name: raceways are hard to look at."""
+    """Draw a line from the spall to outside the bearing, with its name: raceways are hard to look at."""
     shape = run.shape
     axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + defect.offset)
     inner = shape.pitch_diameter / 2.0
@@ -93,7 +93,7 @@ def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defec
 
 
 def body_entity(name: str) -> str:
-    """Entity of a body."""
+    """Name the entity of a body."""
     return f"{ROOT}/rollers/{name}" if name.startswith("roller") else f"{ROOT}/{name}"
 
 
@@ -110,7 +110,7 @@ def log_motion(stream: rr.RecordingStream, run: Run) -> None:
 
 
 def roller_loads(run: Run) -> NDArray[np.float64]:
-    """Cup-roller load at every snapshot, shape [snapshot, row, roller], [N]."""
+    """Gather the cup-roller load at every snapshot, shape [snapshot, row, roller], [N]."""
     count = run.described().roller_count
     load = np.zeros((len(run.bodies), 2, count))
     if len(run.contacts):
@@ -121,7 +121,7 @@ def roller_loads(run: Run) -> NDArray[np.float64]:
 
 
 def in_snapshots(run: Run, contacts: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.int64]]:
-    """Those contacts whose snapshot of the bodies is in the file too, and its index."""
+    """Select the contacts whose snapshot of the bodies is in the file too, with its index."""
     snapshot = np.searchsorted(run.bodies.sample, contacts["sample"])
     inside = np.minimum(snapshot, len(run.bodies) - 1)
     known = run.bodies.sample[inside] == contacts["sample"]
@@ -193,7 +193,7 @@ def _log_zone(
     largest: float,
     packed: NDArray[np.uint32],
 ) -> None:
-    """Bars on the outer face of each row: length is the load of the roller behind it."""
+    """Draw bars on the outer face of each row: length is the load of the roller behind it."""
     shape = run.described().shape
     inner = ZONE_RADIUS * shape.outer_diameter / 2.0
     for row, side in enumerate(meshes.ROW_SIDE):
@@ -218,7 +218,7 @@ def _log_zone(
 def _log_zone_outline(
     stream: rr.RecordingStream, run: Run, load: NDArray[np.float64], largest: float
 ) -> None:
-    """Largest load at each azimuth over the whole run."""
+    """Draw the largest load at each azimuth over the whole run."""
     shape = run.described().shape
     inner = ZONE_RADIUS * shape.outer_diameter / 2.0
     for row, side in enumerate(meshes.ROW_SIDE):
@@ -247,7 +247,7 @@ def _azimuths(run: Run, row: int) -> NDArray[np.float64]:
 
 
 def _log_resultant(stream: rr.RecordingStream, run: Run, largest_roller_load: float) -> None:
-    """Force on the cup, in front of the bore where it is seen; half a bore for 6 largest roller loads."""
+    """Draw the force on the cup in front of the bore; half a bore stands for 6 largest roller loads."""
     if not len(run.force):
         return
     shape = run.described().shape
@@ -266,7 +266,7 @@ def _log_resultant(stream: rr.RecordingStream, run: Run, largest_roller_load: fl
 
 
 def times(time_ns: NDArray[np.int64]) -> rr.TimeColumn:
-    """Simulated time as a rerun column."""
+    """Write the simulated time as a rerun column."""
     return rr.TimeColumn(TIMELINE, duration=time_ns.astype("timedelta64[ns]"))
 
 

@@ -36,7 +36,7 @@ def log_plots(stream: rr.RecordingStream, run: Run) -> None:
 
 
 def vibration_entity(name: str) -> str:
-    """Entity of the curves of a vibration topic."""
+    """Name the entity of the curves of a vibration topic."""
     return f"plots/{name.replace('/', '_')}"
 
 
@@ -79,7 +79,7 @@ def log_curves(stream: rr.RecordingStream, run: Run) -> None:
 
 
 def order_spectrum(run: Run) -> OrderSpectrum | None:
-    """Envelope order spectrum of the first accelerometer, up to a little over three times BPFI."""
+    """Compute the envelope order spectrum of the first accelerometer, to a little over three times BPFI."""
     vibration = run.vibration.get("vibration")
     if vibration is None:
         return None

@@ -117,7 +117,7 @@ def _log_run(stream: rr.RecordingStream, entity: str, run: Rolling, shift: float
 
 
 def _circles(run: Rolling) -> list[Float]:
-    """Circles of the body with a diameter that shows its turning, in its own axes."""
+    """Draw circles of the body with a diameter that shows its turning, in its own axes."""
     angles = np.linspace(0.0, 2.0 * np.pi, _CIRCLE_POINTS)
     ring = run.body.radius * np.stack([np.cos(angles), np.sin(angles), 0.0 * angles], axis=-1)
     strips = [ring + np.array([0.0, 0.0, place]) for place in run.body.places]
@@ -127,7 +127,7 @@ def _circles(run: Rolling) -> list[Float]:
 
 
 def contact_points(run: Rolling) -> Float:
-    """Points of the floor under the circles, shape [sample, circle, 3], [m]."""
+    """Compute the points of the floor under the circles, shape [sample, circle, 3], [m]."""
     floor, count = run.trough.floor(), run.body.circles
     assert len(SURFACE_LINE.equations) == 3  # parameters kept for each circle: its own, then the floor's two
     parameters = run.history[:, FIRST_CONTACT:].reshape(len(run.time), count, 3)

@@ -28,7 +28,7 @@ ROW_HEIGHT = 25.0
 
 
 def fault_orders(frequencies: dict[str, float]) -> dict[str, float]:
-    """Orders at which each kind of fault shows first."""
+    """List the orders at which each kind of fault shows first."""
     return {
         "BPFO": frequencies["BPFO"],
         "BPFI": frequencies["BPFI"],
@@ -64,7 +64,7 @@ def log_spectrum(stream: rr.RecordingStream, spectrum: OrderSpectrum, frequencie
 
 
 def bounds() -> rrb.VisualBounds2D:
-    """Part of the drawing plane that the plot fills."""
+    """Compute the part of the drawing plane that the plot fills."""
     return rrb.VisualBounds2D(x_range=[-50.0, WIDTH + 20.0], y_range=[-3.2 * ROW_HEIGHT, HEIGHT + 30.0])
 
 

@@ -32,7 +32,7 @@ class LiveStream:
 
 @contextmanager
 def live_stream(target: str, path: Path | None = None, port: int = 0) -> Iterator[LiveStream]:
-    """Stream to a viewer for as long as the context lasts.
+    """Open a stream to a viewer for as long as the context lasts.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ def blueprint(
     follow: bool = False,
     sensors: tuple[str, ...] = (),
 ) -> rrb.Blueprint:
-    """Layout: the bearing on the left, curves on the right.
+    """Lay out the view: the bearing on the left, curves on the right.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def blueprint(
 
 
 def _tabs(first: rrb.TimeSeriesView, *others: rrb.TimeSeriesView) -> rrb.Tabs | rrb.TimeSeriesView:
-    """One view by itself, more of them behind each other."""
+    """Show one view by itself, more of them behind each other."""
     return rrb.Tabs(first, *others) if others else first
 
 
@@ -136,7 +136,7 @@ def _window(start: rr.TimeRangeBoundary, end: rr.TimeRangeBoundary) -> rrb.arche
 
 
 def run_blueprint(run: Run) -> rrb.Blueprint:
-    """Blueprint for a recording, with its time window."""
+    """Lay out the view of a recording, with its time window."""
     times = run.vibration["vibration"].seconds if "vibration" in run.vibration else run.force.seconds
     span = (float(times[0]), float(times[-1])) if len(times) else None
     described = run.described()
@@ -166,7 +166,7 @@ def save(run: Run, target: Path | str) -> Path:
 
 
 def about(run: Run) -> str:
-    """What the recording is of, in Markdown."""
+    """Describe in Markdown what the recording is of."""
     description = run.described()
     lines = [
         f"# {description.scene}",

@@ -52,7 +52,7 @@ class Topic:
     content: str
 
     def path(self, namespace: str = NAMESPACE) -> str:
-        """Absolute name."""
+        """Write the absolute name."""
         return self.name if self.name.startswith("/") else f"{namespace.rstrip('/')}/{self.name}"
 
 
@@ -156,7 +156,7 @@ _BY_NAME = {topic.name: topic for topic in TOPICS}
 
 
 def topic(name: str) -> Topic:
-    """Entry of the table; ``vibration/<name>`` is one of a further accelerometer.
+    """Find the entry of the table; ``vibration/<name>`` is one of a further accelerometer.
 
     Raises
     ------
@@ -175,7 +175,7 @@ def relative_name(path: str, namespace: str = NAMESPACE) -> str:
 
 
 def namespace_of(path: str) -> str | None:
-    """Namespace of an absolute topic name that ends with a relative name of the table."""
+    """Find the namespace of an absolute topic name that ends with a relative name of the table."""
     names = (entry.name for entry in TOPICS if not entry.name.startswith("/"))
     ends = [name for name in names if path.endswith("/" + name)]
     # load/shaft ends with shaft too: the longer name is the right one.
@@ -183,5 +183,5 @@ def namespace_of(path: str) -> str | None:
 
 
 def vibration_topic(sensor: int, names: tuple[str, ...]) -> str:
-    """Topic of an accelerometer: ``vibration`` for the first, ``vibration/<name>`` for others."""
+    """Name the topic of an accelerometer: ``vibration`` for the first, ``vibration/<name>`` for others."""
     return "vibration" if sensor == 0 else f"vibration/{names[sensor]}"

@@ -23,7 +23,7 @@ START_SECONDS = 30.0
 
 
 def viewer_executable() -> str:
-    """Path of the ``rerun`` program that came with rerun-sdk.
+    """Find the ``rerun`` program that came with rerun-sdk.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def viewer_executable() -> str:
 
 
 def has_display() -> bool:
-    """Whether a window can be opened here."""
+    """Check whether a window can be opened here."""
     return sys.platform in ("darwin", "win32") or bool(
         os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
     )
@@ -128,7 +128,7 @@ def web_viewer(recording: Path | None = None, port: int | None = None) -> Iterat
 
 
 def picture_problem() -> str | None:
-    """Why no picture can be taken here; ``None`` when it can."""
+    """Say why no picture can be taken here; ``None`` when it can."""
     if has_display():
         return None
     missing = [name for name in ("xvfb-run", "xauth") if shutil.which(name) is None]
@@ -141,7 +141,7 @@ def picture_problem() -> str | None:
 
 
 def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 900)) -> Path:
-    """Picture of the viewer with a recording open.
+    """Take a picture of the viewer with a recording open.
 
     Parameters
     ----------

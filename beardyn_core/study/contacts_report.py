@@ -2,14 +2,37 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, is_dataclass
 from typing import Any
 
-import numpy as np
-
 from beardyn_core.laboratory.findings import EVALUATIONS, SANTOS_HOURS, Findings
+from beardyn_core.laboratory.timing import MethodResult
 from beardyn_core.study.contacts_tables import rolling_summary, tables
 from beardyn_core.study.ladder_report import machine
+
+# field of a result -> key of the JSON object; what has no unit keeps its name
+_KEYS = {
+    "way": "method",
+    "ways": "methods",
+    **{
+        name: f"{name}_m"
+        for name in (
+            *("abscissa", "gap", "plain_difference", "compiled_difference", "p", "q", "largest_error"),
+            *("radius", "search_height", "bounded_height", "search_gap", "bounded_depth", "displacement"),
+            *("formula_displacement", "start_height", "reached_height"),
+        )
+    },
+    **{name: f"{name}_N" for name in ("force", "load", "formula", "integral_largest")},
+    **{name: f"{name}_rad" for name in ("azimuth", "contact_angle", "largest_lean")},
+    **{
+        name: f"{name}_J"
+        for name in (
+            *("friction", "damping", "kinetic_left", "lost_potential", "residual", "initial_potential"),
+        )
+    },
+    "transition_speed": "transition_speed_m_per_s",
+    "turning_time": "turning_time_s",
+}
 
 
 def report(found: Findings) -> str:
@@ -19,38 +42,44 @@ def report(found: Findings) -> str:
 
 
 def json_object(found: Findings) -> dict[str, Any]:
-    """Give everything as one JSON object; SI units."""
+    """Gather everything for JSON, SI units in the keys."""
     return {
         "bearing": found.bearing.name,
         "quick": found.quick,
         "machine": machine(),
-        "seconds": found.seconds,
+        "wall_time_s": found.seconds,
         "evaluations": EVALUATIONS,
         "searches_per_evaluation": found.searches_per_evaluation,
-        "santos_hours": SANTOS_HOURS,
-        "row_difference": found.row_difference,
-        "located": [asdict(contact) for contact in found.located],
-        "random_rollers": [asdict(result) for result in found.random_rollers],
-        "by_contact": {
-            name: [asdict(result) for result in results] for name, results in found.by_contact.items()
-        },
+        "santos_2017_s": {method: 3600.0 * hours for method, hours in SANTOS_HOURS.items()},
+        "row_difference_m": found.row_difference,
+        "located": _in_si(found.located),
+        "random_rollers": _in_si(found.random_rollers),
+        "by_contact": {name: _in_si(results) for name, results in found.by_contact.items()},
         "whole_bearing": [
-            {**asdict(result), "run_hours": found.run_hours(result)} for result in found.whole_bearing
+            {**_in_si(result), "run_s": 3600.0 * found.run_hours(result)} for result in found.whole_bearing
         ],
-        "forms": [asdict(form) for form in found.forms],
-        "shapes": [asdict(result) for result in found.shapes],
-        "spheres": [asdict(case) for case in found.spheres],
-        "rolling": [asdict(rolling_summary(run)) for run in found.rolling],
+        "forms": _in_si(found.forms),
+        "shapes": _in_si(found.shapes),
+        "spheres": _in_si(found.spheres),
+        "rolling": _in_si([rolling_summary(run) for run in found.rolling]),
         "barrel": {
             "name": found.barrel.name,
             "source": found.barrel.source,
-            "loads": [
-                {key: _listed(value) for key, value in asdict(loads).items()} for loads in found.barrel_loads
-            ],
+            "loads": _in_si(found.barrel_loads),
         },
         "tables": [asdict(table) for table in tables(found)],
     }
 
 
-def _listed(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else value
+def _in_si(value: Any) -> Any:
+    """Turn results into mappings whose keys end in the SI unit, those inside of them included."""
+    if isinstance(value, (list, tuple)):
+        return [_in_si(each) for each in value]
+    if isinstance(value, MethodResult):
+        values = {**vars(value), "time_s": 1e-6 * value.microseconds}
+        del values["microseconds"]
+    elif is_dataclass(value):
+        values = vars(value)
+    else:
+        return value
+    return {_KEYS.get(key, key): _in_si(each) for key, each in values.items()}

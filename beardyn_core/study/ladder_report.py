@@ -11,9 +11,6 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.study.ladder_errors import BAND_LIMIT_DB, Part, QuantityError
 from beardyn_core.study.ladder_levels import AUTO, OF_THE_SCENE, Level
@@ -182,7 +179,7 @@ def table(ladder: Ladder) -> str:
 
 
 def json_object(ladder: Ladder) -> dict[str, Any]:
-    """Give everything that a ladder found, for `json.dumps`."""
+    """Gather everything that a ladder found for JSON; what is not known is NaN."""
     return {
         "scene": ladder.scene,
         "purpose": ladder.purpose,
@@ -190,16 +187,18 @@ def json_object(ladder: Ladder) -> dict[str, Any]:
         "machine": machine(),
         "compared": {
             "settling_s": ladder.settling,
-            "window_edges_s": list(ladder.edges),
+            "window_edges_s": ladder.edges,
             "cage_revolutions": ladder.revolutions,
-            "fault_line": None if ladder.fault_line is None else asdict(ladder.fault_line),
+            "fault_line": None
+            if ladder.fault_line is None
+            else {"name": ladder.fault_line.name, "order": ladder.fault_line.order},
         },
         "accuracy": ladder.accuracy,
-        "asked": list(ladder.asked),
+        "quantities": ladder.asked,
         "vibration_limit_dB": BAND_LIMIT_DB,
         "reference": _row(ladder, ladder.reference),
         "neighbour": None if ladder.neighbour is None else ladder.neighbour.level.name,
-        "unconverged": list(ladder.unconverged),
+        "unconverged": ladder.unconverged,
         "levels": [_row(ladder, row) for row in ladder.rows],
         "efficient": [row.level.name for row in ladder.efficient],
         "cheapest": None if ladder.cheapest is None else ladder.cheapest.level.name,
@@ -213,25 +212,22 @@ def _row(ladder: Ladder, row: LevelResult) -> dict[str, Any]:
     return {
         "name": level.name,
         "tier": level.tier,
-        "effects": level.effects_name,
-        "effect_names": held,
+        "effects_name": level.effects_name,
+        "effects": held,
         "less_than_reference": absent,
         "other_than_reference": other,
-        "effect_set": asdict(level.effects),
         "laminae": level.laminae,
         "steps_per_sample": level.steps_per_sample,
         "step_s": 1.0 / (WAVEFORM_RATE * level.steps_per_sample),
         "runs": row.runs,
         "status": row.status,
-        "wall_per_simulated_s": {name: _number(value) for name, value in asdict(row.cost).items()},
-        "real_time_factor": _number(1.0 / row.cost.median),
+        "wall_time_per_simulated_time": asdict(row.cost),
+        "real_time_factor": 1.0 / row.cost.median,
         "verdict": ladder.verdict(row),
-        "score": None
-        if score is None
-        else {"quantity": score.quantity, "value": _number(score.value), "bar": _number(score.bar)},
+        "score": None if score is None else asdict(score),
         "errors": {error.quantity: _error(error) for error in row.errors if error.parts},
         "values": [
-            {"quantity": measure.quantity, "parts": list(measure.parts), "values": _numbers(values)}
+            {"quantity": measure.quantity, "parts": measure.parts, "values": values}
             for measure, values in zip(MEASURES, row.values, strict=False)
         ],
     }
@@ -248,21 +244,7 @@ def _error(error: QuantityError) -> dict[str, Any]:
 
 
 def _part(part: Part) -> dict[str, Any]:
-    return {
-        "name": part.name,
-        "error": _number(part.error),
-        "band": _number(part.band),
-        "resolved": part.resolved,
-    }
-
-
-def _number(value: float) -> float | None:
-    """Replace NaN, which JSON does not have, by ``None``."""
-    return value if math.isfinite(value) else None
-
-
-def _numbers(values: NDArray[np.float64]) -> list[float | None]:
-    return [_number(value) for value in values.tolist()]
+    return {"name": part.name, "error": part.error, "band": part.band, "resolved": part.resolved}
 
 
 def _version(name: str) -> str:

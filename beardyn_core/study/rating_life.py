@@ -236,17 +236,13 @@ def life_sentence(life: RatingLife) -> str:
 
 
 def life_object(life: RatingLife) -> dict[str, Any]:
-    """Give the lives as the object that ``--json`` prints; endless ones are null."""
-
-    def millions(revolutions: float) -> float | None:
-        return revolutions / _MILLION if math.isfinite(revolutions) else None
-
+    """Give the lives for ``--json``, in revolutions; endless ones become null there."""
     return {
         "equivalent_load_N": life.equivalent_load,
-        "L10_million_rev": millions(life.basic),
-        "L10m_million_rev": millions(life.modified),
-        "L10r_million_rev": millions(life.reference_basic),
-        "L10mr_million_rev": millions(life.reference_modified),
+        "L10_rev": life.basic,
+        "L10m_rev": life.modified,
+        "L10r_rev": life.reference_basic,
+        "L10mr_rev": life.reference_modified,
         "viscosity_ratio": life.viscosity_ratio,
         "contamination": life.contamination,
         "load_classes": life.classes,

@@ -117,7 +117,7 @@ def _size_line(row: SizeRow) -> str:
 
 
 def json_object(result: TrialResult) -> dict[str, Any]:
-    """The result as an object for JSON; sizes in mm, rates with their 95 % intervals.
+    """Gather the result for JSON, in SI units, rates with their 95 % intervals.
 
     Parameters
     ----------
@@ -135,24 +135,24 @@ def json_object(result: TrialResult) -> dict[str, Any]:
         "revolutions": trial.revolutions,
         "confidence": CONFIDENCE,
         "stated_false_alarm_rate": MonitorSettings().false_alarm_rate,
-        "runs": len(result.runs),
+        "run_count": len(result.runs),
         "invalid": [{"run": cell.key, "status": run.status} for cell, run in result.invalid],
         "sizes": [
             {
                 "fault": row.fault,
-                "width_mm": 1e3 * row.size,
+                "width_m": row.size,
                 "found": _rate(row.found),
                 "wrong": row.wrong,
-                "score_dB": [_number(value) for value in row.score],
+                "score_dB": _spread(row.score),
             }
             for row in result.sizes()
         ],
         "smallest": [
             {
                 "fault": smallest.fault,
-                "width_mm": _millimetres(smallest.size),
-                "low_mm": _millimetres(smallest.low),
-                "high_mm": _millimetres(smallest.high),
+                "width_m": smallest.size,
+                "low_m": smallest.low,
+                "high_m": smallest.high,
             }
             for smallest in result.smallest()
         ],
@@ -168,9 +168,9 @@ def json_object(result: TrialResult) -> dict[str, Any]:
         "check": {
             "agreement": _rate(result.agreement()),
             "false_alarms": _rate(_false_alarms_in_check(result)),
-            "score_difference_dB": [_number(value) for value in result.score_differences()],
+            "score_difference_dB": _spread(result.score_differences()),
             "different": [
-                {"run": cell.conditions, "own": own.verdict, "check": other.verdict}
+                {"run": cell.conditions, "verdict": own.verdict, "check_verdict": other.verdict}
                 for cell, own, other in result.pairs()
                 if own.verdict != other.verdict
             ],
@@ -184,18 +184,14 @@ def _rate(rate: Rate) -> dict[str, Any]:
     return {
         "count": rate.count,
         "total": rate.total,
-        "rate": _number(rate.value),
+        "rate": rate.value,
         "low": rate.low,
         "high": rate.high,
     }
 
 
-def _number(value: float) -> float | None:
-    return value if isfinite(value) else None
-
-
-def _millimetres(size: float | None) -> float | None:
-    return None if size is None else 1e3 * size
+def _spread(values: tuple[float, float, float]) -> dict[str, float]:
+    return dict(zip(("smallest", "median", "largest"), values, strict=True))
 
 
 def _everywhere(cell: Cell) -> bool:

@@ -134,7 +134,7 @@ def kept_runs(page: Path) -> str:
 def page_text(found: dict[str, Any], runs: str) -> str:
     """Put the whole page together."""
     located, methods, contacts, run, forms, shapes, spheres, rolling, barrel = map(table_of, found["tables"])
-    time = {entry["method"]: entry["microseconds"] for entry in found["whole_bearing"]}
+    time = {entry["method"]: entry["time_s"] for entry in found["whole_bearing"]}
     analytic = time["analytic Newton, compiled"]
     fair = FAIR.format(
         evaluations=found["evaluations"],
@@ -143,7 +143,7 @@ def page_text(found: dict[str, Any], runs: str) -> str:
         closed=digits(analytic / time["closed form, compiled"], 2),
         twin=TWIN_EVALUATIONS,
     )
-    fastest = duration_text(found["whole_bearing"][-1]["run_hours"])
+    fastest = duration_text(found["whole_bearing"][-1]["run_s"] / 3600.0)
     lines = [
         HEAD.format(**found["machine"]),
         *section(f"{located.title}", "", located, PICTURES[0]),

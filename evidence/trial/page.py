@@ -102,8 +102,8 @@ def page(found: dict[str, Any]) -> str:
         "# The monitor on trial",
         "",
         f"Written by `python -m evidence.trial.page` from `beardyn trial {found['trial']}`: "
-        f"{found['runs']} runs of {found['revolutions']:g} shaft revolutions in the tier `{found['tier']}`, "
-        f"seed {found['seed']}. Brackets are exact 95 % intervals (Clopper and Pearson).",
+        f"{found['run_count']} runs of {found['revolutions']:g} shaft revolutions in the tier "
+        f"`{found['tier']}`, seed {found['seed']}. Brackets are exact 95 % intervals (Clopper and Pearson).",
         "",
         f"{found['purpose']} The matrix is [config/trials/{found['trial']}.yaml]"
         f"(../config/trials/{found['trial']}.yaml); `beardyn trial MATRIX.yaml -o FOLDER` runs one of your "
@@ -150,17 +150,17 @@ def _rate(rate: dict[str, Any]) -> str:
 
 
 def _size_row(row: dict[str, Any]) -> str:
-    low, middle, high = row["score_dB"]
+    low, middle, high = row["score_dB"].values()
     score = "-" if middle is None else f"{middle:.1f} ({low:.1f} to {high:.1f})"
-    return f"| {row['fault']} | {row['width_mm']:g} | {_rate(row['found'])} | {row['wrong']} | {score} |"
+    return f"| {row['fault']} | {1e3 * row['width_m']:g} | {_rate(row['found'])} | {row['wrong']} | {score} |"
 
 
 def _smallest(row: dict[str, Any]) -> str:
-    if row["width_mm"] is None:
+    if row["width_m"] is None:
         return f"{row['fault']}: none of these sizes"
-    high = "beyond the largest" if row["high_mm"] is None else f"{row['high_mm']:g} mm"
-    low = row["width_mm"] if row["low_mm"] is None else row["low_mm"]
-    return f"{row['fault']}: {row['width_mm']:g} mm ({low:g} mm to {high})"
+    high = "beyond the largest" if row["high_m"] is None else f"{1e3 * row['high_m']:g} mm"
+    low = 1e3 * (row["width_m"] if row["low_m"] is None else row["low_m"])
+    return f"{row['fault']}: {1e3 * row['width_m']:g} mm ({low:g} mm to {high})"
 
 
 def _analyses(found: dict[str, Any]) -> str:
@@ -177,7 +177,7 @@ def _check(found: dict[str, Any]) -> list[str]:
     check = found["check"]
     if check is None:
         return []
-    low, middle, high = check["score_difference_dB"]
+    low, middle, high = check["score_difference_dB"].values()
     lines = [
         "",
         f"## `{found['tier']}` against `{found['check_tier']}`",
@@ -190,7 +190,9 @@ def _check(found: dict[str, Any]) -> list[str]:
             f"Where both found the spall its score in `{found['check_tier']}` was {middle:+.1f} dB away "
             f"(median; {low:+.1f} to {high:+.1f})."
         )
-    lines += [f"- {row['run']}: {row['own']}, in the check {row['check']}" for row in check["different"]]
+    lines += [
+        f"- {row['run']}: {row['verdict']}, in the check {row['check_verdict']}" for row in check["different"]
+    ]
     return lines
 
 

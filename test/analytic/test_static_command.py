@@ -1,13 +1,12 @@
 """`beardyn bearing`: the table and the JSON object."""
 
-import argparse
 import json
 import re
 
 import numpy as np
 import pytest
 
-from beardyn_core.cli import bearing as command
+from beardyn_core.cli.main import main
 
 
 @pytest.fixture
@@ -15,10 +14,7 @@ def bearing_command(capsys):
     """Run the command; exit status, standard output, standard error."""
 
     def run(*words):
-        parser = argparse.ArgumentParser()
-        command.add_parser(parser.add_subparsers(required=True))
-        arguments = parser.parse_args(["bearing", *words])
-        status = arguments.run(arguments)
+        status = main(["bearing", *words])
         return status, *capsys.readouterr()
 
     return run
@@ -31,8 +27,8 @@ def test_json_is_one_object_with_the_promised_keys(bearing_command):
             "--json",
             "--load",
             "0",
-            "1e4",
-            "8e4",
+            "10",
+            "80",
             "--end-play",
             "0",
             "--tilt",
@@ -43,13 +39,13 @@ def test_json_is_one_object_with_the_promised_keys(bearing_command):
     )
     found = json.loads(out)
     assert status == 0
-    assert {"geometry", "frequencies_per_rev", "static"} <= set(found)
-    assert set(found["frequencies_per_rev"]) == {"FTF", "BPFO", "BPFI", "BSF"}
+    assert {"geometry", "fault_frequencies_per_rev", "static"} <= set(found)
+    assert set(found["fault_frequencies_per_rev"]) == {"FTF", "BPFO", "BPFI", "BSF"}
     static = found["static"]
     assert static["applied_force_N"] == [0.0, 1e4, 8e4]
     loads = np.array(static["roller_load_N"])
     assert loads.shape == (2, found["geometry"]["roller_count"])
-    assert static["max_roller_load_N"] == loads.max()
+    assert static["largest_roller_load_N"] == loads.max()
     assert (
         static["loaded_roller_count"] == np.count_nonzero(loads) == sum(static["loaded_roller_count_per_row"])
     )
@@ -61,8 +57,8 @@ def test_json_is_one_object_with_the_promised_keys(bearing_command):
 
 def test_anchor_of_the_issue_through_the_command(bearing_command):
     """80 kN radial, zero end play, a roller on the load line: 9.83 kN within 0.5 %."""
-    _, out, _ = bearing_command("HS130x230", "--json", "--load", "0", "0", "80000", "--end-play", "0")
-    assert json.loads(out)["static"]["max_roller_load_N"] == pytest.approx(9.83e3, rel=5e-3)
+    _, out, _ = bearing_command("HS130x230", "--json", "--load", "0", "0", "80", "--end-play", "0")
+    assert json.loads(out)["static"]["largest_roller_load_N"] == pytest.approx(9.83e3, rel=5e-3)
 
 
 def test_table_names_the_default_load_and_shows_every_roller(bearing_command):
@@ -77,7 +73,7 @@ def test_table_names_the_default_load_and_shows_every_roller(bearing_command):
 
 
 def test_rib_ellipse_beyond_the_face_is_a_warning(bearing_command):
-    status, out, _ = bearing_command("HS130x230", "--load", "0", "2e6", "8e4", "--speed", "100")
+    status, out, _ = bearing_command("HS130x230", "--load", "0", "2000", "80", "--speed", "100")
     assert status == 0
     assert re.search(r"warning: under \d+ N the rib's contact ellipse reaches down to", out)
     assert max(map(len, out.splitlines())) <= 100
@@ -85,7 +81,7 @@ def test_rib_ellipse_beyond_the_face_is_a_warning(bearing_command):
 
 def test_bad_input_is_answered_with_sentences(bearing_command):
     status, out, err = bearing_command(
-        "HS130x230", "--load", "0", "0", "nan", "--end-play", "4", "--laminae", "0"
+        "HS130x230", "--load", "0", "0", "nan", "--end-play", "6", "--laminae", "0"
     )
     assert (status, out) == (2, "")
     assert len(err.splitlines()) == 3
@@ -97,7 +93,7 @@ def test_bad_input_is_answered_with_sentences(bearing_command):
 
 def test_negative_numbers_may_have_an_exponent(bearing_command):
     status, out, _ = bearing_command(
-        "HS130x230", "--json", "--load", "0", "-1.5e4", "-8e4", "--end-play", "-1e-5"
+        "HS130x230", "--json", "--load", "0", "-1.5e1", "-80000N", "--end-play", "-1e-2"
     )
     static = json.loads(out)["static"]
     assert status == 0
@@ -106,13 +102,13 @@ def test_negative_numbers_may_have_an_exponent(bearing_command):
 
 
 def test_life_comes_with_a_lubricant_and_a_speed(bearing_command):
-    words = ("HS130x230", "--load", "0", "0", "8e4", "--lubricant", "L055", "--speed", "2000")
+    words = ("HS130x230", "--load", "0", "0", "80", "--lubricant", "L055", "--speed", "2000")
     status, out, _ = bearing_command(*words, "--json")
     life = json.loads(out)["life"]
     assert status == 0
     assert life["equivalent_load_N"] == pytest.approx(80e3)
-    assert life["L10_million_rev"] == pytest.approx((977.4 / 80.0) ** (10 / 3), rel=0.02)
-    assert life["L10mr_million_rev"] > life["L10r_million_rev"] > life["L10_million_rev"]
+    assert life["L10_rev"] == pytest.approx(1e6 * (977.4 / 80.0) ** (10 / 3), rel=0.02)
+    assert life["L10mr_rev"] > life["L10r_rev"] > life["L10_rev"]
     status, out, _ = bearing_command(*words)
     assert "ISO 16281" in out
     assert json.loads(bearing_command("HS130x230", "--json")[1])["life"] is None
@@ -126,3 +122,39 @@ def test_absurd_life_options_are_refused_all_at_once(bearing_command):
     assert "--temperature is 900" in error
     assert "--contamination is 2" in error
     assert "--speed is 0" in error
+
+
+@pytest.mark.parametrize(
+    ("words", "load", "end_play", "speed"),
+    [
+        (("--load", "0", "0", "5"), 5e3, 2e-4, 0.0),
+        (("--load", "0", "0", "5000N", "--end-play", "0.1"), 5e3, 1e-4, 0.0),
+        (("--load", "0", "0", "0.005MN", "--end-play", "100um", "--speed", "1200"), 5e3, 1e-4, 40 * np.pi),
+        (("--load", "0", "0", "5kN", "--end-play", "1e-4 m", "--speed", "20Hz"), 5e3, 1e-4, 40 * np.pi),
+    ],
+)
+def test_options_are_in_the_units_of_scenes_or_in_the_one_written(
+    bearing_command, words, load, end_play, speed
+):
+    status, out, _ = bearing_command("HS130x230", "--json", *words)
+    static = json.loads(out)["static"]
+    assert status == 0
+    assert static["applied_force_N"] == [0.0, 0.0, load]
+    assert static["end_play_m"] == pytest.approx(end_play, rel=1e-15)
+    assert static["shaft_speed_rad_per_s"] == pytest.approx(speed, rel=1e-15)
+
+
+def test_newtons_and_metres_of_old_are_asked_about_and_not_taken_for_kilonewtons(bearing_command):
+    status, out, error = bearing_command("HS130x230", "--load", "0", "0", "8e4", "--end-play", "-1e-5")
+    assert (status, out) == (2, "")
+    assert "--load is 80000 kN" in error
+    assert "were newtons meant? Then write 80, or 8e4N" in error
+    assert "were metres meant? Then write -0.01, or -1e-5m" in error
+    assert bearing_command("HS130x230", "--load", "0", "0", "8e4N")[0] == 0
+
+
+def test_a_foreign_unit_is_refused_with_those_that_are_known(bearing_command):
+    status, _, error = bearing_command("HS130x230", "--load", "0", "0", "80lbf", "--speed", "fast")
+    assert status == 2
+    assert "--load is '80lbf'; allowed is a number in kN, or one with its unit: kN, N, MN" in error
+    assert "--speed is 'fast'; allowed is a number in rpm" in error

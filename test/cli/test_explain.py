@@ -32,7 +32,7 @@ def test_explain_json_has_reason_cost_and_error_of_every_effect(capsys: pytest.C
     assert found["automatic"] is None
     assert chosen["within_accuracy"]
     assert set(chosen["expected_error"]) == {"force", "torque"}
-    assert chosen["expected_rtf"] > 0.0
+    assert chosen["real_time_factor"] > 0.0
     on = {decision["effect"]: decision for decision in chosen["decisions"] if decision["on"]}
     assert on["rolling_resistance"]["cost_share"] > 0.0
     assert all(decision["reason"] for decision in chosen["decisions"])
@@ -76,7 +76,8 @@ def test_explain_tells_what_the_scene_has_where_no_rule_offers_it(capsys: pytest
     by_name = {decision["effect"]: decision for decision in current["decisions"]}
     assert by_name["traction"]["choice"] == "off"
     assert not by_name["traction"]["on"]
-    assert by_name["traction"]["error"] == {"force": None, "torque": None}
+    unknown = {"error": None, "unit": "share"}
+    assert by_name["traction"]["error"] == {"force": unknown, "torque": unknown}
     assert "judged like" in by_name["rib"]["reason"]
-    assert current["expected_error"]["torque"] is None
+    assert current["expected_error"]["torque"] == unknown
     assert not current["within_accuracy"]

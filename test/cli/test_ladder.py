@@ -103,7 +103,7 @@ def test_json_alone_on_standard_output(capsys: pytest.CaptureFixture[str], runs:
     assert command.main(["ladder", "static_80kN", "--quick", "--duration", "0.3", "--json"]) == command.DONE
     found = json.loads(capsys.readouterr().out)
     assert found["scene"] == "static_80kN"
-    assert found["asked"] == list(USUAL_QUANTITIES)
+    assert found["quantities"] == list(USUAL_QUANTITIES)
 
 
 def test_an_interrupt_keeps_the_levels_done_so_far(

@@ -10,6 +10,7 @@ import pytest
 from beardyn_core.cli.contacts import option_problems
 from beardyn_core.cli.main import BAD_INPUT, DONE, main
 from beardyn_core.study.table import Table, digits, duration_text
+from test.cli.json_page import check
 
 
 def test_all_mistakes_are_named_at_once_and_nothing_is_written(tmp_path, capsys) -> None:
@@ -55,8 +56,9 @@ def test_quick_run_prints_writes_and_makes_the_page(tmp_path, capsys) -> None:
     assert main(["contacts", "--quick", "--json", "-o", str(folder), "--rrd", str(folder / "a.rrd")]) == DONE
     found = json.loads(capsys.readouterr().out)
     assert found == json.loads((folder / "contacts.json").read_text())
-    assert found["row_difference"] < 1e-9
-    time = {entry["method"]: entry["microseconds"] for entry in found["whole_bearing"]}
+    check("contacts", found)
+    assert found["row_difference_m"] < 1e-9
+    time = {entry["method"]: entry["time_s"] for entry in found["whole_bearing"]}
     assert time["closed form, compiled"] < time["analytic Newton, compiled"] < time["analytic Newton, plain"]
     assert (folder / "a.rrd").stat().st_size > 10_000
     page = tmp_path / "docs"

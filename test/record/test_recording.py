@@ -334,7 +334,7 @@ def test_report_says_what_a_recording_holds(recording: Path, capsys: pytest.Capt
     content = json.loads(capsys.readouterr().out)
     assert content["recovered"] is None
     assert {t["name"]: t["count"] for t in content["topics"]}["/axlebox/force"] == 8 * BLOCKS
-    assert content["mean_shaft_speed"] == pytest.approx(120.0)
+    assert content["mean_shaft_speed_rad_per_s"] == pytest.approx(120.0)
 
 
 def test_report_recovers_a_cut_file_and_says_so(
@@ -348,7 +348,7 @@ def test_report_recovers_a_cut_file_and_says_so(
     assert content["complete"] is False
     assert Path(content["recovered"]).exists()
     assert "was cut off: recovered" in captured.err
-    assert 0.2 < content["end"] < BLOCKS * 0.02
+    assert 0.2 < content["end_s"] < BLOCKS * 0.02
 
 
 @pytest.mark.parametrize("content", [b"", b"not a recording at all", b"\x89MCAP0\r\n"])

@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.report import json_object as report_object
 from beardyn_core.cli.simulate import json_object, text
 from beardyn_core.config import load_scene
 from beardyn_core.effects import Drag, RollingResistance, Seal
@@ -40,8 +42,8 @@ def test_a_shaft_at_rest_has_powers_and_no_torques() -> None:
     budget = torque_budget([0.0, 1.0], np.arange(2.0)[:, None] * np.ones(LOSSES + 1), 0.0)
     assert budget is not None
     assert math.isnan(budget.torque)
-    content = json.loads(json.dumps(budget.to_json(), allow_nan=False))
-    assert content["torque_Nm"]["rib"] is None
+    content = json.loads(json_text("simulate", budget.to_json()), parse_constant=pytest.fail)
+    assert content["torque_N_m"]["rib"] is None
     assert content["power_W"]["rib"] == 1.0
 
 
@@ -81,8 +83,8 @@ def test_the_recording_tells_the_same_budget(lossy: tuple[desk_run.RunSummary, R
         assert ours.source == recorded.source
         assert recorded.power == pytest.approx(ours.power, rel=0.02, abs=2.0)
     assert "rolling resistance" in found.to_text()
-    content = json.loads(json.dumps(found.to_json(), allow_nan=False))
-    assert content["torque_budget"]["torque_sum_Nm"] == pytest.approx(found.budget.torque)
+    content = json.loads(json_text("report", report_object(found, None)), parse_constant=pytest.fail)
+    assert content["torque_budget"]["torque_sum_N_m"] == pytest.approx(found.budget.torque)
 
 
 def test_text_and_json_of_the_command_show_the_budget(
@@ -90,7 +92,7 @@ def test_text_and_json_of_the_command_show_the_budget(
 ) -> None:
     summary = lossy[0]
     assert "\nrolling resistance " in text(summary, None)
-    content = json.loads(json.dumps(json_object(summary, None), allow_nan=False))
+    content = json.loads(json_text("simulate", json_object(summary, None)), parse_constant=pytest.fail)
     assert set(content["torque_budget"]["power_W"]) == {*LOSS_NAMES, NUMERICAL}
 
 

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.stats import beta
 
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.config import load_trial, trial_scene
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_append
@@ -140,7 +141,7 @@ def test_rates_and_smallest_size_are_counted_from_the_runs(quick: Trial) -> None
     assert "tier quasistatic" in told
     assert "against full" in told
     assert "cup: 6 mm (2 mm to beyond the largest)" in told
-    json.dumps(json_object(result), allow_nan=False)
+    json.loads(json_text("trial", json_object(result)), parse_constant=pytest.fail)
 
 
 def test_an_interrupted_trial_goes_on_where_it_was(

@@ -86,7 +86,7 @@ class Pattern:
     explained: int
 
     def lines(self, harmonics: int) -> list[tuple[int, int]]:
-        """Harmonic and sideband number of each line."""
+        """List harmonic and sideband number of each line."""
         beside = range(-self.sidebands, self.sidebands + 1)
         return [(h, k) for h in range(1, harmonics + 1) for k in beside]
 
@@ -141,7 +141,7 @@ class FaultLines:
 
 
 def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
-    """Patterns of cup, cone and roller faults.
+    """List the patterns of cup, cone and roller faults.
 
     References
     ----------
@@ -162,7 +162,7 @@ def comb_score(
     shaft_frequency: float,
     settings: MonitorSettings,
 ) -> FaultLines:
-    """Score of every fault in power over the angle of the shaft.
+    """Score every fault in power over the angle of the shaft.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def comb_score(
 
 @cache
 def threshold(lines: int, places: float, rate: float) -> float:
-    """Score that noise passes somewhere with a given rate.
+    """Compute the score that noise passes somewhere with a given rate.
 
     Parameters
     ----------
@@ -222,7 +222,7 @@ def threshold(lines: int, places: float, rate: float) -> float:
 
 
 def trimmed_tail(total: float, lines: int) -> float:
-    """Probability that L exponentials of mean 1, less the largest, sum to more than a total.
+    """Compute the probability that L exponentials of mean 1, less the largest, sum to more than a total.
 
     Parameters
     ----------
@@ -248,12 +248,12 @@ def trimmed_tail(total: float, lines: int) -> float:
 
 
 def reach(order: float, resolution: float) -> float:
-    """How far from its place a line of a found pattern may lie: resolution and slow cage slip."""
+    """Compute how far a line of a found pattern may lie from its place: resolution and slow cage slip."""
     return min(resolution + 0.003 * order, 0.25)
 
 
 def explains(candidate: Candidate, order: float, resolution: float) -> bool:
-    """Whether a line belongs to the pattern with its sidebands."""
+    """Check whether a line belongs to the pattern with its sidebands."""
     pattern = candidate.pattern
     for k in range(-pattern.explained, pattern.explained + 1):
         carrier = order - k * pattern.sideband
@@ -296,7 +296,7 @@ def _lay(
 
 
 def _beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
-    """Spectrum without its whole orders, where a wheel whose strikes wax and wane leaves a rest."""
+    """Take the whole orders out of a spectrum, where a wheel whose strikes wax and wane leaves a rest."""
     whole = np.abs(spectrum.order - np.round(spectrum.order)) <= 2.0 * spectrum.resolution
     return replace(spectrum, level=np.where(whole, _NOTHING, spectrum.level))
 
@@ -307,5 +307,5 @@ def _name(pattern: Pattern, harmonic: int, side: int) -> str:
 
 
 def _level(power_over_mean: float) -> float:
-    """Level over the median background of a power over the mean one, [dB]."""
+    """Compute the level over the median background of a power over the mean one, [dB]."""
     return float(10.0 * np.log10(power_over_mean / _MEDIAN_OVER_MEAN))

@@ -10,7 +10,7 @@ UNKNOWN, NORMAL, WARM, HOT = "unknown", "normal", "warm", "hot"
 
 
 def temperature_state(temperature: float, heating: float, settings: MonitorSettings) -> str:
-    """``unknown``, ``normal``, ``warm`` or ``hot``.
+    """Judge the temperature: ``unknown``, ``normal``, ``warm`` or ``hot``.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ class Band:
 
 
 def by_kurtogram(stretch: Stretch, settings: MonitorSettings) -> Band:
-    """Band of largest spectral kurtosis, or the usual one when none stands out of noise.
+    """Choose the band of largest spectral kurtosis, or the usual one when none stands out of noise.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def by_kurtogram(stretch: Stretch, settings: MonitorSettings) -> Band:
 
 
 def fast_kurtogram(stretch: Stretch, narrowest: float, settings: MonitorSettings) -> list[Band]:
-    """Spectral kurtosis in bands of the 1/3-binary tree: all of it, halves, thirds, quarters, sixths ...
+    """Compute spectral kurtosis in bands of the 1/3-binary tree: all, halves, thirds, quarters, sixths ...
 
     Sectors in which the wheel strikes the rail are left out.
 
@@ -104,7 +104,7 @@ def fast_kurtogram(stretch: Stretch, narrowest: float, settings: MonitorSettings
 
 
 def _band(spectrum: Complex, quiet: NDArray[np.bool_], half: float, low: float, high: float) -> Band:
-    """Kurtosis of the band between two shares of half the sampling rate."""
+    """Compute the kurtosis of the band between two shares of half the sampling rate."""
     first, last = (round(share * (len(spectrum) - 1)) for share in (low, high))
     inside = np.linspace(0.0, 1.0, last - first)[:, None]
     edges = np.sin(0.5 * np.pi * np.clip(np.minimum(inside, 1.0 - inside) / _EDGE, 0.0, 1.0)) ** 2

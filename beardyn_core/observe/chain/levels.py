@@ -36,7 +36,7 @@ class Levels:
 
 
 def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], speed: float) -> Levels:
-    """Levels of a signal.
+    """Compute the levels of a signal.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], 
 
 
 def rise(levels: Levels, earlier: Sequence[Levels], like: float = 0.1) -> float:
-    """RMS over the median of earlier stretches at a like speed; NaN with fewer than three, [dB].
+    """Compare RMS with the median of earlier stretches at a like speed; NaN with fewer than three, [dB].
 
     Parameters
     ----------

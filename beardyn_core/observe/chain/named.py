@@ -13,7 +13,7 @@ OURS = "beardyn_core.observe.chain:REFERENCE"
 
 
 def algorithm_named(name: str) -> Algorithm:
-    """Algorithm of a name; the working folder is searched for the module too.
+    """Find the algorithm of a name; the working folder is searched for the module too.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ Float = NDArray[np.float64]
 
 
 def squared_envelope(stretch: Stretch, band: Band) -> Float:
-    """Squared envelope of the band, summed over the axes.
+    """Compute the squared envelope of the band, summed over the axes.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def squared_envelope(stretch: Stretch, band: Band) -> Float:
 
 
 def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float:
-    """Power over equal steps of the shaft angle, whole revolutions, less what the wheel itself does.
+    """Resample power over equal steps of the shaft angle, whole revolutions, less what the wheel itself does.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ _LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
 
 
 def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
-    """Sectors of the wheel in which it strikes the rail in three of four revolutions.
+    """Find the sectors of the wheel in which it strikes the rail in three of four revolutions.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
 
 
 def without_wheel(power: Float, struck: Bool) -> Float:
-    """Deviation from the wheel's own pattern, 0 where it strikes.
+    """Subtract the wheel's own pattern; 0 where it strikes.
 
     The mean over the revolutions at each angle holds all that comes back with the shaft: every whole
     order. No bearing fault has one.

@@ -1,0 +1,63 @@
+"""Writes the JSON object of a command, strict and versioned; `docs/json.md` explains every key.
+
+The vocabulary: SI units without multiples, the unit as last words of the key (`_N_m`, `_rad_per_s`); levels
+in dB; what has no unit (counts, ratios, shares of 1) has none in its key. Every object begins with
+``schema_version`` and ``command``.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+SCHEMA_VERSION = 1
+"""Raised when a key is renamed, removed or changes its meaning; a new key does not raise it."""
+
+
+def json_text(command: str, content: Mapping[str, Any], indent: int | None = None) -> str:
+    """Write what a command found as one strict JSON object.
+
+    Parameters
+    ----------
+    command : str
+        Name of the subcommand.
+    content : mapping
+        Keys of `docs/json.md`; arrays, tuples and paths are converted, NaN and infinity become null.
+    indent : int, optional
+        For files; a single line by default.
+    """
+    whole = {"schema_version": SCHEMA_VERSION, "command": command, **content}
+    return json.dumps(plain(whole), indent=indent, allow_nan=False)
+
+
+def plain(value: Any) -> Any:
+    """Convert a value to what strict JSON can hold: NaN and infinity to null, arrays and tuples to lists."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(each) for key, each in value.items()}
+    if hasattr(value, "tolist"):  # an array or a number of NumPy
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple, set, frozenset)):
+        return [plain(each) for each in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if value is None or isinstance(value, (bool, int, str)):
+        return value
+    return str(value)
+
+
+def renamed(value: Any, names: Mapping[str, str]) -> Any:
+    """Rename the keys of mappings, nested ones and those in lists included; others keep their name.
+
+    Parameters
+    ----------
+    value : object
+    names : mapping
+        Name of a field to the key with its unit, such as ``"gap": "gap_m"``.
+    """
+    if isinstance(value, Mapping):
+        return {names.get(key, key): renamed(each, names) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [renamed(each, names) for each in value]
+    return value

@@ -1,0 +1,167 @@
+"""``beardyn new``: a copy of a shipped file with its comments, to start from."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from pathlib import Path
+from typing import Any
+
+from beardyn_core.cli.scenes import KINDS
+from beardyn_core.errors import InputError
+
+_NAME_KEY = {"scenes": "scene", "trials": "trial"}
+_HOW = {
+    "scenes": "beardyn simulate {file}     what is computed, and why: beardyn explain {file}",
+    "bearings": "beardyn bearing {file}     in a scene beside it: bearing: {file}",
+    "lubricants": "in a scene beside it: lubricant: {file}",
+    "vehicles": "in the operation of a scene beside it: vehicle: {file}",
+    "effects": "beardyn simulate SCENE --effects {file}     in a scene beside it: effects: {file}",
+    "trials": "beardyn trial {file}",
+}
+# What else a scene may say: shown as comments where the scene does not say it.
+POSSIBLE = {
+    "end_play_mm": "end_play_mm: 0.1   # total axial travel, negative: preload; else that of the bearing",
+    "tier": "tier: quasistatic   # full (default), quasistatic or lumped: which bodies move by themselves",
+    "effects": "effects: full   # one of `beardyn scenes effects` (standard by default)",
+    "defects": 'defects:\n  - {kind: spall, "on": cup, row: 0, azimuth_deg: 0, width_mm: 6, depth_um: 100}',
+    "waviness": 'waviness:\n  - {"on": cup, row: 0, orders: [20], amplitude_um: 1}',
+    "sensors": "sensors:\n  - {name: axlebox_top, position_mm: [0, 0, 170], range_m_per_s2: 5000}",
+    "numerics": "numerics: {laminae: 6}   # slices of each roller contact",
+    "seed": "seed: 2   # of irregularity and sensor noise",
+}
+_WORD = re.compile(r"(?!(?:true|false|null|True|False|Null|TRUE|FALSE|NULL)$)[A-Za-z_][\w.-]{0,79}")
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "new",
+        help="copy a shipped scene, bearing, ... with its comments, to change it",
+        description="Copy a shipped scene with its comments to a file of your own; `beardyn simulate FILE` "
+        "runs it. Bearings, lubricants, vehicles, sets of effects and trials are copied in the same manner; "
+        "`beardyn scenes all` lists the names. Files that a scene refers to are copied beside it.",
+    )
+    parser.add_argument("name", metavar="NAME", help="shipped scene, bearing, lubricant, ...")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE.yaml",
+        type=Path,
+        help="file to write; default NAME.yaml in this folder",
+    )
+    parser.add_argument(
+        "--kind", choices=KINDS, help="where to look for NAME; default everywhere, scenes first"
+    )
+    parser.add_argument("--force", action="store_true", help="replace files that exist; default refuse")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from beardyn_core.config.folders import find
+
+    kind = args.kind or kind_of(args.name)
+    source = find(kind, args.name)
+    target = args.output or Path(f"{args.name}.yaml")
+    files = {target: copied_text(kind, source, target).encode()}
+    for reference in referred_files(source) if kind == "scenes" else ():
+        files[target.parent / reference.name] = reference.read_bytes()
+    _refuse(files, target, source, args.force)
+    try:
+        for path, content in files.items():
+            path.write_bytes(content)
+            print(f"{path} written")
+    except OSError as error:
+        raise InputError(f"{error.filename}: cannot be written: {error.strerror or error}") from None
+    print(_HOW[kind].format(file=_shown(target)))
+    return 0
+
+
+def kind_of(name: str) -> str:
+    """Find the kind of the shipped thing of a name, scenes first.
+
+    Raises
+    ------
+    InputError
+        When there is none, with the name that was probably meant.
+    """
+    from beardyn_core.config import shipped_names
+    from beardyn_core.config.folders import closest
+
+    names = {kind: shipped_names(kind) for kind in KINDS}
+    for kind in KINDS:
+        if name in names[kind]:
+            return kind
+    guess = closest(name, [each for members in names.values() for each in members])
+    hint = f"did you mean {guess}? " if guess else ""
+    raise InputError(f"nothing shipped is called {name!r}; {hint}`beardyn scenes all` lists the names")
+
+
+def copied_text(kind: str, source: Path, target: Path) -> str:
+    """Write the copy: a heading, the shipped text under a name of its own, and what else may be said.
+
+    Parameters
+    ----------
+    kind : str
+    source, target : Path
+        The shipped file, and the one to be written; its stem becomes the name where it is a plain word.
+    """
+    text = source.read_text(encoding="utf-8")
+    if _WORD.fullmatch(target.stem):
+        key = _NAME_KEY.get(kind, "name")
+        text = re.sub(rf"^{key}:\s*\S+", f"{key}: {target.stem}", text, count=1, flags=re.MULTILINE)
+    singular = "effects" if kind == "effects" else kind[:-1]
+    heading = [
+        f"# Copied from the shipped {singular} {source.stem}. Units stand in the keys.",
+        "# Every key with its meaning, unit, limits and default: docs/reference.md; for editors:",
+        f"# `beardyn schema {singular}`.",
+        f"# {_HOW[kind].format(file=_shown(target))}",
+    ]
+    ending = []
+    if kind == "scenes":
+        others = [what for key, what in POSSIBLE.items() if not re.search(rf"^{key}:", text, re.MULTILINE)]
+        ending = [
+            "",
+            "# Also possible; take the # away:",
+            *(f"# {line}" for what in others for line in what.split("\n")),
+        ]
+    return "\n".join([*heading, "", text.rstrip("\n"), *ending]) + "\n"
+
+
+def referred_files(source: Path) -> list[Path]:
+    """List the files beside a scene that it refers to by their relative path."""
+    from beardyn_core.config.yaml_text import read_file
+
+    def texts(value: Any) -> list[str]:
+        if isinstance(value, dict):
+            return [text for each in value.values() for text in texts(each)]
+        if isinstance(value, list):
+            return [text for each in value for text in texts(each)]
+        return [value] if isinstance(value, str) else []
+
+    paths = [source.parent / text for text in texts(read_file(source).get("operation", {})) if "." in text]
+    return [path for path in dict.fromkeys(paths) if path.is_file()]
+
+
+def _shown(target: Path) -> str:
+    """Write a path so that it is taken for one, not for a shipped name."""
+    return str(target) if target.suffix in (".yaml", ".yml") or "/" in str(target) else f"./{target}"
+
+
+def _refuse(files: dict[Path, bytes], target: Path, source: Path, force: bool) -> None:
+    """Raise `InputError` with everything that speaks against writing; nothing has been written yet."""
+    problems = []
+    if target.suffix not in (".yaml", ".yml"):
+        problems.append(f"--output {target}: give it the ending .yaml, by which commands know a file")
+    if not target.parent.is_dir():
+        problems.append(f"--output {target}: the folder {target.parent} does not exist; create it first")
+    for path in files:
+        if path.is_dir():
+            problems.append(f"{path}: is a folder; give the name of a file")
+        elif path.exists() and path.resolve().parent == source.resolve().parent:
+            problems.append(f"{path}: is a shipped file and stays; choose another name or folder")
+        elif path.exists() and not force:
+            problems.append(f"{path}: exists; choose another name, or replace it with --force")
+    if problems:
+        raise InputError(problems)

@@ -1,0 +1,273 @@
+"""``beardyn scenes``: what scenes, bearings, lubricants, vehicles, effects and trials there are."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import shutil
+import textwrap
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from beardyn_core.cli.json_output import json_text
+from beardyn_core.errors import InputError
+
+if TYPE_CHECKING:
+    from beardyn_core.scene.scene import Scene
+
+KINDS = ("scenes", "bearings", "lubricants", "vehicles", "effects", "trials")
+_ZERO_CELSIUS = 273.15
+_GROUPS = (
+    "healthy bearing under a train",
+    "healthy bearing, defect of wheel or rail",
+    "fault of the bearing, under a train",
+    "fault of the bearing, constant load",
+    "healthy bearing, load without a train",
+)
+_USE = {
+    "scenes": "run: beardyn simulate NAME; copy to change it: beardyn new NAME -o mine.yaml",
+    "bearings": "in a scene: bearing: NAME; static answers: beardyn bearing NAME",
+    "lubricants": "in a scene: lubricant: NAME",
+    "vehicles": "in a scene: operation: {kind: quarter_vehicle, vehicle: NAME, ...}",
+    "effects": "in a scene: effects: NAME; for one run: beardyn simulate SCENE --effects NAME",
+    "trials": "run: beardyn trial NAME",
+}
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "scenes",
+        help="list the shipped scenes, bearings, lubricants, vehicles, effects or trials",
+        description="List what is shipped, with what each is for. Every name is a YAML file that "
+        "`beardyn new NAME` copies.",
+    )
+    parser.add_argument(
+        "kind", nargs="?", choices=(*KINDS, "all"), default="scenes", help="what to list; default scenes"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    lists = {kind: entries(kind) for kind in (KINDS if args.kind == "all" else (args.kind,))}
+    if args.json:
+        print(json_text("scenes", lists))
+    else:
+        print("\n\n".join(_text(kind, found) for kind, found in lists.items()))
+    return 0
+
+
+def entries(kind: str) -> list[dict[str, Any]]:
+    """Describe the shipped things of a kind, in SI units.
+
+    Parameters
+    ----------
+    kind : str
+        One of `KINDS`.
+
+    Returns
+    -------
+    list of dict
+        With ``name``, ``purpose`` and ``file``, and what tells one of the kind from another. A file with
+        mistakes has the first of them as its purpose, and the rest is None.
+    """
+    from beardyn_core.config import shipped_names
+    from beardyn_core.config.folders import find
+
+    found = []
+    for name in shipped_names(kind):
+        file = find(kind, name)
+        about = {"name": name, "purpose": "", "file": str(file)}
+        try:
+            found.append({**about, **_DESCRIBE[kind](name)})
+        except InputError as error:
+            found.append({**about, "purpose": f"cannot be used: {error.problems[0]}"})
+    return found
+
+
+def _scene(name: str) -> dict[str, Any]:
+    from beardyn_core.config import load_scene
+
+    scene = load_scene(name)
+    vehicle, vehicle_speed, shaft_speed = _speeds(scene)
+    return {
+        "purpose": scene.purpose,
+        "group": _group(scene),
+        "bearing": scene.bearing.name,
+        "lubricant": scene.lubricant.name,
+        "vehicle": vehicle,
+        "duration_s": scene.duration,
+        "vehicle_speed_m_per_s": vehicle_speed,
+        "shaft_speed_rad_per_s": shaft_speed,
+        "tier": scene.tier,
+        "effects": scene.effect_names,
+        "faults": scene.fault_sentences,
+        "sensors": [sensor.name for sensor in scene.sensors],
+    }
+
+
+def _speeds(scene: Scene) -> tuple[str | None, list[float] | None, list[float]]:
+    """Find the vehicle, its smallest and largest speed [m/s], and those of the shaft [rad/s]."""
+    from beardyn_core.rail.measured import read_measurement
+    from beardyn_core.scene.measured import MeasuredOperation
+    from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation
+
+    operation = scene.operation
+    if isinstance(operation, QuarterVehicleOperation):
+        speeds = [speed for _, speed in operation.speed_profile]
+        vehicle = [min(speeds), max(speeds)]
+        return operation.vehicle.name, vehicle, [2.0 * each / operation.wheel_diameter for each in vehicle]
+    if isinstance(operation, MeasuredOperation):
+        speeds = read_measurement(operation.path, operation.take).shaft_speed.tolist()
+        return None, None, [min(speeds), max(speeds)]
+    if isinstance(operation, ConstantOperation):
+        return None, None, [operation.speed] * 2
+    speeds = [step.speed for step in operation.steps]
+    return None, None, [min(speeds), max(speeds)]
+
+
+def _group(scene: Scene) -> str:
+    from beardyn_core.scene.measured import MeasuredOperation
+    from beardyn_core.scene.operation import QuarterVehicleOperation
+
+    operation = scene.operation
+    train = isinstance(operation, (QuarterVehicleOperation, MeasuredOperation))
+    if scene.fault_sentences:
+        return _GROUPS[2 if train else 3]
+    if isinstance(operation, QuarterVehicleOperation) and (operation.wheel_defects or operation.rail_defects):
+        return _GROUPS[1]
+    return _GROUPS[0 if train else 4]
+
+
+def _bearing(name: str) -> dict[str, Any]:
+    from beardyn_core.bearing.life import dynamic_rating
+    from beardyn_core.config import load_bearing
+
+    bearing = load_bearing(name)
+    return {
+        "purpose": bearing.description,
+        "bore_m": bearing.bore,
+        "outer_diameter_m": bearing.outer_diameter,
+        "width_m": bearing.width,
+        "roller_count": bearing.roller_count,
+        "end_play_m": bearing.end_play,
+        "dynamic_load_rating_N": dynamic_rating(bearing).radial,
+    }
+
+
+def _lubricant(name: str) -> dict[str, Any]:
+    from beardyn_core.config import load_lubricant
+
+    lubricant = load_lubricant(name)
+    return {
+        "purpose": lubricant.description,
+        "viscosity_40_C_m2_per_s": lubricant.kinematic_viscosity(40.0 + _ZERO_CELSIUS),
+        "viscosity_100_C_m2_per_s": lubricant.kinematic_viscosity(100.0 + _ZERO_CELSIUS),
+    }
+
+
+def _vehicle(name: str) -> dict[str, Any]:
+    from beardyn_core.config import load_vehicle
+
+    vehicle = load_vehicle(name)
+    return {"purpose": vehicle.description, "body_mass_kg": vehicle.body_mass}
+
+
+def _effects(name: str) -> dict[str, Any]:
+    from beardyn_core.config import load_effects
+    from beardyn_core.config.folders import find
+    from beardyn_core.config.yaml_text import read_file
+
+    purpose = str(read_file(find("effects", name)).get("purpose", ""))
+    return {"purpose": purpose, "effects": load_effects(name).names()}
+
+
+def _trial(name: str) -> dict[str, Any]:
+    from beardyn_core.config import load_trial
+
+    trial = load_trial(name)
+    return {
+        "purpose": trial.purpose,
+        "scene": trial.scene,
+        "tier": trial.tier,
+        "run_count": len(trial.cells()),
+        "faults": trial.faults,
+    }
+
+
+_DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
+    "scenes": _scene,
+    "bearings": _bearing,
+    "lubricants": _lubricant,
+    "vehicles": _vehicle,
+    "effects": _effects,
+    "trials": _trial,
+}
+
+
+def _text(kind: str, found: list[dict[str, Any]]) -> str:
+    """Write a list for the terminal: scenes under the headings of their groups."""
+    rows = _rows(kind, found)
+    lines = [f"{kind} ({_USE[kind]})"]
+    if kind != "scenes":
+        return "\n".join([*lines, *rows])
+    for group in (*_GROUPS, None):
+        members = [row for row, entry in zip(rows, found, strict=True) if entry.get("group") == group]
+        if members:
+            lines += ["", f"{group or 'with mistakes'}:", *members]
+    return "\n".join(lines)
+
+
+def _rows(kind: str, found: list[dict[str, Any]]) -> list[str]:
+    """Align names and figures in columns, and wrap the purpose beside them."""
+    cells = [[entry["name"], *(_FIGURES[kind](entry) if len(entry) > 3 else [])] for entry in found]
+    count = max(map(len, cells), default=0)
+    cells = [[*row, *[""] * (count - len(row))] for row in cells]
+    widths = [max(len(row[k]) for row in cells) for k in range(count)]
+    rows = []
+    for row, entry in zip(cells, found, strict=True):
+        head = "  " + "  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)) + "  "
+        room = max(shutil.get_terminal_size((120, 24)).columns - len(head), 40)
+        first, *more = textwrap.wrap(entry["purpose"], room) or [""]
+        rows.append("\n".join([f"{head}{first}".rstrip(), *(" " * len(head) + line for line in more)]))
+    return rows
+
+
+def _range(values: list[float], factor: float, unit: str) -> str:
+    low, high = (f"{value * factor:.4g}" for value in values)
+    return f"{low} {unit}" if low == high else f"{low} to {high} {unit}"
+
+
+def _scene_figures(entry: dict[str, Any]) -> list[str]:
+    speed = (
+        _range(entry["shaft_speed_rad_per_s"], 30.0 / math.pi, "rpm")
+        if entry["vehicle_speed_m_per_s"] is None
+        else _range(entry["vehicle_speed_m_per_s"], 3.6, "km/h")
+    )
+    return [f"{entry['duration_s']:g} s", speed, entry["bearing"]]
+
+
+def _bearing_figures(entry: dict[str, Any]) -> list[str]:
+    envelope = " x ".join(f"{entry[key] * 1e3:g}" for key in ("bore_m", "outer_diameter_m", "width_m"))
+    return [
+        f"{envelope} mm",
+        f"2 x {entry['roller_count']} rollers",
+        f"C {entry['dynamic_load_rating_N'] / 1e3:.0f} kN",
+    ]
+
+
+def _lubricant_figures(entry: dict[str, Any]) -> list[str]:
+    cold, hot = (entry[f"viscosity_{at}_C_m2_per_s"] * 1e6 for at in (40, 100))
+    return [f"{cold:.0f} mm2/s at 40 °C, {hot:.1f} at 100 °C"]
+
+
+_FIGURES: dict[str, Callable[[dict[str, Any]], list[str]]] = {
+    "scenes": _scene_figures,
+    "bearings": _bearing_figures,
+    "lubricants": _lubricant_figures,
+    "vehicles": lambda entry: [f"{entry['body_mass_kg'] / 1e3:g} t"],
+    "effects": lambda entry: [f"{len(entry['effects'])} effects"],
+    "trials": lambda entry: [f"{entry['run_count']} runs", f"of {entry['scene']}"],
+}

@@ -1,0 +1,180 @@
+"""Every `--json` object: strict JSON, one vocabulary, every key on docs/json.md."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from beardyn_core.cli import report as report_command
+from beardyn_core.cli import simulate
+from beardyn_core.cli.json_output import SCHEMA_VERSION, json_text, plain
+from beardyn_core.cli.main import COMMANDS, DONE, main
+from beardyn_core.config import load_scene, load_trial
+from beardyn_core.model.heat import NODES
+from beardyn_core.model.layout import LOSSES
+from beardyn_core.observe.stage_clock import StageTime
+from beardyn_core.observe.torque_budget import torque_budget
+from beardyn_core.record.reporting import Gap, report
+from beardyn_core.scene.defect import Growth, MissingRoller, Patch, RollerError, WornPocket
+from beardyn_core.study.desk_run import RunSummary
+from beardyn_core.study.ladder import plan_of
+from beardyn_core.study.ladder_report import json_object as ladder_object
+from beardyn_core.study.measures import FaultLine
+from beardyn_core.study.rating_life import RatingLife
+from beardyn_core.study.trial_report import json_object as trial_object
+from beardyn_core.study.trial_result import TrialResult
+from test.cli.json_page import PAGE, check, documented
+from test.record.conftest import write_recording
+from test.study.test_ladder import FakeRuns, climbed
+from test.study.test_trial import run_of
+
+UNITS = (
+    *("m_per_s2", "m_per_s", "rad_per_s", "N_per_m", "m2_per_s", "kg_m2", "N_m", "per_rev", "bytes"),
+    *("rev", "rad", "Pa", "Hz", "dB", "kg", "N", "W", "J", "K", "s", "m"),
+)
+MULTIPLES = (
+    "mm",
+    "um",
+    "us",
+    "kN",
+    "MN",
+    "kHz",
+    "GPa",
+    "MPa",
+    "deg",
+    "rpm",
+    "kmh",
+    "Nm",
+    "percent",
+    "h",
+    "t",
+)
+
+
+def read(text: str) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(text, parse_constant=pytest.fail)
+    assert list(found)[:2] == ["schema_version", "command"]
+    assert found["schema_version"] == SCHEMA_VERSION
+    return found
+
+
+def printed(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, Any]:
+    assert main([*words, "--json"]) == DONE
+    found = read(capsys.readouterr().out)
+    assert found["command"] == words[0]
+    return found
+
+
+def test_numbers_become_strict_json() -> None:
+    content = {"a": math.nan, "b": (1, math.inf), "c": np.array([[1.0, np.nan]]), "d": np.int64(3), "e": PAGE}
+    assert plain(content) == {"a": None, "b": [1, None], "c": [[1.0, None]], "d": 3, "e": str(PAGE)}
+    assert list(read(json_text("x", {"y": np.float64(0.5)}))) == ["schema_version", "command", "y"]
+
+
+def test_bearing(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ("bearing", "HS130x230", "--laminae", "3", "--lubricant", "L055", "--speed", "1000")
+    check("bearing", printed(capsys, *words), printed(capsys, "bearing", "HS130x230"))
+
+
+def test_explain(capsys: pytest.CaptureFixture[str]) -> None:
+    check("explain", printed(capsys, "explain", "static_80kN"))
+
+
+def test_scenes(capsys: pytest.CaptureFixture[str]) -> None:
+    check("scenes", printed(capsys, "scenes", "all"))
+
+
+def test_simulate() -> None:
+    budget = torque_budget([0.0, 1.0], np.ones((2, LOSSES + 1)), 10.0)
+    life = RatingLife(8e4, 1e9, math.inf, 1e9, 1e9, 1.5, 0.6, 3)
+    summary = RunSummary(
+        *("cup_spall", "full", ("film",), (), 1.0, 0.5, "complete", (1.0, 2.0, math.nan), -3.0, (1.0, 1.0)),
+        energy_residual=None,
+        budget=budget,
+        averaged=(0.25, 1.0),
+        cage_revolutions=5,
+        life=life,
+        temperatures=tuple((part, 300.0) for part in NODES),
+        stages=(StageTime("sinks", 0.1), StageTime("rest", 0.1)),
+    )
+    found = read(json_text("simulate", simulate.json_object(summary, Path("run.mcap"))))
+    assert found["mean_force_N"] == [1.0, 2.0, None]
+    assert found["life"]["L10m_rev"] is None
+    check("simulate", found)
+
+
+def test_monitor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_recording(tmp_path / "run.mcap", 60)
+    check("monitor", printed(capsys, "monitor", str(path), "--bearing", "HS130x230"))
+
+
+def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_recording(tmp_path / "run.mcap", 10)
+    budget = torque_budget([0.0, 1.0], np.ones((2, LOSSES + 1)), 10.0)
+    growing = Patch("cup", 0, 0.1, 6e-3, 1e-4, 25e-3, growth=Growth(0.1, 1.0))
+    faults = (growing, RollerError(0, 3, 1e-5), WornPocket(1, 2, 5e-4), MissingRoller(1, 4))
+    full = replace(
+        report(path),
+        budget=budget,
+        gaps=(Gap("vibration", 0.5, 3),),
+        faults=[asdict(fault) for fault in faults],
+    )
+    found = read(json_text("report", report_command.json_object(full, None)))
+    assert found["defects"][0]["growth"]["width_grows"] is True
+    assert found["defects"][0]["width_m"] == 6e-3
+    assert found["faults"][1] == "roller 3, row 0, +10.0 µm in diameter"
+    check("report", found, printed(capsys, "report", str(path)))
+
+
+def test_ladder() -> None:
+    ladder = climbed(plan_of(load_scene("static_80kN"), 0.5, 0.1), FakeRuns())
+    check(
+        "ladder", read(json_text("ladder", ladder_object(replace(ladder, fault_line=FaultLine("BPFO", 7.3)))))
+    )
+
+
+def test_trial() -> None:
+    quick = load_trial("quick")
+    runs = [run_of(cell, "cup" if cell.checks else "healthy") for cell in quick.cells()]
+    runs[0] = replace(runs[0], status="a number became NaN")
+    found = read(json_text("trial", trial_object(TrialResult.of(quick, "", runs))))
+    assert [row["width_m"] for row in found["sizes"]][:3] == [0.002, 0.006, 0.012]
+    check("trial", found)
+
+
+def test_every_command_with_json_has_a_section() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    for name in (name for names in COMMANDS.values() for name in names):
+        source = (Path(simulate.__file__).parent / f"{name}.py").read_text(encoding="utf-8")
+        assert ('"--json"' in source) == (f"## `beardyn {name}`" in text), name
+
+
+def test_units_in_keys_are_si_without_multiples() -> None:
+    commands = (
+        "bearing",
+        "explain",
+        "scenes",
+        "simulate",
+        "monitor",
+        "report",
+        "ladder",
+        "trial",
+        "contacts",
+    )
+    for command in commands:
+        for path in documented(command):
+            for name in path.replace("[]", "").split("."):
+                assert not name.endswith(tuple(f"_{unit}" for unit in MULTIPLES)), path
+                assert not name.lower().endswith(("rtf", "_millimetres", "microseconds", "hours")), path
+
+
+def test_every_unit_of_a_key_is_explained_on_the_page() -> None:
+    head = PAGE.read_text(encoding="utf-8").split("## `beardyn")[0]
+    for unit in UNITS:
+        assert f"`_{unit}`" in head, unit
