@@ -104,7 +104,7 @@ class TopicPublishers:
         return False
 
     def wait_until_received(self, name: str, timeout: float) -> bool:
-        """Wait until every reliable reader has acknowledged a topic, at most `timeout` seconds; False if not."""
+        """Wait until every reliable reader has acknowledged a topic, for at most `timeout` seconds."""
         publisher = self._publishers.get(name)
         if publisher is None or publisher.get_subscription_count() == 0:
             return True
