@@ -2,7 +2,6 @@
 
 | module | responsibility |
 |---|---|
-| `low_pass` | low-pass filters: windowed sinc and first-order lag |
 | `table` | a CSV file of numbers, with all its mistakes at once |
 | `spectra` | power spectral densities of the rail, what the contact patch leaves of them |
 | `irregularity` | random-phase or measured profile over the distance |
@@ -17,7 +16,7 @@
 | `measured` | load and speed from a CSV file or a recording |
 | `replay` | a measured operation to a `scene.load.LoadHistory` |
 | `build` | any `scene.operation.Operation` to a `scene.load.LoadHistory` |
-| `events` | what a run meets, as truth |
+| `events` | what a run meets on its way, as truth |
 
 A further excitation is one more function of position in `excitation`, which `build` adds to the profile
 before the vehicle runs over it.

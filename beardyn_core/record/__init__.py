@@ -19,7 +19,6 @@ envelope           envelope order spectrum of a whole recording
 meshes             triangle meshes of the bearing's parts from its recorded shape
 rerun_bearing      the bearing in 3-D: motion, loads, contact forces
 rerun_plots        curves beside it
-rerun_rolling      coin and roller of the contact laboratory as an animation
 rerun_spectrum     the envelope spectrum as a drawn plot
 rerun_view         a whole recording with its blueprint; ``.rrd`` files
 rerun_live         a running twin, fed with messages

@@ -1,7 +1,7 @@
 """The reference monitoring chain, one step a module, in the order of the data.
 
 settings     what can be tuned
-stretch      the input of an algorithm: vibration, shaft angle, load, temperature
+stretch      what an algorithm is given: vibration, shaft angle, load, temperature
 kurtogram    select_band: where the spectral kurtosis is largest
 tracking     envelope, and track: order tracking by the shaft angle
 wheel        what turns with the wheel (flats, polygons) is taken out
