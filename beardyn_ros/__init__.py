@@ -13,7 +13,7 @@ replay         a scenario as an endless stream: loop, seek, cross-fade, passages
 replay_clock   pace and pause of a live replay
 load_node      replays an operation or a CSV as stamped load blocks, within the credit
 load_feed      load for the twin's thread: waiting, age, knowing pauses
-run_state      what a session is told, what it hands over, what it says about itself
+run_state      options of a session, the messages it hands over, its report
 session        the twin in its own thread: compile, wait for load, advance, pace
 pacer          when a block is due on the wall clock
 twin_node      the lifecycle node around a session: topics, services, diagnostics
@@ -24,6 +24,7 @@ monitor_node   monitoring: vibration, shaft, load and temperature, nothing else
 viewer_node    live view in rerun
 diagnostics    reports as diagnostic_msgs
 processes      child processes that never outlive their parent
+__main__       `python -m beardyn_ros NODE` for where there is no `ros2` command
 demo           all nodes as separate processes on one scene
 ============== ==============================================================================
 """

@@ -100,13 +100,13 @@ def _run_nodes(nodes: _Nodes, graph: _Observer, scene: Any, recording: Path) -> 
     nodes.start("recorder", output=str(recording))
     nodes.start("monitor", bearing=scene.bearing.name)
     begin = time.monotonic()
-    graph.until(lambda: graph.heard("twin") is not None, nodes, "the first words of the twin")
-    said = False
+    graph.spin_until(lambda: graph.latest_status("twin") is not None, nodes, "the first words of the twin")
+    announced = False
 
     def ready() -> bool:
-        nonlocal said
-        if not said and graph.state() == "compiling":
-            said = True
+        nonlocal announced
+        if not announced and graph.state() == "compiling":
+            announced = True
             say("compiling the twin ... (a minute the first time, kept for the next)")
         return (
             graph.state() == "waiting for load"
@@ -114,13 +114,13 @@ def _run_nodes(nodes: _Nodes, graph: _Observer, scene: Any, recording: Path) -> 
             and graph.is_connected("monitor")
         )
 
-    graph.until(ready, nodes, "the twin, the recorder and the monitor to be ready")
+    graph.spin_until(ready, nodes, "the twin, the recorder and the monitor to be ready")
     say(f"ready after {time.monotonic() - begin:.1f} s, the train starts")
     nodes.start("load", scene=nodes.scene, duration=float(scene.duration))
     progress = Progress(scene.duration)
 
     def ended() -> bool:
-        twin, monitor = graph.heard("twin"), graph.heard("monitor")
+        twin, monitor = graph.latest_status("twin"), graph.latest_status("monitor")
         if monitor is not None:
             progress.hear(monitor.value("verdict") or "waiting")
         if twin is not None and twin.value("pace"):
@@ -128,13 +128,13 @@ def _run_nodes(nodes: _Nodes, graph: _Observer, scene: Any, recording: Path) -> 
         return graph.state() in ("finished", "stopped")
 
     try:
-        graph.until(ended, nodes, "the end of the run", tolerate=("twin", "load"))
+        graph.spin_until(ended, nodes, "the end of the run", tolerate=("twin", "load"))
     finally:
         progress.close()
     say("the train has arrived, closing the recording ...")
-    twin = graph.heard("twin")
+    twin = graph.latest_status("twin")
     assert twin is not None
-    graph.until(
+    graph.spin_until(
         lambda: all(nodes.processes.exit_code(name) is not None for name in ("twin", "recorder", "monitor")),
         nodes,
         "the nodes to end",
@@ -176,14 +176,14 @@ class _Observer:
     """Listens to the diagnostics of the graph, and to Ctrl-C.
 
     An exception that a signal raises in a finalizer or a callback from C is swallowed there: what was
-    pressed is kept and told at the next look.
+    pressed is kept and reported at the next look.
     """
 
     def __init__(self, domain: int) -> None:
         self._domain = domain
         self._interrupted = False
         self._latest: dict[str, Diagnostic] = {}
-        self._heard_at = time.monotonic()
+        self._last_message_at = time.monotonic()
 
     def __enter__(self) -> _Observer:
         self._before = signal.signal(signal.SIGINT, self._interrupt)
@@ -214,25 +214,25 @@ class _Observer:
         raise KeyboardInterrupt
 
     def _on_diagnostics(self, cdr: bytes) -> None:
-        self._heard_at = time.monotonic()
+        self._last_message_at = time.monotonic()
         for status in decode_diagnostics(cdr)[1]:
             self._latest[status.name.rpartition("/")[2]] = status
 
-    def heard(self, part: str) -> Diagnostic | None:
+    def latest_status(self, part: str) -> Diagnostic | None:
         """Find the latest status of a part."""
         return self._latest.get(part)
 
     def state(self) -> str:
         """Return the state of the twin; '' before its first status."""
-        twin = self.heard("twin")
+        twin = self.latest_status("twin")
         return (twin.value("state") or "") if twin else ""
 
     def is_connected(self, part: str) -> bool:
         """Check whether a listening node has found the twin."""
-        status = self.heard(part)
+        status = self.latest_status(part)
         return status is not None and status.value("connected") == "true"
 
-    def until(
+    def spin_until(
         self,
         condition: Callable[[], bool],
         nodes: _Nodes,
@@ -241,7 +241,7 @@ class _Observer:
         timeout: float = SILENCE_TIMEOUT_S,
     ) -> None:
         """Spin until the condition holds; a dead node or long silence is a failure."""
-        self._heard_at = time.monotonic()
+        self._last_message_at = time.monotonic()
         while not condition():
             self._executor.spin_once(timeout_sec=SPIN_S)
             if self._interrupted:
@@ -249,5 +249,5 @@ class _Observer:
             failure = nodes.failure(tolerate)
             if failure is not None:
                 raise failure
-            if time.monotonic() - self._heard_at > timeout:
+            if time.monotonic() - self._last_message_at > timeout:
                 raise NodeFailureError(f"nothing was heard for {timeout:.0f} s while waiting for {what}")

@@ -22,7 +22,7 @@ LONGEST_LIVE_LAG_S = 0.5
 
 
 def diagnostic_name(namespace: str, part: str) -> str:
-    """Name of a status, unique among several axleboxes: ``axlebox/twin``."""
+    """Make the name of a status, unique among several axleboxes: ``axlebox/twin``."""
     return f"{namespace.strip('/')}/{part}" if namespace.strip("/") else part
 
 

@@ -66,18 +66,18 @@ class LoadFeed:
         """Forget the old stream."""
         self._running = False
         self.gate.restart()
-        self.live.forget_order()
+        self.live.accept_any_stamp()
 
     def pause(self, paused: bool) -> None:
         """Take note that the load is silent on purpose, or that it goes on."""
         with self._condition:
             if self.paused and not paused:
-                self.live.forgive()
+                self.live.restart_age()
             self.paused = paused
             self._condition.notify_all()
 
     def first(self, block_ns: int) -> LoadHistory:
-        """Load of the first block, once it is there; its first sample is at time 0."""
+        """Wait for the load of the first block and return it; its first sample is at time 0."""
         load = self._first_load(block_ns)
         self.begin_ns = int(load.time_ns[0])
         return shifted(load, -self.begin_ns)

@@ -350,12 +350,12 @@ class LiveLoad:
             self.condition.notify_all()
         return None
 
-    def forgive(self) -> None:
+    def restart_age(self) -> None:
         """Count the age of what is held from now on: its source was silent on purpose."""
         with self.condition:
             self._arrival = dict.fromkeys(self._arrival, time.monotonic())
 
-    def forget_order(self) -> None:
+    def accept_any_stamp(self) -> None:
         """Accept any stamp next: the sender starts again."""
         with self.condition:
             self._stamp.clear()

@@ -145,7 +145,7 @@ class LoadNode(Node):
         self._announced = False
         self._listeners: tuple[int, ...] = ()
         self._listeners_since = time.monotonic()
-        self._heard = False
+        self._connected = False
         self._looked_at = 0.0
         self._alone_since = self._twinless_since = time.monotonic()
         self.get_logger().info(
@@ -177,8 +177,8 @@ class LoadNode(Node):
         self._unsent: tuple[LoadHistory, int] | None = None
         self._ended = False
         self._credit_ns = self._replay.next_ns
-        self._told: tuple[object, ...] = ()
-        self._tell_truth()
+        self._published_truth: tuple[object, ...] = ()
+        self._publish_truth()
 
     def _on_consumed(self, cdr: bytes) -> None:
         stamp = decode(TIME, cdr)
@@ -190,14 +190,14 @@ class LoadNode(Node):
         if known and run_id != known:
             self.get_logger().info("a new run has begun, the replay starts again")
             self._restart()
-        self._tell_truth()
+        self._publish_truth()
 
     # --- services and parameters -------------------------------------------------------------------
 
     def _on_pause(self, request: Any, response: Any) -> Any:
         self._paused, self._steps = bool(request.data), 0
         self._live_clock.pause(self._paused)
-        self._tell_truth()
+        self._publish_truth()
         self._on_timer()
         response.success, response.message = True, self._state
         return response
@@ -244,19 +244,19 @@ class LoadNode(Node):
                 self._replay.seek(change.value)
             elif change.name == "loop":
                 self._replay.loop = change.value
-                self._tell_truth()
+                self._publish_truth()
             elif change.name == "speed_factor":
                 self._live_clock.set_pace(self._pace)
 
     # --- replay ------------------------------------------------------------------------------------
 
-    def _tell_truth(self) -> None:
+    def _publish_truth(self) -> None:
         """Publish the truth when it has changed: always before the load that it is about."""
         now = (self._state, self._run_id, self._replay.loop, len(self._replay.passages))
-        if now != self._told:
+        if now != self._published_truth:
             text = truth_text(self._scenario, self._replay, self._state, self._run_id)
             self._out.publish("load/truth", encode_string(text))
-            self._told = now
+            self._published_truth = now
 
     def _report(self) -> None:
         name = diagnostic_name(self.get_namespace(), "load")
@@ -276,15 +276,15 @@ class LoadNode(Node):
         """Check whether the twin gets what is sent; looked up at intervals, it costs more than a send."""
         now = time.monotonic()
         if now - self._looked_at < LOOK_PERIOD_S:
-            return self._heard
+            return self._connected
         self._looked_at = now
-        self._heard = self._all_connected() and (
+        self._connected = self._all_connected() and (
             self._announced or now - self._listeners_since > SETTLED_AFTER_S
         )
-        if self._heard and not self._announced:
+        if self._connected and not self._announced:
             self._announced = True
             self.get_logger().info("the twin listens, replay begins")
-        if self._heard or not self._announced or self._ended:
+        if self._connected or not self._announced or self._ended:
             self._alone_since = now
         elif self._values.exit_when_done and now - self._alone_since > ALONE_TIMEOUT_S:
             self.get_logger().error("the twin has gone before everything was replayed")
@@ -295,7 +295,7 @@ class LoadNode(Node):
                 f"there has been no twin in {self.get_namespace()} for start_timeout = {timeout:g} s"
             )
             self.exit_code, self.finished = EXIT_LOAD_LOST, True
-        return self._heard
+        return self._connected
 
     def _all_connected(self) -> bool:
         """Check whether the twin, and every other listener that the graph knows, is connected.
@@ -325,7 +325,7 @@ class LoadNode(Node):
                 first = self._replay.next_sample
                 until_ns = self._replay.next_ns + round(self._values.block * 1e9)
                 self._unsent = self._replay.take(max(self._replay.samples_before(until_ns), 1)), first
-                self._tell_truth()
+                self._publish_truth()
             load, first = self._unsent
             if len(load) == 0:
                 self._end_stream()
@@ -344,7 +344,7 @@ class LoadNode(Node):
         if not self._ended:
             now_ns = int(self._scenario.history.time_ns[0]) + int(self._live_clock.passed() * 1e9)
             load = self._replay.take(self._replay.samples_before(now_ns + 1))
-            self._tell_truth()
+            self._publish_truth()
             if len(load):
                 stamp = int(load.time_ns[-1])
                 self._out.publish("load/wrench", encode_wrench(load.wrench[-1], stamp))
@@ -357,7 +357,7 @@ class LoadNode(Node):
         if not self._ended:
             empty = self._scenario.history.part(0, 0)
             self._ended = self._out.publish("load/blocks", encode_load(empty, self._replay.next_sample))
-            self._tell_truth()
+            self._publish_truth()
             self.get_logger().info("everything is replayed, the stream is ended")
         elif self._values.exit_when_done:
             # The twin still reads: leaving before it has everything would lose the tail.

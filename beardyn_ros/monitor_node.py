@@ -132,7 +132,7 @@ class MonitorNode(Node):
             self._monitor.push_temperature(header_stamp(cdr), float(message.temperature) + ZERO_CELSIUS)
 
     def _on_diagnostics(self, cdr: bytes) -> None:
-        self._watch.hear(decode_diagnostics(cdr)[1])
+        self._watch.take_statuses(decode_diagnostics(cdr)[1])
 
     # --- what it says ------------------------------------------------------------------------------
 
@@ -143,7 +143,7 @@ class MonitorNode(Node):
             self._shaft_time, self._shaft_angle = [], []
         result = self._monitor.update()
         if result is not None:
-            self._tell(Finding.of(result))
+            self._report_finding(Finding.of(result))
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
         if self._watch.ended and not self._summed_up:
@@ -151,7 +151,7 @@ class MonitorNode(Node):
         if self._summed_up or self._watch.vanished():
             self.finished = bool(self._values.exit_when_done)
 
-    def _tell(self, finding: Finding) -> None:
+    def _report_finding(self, finding: Finding) -> None:
         earlier = self._findings[-1].verdict if self._findings else ""
         self._findings.append(finding)
         self._publish(finding)

@@ -23,7 +23,7 @@ class Pacer:
         self.begin()
 
     def begin(self) -> None:
-        """Start of a run: simulated time 0 is now."""
+        """Start a run: simulated time 0 is now."""
         with self._lock:
             self._origin_wall = time.monotonic()
             self._origin_s = 0.0

@@ -110,7 +110,7 @@ class RecorderNode(Node):
         def take(cdr: bytes) -> None:
             self._recording.add(entry, cdr)
             if entry.name == "/diagnostics":
-                self._watch.hear(decode_diagnostics(cdr)[1])
+                self._watch.take_statuses(decode_diagnostics(cdr)[1])
             elif entry.name == "truth":
                 self._on_truth(cdr)
             elif entry.name == "monitor/result":
@@ -136,7 +136,7 @@ class RecorderNode(Node):
 
     def _tick(self) -> None:
         self._intake.sweep()
-        self._recording.tidy(OLD_RUN_TIMEOUT_S)
+        self._recording.flush_and_close_old(OLD_RUN_TIMEOUT_S)
         if not self._announced_ready and not self.missing():
             self._announced_ready = True
             self.get_logger().info("connected to every topic of the twin")

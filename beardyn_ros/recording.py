@@ -32,7 +32,7 @@ class LossWatch:
         self._next_sample: dict[str, int] = {}
         self._last_ns: dict[str, int] = {}
 
-    def look_at(self, entry: Topic, cdr: bytes) -> None:
+    def count_message(self, entry: Topic, cdr: bytes) -> None:
         """Note one message."""
         name = entry.name
         if entry.type == CLOUD and (name in COUNTED_CLOUDS or name.startswith("vibration")):
@@ -101,7 +101,7 @@ class RunFile:
             stamp = last  # the empty block that ends the stream carries no time
         self.last_ns[entry.name] = stamp
         self._writer.add(entry.name, stamp, cdr)
-        self.loss.look_at(entry, cdr)
+        self.loss.count_message(entry, cdr)
 
     def flush_if_due(self) -> None:
         """Bring what has come to the operating system; also needed when nothing comes any more."""
@@ -191,7 +191,7 @@ class Recording:
         self._switched.add(entry.name)
         return self.current
 
-    def tidy(self, old_run_timeout: float) -> None:
+    def flush_and_close_old(self, old_run_timeout: float) -> None:
         """Flush, and close the old run when its stragglers have had `old_run_timeout` seconds."""
         if self.current is not None:
             self.current.flush_if_due()

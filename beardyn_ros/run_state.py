@@ -1,4 +1,4 @@
-"""What a twin session is told, what it hands over, and what it says about itself."""
+"""Options of a twin session, the messages it hands over, and its report."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ END_STATES = (FINISHED, STOPPED)
 
 @dataclass(frozen=True)
 class Rig:
-    """A twin and what its run says about itself.
+    """A twin and the description of its run.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ class Scenario:
 
 
 def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
-    """Load of a scene's operation, or of a CSV file in its place.
+    """Compute the load of a scene's operation, or read that of a CSV file in its place.
 
     Parameters
     ----------

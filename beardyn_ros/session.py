@@ -138,7 +138,7 @@ class TwinSession:
         return waiting
 
     def report(self) -> SessionReport:
-        """Copy of the present state."""
+        """Copy the present state."""
         with self._condition:
             report = SessionReport(**vars(self._report))
             recent = list(self._report.recent)
@@ -239,7 +239,7 @@ class TwinSession:
             report.waited_for_load_s += starved
             report.compute_s += block.wall_s
             report.status = block.status
-            report.waveform_samples += _heard(block)
+            report.waveform_samples += _waveform_samples(block)
             if block.audit is not None:
                 report.energy_residual = block.audit.residual
             report.recent.append((time.monotonic(), simulated))
@@ -252,7 +252,7 @@ class TwinSession:
         with self._condition:
             self._report.status = block.status
             self._report.blocks += 1
-            self._report.waveform_samples += _heard(block)
+            self._report.waveform_samples += _waveform_samples(block)
         self._put(Outgoing(self._messages(block), block.end_ns, block.end_ns + self.feed.begin_ns))
 
     def _messages(self, block: Block) -> tuple[tuple[str, bytes], ...]:
@@ -309,6 +309,6 @@ class _InterruptedError(Exception):
     """The run is left because of a reset or the end of the process."""
 
 
-def _heard(block: Block) -> int:
+def _waveform_samples(block: Block) -> int:
     """Return the samples of the first accelerometer."""
     return len(block.vibration[0].time_ns) if block.vibration else 0

@@ -233,7 +233,7 @@ class TwinNode(LifecycleNode):
             )
         else:
             refusal = self._session.feed.gate.offer(load, samples)
-        self._tell_refusal(refusal)
+        self._report_refusal(refusal)
 
     def _on_load_truth(self, cdr: bytes) -> None:
         self._load_paused = says_paused(decode_string(cdr))
@@ -246,15 +246,15 @@ class TwinNode(LifecycleNode):
         content = decode(WRENCH, cdr).wrench
         force, torque = content.force, content.torque
         wrench = np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
-        self._tell_refusal(self._session.feed.live.offer_wrench(wrench, header_stamp(cdr)))
+        self._report_refusal(self._session.feed.live.offer_wrench(wrench, header_stamp(cdr)))
 
     def _on_shaft(self, cdr: bytes) -> None:
         if self._session is None:
             return
         speed = float(decode(TWIST, cdr).twist.angular.y)
-        self._tell_refusal(self._session.feed.live.offer_speed(speed, header_stamp(cdr)))
+        self._report_refusal(self._session.feed.live.offer_speed(speed, header_stamp(cdr)))
 
-    def _tell_refusal(self, sentence: str | None) -> None:
+    def _report_refusal(self, sentence: str | None) -> None:
         if sentence is not None:
             self.get_logger().warning(sentence, throttle_duration_sec=1.0)
 
@@ -364,7 +364,7 @@ class TwinNode(LifecycleNode):
         self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, FRAME, [status]))
 
     def _finish(self, state: str) -> None:
-        """End of the run: everything out first, then the last report, then rest or the end."""
+        """Finish the run: publish everything, then the last report, then rest or end."""
         assert self._session is not None
         for outgoing in self._session.collect():
             self._publish(outgoing)

@@ -29,7 +29,7 @@ class TwinWatch:
         self._absent_since = time.monotonic()
         self.last: Diagnostic | None = None
 
-    def hear(self, statuses: tuple[Diagnostic, ...]) -> None:
+    def take_statuses(self, statuses: tuple[Diagnostic, ...]) -> None:
         """Take the statuses of one diagnostics message."""
         for status in statuses:
             if is_from(status, TWIN):

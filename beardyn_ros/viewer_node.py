@@ -89,7 +89,7 @@ class ViewerNode(Node):
                 self._intake.add(topic(name), self._drawer(name))
 
     def _on_diagnostics(self, cdr: bytes) -> None:
-        self._watch.hear(decode_diagnostics(cdr)[1])
+        self._watch.take_statuses(decode_diagnostics(cdr)[1])
 
     def _tick(self) -> None:
         self._intake.sweep()

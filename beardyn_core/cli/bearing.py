@@ -30,7 +30,7 @@ def add_parser(subparsers: Any) -> None:
     """Add the command to the subparsers of the command line."""
     parser = subparsers.add_parser(
         "bearing",
-        help="geometry, fault frequencies, load distribution, stiffness and life of a bearing",
+        help="compute geometry, fault frequencies, load distribution, stiffness, life",
         description="Geometry, fault frequencies, static load distribution, stiffness and life of a bearing. "
         "Numbers are in the units of scene files (kN, mm, rpm, degrees Celsius); another unit is written "
         "behind a number: 80000N, 0.1mm, 50Hz.",

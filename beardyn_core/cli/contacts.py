@@ -27,7 +27,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "contacts",
-        help="the contact laboratory: general contact search, four methods to solve it, closed forms",
+        help="compare methods that find contact points: root finders, Newton, closed forms",
         description="Find contact points of parametric surfaces and lines by SciPy's root finder, by "
         "Newton's method with numeric and with analytic Jacobian, and in closed form, plain and compiled: "
         "time, iterations, failures and gap errors over random placements and over a whole bearing row; the "
@@ -35,17 +35,24 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "trough; the load distribution of a spherical roller bearing.",
     )
     parser.add_argument(
-        "--bearing", metavar="NAME", default=_BEARING, help=f"shipped bearing or YAML file ({_BEARING})"
+        "--bearing",
+        metavar="NAME",
+        default=_BEARING,
+        help=f"shipped bearing or YAML file; default {_BEARING}",
     )
     parser.add_argument("--quick", action="store_true", help="fewer placements, shorter runs")
     parser.add_argument(
-        "-o", "--output", metavar="DIR", type=Path, help="write contacts.json and the pictures to this folder"
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        help="write contacts.json and the pictures here; default none",
     )
     parser.add_argument(
         "--rrd",
         metavar="FILE.rrd",
         type=Path,
-        help="write coin and roller as an animation for rerun",
+        help="write coin and roller as an animation for rerun; default none",
     )
     parser.add_argument("--force", action="store_true", help="replace files that exist")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")

@@ -25,7 +25,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "demo",
-        help="a spalled bearing under a train, recorded, and found by a monitor",
+        help="simulate, record and diagnose a spalled bearing under a train",
         description="Simulate a spalled bearing under wheel-rail load, record it, let a monitor find the "
         "fault, draw it. Without ROS; `python -m beardyn_ros demo` does the same with nodes.",
     )

@@ -22,24 +22,24 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "explain",
-        help="which effects a scene is computed with, why, and what each costs",
+        help="say which effects a scene is computed with, why, and what each costs",
         description="Say which tier, laminae, step and effects a scene is computed with, why, what each "
         "costs and which error is expected. For a scene that fixes them, also what `effects: auto` would be.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument(
-        "--accuracy", metavar="PERCENT", type=float, help="of what is asked for (the scene's own, else 5)"
+        "--accuracy", metavar="PERCENT", type=float, help="accuracy asked for, %%; default the scene's, or 5"
     )
     parser.add_argument(
         "--quantities",
         metavar="NAMES",
-        help="what is asked for, commas between: force, deflection, roller_load, torque, vibration, "
-        "cage_speed",
+        help="what that accuracy is asked of, with commas between: force, deflection, roller_load, torque, "
+        "vibration, cage_speed; default the scene's",
     )
     parser.add_argument(
-        "--effects", metavar="NAME", help="preset or file of effects, or auto (the scene's own)"
+        "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's"
     )
-    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto")
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
     parser.set_defaults(run=run)
 

@@ -31,7 +31,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "ladder",
-        help="what accuracy costs: tiers, effects, laminae and steps against a converged reference",
+        help="measure what accuracy costs: tiers, effects, laminae and steps against a reference",
         description="Run a scene over tiers, effects, laminae and steps, and compare each level with a "
         "converged reference of the same scene: wall time per simulated second, and errors with their "
         "run-to-run band. Takes some minutes, and a minute more for every set of effects that is not "
@@ -39,20 +39,26 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument(
-        "-o", "--output", metavar="DIR", type=Path, help="write ladder.json and ladder.png to this folder"
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        help="write ladder.json and ladder.png to this folder; default none",
     )
-    parser.add_argument("--duration", metavar="S", type=float, help="simulated time compared, s (1.2)")
-    parser.add_argument("--settling", metavar="S", type=float, help="simulated time before that, s (0.4)")
+    parser.add_argument("--duration", metavar="S", type=float, help="simulated time compared, s; default 1.2")
+    parser.add_argument(
+        "--settling", metavar="S", type=float, help="simulated time before that, s; default 0.4"
+    )
     parser.add_argument(
         "--accuracy",
         metavar="PERCENT",
         type=float,
-        help="to judge the levels by, 0.1 to 50 %% (the scene's, or 5)",
+        help="accuracy to judge the settings by, 0.1 to 50 %%; default the scene's, or 5",
     )
     parser.add_argument(
         "--quantities",
         metavar="NAMES",
-        help="what the accuracy is asked of, with commas between (the scene's, or all of the definition)",
+        help="what the accuracy is asked of, with commas between; default the scene's, or all",
     )
     parser.add_argument("--quick", action="store_true", help="few levels")
     parser.add_argument(

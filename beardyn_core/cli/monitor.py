@@ -27,17 +27,21 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "monitor",
-        help="what a monitor, ours or yours, says over a recording",
-        description="Let a monitor hear vibration, shaft and load of a recording, and print what it says.",
+        help="run a monitor, ours or yours, over a recording",
+        description="Give vibration, shaft and load of a recording to a monitor, and print its verdicts.",
     )
-    parser.add_argument("recording", metavar="run.mcap")
+    parser.add_argument("recording", metavar="run.mcap", help="recording to analyse")
     parser.add_argument(
         "--monitor",
         metavar="MODULE:FUNCTION",
         default="",
-        help="your algorithm; its module may be in this folder",
+        help="your algorithm, its module may be in this folder; default the reference chain",
     )
-    parser.add_argument("--bearing", help="name plate: shipped bearing or file (that of the recorded scene)")
+    parser.add_argument(
+        "--bearing",
+        metavar="NAME",
+        help="name plate: shipped bearing or file; default that of the recorded scene",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.set_defaults(run=run)
 

@@ -43,12 +43,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "report",
-        help="what a recording holds; recovers one that was cut off",
+        help="say what a recording holds; recover one that was cut off",
         description="Say what a recording holds: topics, counts, rates, gaps, scene, faults, status. A file "
         "that was cut off by a crash is copied, as far as it is readable, to NAME.recovered.mcap; one that "
         "is there already stays as it is.",
     )
-    parser.add_argument("recording", metavar="run.mcap")
+    parser.add_argument("recording", metavar="run.mcap", help="recording to report on")
     parser.add_argument("--force", action="store_true", help="replace NAME.recovered.mcap when it exists")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.set_defaults(run=run)

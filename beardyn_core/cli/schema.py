@@ -12,12 +12,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "schema",
-        help="JSON schema of a scene file, for editors",
+        help="print the JSON schema of a scene or another file, for editors",
         description="Print the JSON schema of a configuration file. With the YAML extension of an editor: "
         "`beardyn schema > scene.schema.json`, and as first line of the scene "
         "`# yaml-language-server: $schema=scene.schema.json`.",
     )
-    parser.add_argument("kind", nargs="?", choices=KINDS, default="scene", help="which file (scene)")
+    parser.add_argument("kind", nargs="?", choices=KINDS, default="scene", help="kind of file; default scene")
     parser.set_defaults(run=run)
 
 

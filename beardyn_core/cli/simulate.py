@@ -25,21 +25,39 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "simulate",
-        help="run a scene as fast as this machine can, with a recording if asked for",
+        help="run a scene as fast as this machine can, record it if asked to",
         description="Run a scene as fast as this machine can. Exit code 2: bad input, nothing written, or a "
         "disk that is full; 3: the model left its range of validity, the recording up to there is closed and "
         "readable.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
-    parser.add_argument("-o", "--output", metavar="run.mcap", type=Path, help="record the run to this file")
+    parser.add_argument(
+        "-o", "--output", metavar="run.mcap", type=Path, help="record the run to this file; default no file"
+    )
+    parser.add_argument("--duration", metavar="S", type=float, help="simulated time, s; default the scene's")
+    parser.add_argument(
+        "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's"
+    )
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's")
+    parser.add_argument(
+        "--laminae", metavar="N", type=int, help="laminae of each roller; default the scene's"
+    )
+    parser.add_argument(
+        "--accuracy",
+        metavar="PERCENT",
+        type=float,
+        help="accuracy that auto is chosen for, %%; default the scene's, or 5",
+    )
+    parser.add_argument(
+        "--quantities",
+        metavar="NAMES",
+        help="what that accuracy is asked of, with commas between: force, deflection, roller_load, torque, "
+        "vibration, cage_speed; default the scene's",
+    )
+    parser.add_argument(
+        "--seed", metavar="N", type=int, help="of irregularity and noise; default the scene's"
+    )
     parser.add_argument("--force", action="store_true", help="replace the file of -o when it exists")
-    parser.add_argument("--duration", metavar="S", type=float, help="simulated time, s (the scene's own)")
-    parser.add_argument("--effects", metavar="NAME", help="preset or file of effects, or auto")
-    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto")
-    parser.add_argument("--laminae", metavar="N", type=int, help="laminae of each roller (the scene's own)")
-    parser.add_argument("--accuracy", metavar="PERCENT", type=float, help="that auto is chosen for")
-    parser.add_argument("--quantities", metavar="NAMES", help="that auto is chosen for, commas between")
-    parser.add_argument("--seed", metavar="N", type=int, help="of irregularity and noise (the scene's own)")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
     parser.set_defaults(run=run)
 

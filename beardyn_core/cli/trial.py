@@ -26,7 +26,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "trial",
-        help="a monitor on trial: detection rate and false alarms over a matrix of scenes",
+        help="test a monitor: detection rate and false alarms over a matrix of scenes",
         description="Run a monitor, ours or your own, over faults, sizes, speeds, tracks and wheels, and "
         "print how often it finds the fault, how often it alarms on a healthy bearing, and the smallest "
         "spall it finds, with 95 % intervals. `quick` takes under a minute, `default` some minutes on two "
@@ -35,23 +35,33 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "another trial or monitor is refused.",
     )
     parser.add_argument(
-        "matrix", metavar="TRIAL", nargs="?", default="default", help="shipped trial or YAML file (default)"
+        "matrix",
+        metavar="TRIAL",
+        nargs="?",
+        default="default",
+        help="shipped trial or YAML file; default `default`",
     )
     parser.add_argument(
         "--monitor",
         metavar="MODULE:FUNCTION",
         default="",
-        help="your algorithm; its module may be in this folder",
+        help="your algorithm, its module may be in this folder; default the reference chain",
     )
     parser.add_argument(
-        "-o", "--output", metavar="DIR", type=Path, help="keep the runs here; write trial.json and trial.png"
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        help="keep the runs here, write trial.json and trial.png; default none",
+    )
+    parser.add_argument("--jobs", metavar="N", type=int, help="processes; default one for each core")
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full; default the trial's")
+    parser.add_argument(
+        "--seed", metavar="N", type=int, help="of tracks, noise and places of spalls; default the trial's"
     )
     parser.add_argument(
         "--force", action="store_true", help="start over in a folder that holds runs, and lose them"
     )
-    parser.add_argument("--jobs", metavar="N", type=int, help="processes (one a core)")
-    parser.add_argument("--tier", help="instead of the trial's: lumped, quasistatic or full")
-    parser.add_argument("--seed", metavar="N", type=int, help="instead of the trial's")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
     parser.set_defaults(run=run)
 

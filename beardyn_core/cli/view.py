@@ -21,15 +21,22 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         description="Replay a recording: the bearing in 3-D, forces, vibration, speeds, envelope spectrum. "
         "Without an option the viewer opens in a window.",
     )
-    parser.add_argument("recording", metavar="run.mcap")
+    parser.add_argument("recording", metavar="run.mcap", help="recording to show")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--web", action="store_true", help="serve the viewer to a browser on this machine")
-    where.add_argument("--save", metavar="FILE.rrd", type=Path, help="write a rerun file and open nothing")
     where.add_argument(
-        "--screenshot", metavar="FILE.png", type=Path, help="write a picture, without a screen too"
+        "--save", metavar="FILE.rrd", type=Path, help="write a rerun file and open nothing; default none"
+    )
+    where.add_argument(
+        "--screenshot",
+        metavar="FILE.png",
+        type=Path,
+        help="write a picture, without a screen too; default none",
     )
     parser.add_argument("--force", action="store_true", help="replace the file of --save or --screenshot")
-    parser.add_argument("--port", type=int, help="port of the page with --web (a free one by default)")
+    parser.add_argument(
+        "--port", type=int, metavar="N", help="port of the page with --web; default a free one"
+    )
     parser.set_defaults(run=run)
 
 

@@ -23,9 +23,15 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         description="Compile the kernels that scenes need and keep them in the cache, so that the first run "
         "starts at once. Without a scene: all shipped scenes, and each shipped set of effects in every tier.",
     )
-    parser.add_argument("scene", nargs="*", metavar="SCENE", help="shipped scene or YAML file (see above)")
-    parser.add_argument("--effects", metavar="NAME", help="preset or file of effects, or auto")
-    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto")
+    parser.add_argument(
+        "scene", nargs="*", metavar="SCENE", help="shipped scene or YAML file; default all, see above"
+    )
+    parser.add_argument(
+        "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's, or every set"
+    )
+    parser.add_argument(
+        "--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's, or every tier"
+    )
     parser.set_defaults(run=run)
 
 

@@ -44,7 +44,7 @@ class EnergyAudit:
     stored : float
         Change of kinetic and elastic energy.
     losses : tuple of floats
-        The dissipated energy by source, in the order of ``model.layout.LOSS_NAMES``; empty when not told.
+        The dissipated energy by source, in the order of ``model.layout.LOSS_NAMES``; empty when not known.
     """
 
     external: float
@@ -189,10 +189,10 @@ class Block:
         every = {field.name: getattr(self, field.name) for field in fields(self)}
         found = {name: value for name, value in every.items() if isinstance(value, np.ndarray)}
         found |= {name: getattr(self, name) for name in ("body_pose", "body_twist", "contacts")}
-        for number, heard in enumerate(self.vibration):
+        for number, vibration in enumerate(self.vibration):
             found[f"vibration {number}"], found[f"vibration {number}, time"] = (
-                heard.acceleration,
-                heard.time_ns,
+                vibration.acceleration,
+                vibration.time_ns,
             )
         return found
 
@@ -202,8 +202,8 @@ class Block:
 
         Shape [sensor, sample, 3], [m/s^2].
         """
-        heard = [each.acceleration for each in self.vibration if each.rate == RATES[0]]
-        return np.stack(heard) if heard else np.empty((0, len(self.waveform_time_ns), 3))
+        vibration = [each.acceleration for each in self.vibration if each.rate == RATES[0]]
+        return np.stack(vibration) if vibration else np.empty((0, len(self.waveform_time_ns), 3))
 
     # two threads may both come to what follows: they work out the same
 

@@ -144,12 +144,12 @@ class Observer:
         waves = self._waveforms.push(signals)
         first_wave = index * SAMPLES_PER_BLOCK - self._waveform_delay
         readings = self._sensors.read(index, waves, signals, self._motion(bodies))
-        heard = readings[0] if readings and self._fast_decimator is None else np.tile(REST, (len(waves), 1))
+        reading = readings[0] if readings and self._fast_decimator is None else np.tile(REST, (len(waves), 1))
         blocks = len(bodies) // TRENDS_PER_BLOCK
         first_trend = index * TRENDS_PER_BLOCK - self._trend_delay
         keep_wave = slice(max(0, -first_wave), None)
         keep_trend = slice(min(max(0, -first_trend), len(bodies)), None)
-        trends = self._trends(signals, waves, heard)
+        trends = self._trends(signals, waves, reading)
         if self._fast_decimator is not None:
             trends[:, 6:9] = self._fast_decimator.push(readings[0])
         trends = trends[keep_trend]
@@ -192,11 +192,11 @@ class Observer:
             temperature=temperature,
         )
 
-    def _trends(self, signals: Float, waves: Float, heard: Float) -> Float:
+    def _trends(self, signals: Float, waves: Float, reading: Float) -> Float:
         """Gather force, moment, specific force and torque at 400 Hz, shape [trend, 10]."""
         if self._slow_decimator is None:
             channels = np.empty((len(waves), _TREND_CHANNELS))
-            _select(waves, heard, channels)
+            _select(waves, reading, channels)
             return self._trend_decimator.push(channels)
         slow = np.empty((len(signals), 7))
         slow[:, :6] = signals[:, SIGNAL_FORCE : SIGNAL_FORCE + 6]
@@ -204,7 +204,7 @@ class Observer:
         slow = self._slow_decimator.push(slow)
         trends = np.empty((len(slow), _TREND_CHANNELS))
         trends[:, :6], trends[:, 9] = slow[:, :6], slow[:, 6]
-        trends[:, 6:9] = self._trend_decimator.push(heard)
+        trends[:, 6:9] = self._trend_decimator.push(reading)
         return trends
 
     def _remember(
@@ -250,11 +250,11 @@ class Observer:
 
 
 @entry
-def _select(waves, heard, channels):
+def _select(waves, reading, channels):
     """Copy the channels that the trends are made of: force, moment, specific force, torque."""
     for i in range(len(waves)):
         for j in range(6):
             channels[i, j] = waves[i, SIGNAL_FORCE + j]
         for j in range(3):
-            channels[i, 6 + j] = heard[i, j]
+            channels[i, 6 + j] = reading[i, j]
         channels[i, 9] = waves[i, SIGNAL_TORQUE]

@@ -14,7 +14,7 @@ _HIGHEST_POLE = 0.475  # of the step rate; above that the gain over the band is 
 _BAND_POINTS = 400
 
 
-def gain_of(frequency: Float, resonance: float, damping_ratio: float) -> NDArray[np.complex128]:
+def resonance_gain(frequency: Float, resonance: float, damping_ratio: float) -> NDArray[np.complex128]:
     """Compute the acceleration of a mass on a spring over that of its base.
 
     Parameters
@@ -34,7 +34,9 @@ def gain_of(frequency: Float, resonance: float, damping_ratio: float) -> NDArray
     return np.asarray(1.0 / (1.0 - r * r + 2j * damping_ratio * r))
 
 
-def recursion(resonance: float, damping_ratio: float, rate: float, band: float) -> tuple[Float, Float]:
+def filter_coefficients(
+    resonance: float, damping_ratio: float, rate: float, band: float
+) -> tuple[Float, Float]:
     """Design poles and taps of the filter.
 
     Returns
@@ -56,7 +58,7 @@ def recursion(resonance: float, damping_ratio: float, rate: float, band: float) 
         poles = np.array([2.0 * pole.real, -(abs(pole) ** 2)])
     frequency = np.linspace(0.0, band, _BAND_POINTS)
     late = np.exp(-2j * np.pi * frequency / rate)
-    rest = gain_of(frequency, resonance, damping_ratio) * (1.0 - poles[0] * late - poles[1] * late**2)
+    rest = resonance_gain(frequency, resonance, damping_ratio) * (1.0 - poles[0] * late - poles[1] * late**2)
     offered = late[:, None] ** np.arange(LOOKAHEAD, -LOOKAHEAD - 1, -1) / rest[:, None]
     system = np.concatenate((offered.real, offered.imag))
     wanted = np.repeat([1.0, 0.0], _BAND_POINTS)
@@ -76,7 +78,7 @@ class Resonance:
     rate : float
         Of the steps, [Hz].
     band : float
-        Up to here the gain is that of `gain_of`, [Hz].
+        Up to here the gain is that of `resonance_gain`, [Hz].
     initial : float64 array, shape [channel]
         What the stream held before its first step.
     """
@@ -84,7 +86,7 @@ class Resonance:
     def __init__(
         self, resonance: float, damping_ratio: float, rate: float, band: float, initial: Float
     ) -> None:
-        self._poles, self._taps = recursion(resonance, damping_ratio, rate, band)
+        self._poles, self._taps = filter_coefficients(resonance, damping_ratio, rate, band)
         self._inputs = np.tile(initial, (2 * LOOKAHEAD, 1))
         self._outputs = np.tile(initial, (2, 1))
 

@@ -11,7 +11,7 @@ from beardyn_core.rail.irregularity import irregular_height
 from beardyn_core.rail.low_pass import kaiser_order, low_pass
 from beardyn_core.rail.replay import replayed
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift
-from beardyn_core.rail.suspension import shifted
+from beardyn_core.rail.suspension import equivalent_displacement
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.mounting import Mounting
@@ -34,7 +34,7 @@ FADE_IN = 0.2
 
 
 def load_history(operation: Operation, mounting: Mounting, duration: float, seed: int) -> LoadHistory:
-    """Load on the journal and shaft speed, from time 0 to the first sample at or after the end.
+    """Compute load on the journal and shaft speed, from time 0 to the first sample at or after the end.
 
     At 2 kHz; at 10 kHz when the wheel or the rail has defects or short waves.
 
@@ -178,7 +178,7 @@ def _quarter_vehicle(
     force[:, 2] += _decimate(response.contact_force, factor, kernel)[:count] - vehicle.journal_weight
     frame = response.bogie
     if vehicle.primary.size:
-        frame = frame + shifted(-response.excess, mounting, 2, 1.0 / RIDE_RATE)
+        frame = frame + equivalent_displacement(-response.excess, mounting, 2, 1.0 / RIDE_RATE)
     bogie[:, 2] += _decimate(frame, factor, kernel)[:count]
     speed = speed_at(operation.speed_profile, np.arange(count) / rate)
     wrench = np.concatenate([force, np.zeros((count, 3))], axis=1)

@@ -30,11 +30,11 @@ Float = NDArray[np.float64]
 Event = dict[str, Any]
 
 MOST_TIMES = 200  # of one kind of event; more are only counted
-_SPACING = 2e-3  # between the instants at which the way is looked at, [s]
+_SPACING = 2e-3  # between the instants at which the travel is looked at, [s]
 _MOST_INSTANTS = 500_000
 
 
-class _Way:
+class _Travel:
     """Way of the wheel along the track over the time."""
 
     def __init__(self, operation: QuarterVehicleOperation, duration: float) -> None:
@@ -43,7 +43,7 @@ class _Way:
         self.distance = distance_at(operation.speed_profile, self.time)
         self.speed = speed_at(operation.speed_profile, self.time)
 
-    def over(self, first: float, spacing: float | None, endless: bool = False) -> dict[str, Any]:
+    def passages(self, first: float, spacing: float | None, endless: bool = False) -> dict[str, Any]:
         """List times and distances of passing places: one, evenly spaced ones on from it, or endless ones."""
         if spacing is None:  # -1 before the place, 0 behind it
             passed = (self.distance >= first).astype(np.int64) - 1
@@ -83,16 +83,16 @@ def events_of(scene: Scene) -> dict[str, Any]:
     """
     operation = scene.operation
     if isinstance(operation, QuarterVehicleOperation):
-        way = _Way(operation, scene.duration)
+        travel = _Travel(operation, scene.duration)
         return {
             "load": f"{operation.vehicle.name} on its track",
-            "distance_m": round(float(way.distance[-1]), 3),
+            "distance_m": round(float(travel.distance[-1]), 3),
             "irregularity": _irregularity(operation.irregularity, scene.seed),
             "events": [
-                *_wheel(operation, way),
-                *_rail(operation.rail_defects, way),
-                *_curves(operation, way),
-                *_runs(way),
+                *_wheel(operation, travel),
+                *_rail(operation.rail_defects, travel),
+                *_curves(operation, travel),
+                *_runs(travel),
             ],
         }
     if isinstance(operation, MeasuredOperation):
@@ -114,10 +114,10 @@ def _irregularity(irregularity: Irregularity, seed: int) -> dict[str, Any]:
     return found
 
 
-def _wheel(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
+def _wheel(operation: QuarterVehicleOperation, travel: _Travel) -> Iterator[Event]:
     radius = 0.5 * operation.wheel_diameter
     round_ = 2.0 * pi * radius
-    top = float(np.abs(way.speed).max())
+    top = float(np.abs(travel.speed).max())
     for defect in operation.wheel_defects:
         if isinstance(defect, WheelFlat):
             yield {
@@ -127,7 +127,7 @@ def _wheel(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
                 "shape": defect.shape,
                 "period_m": round_,
                 "top_frequency_Hz": top / round_,
-                **way.over((pi - defect.azimuth) * radius, round_, endless=True),
+                **travel.passages((pi - defect.azimuth) * radius, round_, endless=True),
             }
         elif isinstance(defect, WheelPolygon):
             yield {
@@ -148,43 +148,43 @@ def _waves(waves: tuple[WheelPolygon, ...], radius: float) -> dict[str, Any]:
     }
 
 
-def _rail(defects: tuple[RailDefect, ...], way: _Way) -> Iterator[Event]:
+def _rail(defects: tuple[RailDefect, ...], travel: _Travel) -> Iterator[Event]:
     for defect in defects:
         if isinstance(defect, DippedJoint):
             sizes: Event = {"kind": "dipped_joint", "angle_rad": defect.angle, "length_m": defect.length}
-            yield {**sizes, **way.over(defect.position, defect.spacing)}
+            yield {**sizes, **travel.passages(defect.position, defect.spacing)}
         elif isinstance(defect, DippedWeld):
             sizes = {"kind": "dipped_weld", "depth_m": defect.depth, "length_m": defect.length}
-            yield {**sizes, **way.over(defect.position, defect.spacing)}
+            yield {**sizes, **travel.passages(defect.position, defect.spacing)}
         elif isinstance(defect, Crossing):
             sizes = {"kind": "crossing", "depth_m": defect.depth, "angle_rad": defect.angle}
-            yield {**sizes, **way.over(defect.position, None)}
+            yield {**sizes, **travel.passages(defect.position, None)}
         elif isinstance(defect, Corrugation):
             yield {
                 "kind": "corrugation",
                 "wavelength_m": defect.wavelength,
                 "amplitude_m": defect.amplitude,
-                "top_frequency_Hz": float(np.abs(way.speed).max()) / defect.wavelength,
-                **_stretch(defect.begin, defect.end, way),
+                "top_frequency_Hz": float(np.abs(travel.speed).max()) / defect.wavelength,
+                **_stretch(defect.begin, defect.end, travel),
             }
 
 
-def _stretch(begin: float, end: float, way: _Way) -> dict[str, Any]:
+def _stretch(begin: float, end: float, travel: _Travel) -> dict[str, Any]:
     """Find distances and times between which the wheel is on a stretch, `None` where it stays on it."""
-    inside = (way.distance >= begin) & (way.distance <= end)
+    inside = (travel.distance >= begin) & (travel.distance <= end)
     if not inside.any():
         return {"count": 0, "begin_s": None, "end_s": None, "begin_m": begin, "end_m": None}
     met = np.flatnonzero(inside)
     return {
         "count": 1,
-        "begin_s": round(float(way.time[met[0]]), 3),
-        "end_s": round(float(way.time[met[-1]]), 3),
+        "begin_s": round(float(travel.time[met[0]]), 3),
+        "end_s": round(float(travel.time[met[-1]]), 3),
         "begin_m": begin,
         "end_m": end if np.isfinite(end) else None,
     }
 
 
-def _curves(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
+def _curves(operation: QuarterVehicleOperation, travel: _Travel) -> Iterator[Event]:
     for curve in operation.curves:
         yield {
             "kind": "curve",
@@ -192,19 +192,19 @@ def _curves(operation: QuarterVehicleOperation, way: _Way) -> Iterator[Event]:
             "cant_m": curve.cant,
             "hand": curve.hand,
             "transition_m": curve.transition,
-            **_stretch(curve.begin, curve.begin + curve.length, way),
+            **_stretch(curve.begin, curve.begin + curve.length, travel),
         }
 
 
-def _runs(way: _Way) -> Iterator[Event]:
+def _runs(travel: _Travel) -> Iterator[Event]:
     """List standstills, and starts after them in either direction."""
-    moving = np.sign(np.where(np.abs(way.speed) < 1e-6, 0.0, way.speed))
+    moving = np.sign(np.where(np.abs(travel.speed) < 1e-6, 0.0, travel.speed))
     changes = np.flatnonzero(np.diff(moving) != 0.0) + 1
     words = {0.0: "standstill", 1.0: "forwards", -1.0: "backwards"}
     for at in changes:
         yield {
             "kind": words[float(moving[at])],
             "count": 1,
-            "time_s": [round(float(way.time[at]), 3)],
-            "distance_m": [round(float(way.distance[at]), 3)],
+            "time_s": [round(float(travel.time[at]), 3)],
+            "distance_m": [round(float(travel.distance[at]), 3)],
         }

@@ -62,7 +62,7 @@ class LateralVehicle:
 
 
 @dataclass(frozen=True)
-class Sway:
+class LateralMotion:
     """Lateral response on a uniform time grid; positive to the left.
 
     Parameters
@@ -128,7 +128,9 @@ def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> L
     )
 
 
-def sway(vehicle: LateralVehicle, speed: Float, plan: Course, alignment: Float, step: float) -> Sway:
+def lateral_motion(
+    vehicle: LateralVehicle, speed: Float, plan: Course, alignment: Float, step: float
+) -> LateralMotion:
     """Run along the course of the track, from the middle of it.
 
     By the trapezoidal rule, each step linear: creep is reduced where the resultant comes near the friction
@@ -148,7 +150,7 @@ def sway(vehicle: LateralVehicle, speed: Float, plan: Course, alignment: Float, 
 
     Returns
     -------
-    Sway
+    LateralMotion
 
     Notes
     -----
@@ -184,18 +186,18 @@ def sway(vehicle: LateralVehicle, speed: Float, plan: Course, alignment: Float, 
         np.ascontiguousarray(alignment),
         float(step),
     )
-    return Sway(motion, rail_force, yaw_moment)
+    return LateralMotion(motion, rail_force, yaw_moment)
 
 
 @inline
 def _wheel(contact, speed, curvature, aside, aside_speed, yaw, yaw_speed):
-    """Share of linear creep that friction allows, and rolling direction and speed regularised."""
+    """Find the share of linear creep that friction allows, and the regularised sign and speed of rolling."""
     rolling = np.sqrt(speed * speed + _WALK * _WALK)
-    way = speed / rolling
-    lateral = contact[0] * (aside_speed / rolling - way * yaw)
-    along = contact[0] * (HALF_GAUGE * (yaw_speed / rolling + way * curvature) + way * contact[2] * aside)
+    sign = speed / rolling
+    lateral = contact[0] * (aside_speed / rolling - sign * yaw)
+    along = contact[0] * (HALF_GAUGE * (yaw_speed / rolling + sign * curvature) + sign * contact[2] * aside)
     share = 1.0 / np.sqrt(1.0 + (lateral * lateral + along * along) / (contact[1] * contact[1]))
-    return rolling, way, share
+    return rolling, sign, share
 
 
 @inline
@@ -225,7 +227,7 @@ def _run(mass, stiffness, damping, contact, speed, curvature, lean, alignment, s
         motion[n] = place
         shift = (alignment[n] - alignment[max(n - 1, 0)]) / step
         aside = place[SIDEWAYS] - alignment[n]
-        rolling, way, share = _wheel(
+        rolling, sign, share = _wheel(
             contact, speed[n], curvature[n], aside, rate[SIDEWAYS], place[YAW], rate[YAW]
         )
         for i in range(4):
@@ -235,10 +237,10 @@ def _run(mass, stiffness, damping, contact, speed, curvature, lean, alignment, s
         load[YAW] = 0.0
         grip = creep * share
         damper[SIDEWAYS, SIDEWAYS] += grip / rolling
-        spring[SIDEWAYS, YAW] -= grip * way
+        spring[SIDEWAYS, YAW] -= grip * sign
         damper[YAW, YAW] += grip * HALF_GAUGE * HALF_GAUGE / rolling
-        spring[YAW, SIDEWAYS] += grip * HALF_GAUGE * way * steering
-        load[YAW] -= grip * HALF_GAUGE * way * (HALF_GAUGE * curvature[n] - steering * alignment[n])
+        spring[YAW, SIDEWAYS] += grip * HALF_GAUGE * sign * steering
+        load[YAW] -= grip * HALF_GAUGE * sign * (HALF_GAUGE * curvature[n] - steering * alignment[n])
         if abs(aside) > clearance:
             edge = clearance if aside > 0.0 else -clearance
             spring[SIDEWAYS, SIDEWAYS] += contact[4]

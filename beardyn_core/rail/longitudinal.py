@@ -18,7 +18,7 @@ BUILD_UP = 1.0
 
 
 @dataclass(frozen=True)
-class Pull:
+class LongitudinalForces:
     """Forces of the share of one axlebox along the track, and what the brake does across it.
 
     Parameters
@@ -55,7 +55,9 @@ def acceleration_at(profile: Profile, time: Float) -> tuple[Float, Float]:
     return (after - before) / BUILD_UP, 0.5 * (before + after)
 
 
-def pull(operation: QuarterVehicleOperation, mounting: Mounting, time: Float) -> Pull:
+def longitudinal_forces(
+    operation: QuarterVehicleOperation, mounting: Mounting, time: Float
+) -> LongitudinalForces:
     """Compute the forces that act while the speed changes.
 
     Parameters
@@ -67,7 +69,7 @@ def pull(operation: QuarterVehicleOperation, mounting: Mounting, time: Float) ->
 
     Returns
     -------
-    Pull
+    LongitudinalForces
 
     Notes
     -----
@@ -92,4 +94,4 @@ def pull(operation: QuarterVehicleOperation, mounting: Mounting, time: Float) ->
         else:
             brake[:, 0] = -side * np.abs(braked) / braking.friction
             brake[:, 1] = -side * braked
-    return Pull(acceleration, braked + driven, brake)
+    return LongitudinalForces(acceleration, braked + driven, brake)

@@ -19,7 +19,7 @@ Float = NDArray[np.float64]
 def replayed(
     operation: MeasuredOperation, count: int, rate: float, thin: Callable[[Float, int], Float]
 ) -> LoadHistory:
-    """Load of a file, with what of it is modelled.
+    """Read the load of a file, and add what of it is modelled.
 
     A recorded stream of load that is taken whole is passed on sample by sample, at its own rate.
 

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from beardyn_core.rail.course import Course, course, load_transfer
 from beardyn_core.rail.irregularity import rail_profile
-from beardyn_core.rail.lateral import FRAME, Sway, lateral_vehicle, sway
-from beardyn_core.rail.longitudinal import Pull, pull
-from beardyn_core.rail.suspension import shifted
+from beardyn_core.rail.lateral import FRAME, LateralMotion, lateral_motion, lateral_vehicle
+from beardyn_core.rail.longitudinal import LongitudinalForces, longitudinal_forces
+from beardyn_core.rail.suspension import equivalent_displacement
 from beardyn_core.rail.vehicle import BOGIE, WHEEL
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
@@ -27,16 +27,16 @@ class Running:
     Parameters
     ----------
     plan : Course
-    pull : Pull
-    sway : Sway or None
+    pull : LongitudinalForces
+    sway : LateralMotion or None
         ``None``: no lateral motion asked for.
     push : float64 array, shape [step, 4]
         Upward forces on body, bogie, half wheelset and axlebox, [N].
     """
 
     plan: Course
-    pull: Pull
-    sway: Sway | None
+    pull: LongitudinalForces
+    sway: LateralMotion | None
     push: Float
 
 
@@ -65,7 +65,7 @@ def running(
     position, speed = distance_at(operation.speed_profile, time), speed_at(operation.speed_profile, time)
     plan = course(operation.curves, position, speed)
     push = load_transfer(operation, mounting, plan)
-    pulled = pull(operation, mounting, time)
+    pulled = longitudinal_forces(operation, mounting, time)
     push[:, WHEEL] += pulled.brake[:, 1]
     push[:, BOGIE] -= pulled.brake[:, 1]
     swayed = None
@@ -73,14 +73,14 @@ def running(
         profile = rail_profile(operation.irregularity, float(np.ptp(position)), seed, "lateral")
         alignment = profile.height_at(position)
         step = float(time[1] - time[0])
-        swayed = sway(
+        swayed = lateral_motion(
             lateral_vehicle(operation, mounting), speed, plan, (alignment - alignment[0]) * fade, step
         )
     return Running(plan, pulled, swayed, push)
 
 
 def journal_force(run: Running, operation: QuarterVehicleOperation, mounting: Mounting) -> Float:
-    """Load on the journal besides the vertical wheel-rail force.
+    """Compute the load on the journal besides the vertical wheel-rail force.
 
     Parameters
     ----------
@@ -126,9 +126,9 @@ def suspension_shift(run: Running, mounting: Mounting, step: float) -> Float:
         With what stands for the inertia of the axlebox in the moving axes, [m].
     """
     shift = np.zeros((len(run.push), 3))
-    shift[:, 0] = shifted(-mounting.box_mass * run.pull.acceleration, mounting, 0, step)
-    shift[:, 2] = shifted(-mounting.box_mass * run.plan.press, mounting, 2, step)
+    shift[:, 0] = equivalent_displacement(-mounting.box_mass * run.pull.acceleration, mounting, 0, step)
+    shift[:, 2] = equivalent_displacement(-mounting.box_mass * run.plan.press, mounting, 2, step)
     if run.sway is not None:
         shift[:, 1] = run.sway.motion[:, FRAME]
-        shift[:, 1] += shifted(mounting.box_mass * run.plan.lean, mounting, 1, step)
+        shift[:, 1] += equivalent_displacement(mounting.box_mass * run.plan.lean, mounting, 1, step)
     return shift

@@ -19,7 +19,7 @@ SOFT, STIFF, MEET, AT_REST, STATIC, FRICTION, CREEP, LINEAR, VISCOUS = range(9)
 
 
 def law(suspension: ProgressiveSuspension | None, mounting: Mounting, static: float) -> Float:
-    """Gather the numbers that `excess` needs in a row.
+    """Gather the numbers that `excess_force` needs in a row.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def law(suspension: ProgressiveSuspension | None, mounting: Mounting, static: fl
 
 
 @inline
-def excess(row: Any, squeeze: Any, squeeze_speed: Any) -> Any:
+def excess_force(row: Any, squeeze: Any, squeeze_speed: Any) -> Any:
     """Compute the suspension's force beyond its static load and beyond the mounting's linear law, [N].
 
     Parameters
@@ -73,7 +73,7 @@ def excess(row: Any, squeeze: Any, squeeze_speed: Any) -> Any:
     return load - row[STATIC] - row[LINEAR] * squeeze - row[VISCOUS] * squeeze_speed
 
 
-def shifted(force: Float, mounting: Mounting, axis: int, step: float) -> Float:
+def equivalent_displacement(force: Float, mounting: Mounting, axis: int, step: float) -> Float:
     """Compute how far the bogie end of a linear suspension must move to press with a further force.
 
     The twin holds its axlebox by the linear law of the mounting. With the bogie moved by this as well

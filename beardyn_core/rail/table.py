@@ -1,4 +1,4 @@
-"""Tables of numbers in CSV text: columns named with their unit, and every mistake told at once."""
+"""Tables of numbers in CSV text: columns named with their unit, and every mistake reported at once."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def read_table(path: Path, layout: Layout) -> dict[str, Float]:
     elif len(rows) == 1:
         problems.append(f"{path}: only one row; at least two are needed")
     if ragged := [line for line, row in zip(lines, rows, strict=True) if len(row) != len(names)]:
-        problems.append(f"{path}, {listed(ragged)}: not {len(names)} values as in the header")
+        problems.append(f"{path}, {line_list(ragged)}: not {len(names)} values as in the header")
     whole = [index for index, row in enumerate(rows) if len(row) == len(names)]
     found = {}
     for name in layout.names:
@@ -115,7 +115,7 @@ def read_table(path: Path, layout: Layout) -> dict[str, Float]:
             problems += bad
     if layout.ascending in found:
         problems += order_problems(
-            path, layout, found[layout.ascending], lambda at: listed([lines[whole[i]] for i in at])
+            path, layout, found[layout.ascending], lambda at: line_list([lines[whole[i]] for i in at])
         )
     if problems:
         raise InputError(problems)
@@ -162,9 +162,9 @@ def _header_problems(path: Path, names: list[str], layout: Layout) -> list[str]:
         if column.needed and column.name not in names
     ]
     for group in layout.one_of:
-        given = [name for name in group if name in names]
-        if len(given) != 1:
-            few = "none of these columns is" if not given else f"both {' and '.join(given)} are"
+        present = [name for name in group if name in names]
+        if len(present) != 1:
+            few = "none of these columns is" if not present else f"both {' and '.join(present)} are"
             problems.append(f"{path}: {few} there; give exactly one of {', '.join(group)}")
     return problems
 
@@ -190,17 +190,17 @@ def _numbers(
     except ValueError:
         words = [index for index, cell in enumerate(cells) if not _is_number(cell)]
         values = np.array([float(cell) if _is_number(cell) else np.nan for cell in cells])
-        found = listed([lines[index] for index in words])
+        found = line_list([lines[index] for index in words])
         problems.append(f"{path}, {found}: {name} is {cells[words[0]]!r}; it must be a number")
-    told = np.zeros(len(values), dtype=bool)
-    told[words] = True
-    wild = np.flatnonzero(~np.isfinite(values) & ~told)
+    reported = np.zeros(len(values), dtype=bool)
+    reported[words] = True
+    wild = np.flatnonzero(~np.isfinite(values) & ~reported)
     if len(wild):
-        found = listed([lines[index] for index in wild])
+        found = line_list([lines[index] for index in wild])
         problems.append(f"{path}, {found}: {name} is {values[wild[0]]}; every value must be finite")
     low = np.flatnonzero((values <= 0.0) & positive)
     if len(low):
-        found = listed([lines[index] for index in low])
+        found = line_list([lines[index] for index in low])
         problems.append(f"{path}, {found}: {name} is {values[low[0]]:g}; it must be more than 0")
     return values, problems
 
@@ -250,7 +250,7 @@ def order_problems(
     return problems
 
 
-def listed(lines: list[int]) -> str:
+def line_list(lines: list[int]) -> str:
     """Write line numbers in words, the first few of many."""
     shown = ", ".join(str(line) for line in lines[:_SHOWN])
     more = f" and {len(lines) - _SHOWN} more" if len(lines) > _SHOWN else ""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.jit import entry, inline
-from beardyn_core.rail.suspension import excess, law
+from beardyn_core.rail.suspension import excess_force, law
 from beardyn_core.rail.track import RailWaves, rail_waves
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
@@ -87,7 +87,7 @@ class Ride:
 
 
 def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> QuarterVehicle:
-    """Share of one axlebox: an eighth of the body, a quarter of a bogie, half a wheelset, one rail.
+    """Build one axlebox's share: an eighth of the body, a quarter of a bogie, half a wheelset, one rail.
 
     Parameters
     ----------
@@ -228,7 +228,7 @@ def _run(
         contact = force - static_force
         shortest -= residue[2] * contact
         if len(primary) > 0:
-            beyond[n] = excess(primary, state[BOX] - state[BOGIE], state[4 + BOX] - state[4 + BOGIE])
+            beyond[n] = excess_force(primary, state[BOX] - state[BOGIE], state[4 + BOX] - state[4 + BOGIE])
         contact_force[n], bogie[n], wheel[n], box[n] = force, state[BOGIE], state[WHEEL], state[BOX]
         last = min(n, len(push) - 1)
         state[4 + BODY] += step * inverse_mass[BODY] * push[last, BODY]

@@ -58,7 +58,7 @@ def decode(msgtype: str, cdr: bytes) -> Any:
 
 
 def header_stamp(cdr: bytes) -> int:
-    """Stamp of a message that begins with a header (or is a time), without decoding it, [ns]."""
+    """Read the stamp of a message that begins with a header (or is a time), without decoding it, [ns]."""
     seconds, nanoseconds = _STAMP.unpack_from(cdr, 4)
     return int(seconds) * _SECOND + int(nanoseconds)
 

@@ -39,7 +39,7 @@ LOAD_COLOURS = np.array(
 
 
 def load_colours(load: NDArray[np.float64], largest: float) -> NDArray[np.uint8]:
-    """Colour of a load, shape [..., 3]; loads in [N]."""
+    """Choose the colour of each load, shape [..., 3]; loads in [N]."""
     place = np.clip(load / max(largest, 1e-9), 0.0, 1.0) * (len(LOAD_COLOURS) - 1)
     stations = np.arange(len(LOAD_COLOURS))
     return np.stack([np.interp(place, stations, LOAD_COLOURS[:, i]) for i in range(3)], axis=-1).astype(

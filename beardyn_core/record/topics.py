@@ -169,7 +169,7 @@ def topic(name: str) -> Topic:
 
 
 def relative_name(path: str, namespace: str = NAMESPACE) -> str:
-    """Name in the table of an absolute topic name."""
+    """Find the name that an absolute topic name has in the table."""
     prefix = namespace.rstrip("/") + "/"
     return path[len(prefix) :] if path.startswith(prefix) else path
 

@@ -8,13 +8,15 @@ from pathlib import Path
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of this demo and of the one with nodes."""
-    parser.add_argument("--scene", default="cup_spall", metavar="SCENE", help="shipped scene or YAML file")
+    """Declare the arguments of this demo and of the one with nodes."""
     parser.add_argument(
-        "--out", default=Path("demo"), type=Path, metavar="DIR", help="folder for the results (demo)"
+        "--scene", default="cup_spall", metavar="SCENE", help="shipped scene or YAML file; default cup_spall"
     )
+    parser.add_argument(
+        "--out", default=Path("demo"), type=Path, metavar="DIR", help="folder for the results; default demo"
+    )
+    parser.add_argument("--duration", type=float, metavar="S", help="simulated time, s; default the scene's")
     parser.add_argument("--force", action="store_true", help="replace the results of an earlier demo")
-    parser.add_argument("--duration", type=float, metavar="S", help="simulated time, s (the scene's own)")
     parser.add_argument(
         "--no-view", action="store_true", help="take no picture of the rerun view (saves some ten seconds)"
     )

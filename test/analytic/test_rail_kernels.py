@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 
 from beardyn_core.config import load_vehicle
 from beardyn_core.rail.course import HALF_GAUGE, course
-from beardyn_core.rail.lateral import lateral_vehicle, sway
-from beardyn_core.rail.suspension import shifted
+from beardyn_core.rail.lateral import lateral_motion, lateral_vehicle
+from beardyn_core.rail.suspension import equivalent_displacement
 from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, GRAVITY, WHEEL, quarter_vehicle, ride
 from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.mounting import Mounting
@@ -183,12 +183,12 @@ def test_the_bogie_shift_makes_a_linear_suspension_press_likewise():
     mounting = Mounting()
     time = np.arange(40_000) * STEP
     force = 3e3 * np.sin(2 * np.pi * 3.0 * np.maximum(time - 0.1, 0.0))
-    shift = shifted(force, mounting, 2, STEP)
+    shift = equivalent_displacement(force, mounting, 2, STEP)
     felt = mounting.stiffness[2] * shift + mounting.damping[2] * np.gradient(shift, STEP)
     assert np.abs(felt - force).max() < 0.01 * 3e3
-    assert shifted(force, dataclasses.replace(mounting, damping=(0.0, 0.0, 0.0)), 2, STEP) == pytest.approx(
-        force / mounting.stiffness[2]
-    )
+    assert equivalent_displacement(
+        force, dataclasses.replace(mounting, damping=(0.0, 0.0, 0.0)), 2, STEP
+    ) == pytest.approx(force / mounting.stiffness[2])
 
 
 def naive_sway(operation, mounting, speed, plan, times, every):
@@ -241,7 +241,7 @@ def test_a_sway_is_that_of_a_plain_integration(speed):
     time = np.arange(7000) * step
     # backwards through the same curve
     plan = course(curves, speed * time + (0.0 if speed > 0 else 70.0), np.full(len(time), speed))
-    swayed = sway(
+    swayed = lateral_motion(
         lateral_vehicle(operation, Mounting()), np.full(len(time), speed), plan, np.zeros(len(time)), step
     )
     assert np.abs(swayed.motion[:, 0]).max() > operation.vehicle.guidance.flange_clearance

@@ -9,7 +9,7 @@ from beardyn_core.config import load_scene
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_CHANNELS
 from beardyn_core.observe.accelerometer import GRAVITY
 from beardyn_core.observe.decimate import DELAY
-from beardyn_core.observe.resonance import LOOKAHEAD, gain_of, recursion
+from beardyn_core.observe.resonance import LOOKAHEAD, filter_coefficients, resonance_gain
 from beardyn_core.observe.sensors import Sensors, box_force, lookahead
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
@@ -70,14 +70,14 @@ def test_the_gain_is_that_of_a_mass_on_a_spring(
     at, reading = heard(scene, np.cos(2.0 * np.pi * np.outer(tones, time)).sum(axis=0))
     last = slice(len(at) - round(span * rate), None)
     found = 2.0 * np.exp(-2j * np.pi * np.outer(tones, at[last])) @ reading[last] / (span * rate)
-    expected = gain_of(tones, resonance, damping)
+    expected = resonance_gain(tones, resonance, damping)
     assert np.abs(20.0 * np.log10(np.abs(found / expected))).max() < 0.1
     assert np.abs(np.angle(found / expected)).max() < 0.01
 
 
 def test_the_gain_has_the_values_of_the_textbook() -> None:
     """Gain 1 at rest, 1 over twice the damping ratio at the resonance, 12.5 % high at a third of it."""
-    gain = gain_of(np.array([0.0, 3_000.0, 9_000.0]), 9_000.0, 0.02)
+    gain = resonance_gain(np.array([0.0, 3_000.0, 9_000.0]), 9_000.0, 0.02)
     assert abs(gain[0]) == 1.0
     assert abs(gain[1]) == pytest.approx(1.125, rel=1e-3)
     assert abs(gain[2]) == pytest.approx(25.0)
@@ -93,7 +93,7 @@ def test_the_filter_matches_the_theory_over_the_whole_band(
     """Poles beyond the band and beyond the step rate included."""
     rate = 25_600.0 * steps
     band = (0.4 if steps == 1 else 0.6) * 25_600.0
-    poles, taps = recursion(resonance, damping, rate, band)
+    poles, taps = filter_coefficients(resonance, damping, rate, band)
     frequency = np.linspace(0.0, band, 500)
     late = np.exp(-2j * np.pi * frequency / rate)
     found = (
@@ -101,7 +101,7 @@ def test_the_filter_matches_the_theory_over_the_whole_band(
         @ taps
         / (1.0 - poles[0] * late - poles[1] * late**2)
     )
-    error = np.abs(found / (gain_of(frequency, resonance, damping) * late**LOOKAHEAD) - 1.0)
+    error = np.abs(found / (resonance_gain(frequency, resonance, damping) * late**LOOKAHEAD) - 1.0)
     assert error.max() < (2e-3 if steps == 1 else 1e-6)
     assert abs(found[0] - 1.0) < 1e-9
 
@@ -130,7 +130,7 @@ def test_the_anti_alias_filter_keeps_out_what_the_rate_cannot_show() -> None:
             2.0 * np.pi * 0.7 * rate * time
         ))  # fmt: skip
         assert np.abs(reading[200:]).max() < 10.0 ** (-70.0 / 20.0) * abs(
-            gain_of(np.array([0.7 * rate]), 1e5, 0.02)[0]
+            resonance_gain(np.array([0.7 * rate]), 1e5, 0.02)[0]
         )
 
 

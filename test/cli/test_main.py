@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import signal
@@ -180,3 +181,26 @@ def test_ctrl_c_ends_cleanly_and_leaves_a_readable_recording(tmp_path: Path) -> 
     done = beardyn("report", str(recording))
     assert done.returncode == 0
     assert "interrupted" in done.stdout
+
+
+def options() -> list[tuple[str, argparse.Action]]:
+    parser = command.build_parser()
+    group = next(each for each in parser._actions if isinstance(each, argparse._SubParsersAction))
+    return [(name, action) for name, each in group.choices.items() for action in each._actions]
+
+
+@pytest.mark.parametrize(
+    ("name", "action"), [pytest.param(*each, id=f"{each[0]} {each[1].dest}") for each in options()]
+)
+def test_every_option_says_what_it_is_and_its_default(name: str, action: argparse.Action) -> None:
+    assert action.help, name
+    takes_value = action.option_strings and action.nargs != 0
+    assert ("default" in action.help) or not takes_value
+
+
+@pytest.mark.parametrize("name", command.command_names())
+def test_help_of_a_command_is_printed(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        command.main([name, "--help"])
+    assert ended.value.code == 0
+    assert f"usage: beardyn {name}" in capsys.readouterr().out

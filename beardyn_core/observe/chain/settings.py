@@ -21,7 +21,7 @@ class MonitorSettings:
         The spectrum of an envelope ends at the width of its band, which is at least this many times the
         shaft frequency: the last harmonics must fit, [-].
     strike_band : tuple of 2 floats
-        In which strikes of the wheel are told, [Hz].
+        In which strikes of the wheel are looked for, [Hz].
     window_revolutions : float
         Shaft revolutions in one analysis; 60 are some 25 of the cage, [-].
     least_revolutions : float

@@ -1,4 +1,4 @@
-"""What a monitoring algorithm is given: a stretch of signal with what a train knows beside it."""
+"""The input of a monitoring algorithm: a stretch of signal with what a train knows beside it."""
 
 from __future__ import annotations
 

@@ -77,10 +77,10 @@ def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
 
 
 def _healthy_sentence(best: Candidate, contradicted: bool, strongest_order: float) -> str:
-    said = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
+    scores = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
     if contradicted and best.score >= best.threshold:
-        return f"no fault: {said}, but order {strongest_order:.3f} is stronger and belongs to none"
-    return f"no fault: {said}"
+        return f"no fault: {scores}, but order {strongest_order:.3f} is stronger and belongs to none"
+    return f"no fault: {scores}"
 
 
 def _hot_sentence(stretch: Stretch) -> str:
