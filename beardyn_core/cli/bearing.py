@@ -76,6 +76,7 @@ def add_parser(subparsers: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve and print; 0 on success, 2 for bad input, 3 when no equilibrium is found."""
+    from beardyn_core.bearing.life import load_doubts
     from beardyn_core.config import load_bearing
     from beardyn_core.effects import LaminaCoupling
     from beardyn_core.integrate.static import solve
@@ -84,6 +85,11 @@ def run(args: argparse.Namespace) -> int:
         _refuse_absurd(args)
         bearing = load_bearing(args.bearing)
         load = _DEFAULT_LOAD if args.load is None else tuple(args.load)
+        problem, doubt = load_doubts(bearing, load)
+        if problem:
+            raise InputError(f"--load: {problem}")
+        if doubt:
+            print(f"beardyn: warning: --load: {doubt}", file=sys.stderr)
         end_play = bearing.end_play if args.end_play is None else args.end_play
         solution = solve(
             bearing,
