@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from contextlib import nullcontext, suppress
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -46,7 +47,10 @@ def run(args: argparse.Namespace) -> int:
     recording = read_run(args.recording)
     if recording.problem:
         print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
-    recorded = scene_from_text(recording.scene_text, args.recording).bearing if recording.scene_text else None
+    recorded = None
+    with suppress(InputError) if args.bearing else nullcontext():
+        if recording.scene_text:
+            recorded = scene_from_text(recording.scene_text, args.recording).bearing
     bearing = load_bearing(args.bearing) if args.bearing else recorded
     if bearing is None:
         raise InputError(f"{args.recording}: does not say which bearing it is of; give --bearing")
