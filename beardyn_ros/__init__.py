@@ -24,7 +24,6 @@ monitor_node   monitoring: vibration, shaft, load and temperature, nothing else
 viewer_node    live view in rerun
 diagnostics    reports as diagnostic_msgs
 processes      child processes that never outlive their parent
-__main__       `python -m beardyn_ros NODE` for where there is no `ros2` command
 demo           all nodes as separate processes on one scene
 ============== ==============================================================================
 """

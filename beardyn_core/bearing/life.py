@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from beardyn_core.bearing.geometry import Bearing
 
+# of C_0r and of C_r: beyond these a force is refused, or doubted
+LARGEST_SHARE, SMALLEST_SHARE = 4.0, 1e-3
 _MILLIMETRES = 1.0e3
 _SQUARE_MILLIMETRES_PER_SECOND = 1.0e6
 # Rating factor for present-day tapered roller bearings, ISO 281 table.
@@ -106,6 +109,48 @@ def static_rating(bearing: Bearing) -> float:
     diameter = bearing.roller_diameter * _MILLIMETRES
     count = _ROWS * bearing.roller_count
     return 44.0 * (1.0 - rating_gamma(bearing)) * count * length * diameter * math.cos(bearing.cup_angle)
+
+
+def load_doubts(bearing: Bearing, force: Sequence[float]) -> tuple[str, str]:
+    """Judge whether a bearing can be meant to carry a force.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    force : sequence of 3 floats
+        [N].
+
+    Returns
+    -------
+    problem, doubt : str
+        Why it cannot be carried, and why it is probably not what was meant; empty when there is no reason.
+
+    Notes
+    -----
+    Line contact pressure grows with the root of the load. At C_0r it is 4 GPa (ISO 76) and leaves marks that
+    can be measured; at four times of it, twice that pressure, is the hardness of bearing steel, about 8 GPa.
+    Bearings under less than a thousandth of C_r do not roll: catalogues ask for a fiftieth of C_r.
+    """
+    size, limit = math.hypot(*force), static_rating(bearing)
+    if not size <= LARGEST_SHARE * limit:
+        return (
+            f"the force is {size:.4g} N, {size / limit:.3g} times the static load rating of {bearing.name} "
+            f"({limit / 1e3:.0f} kN); allowed is up to {LARGEST_SHARE:g} times, where steel yields: "
+            "check the unit",
+            "",
+        )
+    if size > limit:
+        return "", (
+            f"the force is {size / 1e3:.4g} kN, more than the static load rating of {bearing.name} "
+            f"({limit / 1e3:.0f} kN), above which its raceways keep marks"
+        )
+    rating = dynamic_rating(bearing).radial
+    if 0.0 < size < SMALLEST_SHARE * rating:
+        return "", (
+            f"the force is {size:.4g} N, less than a thousandth of the dynamic load rating of {bearing.name} "
+            f"({rating / 1e3:.0f} kN): check the unit"
+        )
+    return "", ""
 
 
 def fatigue_load_limit(bearing: Bearing) -> float:

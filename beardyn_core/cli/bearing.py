@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 import textwrap
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -112,6 +113,7 @@ class _Operation:
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
+    from beardyn_core.bearing.life import load_doubts
     from beardyn_core.config import load_bearing
     from beardyn_core.effects import LaminaCoupling
     from beardyn_core.integrate.static import solve
@@ -119,6 +121,11 @@ def run(args: argparse.Namespace) -> int:
 
     operation = _operation(args)
     bearing = load_bearing(args.bearing)
+    problem, doubt = load_doubts(bearing, operation.load)
+    if problem:
+        raise InputError(f"--load: {problem}")
+    if doubt:
+        print(f"beardyn: warning: --load: {doubt}", file=sys.stderr)
     end_play = bearing.end_play if operation.end_play is None else operation.end_play
     solution = solve(
         bearing,

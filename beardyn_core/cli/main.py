@@ -98,6 +98,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return INVALID
     except KeyboardInterrupt as interrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # the end is near; a second one would only be noise
+        exec("")  # Python ends by the signal when the interrupt passed through an exec, unless one follows
         _complain([interrupts.sentence(interrupt)])
         return INTERRUPTED
     except BrokenPipeError:  # the reader of a pipe has gone

@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import sys
+from contextlib import nullcontext, suppress
+from typing import TYPE_CHECKING
 
 from beardyn_core.cli.json_output import json_text, renamed
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.geometry import Bearing
 
 _KEYS = {
     "time": "time_s",
@@ -59,12 +65,17 @@ def run(args: argparse.Namespace) -> int:
 
     algorithm = algorithm_named(args.monitor)
     recording = read_run(args.recording)
-    if args.bearing:
-        bearing = load_bearing(args.bearing)
-    elif recording.scene_text:
-        bearing = scene_from_text(recording.scene_text, args.recording).bearing
-    else:
+    if recording.problem:
+        print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
+    recorded = None
+    with suppress(InputError) if args.bearing else nullcontext():
+        if recording.scene_text:
+            recorded = scene_from_text(recording.scene_text, args.recording).bearing
+    bearing = load_bearing(args.bearing) if args.bearing else recorded
+    if bearing is None:
         raise InputError(f"{args.recording}: does not say which bearing it is of; give --bearing")
+    if recorded is not None and (doubt := other_bearing(bearing, recorded)):
+        print(f"beardyn: warning: --bearing {args.bearing}: {doubt}", file=sys.stderr)
     findings = findings_of(recording, bearing, algorithm)
     conclusion = conclude(findings)
     if args.json:
@@ -82,3 +93,24 @@ def run(args: argparse.Namespace) -> int:
         print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
     print(f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses")
     return 0
+
+
+def other_bearing(given: Bearing, recorded: Bearing) -> str:
+    """Say how a bearing differs from the recorded one for a monitor; empty when it does not.
+
+    Parameters
+    ----------
+    given, recorded : Bearing
+    """
+    from dataclasses import astuple
+
+    from beardyn_core.bearing.kinematics import fault_frequencies
+
+    one, other = fault_frequencies(given), fault_frequencies(recorded)
+    if astuple(one) == astuple(other) and given.roller_count == recorded.roller_count:
+        return ""
+    return (
+        f"the recording is of {recorded.name}, {recorded.roller_count} rollers in a row, BPFO "
+        f"{other.bpfo:.4f} and BPFI {other.bpfi:.4f} per revolution; searched for is what {given.name} would "
+        f"show, {given.roller_count} rollers, {one.bpfo:.4f} and {one.bpfi:.4f}"
+    )

@@ -88,9 +88,12 @@ def run(args: argparse.Namespace) -> int:
     from tqdm import tqdm
 
     from beardyn_core.record.sinks import McapSink
+    from beardyn_core.scene.defect import doubts_about
     from beardyn_core.study import desk_run
 
     print(f"beardyn: {scene.name}, {scene.purpose}", file=sys.stderr)
+    for doubt in doubts_about(scene.defects, scene.bearing):
+        print(f"beardyn: warning: {doubt}", file=sys.stderr)
     sinks = [] if args.output is None else [McapSink(args.output, replace=args.force)]
     bar_format = "{desc} {bar} {n:.2f}/{total:.2f} s{postfix} [{elapsed}<{remaining}]"
     with tqdm(
@@ -103,6 +106,12 @@ def run(args: argparse.Namespace) -> int:
         print(json_text("simulate", json_object(summary, args.output)))
     else:
         print(text(summary, args.output))
+    for sensor, count, total in summary.clipped:
+        print(
+            f"beardyn: warning: the accelerometer {sensor} has clipped {count} of {total} samples; give it a "
+            "larger range_m_per_s2",
+            file=sys.stderr,
+        )
     if not summary.complete:
         print(f"beardyn: {summary.status}", file=sys.stderr)
     return DONE if summary.complete else INVALID
@@ -141,6 +150,7 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "effects": summary.effects,
         "not_in_tier": summary.not_in_tier,
         "faults": summary.faults,
+        "clipped_samples": {sensor: count for sensor, count, _ in summary.clipped},
         "duration_s": summary.duration,
         "wall_time_s": summary.wall_time,
         "real_time_factor": summary.real_time_factor,

@@ -18,7 +18,14 @@ from beardyn_core.config.file_model import (
     problem,
 )
 from beardyn_core.config.units import DEG, MM, UM
-from beardyn_core.scene.defect import Growth, MissingRoller, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import (
+    Growth,
+    MissingRoller,
+    Patch,
+    RollerError,
+    WornPocket,
+    width_problem,
+)
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 
 Row = Annotated[Count, Field(ge=0, le=1)]
@@ -110,6 +117,8 @@ class PatchKeys(FileModel):
                 f"depth_um is {self.depth_um:g}; it must be at most {0.1 * bearing.roller_diameter * UM:g}, "
                 "a tenth of the roller diameter"
             )
+        if problem := width_problem(self.width_mm / MM, self.on, bearing):
+            found.append(problem)
         if self.kind == "brinelling":
             pitch_mm = (
                 math.pi * (bearing.pitch_diameter - bearing.roller_diameter) / bearing.roller_count * MM

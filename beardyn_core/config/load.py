@@ -10,6 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.choice.free import Free
 from beardyn_core.choice.usual_step import usual_step
@@ -18,14 +19,14 @@ from beardyn_core.config.bearing_file import BearingKeys
 from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
 from beardyn_core.config.effects_file import EffectsKeys, overlay
 from beardyn_core.config.excitation_file import WheelDefectKeys
-from beardyn_core.config.file_model import FileModel
+from beardyn_core.config.file_model import FileModel, Vector
 from beardyn_core.config.folders import find
 from beardyn_core.config.lubricant_file import LubricantKeys
 from beardyn_core.config.missing import missing_problems
 from beardyn_core.config.operation_file import USUAL_WHEEL_DIAMETER_MM, WheelDiameter
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
 from beardyn_core.config.scene_file import NumericsKeys, SceneKeys
-from beardyn_core.config.units import stem_of
+from beardyn_core.config.units import KN, stem_of
 from beardyn_core.config.vehicle_file import VehicleKeys
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import EffectSet
@@ -320,6 +321,7 @@ class _Reading:
         ).label
         problems = check(bearing)
         self.problems += [f"{label}: {_plain(problem)}" for problem in problems]
+        self._check_forces(bearing)
         faults: tuple[tuple[str, Any], ...] = (("defects", DefectKeys), ("waviness", WavinessKeys))
         for key, keys in faults:
             entries = self.data.get(key)
@@ -329,6 +331,24 @@ class _Reading:
                     self.problems.append(f"{self.origins[0].label}: {key_path((key, index))}.{problem}")
         for place, problem in missing_problems(self.data, bearing):
             self._complain(place, [problem])
+
+    def _check_forces(self, bearing: Bearing) -> None:
+        """Refuse forces that no bearing of this size can be meant to carry."""
+        operation = self.data.get("operation")
+        if not isinstance(operation, dict):
+            return
+        steps = operation.get("steps")
+        given: list[tuple[Place, Any]] = [(("operation",), operation)]
+        given += [
+            (("operation", "steps", index), step)
+            for index, step in enumerate(steps if isinstance(steps, list) else [])
+        ]
+        vector: Any = Vector
+        for place, owner in given:
+            force = _valid(vector, owner.get("force_kN")) if isinstance(owner, dict) else None
+            problem, _ = load_doubts(bearing, [each * KN for each in force]) if force else ("", "")
+            if problem:
+                self._complain((*place, "force_kN"), [problem])
 
     def _check_wheel(self) -> None:
         operation = self.data.get("operation")

@@ -85,6 +85,8 @@ def _expectation(found: Any, unit: str | None) -> str:
         return "it must be a text"
     if kind == "string_too_long":
         return f"it must be at most {context['max_length']} characters"
+    if kind == "string_pattern_mismatch":  # the only pattern there is
+        return "it must begin with a letter, and consist of letters a to z, digits and underscores"
     if kind in ("bool_type", "bool_parsing"):
         return "it must be true or false"
     if kind == "literal_error":

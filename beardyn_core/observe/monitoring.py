@@ -6,7 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings, Stretch
+from beardyn_core.observe.chain import (
+    REFERENCE,
+    Algorithm,
+    MonitorResult,
+    MonitorSettings,
+    Stretch,
+    answer_of,
+)
 from beardyn_core.observe.chain.levels import Levels
 
 Float = NDArray[np.float64]
@@ -167,7 +174,7 @@ class Monitor:
             heating=self._heating(),
             earlier=tuple(self._levels),
         )
-        result = self.algorithm(stretch, self.orders, self.roller_count, self.settings)
+        result = answer_of(self.algorithm, stretch, self.orders, self.roller_count, self.settings)
         self._levels.append(Levels(result.rms, result.kurtosis, result.crest, stretch.shaft_frequency))
         del self._levels[:-_REMEMBERED]
         return result

@@ -18,6 +18,7 @@ measured, ``force`` and ``shaft``.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -41,6 +42,10 @@ MOMENTS = ("mx_Nm", "my_Nm", "mz_Nm")
 BOGIE = ("ux_m", "uy_m", "uz_m")
 COLUMNS = (TIME, *SPEEDS, *FORCES, *MOMENTS, *BOGIE)
 GAP = (20.0, 0.05)
+LARGEST_FORCE = 1e7  # on a journal [N]; an axle load is some 1e5
+DOUBTED_FORCE = 1e3  # the journal of an empty wagon carries 2e4 [N]
+
+log = logging.getLogger("beardyn")
 
 # who reads a file, by its ending: module and function of (path, take). Reading a recording belongs to
 # another room, which builds upon this one: it is named, not imported.
@@ -136,6 +141,7 @@ def _read_csv(path: Path, take: str) -> Measurement:
     def column(name: str) -> Float:
         return table.get(name, nothing)
 
+    _check_forces(path, table)
     speed = column("speed_rpm") * (np.pi / 30.0) if "speed_rpm" in table else column("shaft_speed_rad_s")
     return Measurement(
         time=column(TIME) - column(TIME)[0],
@@ -143,6 +149,28 @@ def _read_csv(path: Path, take: str) -> Measurement:
         shaft_speed=speed,
         bogie=np.column_stack([column(name) for name in BOGIE]),
     )
+
+
+def _check_forces(path: Path, table: dict[str, Float]) -> None:
+    """Refuse forces that no axle has, and doubt those so small that they may be in another unit."""
+    forces = {name: np.abs(table[name]).max() for name in FORCES if name in table}
+    if not forces:
+        return
+    name = max(forces, key=lambda each: forces[each])
+    if forces[name] > LARGEST_FORCE:
+        row = int(np.abs(table[name]).argmax())
+        raise InputError(
+            f"{path}: {name} is {table[name][row]:.4g} at {table[TIME][row]:g} s; allowed is up to "
+            f"{LARGEST_FORCE:g} N either way: check the unit"
+        )
+    if 0.0 < forces[name] < DOUBTED_FORCE:
+        log.warning(
+            "warning: %s: %s is the largest force and never exceeds %.4g N, too little for a railway axle: "
+            "should the numbers be kN, multiply them by 1000",
+            path,
+            name,
+            forces[name],
+        )
 
 
 def speed_points(path: Path, wheel_diameter: float, spacing: float = 0.02) -> tuple[tuple[float, float], ...]:

@@ -135,14 +135,30 @@ def _read_rows(path: Path, layout: Layout) -> tuple[list[str], list[int], Rows]:
     except FileNotFoundError:
         raise InputError(f"{path}: no such file; give the path of a CSV file of {layout.what}") from None
     except UnicodeDecodeError:
+        if is_spreadsheet(path):
+            raise InputError(
+                f"{path}: is a spreadsheet, not CSV text; save its sheet as CSV, commas between the columns"
+            ) from None
         raise InputError(f"{path}: the file is not UTF-8 text; save it as UTF-8") from None
     except (OSError, csv.Error) as error:
         raise InputError(f"{path}: cannot be read as CSV text: {error}") from None
+    if rows and len(rows[0]) == 1 and (sign := next((s for s in ";\t|" if s in rows[0][0]), "")):
+        between = {";": "semicolons", "\t": "tabs", "|": "bars"}[sign]
+        raise InputError(
+            f"{path}: its columns are separated by {between}; separate them by commas, and write decimal "
+            "numbers with a point"
+        )
     if not rows:
         raise InputError(
             f"{path}: the file is empty; the first line must name columns: {', '.join(layout.names)}"
         )
     return [name.strip() for name in rows[0]], lines[1:], rows[1:]
+
+
+def is_spreadsheet(path: Path) -> bool:
+    """Tell whether a file is of a spreadsheet program: a ZIP archive or an OLE document."""
+    with path.open("rb") as file:
+        return file.read(4) in (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 
 
 def _header_problems(path: Path, names: list[str], layout: Layout) -> list[str]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -176,6 +176,24 @@ class Run:
         return self.description
 
 
+@contextmanager
+def damage_told(path: Path) -> Iterator[None]:
+    """Turn whatever goes wrong with bytes that nobody vouches for into a sentence about the file.
+
+    Chunks with checksums do not come this far when they are damaged; messages without, or of somebody
+    else's making, may hold anything.
+    """
+    try:
+        yield
+    except (InputError, OSError):
+        raise
+    except Exception as error:
+        raise InputError(
+            f"{path}: what is in it cannot be used ({type(error).__name__}: {error}); it is damaged, or "
+            "not a recording of an axlebox"
+        ) from error
+
+
 def read_run(path: Path | str, namespace: str | None = None) -> Run:
     """Read the arrays of a recording; of a cut-off one everything up to the last complete chunk.
 
@@ -201,6 +219,11 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     if not any(name != path for name, path in zip(cdrs, recorded, strict=True)):
         found = f"it has {', '.join(sorted(recorded))}" if recorded else scan.problem or "it has no messages"
         raise InputError(f"{scan.path}: no messages under the namespace {namespace}; {found}")
+    with damage_told(scan.path):
+        return _run(scan, cdrs)
+
+
+def _run(scan: McapScan, cdrs: Mapping[str, list[bytes]]) -> Run:
     description = _description(scan, cdrs)
     scene_text = scan.attachments.get(SCENE_FILE, b"").decode(errors="replace")
     return run_of_messages(

@@ -15,7 +15,7 @@ from beardyn_core.observe.torque_budget import NUMERICAL, TorqueBudget, torque_b
 from beardyn_core.record.encoding import loss_key
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.reading import Run, read_run
+from beardyn_core.record.reading import Run, damage_told, read_run
 from beardyn_core.scene.defect import defect_from
 
 SAMPLE_RANGE = 1 << 32
@@ -149,6 +149,17 @@ def report(path: Path | str) -> Report:
         begin, end = spans.get(message.topic, (message.log_time, message.log_time))
         spans[message.topic] = (min(begin, message.log_time), max(end, message.log_time))
     run = read_run(path)
+    with damage_told(scan.path):
+        return _report(scan, run, counts, types, spans)
+
+
+def _report(
+    scan: McapScan,
+    run: Run,
+    counts: Mapping[str, int],
+    types: Mapping[str, str],
+    spans: Mapping[str, tuple[int, int]],
+) -> Report:
     begin, end = _twin_span(spans)
     description = run.description
     speed = run.shaft.velocity[:, 0] if len(run.shaft) else np.zeros(0)

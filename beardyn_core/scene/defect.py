@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from beardyn_core.bearing.geometry import Bearing
+
+SMALLEST_SINK = 1e-8  # of a roller into a patch that it bridges [m]
 PATCH_KINDS = ("spall", "rectangular", "half_sine", "elliptic", "dent", "brinelling")
 
 
@@ -181,6 +185,62 @@ class MissingRoller:
 
 
 Defect = Patch | RollerError | WornPocket | MissingRoller
+
+
+def width_problem(width: float, on: str, bearing: Bearing) -> str:
+    """Say why a patch cannot be that wide, in mm; empty when it can.
+
+    Parameters
+    ----------
+    width : float
+        In rolling direction, [m].
+    on : str
+        ``cup``, ``cone`` or ``roller``.
+    bearing : Bearing
+
+    Notes
+    -----
+    A roller of radius R that bridges a width w sinks by w^2 / 8 R: at the least width by 10 nm, a tenth of
+    the roughness of a raceway and less, so nothing of it could be seen. A patch of more than half a raceway
+    has no edges that a roller in the load zone meets one after the other.
+    """
+    least = math.sqrt(8.0 * 0.5 * bearing.roller_diameter * SMALLEST_SINK)
+    if width < least:
+        return (
+            f"width_mm is {1e3 * width:g}; it must be at least {1e3 * least:.2g}: a roller sinks less than "
+            f"{1e9 * SMALLEST_SINK:g} nm into a narrower one"
+        )
+    half = 0.5 * math.pi * raceway_diameter(on, bearing)
+    if on != "roller" and width > half:
+        return f"width_mm is {1e3 * width:g}; it must be at most {1e3 * half:.0f}, half of the raceway"
+    return ""
+
+
+def raceway_diameter(on: str, bearing: Bearing) -> float:
+    """Mean diameter of the raceway of the cup or the cone, [m]."""
+    side = 1.0 if on == "cup" else -1.0
+    return bearing.pitch_diameter + side * bearing.roller_diameter * math.cos(bearing.contact_angle)
+
+
+def doubts_about(defects: Sequence[Defect], bearing: Bearing) -> list[str]:
+    """Say what is unusual about defects that can be.
+
+    Parameters
+    ----------
+    defects : sequence of Defect
+    bearing : Bearing
+    """
+    found = []
+    for index, defect in enumerate(defects):
+        if not isinstance(defect, Patch) or defect.on == "roller":
+            continue
+        pitch = math.pi * raceway_diameter(defect.on, bearing) / bearing.roller_count
+        if defect.width > pitch:
+            found.append(
+                f"defects[{index}]: {defect.described()}: wider than the {1e3 * pitch:.0f} mm between two "
+                "rollers, so that several are in it at once and none strikes by itself"
+            )
+    return found
 
 
 def defect_from(stored: Mapping[str, Any]) -> Defect:

@@ -16,6 +16,12 @@ LARGEST_MOMENT = 1.0e6
 LARGEST_SPEED = 2000.0
 LARGEST_DISPLACEMENT = 1.0
 LARGEST_SPEED_JUMP = 50.0
+QUANTITIES = (
+    *((name, "N") for name in ("fx", "fy", "fz")),
+    *((name, "N m") for name in ("mx", "my", "mz")),
+    ("shaft_speed", "rad/s"),
+    *((name, "m") for name in ("ux", "uy", "uz")),
+)
 SPEED_JUMP_WINDOW_NS = 100_000_000
 
 
@@ -38,10 +44,13 @@ def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
     if np.any(np.diff(load.time_ns) <= 0) or (after_ns is not None and load.time_ns[0] <= after_ns):
         return "the load goes back in time; samples must follow each other"
     limits = np.repeat([LARGEST_FORCE, LARGEST_MOMENT, LARGEST_SPEED, LARGEST_DISPLACEMENT], [3, 3, 1, 3])
-    if np.any(np.abs(values) > limits):
+    wild = np.argwhere(np.abs(values) > limits)
+    if len(wild):
+        sample, column = (int(each) for each in wild[0])
+        name, unit = QUANTITIES[column]
         return (
-            f"the load is absurd; allowed are {LARGEST_FORCE:.0e} N, {LARGEST_MOMENT:.0e} N m, "
-            f"{LARGEST_SPEED:.0f} rad/s and {LARGEST_DISPLACEMENT:.0f} m"
+            f"the load is absurd; {name} is {values[sample, column]:.4g} {unit} at "
+            f"{load.time_ns[sample] * 1e-9:g} s, allowed is up to {limits[column]:g} {unit}"
         )
     jump = speed_jump(load.time_ns, load.shaft_speed)
     return f"the load is absurd; {jump}" if jump else None

@@ -25,6 +25,7 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.record.sinks import Sink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.study.rating_life import RatingLife, scene_life
 from beardyn_core.twin import Twin
 
@@ -72,6 +73,8 @@ class RunSummary:
         Defects and waviness of the scene in words.
     temperatures : tuple of (part, temperature) pairs
         At the end, with the thermal effect, [K].
+    clipped : tuple of (sensor, samples, all samples) tuples
+        Accelerometers that have read their largest value, and how often.
     stages : tuple of StageTime
         Where the wall time from the first block to the last went, recording and drawing included.
     """
@@ -93,6 +96,7 @@ class RunSummary:
     life: RatingLife | None = None
     faults: tuple[str, ...] = ()
     temperatures: tuple[tuple[str, float], ...] = ()
+    clipped: tuple[tuple[str, int, int], ...] = ()
     stages: tuple[StageTime, ...] = ()
 
     @property
@@ -139,7 +143,7 @@ def run(
     twin.start(load)
     description = RunDescription.of(scene, twin.truth(), twin.body_names, load)
 
-    trend = _Trend()
+    trend = _Trend(scene.sensors)
     wall_time = 0.0
     status = COMPLETE
     opened: list[Sink] = []
@@ -239,7 +243,9 @@ def _deliver(
 class _Trend:
     """The 400 Hz signals of a run that its means are taken from."""
 
-    def __init__(self) -> None:
+    def __init__(self, sensors: Sequence[Accelerometer]) -> None:
+        self._sensors = sensors
+        self._clipped = np.zeros((len(sensors), 2), np.int64)  # samples at the end of the range, and all
         self._blocks: list[tuple[Float, Float, Float, Float, Float]] = []
         self.end_ns = 0
         self._start_ns: int | None = None
@@ -255,6 +261,9 @@ class _Trend:
         self.end_ns = block.end_ns
         self.warnings |= block.status
         self._temperature = block.temperature
+        for counts, sensor, heard in zip(self._clipped, self._sensors, block.vibration, strict=True):
+            counts[0] += int((np.abs(heard.acceleration) >= sensor.range).any(axis=1).sum())
+            counts[1] += len(heard.acceleration)
         self._residual = None if block.audit is None else block.audit.residual
         if block.audit is not None and block.audit.losses:
             self._lost.append((block.start_ns * 1e-9, *block.audit.losses, block.audit.numerical))
@@ -308,6 +317,11 @@ class _Trend:
             averaged=averaged,
             cage_revolutions=revolutions,
             faults=scene.fault_sentences,
+            clipped=tuple(
+                (sensor.name, int(count), int(total))
+                for sensor, (count, total) in zip(self._sensors, self._clipped, strict=True)
+                if count
+            ),
             temperatures=()
             if self._temperature is None
             else tuple(zip(NODES, self._temperature.tolist(), strict=True)),

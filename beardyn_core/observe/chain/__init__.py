@@ -14,14 +14,14 @@ hot_box     the temperature rule
 verdict     decide: which fault is called, and why
 result      what an algorithm answers
 chain       `Chain`: the steps put together, each replaceable
-named       finds an algorithm by its name ``module:function``
+named       finds an algorithm by its name ``module:function``, and checks its answer
 =========== ========================================================================
 """
 
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm, Chain
 from beardyn_core.observe.chain.fault_lines import FAULTS, FaultLines, Line
 from beardyn_core.observe.chain.kurtogram import Band
-from beardyn_core.observe.chain.named import algorithm_named
+from beardyn_core.observe.chain.named import algorithm_named, answer_of
 from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
@@ -41,4 +41,5 @@ __all__ = [
     "Stretch",
     "Verdict",
     "algorithm_named",
+    "answer_of",
 ]

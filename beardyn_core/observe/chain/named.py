@@ -1,14 +1,23 @@
-"""An algorithm by its name ``module:function``."""
+"""An algorithm by its name ``module:function``, and its answer."""
 
 from __future__ import annotations
 
 import importlib
 import sys
+import traceback
+from pathlib import Path
 from typing import cast
 
+import beardyn_core
+from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm
+from beardyn_core.observe.chain.fault_lines import FAULTS
+from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
+from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.chain.stretch import Stretch
 
+_CORE = Path(beardyn_core.__file__).resolve().parent
 OURS = "beardyn_core.observe.chain:REFERENCE"
 
 
@@ -51,3 +60,56 @@ def algorithm_named(name: str) -> Algorithm:
             "(stretch, orders, roller_count, settings) -> MonitorResult, or a Chain"
         )
     return cast(Algorithm, found)
+
+
+def answer_of(
+    algorithm: Algorithm,
+    stretch: Stretch,
+    orders: FaultFrequencies,
+    roller_count: int,
+    settings: MonitorSettings,
+) -> MonitorResult:
+    """Ask an algorithm, and turn what is wrong with it or its answer into a sentence.
+
+    Parameters
+    ----------
+    algorithm : function
+    stretch, orders, roller_count, settings
+        Its arguments.
+
+    Raises
+    ------
+    InputError
+        It has failed, or its answer is not a `MonitorResult` that can be used.
+    """
+    if algorithm is REFERENCE:
+        return algorithm(stretch, orders, roller_count, settings)
+    name = f"{getattr(algorithm, '__module__', '?')}:{getattr(algorithm, '__qualname__', algorithm)}"
+    try:
+        result = algorithm(stretch, orders, roller_count, settings)
+    except Exception as error:
+        raise InputError(f"the monitor {name} has failed: {_failure(error)}") from error
+    if not isinstance(result, MonitorResult):
+        raise InputError(f"the monitor {name} answered a {type(result).__name__}; it must be a MonitorResult")
+    if result.verdict not in VERDICTS:
+        raise InputError(
+            f"the monitor {name} answered the verdict {result.verdict!r}; allowed are {', '.join(VERDICTS)}"
+        )
+    if len(result.scores) != len(FAULTS):
+        raise InputError(
+            f"the monitor {name} answered {len(result.scores)} scores; there must be one for each of "
+            f"{', '.join(FAULTS)}"
+        )
+    return result
+
+
+def _failure(error: Exception) -> str:
+    """Exception, and the last line of the monitor's own code that it came from."""
+    frames = traceback.extract_tb(error.__traceback__)[1:]
+    own = [
+        frame
+        for frame in frames
+        if "site-packages" not in frame.filename and not Path(frame.filename).is_relative_to(_CORE)
+    ] or frames
+    where = f", {own[-1].filename}, line {own[-1].lineno}, in {own[-1].name}" if own else ""
+    return f"{type(error).__name__}: {error}{where}"
