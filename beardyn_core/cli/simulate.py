@@ -44,7 +44,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.config import load_scene
+    from beardyn_core.choice import load_scene
 
     problems = [] if args.output is None else output_problems(args.output)
     try:

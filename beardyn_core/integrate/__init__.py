@@ -13,6 +13,7 @@ roller_spring      a roller as one spring, for the lumped tier
 lumped             explicit steps of the lumped tier
 quasistatic        explicit steps of the quasistatic tier
 tiers              what each tier computes with
+friction_steps     the step that friction asks for, without an equilibrium
 status             status bits and the sentence of each
 step_choice        the coarsest step that is converged
 restraint          what holds the bearing against tilt

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
-from beardyn_core.config import trial_scene
+from beardyn_core.choice import trial_scene
 from beardyn_core.observe.chain import algorithm_named
 from beardyn_core.scene.trial import Cell, Trial
 from beardyn_core.study.trial_run import TrialRun, conduct_run, monitor_digest, run_digest

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.config import trial_scene
+from beardyn_core.choice import trial_scene
+from beardyn_core.config import scene_text
 from beardyn_core.errors import ValidityError
 from beardyn_core.observe import chain
 from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
@@ -108,7 +109,7 @@ def run_digest(scene: Scene, trial: Trial, monitor: str) -> str:
     monitor : str
         Digest of the monitor.
     """
-    text = f"{scene.source_text}\n{trial.interval}\n{monitor}"
+    text = f"{scene_text(scene)}\n{trial.interval}\n{monitor}"
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
