@@ -65,7 +65,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _demo(args: argparse.Namespace) -> int:
-    from beardyn_core.config import load_scene
+    from beardyn_core.choice import load_scene
     from beardyn_core.study.demo_report import RECORDING_NAME, Pace, demo_folder, report
 
     scene = load_scene(args.scene, duration=args.duration)

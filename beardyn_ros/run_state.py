@@ -38,7 +38,7 @@ class Rig:
 
 def scene_rig(scene_name: str) -> Callable[[], Rig]:
     """Make the builder of rigs for a scene by name or path; the scene is read and checked at once."""
-    from beardyn_core.config import load_scene
+    from beardyn_core.choice import load_scene
     from beardyn_core.record.description import RunDescription
     from beardyn_core.twin import Twin
 

@@ -47,7 +47,7 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
     duration : float
         0 for the scene's own, or the whole CSV, [s].
     """
-    from beardyn_core.config import load_scene
+    from beardyn_core.choice import load_scene
     from beardyn_core.rail.build import load_history
     from beardyn_core.rail.measured import read_measurement
     from beardyn_core.scene.operation import MeasuredOperation

@@ -23,8 +23,9 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.choice import load_scene
 from beardyn_core.choice.costs import COST_FILE
-from beardyn_core.config import load_effects, load_scene
+from beardyn_core.config import load_effects
 from beardyn_core.effects import (
     Cage,
     CoulombTraction,

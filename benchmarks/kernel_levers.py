@@ -14,7 +14,8 @@ from typing import Any
 import numba
 
 from beardyn_core import kernels
-from beardyn_core.config import load_effects, load_scene
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_effects
 from beardyn_core.integrate import imex
 from beardyn_core.jit import OPTIONS, inline
 from beardyn_core.scene.scene import Scene

@@ -22,7 +22,8 @@ from scipy.optimize import brentq
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.profile import Profile
-from beardyn_core.config import load_bearing, load_effects, load_scene
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_bearing, load_effects
 from beardyn_core.integrate.status import chatter_index
 from beardyn_core.model.layout import SIGNAL_TORQUE
 from beardyn_core.rail.build import load_history

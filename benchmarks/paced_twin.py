@@ -15,7 +15,8 @@ from pathlib import Path
 
 import yaml
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
+from beardyn_core.config import scene_text
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, header_stamp
 from beardyn_core.record.topics import topic
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
@@ -127,7 +128,7 @@ def run_paced(
         ``lockstep`` or ``live``.
     """
     prepare_environment()
-    keys = yaml.safe_load(load_scene(scene, effects=effects, laminae=laminae, duration=seconds).source_text)
+    keys = yaml.safe_load(scene_text(load_scene(scene, effects=effects, laminae=laminae, duration=seconds)))
     keys["numerics"]["steps_per_sample"] = steps
     text = yaml.safe_dump(keys)
     with tempfile.TemporaryDirectory() as name:

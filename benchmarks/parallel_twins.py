@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable
 from multiprocessing.connection import Connection
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.twin import Twin
 from benchmarks.runs import Table, started
 

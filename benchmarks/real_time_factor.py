@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.integrate.step_choice import choose_steps
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene

@@ -7,7 +7,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.sinks import McapSink, MemorySink, Sink

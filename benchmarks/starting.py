@@ -21,7 +21,7 @@ from benchmarks.runs import Table
 _ROOT = Path(__file__).resolve().parents[1]
 _COMPILE = """
 import json, sys, time
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.twin import Twin
 twin = Twin(load_scene("static_80kN", effects=sys.argv[1], tier=sys.argv[2]))
 cpu, wall = time.process_time(), time.perf_counter()
@@ -32,7 +32,7 @@ print(json.dumps([time.perf_counter() - wall, time.process_time() - cpu]))
 _START = """
 import json, sys, time
 stamps = [time.time()]
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import load_history
 from beardyn_core.study import desk_run
 from beardyn_core.twin import Twin

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from statistics import median
 
-from beardyn_core.config import load_effects, load_scene
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_effects
 from beardyn_core.observe.stage_clock import STAGES, StageClock
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from beardyn_core.config.effects_file import EffectsKeys
-from beardyn_core.effects.catalogue import Entry, catalogue
+from beardyn_core.config.keys import keys_of
+from beardyn_core.effects.catalogue import catalogue
 
 PAGE = Path(__file__).with_name("effects.md")
 
@@ -34,26 +33,6 @@ for a film and that film are counted together.
 | effect | kind | adds | states | cost | valid for | source |
 |---|---|---|---|---|---|---|
 """
-
-
-def models_of(annotation: Any) -> Iterator[type[BaseModel]]:
-    """All key models inside an annotation."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        yield annotation
-    for part in get_args(annotation):
-        yield from models_of(part)
-
-
-def keys_of(entry: Entry) -> type[BaseModel]:
-    """Key model whose noun is the entry's options."""
-    field = EffectsKeys.model_fields[entry.member]
-    models = list(models_of(field.annotation))
-    for metadata in field.metadata:
-        models += list(models_of(metadata))
-    for model in models:
-        if model.noun.__annotations__["return"] == entry.options.__name__:
-            return model
-    raise LookupError(f"{entry.options.__name__} has no keys")
 
 
 def kind_of(model: type[BaseModel]) -> str:
@@ -85,7 +64,7 @@ def page() -> str:
     """The whole page."""
     lines, options = [], []
     for entry in catalogue():
-        model, about = keys_of(entry), entry.about
+        model, about = keys_of(entry.options), entry.about
         cells = (f"`{entry.member}`", kind_of(model), about.adds, about.states, about.cost, about.validity)
         lines.append("| " + " | ".join((*cells, about.source)) + " |")
         if rows := option_rows(model):

@@ -15,12 +15,14 @@ from typing import Any, get_args
 import numpy as np
 from pydantic import BaseModel
 
-from beardyn_core.config import load_scene, shipped_names
-from beardyn_core.config.excitation_file import IrregularityKeys, RailDefectKeys, WheelDefectKeys
+from beardyn_core.choice import load_scene
+from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
+from beardyn_core.config.keys import keys_of
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.spectra import spectral_density
+from beardyn_core.scene.excitation import RailDefect, WheelDefect
 from beardyn_core.scene.irregularity import SPECTRA, VERTICAL_ONLY
 from beardyn_core.scene.measured import MeasuredOperation
 from beardyn_core.scene.mounting import Mounting
@@ -135,7 +137,7 @@ def _irregularities() -> Iterator[str]:
     yield "The SNCF spectra fall so slowly that they need `shortest_wavelength_m: 2`. `short_waves` adds what"
     yield "a rail has below half a metre."
     yield ""
-    yield from _options(IrregularityKeys)
+    yield from _options(keys_of(Irregularity))
     yield ""
     yield "Standard deviations over waves of 3 to 25 m and of 3 to 150 m:"
     yield ""
@@ -158,13 +160,6 @@ def _deviation(kind: str, direction: str, longest: float) -> float:
     return float(1e3 * np.sqrt(np.sum(0.5 * (density[1:] + density[:-1]) * np.diff(wavenumber))))
 
 
-def _models(annotation: Any) -> Iterator[type[BaseModel]]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        yield annotation
-    for part in get_args(annotation):
-        yield from _models(part)
-
-
 def _options(model: type[BaseModel]) -> Iterator[str]:
     yield "| key | usual | |"
     yield "|---|---|---|"
@@ -177,14 +172,13 @@ def _options(model: type[BaseModel]) -> Iterator[str]:
 
 
 def _defects() -> Iterator[str]:
-    for key, keys in (("wheel_defects", WheelDefectKeys), ("rail_defects", RailDefectKeys)):
-        for model in dict.fromkeys(_models(keys)):
-            kind = get_args(model.model_fields["kind"].annotation)[0]
-            yield f"### {key}: `{{kind: {kind}}}`"
+    for key, nouns in (("wheel_defects", get_args(WheelDefect)), ("rail_defects", get_args(RailDefect))):
+        for noun in nouns:
+            yield f"### {key}: `{{kind: {noun.kind}}}`"
             yield ""
-            yield (model.__doc__ or "").strip().splitlines()[0]
+            yield noun.__doc__.splitlines()[0]
             yield ""
-            yield from _options(model)
+            yield from _options(keys_of(noun))
             yield ""
 
 

@@ -8,135 +8,82 @@ bearing axis. Sphere radius and contact height give the rib angle. Nothing that 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.material import Material
 from beardyn_core.bearing.profile import Profile
+from beardyn_core.edge import INTERNAL, At, Vector
 
 
 @dataclass(frozen=True)
 class CageData:
-    """The cage of one row.
+    """The cage of one row."""
 
-    Parameters
-    ----------
-    mass : float
-        [kg].
-    polar_inertia : float
-        About the bearing axis (y), [kg m^2].
-    transverse_inertia : float
-        About x or z through its centre, [kg m^2].
-    circumferential_clearance : float
-        Total clearance of a roller in its pocket along the pitch circle, [m].
-    axial_clearance : float
-        Total clearance of a roller in its pocket along the roller axis, [m].
-    stiffness : float
-        Of one pocket contact, [N/m].
-    damping : float
-        Of one pocket contact, [N s/m].
-    """
-
-    mass: float
-    polar_inertia: float
-    transverse_inertia: float
-    circumferential_clearance: float
-    axial_clearance: float
-    stiffness: float
-    damping: float
+    mass: A[float, At("kg", gt=0.0), "of the cage of one row"]
+    polar_inertia: A[float, At("kg_m2", gt=0.0), "about the bearing axis"]
+    transverse_inertia: A[float, At("kg_m2", gt=0.0), "about x or z through its centre"]
+    circumferential_clearance: A[float, At("mm", gt=0.0), "total, of a roller in its pocket"]
+    axial_clearance: A[float, At("mm", gt=0.0), "total, of a roller in its pocket"]
+    stiffness: A[float, At("MN_per_m", gt=0.0), "of one pocket contact"]
+    damping: A[float, At("N_s_per_m", ge=0.0), "of one pocket contact"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Bearing:
-    """A double-row tapered roller bearing in O arrangement (large roller ends on the outer sides).
+    """A double-row tapered roller bearing, O arrangement.
 
-    Parameters
-    ----------
-    name, description : str
-    roller_count : int
-        Rollers per row.
-    pitch_diameter : float
-        At mid-length of the rollers, [m].
-    roller_diameter : float
-        Mean roller diameter, [m].
-    effective_length : float
-        Length of the raceway contact, [m].
-    roller_length : float
-        Overall roller length, [m].
-    contact_angle : float
-        Angle of the roller axis to the bearing axis, the mean of cup and cone angle, [rad].
-    row_spacing : float
-        Distance of the roller mid-lengths of both rows along the bearing axis, [m].
-    sphere_ratio : float
-        Radius of the spherical large end over the distance from the apex to the edge of that end, [-].
-    rib_contact_height : float
-        Height of the rib contact above the cone raceway, measured square to the roller axis, [m].
-    bore, outer_diameter, width : float
-        Envelope, [m].
-    end_play : float
-        Total axial travel when mounted, negative for preload, [m].
-    raceway_roughness, rib_roughness : float
-        Composite rms roughness of the contact, [m].
-    profile : Profile
-    material : Material
-    cage : CageData
-        Of one row.
-    cup_mass : float
-        [kg].
-    cup_inertia : tuple of 3 floats
-        About x, y, z through the bearing centre, [kg m^2].
-    cone_mass : float
-        Both cones and the spacer, [kg].
-    sources : tuple of (field, source) pairs
-        Where each number comes from, or ``assumed``.
-    nominal_cup_angle, nominal_cone_angle : float or None
-        Angles a catalogue states; only compared with the closed ones, [rad].
-    angle_tolerance : float
-        Allowed difference between stated and closed angles, [rad].
-    rib_height, rib_undercut : float
-        Upper and lower end of the rib face above the cone raceway, measured like `rib_contact_height`, [m].
-    roller_chamfer : float
-        Radius of the large end less that of its spherical face, [m].
-    small_rib_height : float
-        Height of the small rib above the cone raceway, [m].
-    small_rib_clearance : float
-        Free travel of a roller along its axis between the ribs, [m].
-    forced : bool
-        Run it although `consistency.check` refuses it: for experiments with impossible bearings.
+    The large roller ends are on the outer sides. Heights above the cone raceway are measured square to the
+    roller axis. `sources` says where each number comes from, or ``assumed``.
     """
 
-    name: str
-    description: str
-    roller_count: int
-    pitch_diameter: float
-    roller_diameter: float
-    effective_length: float
-    roller_length: float
-    contact_angle: float
-    row_spacing: float
-    sphere_ratio: float
-    rib_contact_height: float
-    bore: float
-    outer_diameter: float
-    width: float
-    end_play: float
-    raceway_roughness: float
-    rib_roughness: float
-    profile: Profile
-    material: Material
-    cage: CageData
-    cup_mass: float
-    cup_inertia: tuple[float, float, float]
-    cone_mass: float
-    sources: tuple[tuple[str, str], ...] = field(default=())
-    nominal_cup_angle: float | None = None
-    nominal_cone_angle: float | None = None
-    angle_tolerance: float = math.radians(0.25)
-    rib_height: float = 5.0e-3
-    rib_undercut: float = 1.0e-3
-    roller_chamfer: float = 0.5e-3
-    small_rib_height: float = 2.0e-3
-    small_rib_clearance: float = 0.4e-3
-    forced: bool = False
+    name: A[str, At(longest=80), "of the bearing"]
+    description: A[str, "what it is, in a few words"] = ""
+    roller_count: A[int, At(ge=4, le=60), "per row"]
+    pitch_diameter: A[float, At("mm", gt=0.0), "through the roller axes at mid-length"]
+    roller_diameter: A[float, At("mm", gt=0.0), "mean, at mid-length"]
+    effective_length: A[float, At("mm", gt=0.0), "of the raceway contact"]
+    roller_length: A[float, At("mm", gt=0.0), "whole length of a roller"]
+    contact_angle: A[float, At("deg", gt=0.0, lt=45.0), "roller axis to bearing axis"]
+    row_spacing: A[float, At("mm", gt=0.0), "between the roller mid-lengths of both rows"]
+    sphere_ratio: A[float, At(gt=0.0), "radius of the roller's large end over the apex distance"]
+    rib_contact_height: A[float, At("mm", gt=0.0), "above the cone raceway"]
+    bore: A[float, At("mm", gt=0.0), "of the cones"]
+    outer_diameter: A[float, At("mm", gt=0.0), "of the cup"]
+    width: A[float, At("mm", gt=0.0), "over both rows, along the bearing axis"]
+    end_play: A[float, At("mm", ge=-0.5, le=2.0), "total axial travel when mounted"]
+    raceway_roughness: A[float, At("um", gt=0.0), "composite rms"]
+    rib_roughness: A[float, At("um", gt=0.0), "composite rms"]
+    profile: A[Profile, "of the roller generator"] = Profile()
+    material: A[Material, "of rings and rollers"] = Material()
+    cage: A[CageData, "of one row"]
+    cup_mass: A[float, At("kg", gt=0.0), "of the whole cup"]
+    cup_inertia: A[Vector, At("kg_m2", gt=0.0), "about x, y, z through the bearing centre"]
+    cone_mass: A[float, At("kg", gt=0.0), "both cones and the spacer"]
+    sources: tuple[tuple[str, str], ...] = ()
+    nominal_cup_angle: A[
+        float | None,
+        At("deg", gt=0.0, key="cup_angle"),
+        "catalogue value, only compared with the closed one",
+    ] = None
+    nominal_cone_angle: A[
+        float | None,
+        At("deg", gt=0.0, key="cone_angle"),
+        "catalogue value, only compared with the closed one",
+    ] = None
+    angle_tolerance: A[float, At("deg", gt=0.0), "allowed difference of catalogue and closed angles"] = (
+        math.radians(0.25)
+    )
+    rib_height: A[float, At("mm", gt=0.0), "upper end of the rib face above the cone raceway"] = 5.0e-3
+    rib_undercut: A[float, At("mm", gt=0.0), "lower end of the rib face above the cone raceway"] = 1.0e-3
+    roller_chamfer: A[float, At("mm", gt=0.0), "radius of the large end less that of its spherical face"] = (
+        0.5e-3
+    )
+    small_rib_height: A[float, At("mm", gt=0.0), "above the cone raceway"] = 2.0e-3
+    small_rib_clearance: A[
+        float, At("mm", ge=0.0), "free travel of a roller along its axis between the ribs"
+    ] = 0.4e-3
+    forced: A[bool, INTERNAL, "run it although `consistency.check` refuses it: for experiments"] = False
 
     @property
     def apex_distance(self) -> float:

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
+from typing import Any
+
+from beardyn_core.edge import At
 
 _KELVIN_40 = 313.15
 _KELVIN_100 = 373.15
@@ -47,40 +52,49 @@ def gold_pressure_viscosity(kinematic_viscosity: float, base_oil: str) -> float:
 
 @dataclass(frozen=True)
 class Lubricant:
-    """Base oil of a grease, or an oil.
+    """An oil, or the base oil of a grease.
 
-    Parameters
-    ----------
-    name, description : str
-    kinematic_viscosity_40, kinematic_viscosity_100 : float
-        At 40 and 100 deg C, [m^2/s].
-    density : float
-        [kg/m^3].
-    pressure_viscosity : float
-        Barus coefficient at `pressure_viscosity_temperature`, [1/Pa].
-    thermal_conductivity : float
-        [W/(m K)].
-    temperature_coefficient : float
-        -d(ln viscosity)/dT at film temperature, for thermal reduction factors, [1/K].
-    pressure_viscosity_temperature : float
-        [K].
-    base_oil : str
-        ``mineral`` or ``pao``: how the Barus coefficient changes with temperature.
-    sources : tuple of (field, source) pairs
-        Where each number comes from, or ``assumed``.
+    `sources` says where each number comes from, or ``assumed``.
     """
 
-    name: str
-    description: str
-    kinematic_viscosity_40: float
-    kinematic_viscosity_100: float
-    density: float
-    pressure_viscosity: float
-    thermal_conductivity: float
-    temperature_coefficient: float
-    pressure_viscosity_temperature: float = _KELVIN_40
-    base_oil: str = "mineral"
+    name: A[str, At(longest=80), "of the lubricant"]
+    description: A[str, At(usual=""), "what it is, in a few words"]
+    kinematic_viscosity_40: A[
+        float, At("mm2_per_s", gt=0.0, ge=1.0, le=5000.0, key="kinematic_viscosity_40C"), "at 40 deg C"
+    ]
+    kinematic_viscosity_100: A[
+        float, At("mm2_per_s", gt=0.0, ge=0.5, le=500.0, key="kinematic_viscosity_100C"), "at 100 deg C"
+    ]
+    density: A[float, At("kg_per_m3", gt=0.0, ge=500.0, le=2500.0), "of the oil"]
+    pressure_viscosity: A[
+        float,
+        At("per_GPa", gt=0.0, ge=1.0, le=100.0, optional=True),
+        "Barus coefficient at pressure_viscosity_temperature_C; without it that of "
+        "Gold et al. (2001) for the base oil",
+    ]
+    thermal_conductivity: A[float, At("W_per_m_K", gt=0.0), "of the oil"]
+    temperature_coefficient: A[float, At("per_K", ge=0.0), "-d(ln viscosity)/dT at film temperature"]
+    pressure_viscosity_temperature: A[float, At("C", ge=-50.0, le=200.0), "of the pressure viscosity"] = (
+        _KELVIN_40
+    )
+    base_oil: A[str, At(one_of=BASE_OILS), "how the Barus coefficient changes with temperature"] = "mineral"
     sources: tuple[tuple[str, str], ...] = ()
+
+    def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
+        """Leave the Barus coefficient out that follows from the viscosity."""
+        viscosity = self.kinematic_viscosity(self.pressure_viscosity_temperature)
+        if self.pressure_viscosity == gold_pressure_viscosity(viscosity, self.base_oil):
+            keys.pop("pressure_viscosity_per_GPa")
+        return keys
+
+    def rules(self) -> Iterator[str]:
+        """Find viscosities that cannot be those of one oil."""
+        at_40, at_100 = self.kinematic_viscosity_40 / _MM2_PER_S, self.kinematic_viscosity_100 / _MM2_PER_S
+        if at_100 >= at_40:
+            yield (
+                f"kinematic_viscosity_100C_mm2_per_s is {at_100:g}; it must be less than the "
+                f"{at_40:g} mm2/s at 40 degrees"
+            )
 
     def kinematic_viscosity(self, temperature: float) -> float:
         """Kinematic viscosity at `temperature` [K], [m^2/s]; `walther_viscosity`."""

@@ -3,25 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
+
+from beardyn_core.edge import At
 
 
 @dataclass(frozen=True)
 class Material:
-    """Elastic constants and density, the same for rings and rollers.
+    """Steel of rings and rollers."""
 
-    Parameters
-    ----------
-    youngs_modulus : float
-        [Pa].
-    poisson_ratio : float
-        [-].
-    density : float
-        [kg/m^3].
-    """
-
-    youngs_modulus: float = 206.0e9
-    poisson_ratio: float = 0.3
-    density: float = 7830.0
+    youngs_modulus: A[float, At("GPa", gt=0.0, ge=10.0, le=1000.0), "of the steel"] = 206.0e9
+    poisson_ratio: A[float, At(ge=0.0, lt=0.5), "of the steel"] = 0.3
+    density: A[float, At("kg_per_m3", gt=0.0, ge=500.0, le=25000.0), "of the steel"] = 7830.0
 
     @property
     def contact_modulus(self) -> float:

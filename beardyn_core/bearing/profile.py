@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from beardyn_core.edge import At
 
 Float = NDArray[np.float64]
 
@@ -29,31 +33,27 @@ _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(32)
 _MEAN_NODES = 0.5 * _GAUSS_NODES * (3.0 - _GAUSS_NODES**2)
 _MEAN_WEIGHTS = 1.5 * _GAUSS_WEIGHTS * (1.0 - _GAUSS_NODES**2)
 
+_DESIGN = ("design_pressure_MPa", "design_load_kN")
+# kind: keys it needs, keys of which it needs one, keys it may have
+_KEYS_OF_KIND: dict[str, tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]] = {
+    "straight": ((), (), ()),
+    "crowned": (("drop_um",), (), ()),
+    "logarithmic": (("design_pressure_MPa",), (), ()),
+    "lundberg": ((), _DESIGN, ()),
+    "johns_gohar": ((), _DESIGN, ()),
+    "iso_16281": ((), (), ("design_pressure_MPa",)),
+    "fujiwara": (("drop_um",), _DESIGN, ("load_factor", "crowned_share")),
+}
+
 
 @dataclass(frozen=True)
 class Profile:
-    """Profile of the roller against both raceways.
+    """Generator profile of the rollers, against both raceways.
 
-    Parameters
-    ----------
-    kind : str
-        ``straight``; ``crowned`` (circular crown); ``lundberg`` (logarithmic, uniform pressure at the design
-        load); ``logarithmic`` (the same, by design pressure only); ``johns_gohar`` (Lundberg's, finite at
-        the very end); ``iso_16281`` (profile function of the standard, with its straight middle when the
-        roller is longer than 2.5 diameters); ``fujiwara`` (logarithmic with a straight middle and a given
-        end drop).
-    drop : float
-        Drop at the ends of the effective length, ``crowned`` and ``fujiwara``, [m].
-    design_pressure : float
-        Line-contact pressure for which a logarithmic profile gives a uniform load along the generator, 0 when
-        it is not given, [Pa]. ``iso_16281``: scales the standard's function, which is Lundberg's for
-        3.0 GPa on a short steel roller; 0 leaves it as it is.
-    design_load : float
-        Load of one contact instead of the pressure, 0 when it is not given, [N].
-    load_factor : float
-        ``fujiwara``: K1, factor of the design load.
-    crowned_share : float
-        ``fujiwara``: K2, share of the generator that is crowned; the middle is straight.
+    ``crowned`` is a circular crown; ``lundberg`` logarithmic with a uniform pressure at the design load, and
+    ``logarithmic`` the same by design pressure only; ``johns_gohar`` Lundberg's, finite at the very end;
+    ``iso_16281`` the profile function of the standard, with its straight middle when the roller is longer
+    than 2.5 diameters; ``fujiwara`` logarithmic with a straight middle and a given end drop.
 
     Notes
     -----
@@ -61,12 +61,49 @@ class Profile:
     which lies between the equivalent radii at the cup and at the cone.
     """
 
-    kind: str = "straight"
-    drop: float = 0.0
-    design_pressure: float = 0.0
-    design_load: float = 0.0
-    load_factor: float = 1.0
-    crowned_share: float = 1.0
+    kind: A[str, At(one_of=PROFILE_KINDS), "law of the drop along the generator"] = "straight"
+    drop: A[float | None, At("um", ge=0.0), "crowned, fujiwara: drop at the ends of the effective length"] = (
+        None
+    )
+    design_pressure: A[
+        float | None,
+        At("MPa", gt=0.0, le=10000.0),
+        "contact pressure that the profile makes uniform; iso_16281 without it is the standard's "
+        "own function, Lundberg's for 3000 MPa",
+    ] = None
+    design_load: A[
+        float | None,
+        At("kN", gt=0.0),
+        "lundberg, johns_gohar, fujiwara: load of one contact, instead of the pressure",
+    ] = None
+    load_factor: A[float | None, At(gt=0.0), "fujiwara: K1, factor of the design load; 1"] = None
+    crowned_share: A[
+        float | None, At(gt=0.0, le=1.0), "fujiwara: K2, share of the generator that is crowned; 1"
+    ] = None
+
+    def rules(self) -> Iterator[str]:
+        """Find what the kind needs and is not given, or does not have and is: the first of it."""
+        needed, one_of, optional = _KEYS_OF_KIND[self.kind]
+        values = {
+            "drop_um": self.drop,
+            "design_pressure_MPa": self.design_pressure,
+            "design_load_kN": self.design_load,
+            "load_factor": self.load_factor,
+            "crowned_share": self.crowned_share,
+        }
+        given = [key for key, value in values.items() if value is not None]
+        foreign = [key for key in given if key not in (*needed, *one_of, *optional)]
+        lacking = [key for key in needed if key not in given]
+        chosen = [key for key in one_of if key in given]
+        if foreign:
+            yield f"gives {foreign[0]}, which a {self.kind} profile does not have; remove it"
+        elif lacking:
+            yield f"has no {lacking[0]}; a {self.kind} profile needs it"
+        elif one_of and len(chosen) != 1:
+            found = "both" if chosen else "neither"
+            yield f"gives {found} of {' and '.join(one_of)}; a {self.kind} profile needs one"
+        elif self.kind in ("crowned", "fujiwara") and self.drop == 0.0:
+            yield f"gives drop_um 0; a {self.kind} profile needs a drop above 0"
 
     def drop_at(
         self,
@@ -109,7 +146,7 @@ class Profile:
         if self.kind == "straight":
             return np.zeros_like(share)
         if self.kind == "crowned":
-            return self.drop * share**2
+            return (self.drop or 0.0) * share**2
         if self.kind == "iso_16281":
             return self._iso_scale(modulus) * _iso_drop(share, 2.0 * half_length, roller_diameter)
         load = self._line_load(half_length, radius, modulus)
@@ -120,9 +157,9 @@ class Profile:
             half_width = math.sqrt(4.0 * load * radius / (math.pi * modulus))
             return scale * _logarithm((1.0 - 0.3033 * half_width / half_length) * share**2)
         if self.kind == "fujiwara":
-            scale *= self.load_factor
-            crowned = np.maximum((share - 1.0) / self.crowned_share + 1.0, 0.0)
-            return scale * _logarithm(-np.expm1(-self.drop / scale) * crowned**2)
+            scale *= self.load_factor or 1.0
+            crowned = np.maximum((share - 1.0) / (self.crowned_share or 1.0) + 1.0, 0.0)
+            return scale * _logarithm(-np.expm1(-(self.drop or 0.0) / scale) * crowned**2)
         raise ValueError(f"profile kind is {self.kind!r}; allowed are {', '.join(PROFILE_KINDS)}")
 
     def lamina_drop(
@@ -145,13 +182,13 @@ class Profile:
 
     def _line_load(self, half_length: float, radius: float, modulus: float) -> float:
         """Design load per length, q = Q/L or pi R p0^2 / E*, [N/m]."""
-        if self.design_load > 0.0:
+        if self.design_load is not None:
             return self.design_load / (2.0 * half_length)
-        return math.pi * radius * self.design_pressure**2 / modulus
+        return math.pi * radius * (self.design_pressure or 0.0) ** 2 / modulus
 
     def _iso_scale(self, modulus: float) -> float:
         """Factor of the standard's function: that of Lundberg's at the design pressure on a short roller."""
-        if self.design_pressure == 0.0:
+        if self.design_pressure is None:
             return 1.0
         return (self.design_pressure / modulus) ** 2 / (2.0 * _ISO_SHORT_FACTOR)
 

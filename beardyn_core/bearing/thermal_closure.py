@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.edge import At
 
 STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
 
@@ -26,6 +28,24 @@ class PartTemperatures:
     cup: float
     cone: float
     rollers: float
+
+
+@dataclass(frozen=True)
+class Temperatures:
+    """Temperatures of the parts, for the end play; it is given as mounted at the assembly temperature."""
+
+    cup: A[float, At("C", ge=-60.0, le=250.0), "of the cup"]
+    cone: A[float, At("C", ge=-60.0, le=250.0), "of both cones"]
+    rollers: A[float, At("C", ge=-60.0, le=250.0), "of the rollers"]
+    assembly: A[float, At("C", ge=-60.0, le=80.0), "at which the end play was measured"] = 293.15
+    expansion: A[float, At("um_per_m_K", ge=0.0), "of rings and rollers"] = STEEL_EXPANSION
+
+    def closure(self, bearing: Bearing) -> float:
+        """Find what they add to the end play of a bearing, [m]."""
+        change = PartTemperatures(
+            self.cup - self.assembly, self.cone - self.assembly, self.rollers - self.assembly
+        )
+        return end_play_change(bearing, change, self.expansion)
 
 
 def end_play_per_kelvin(bearing: Bearing, expansion: float = STEEL_EXPANSION) -> PartTemperatures:

@@ -3,7 +3,6 @@
 ============= =================================================================
 module        responsibility, in the order of the data
 ============= =================================================================
-free          what of a scene may be chosen
 circumstances load cases of the operation
 statics       equilibria of the load cases
 losses        torque by source, slip of the raceways
@@ -15,13 +14,34 @@ friction      rules: traction and film, rolling resistance, drag, seal, thermal
 guidance      rules: rib, small rib, cage
 motion        rules: gravity, contact damping, audit
 tier          what a tier leaves out
-usual_step    the step of a scene that names none
 fast_step     the step of the fast tiers
+usual_step    the step of a scene that names none
 numerics      what a lamina count leaves out; the step
 search        the cheapest alternatives within the limits
 outcome       the choice with reasons, cost and expected errors
 choose        scene in, choice out
+load          scenes ready to run: read by `config`, what they leave open closed
+trial         the scenes of a trial
 ============= =================================================================
 
-Importing `choose` brings the compiler along; the room itself does not.
+Importing `choose` brings the compiler along; the room itself, and a scene without `auto`, do not.
 """
+
+from beardyn_core.choice.load import (
+    Explanation,
+    explain_scene,
+    load_scene,
+    scene_from_mapping,
+    scene_from_text,
+)
+from beardyn_core.choice.trial import load_trial, trial_scene
+
+__all__ = [
+    "Explanation",
+    "explain_scene",
+    "load_scene",
+    "load_trial",
+    "scene_from_mapping",
+    "scene_from_text",
+    "trial_scene",
+]

@@ -16,13 +16,13 @@ from typing import Any
 from beardyn_core.choice import friction, guidance, motion, numerics, stiffness, tier
 from beardyn_core.choice.costs import measured_costs
 from beardyn_core.choice.evidence import Evidence
-from beardyn_core.choice.free import Free
 from beardyn_core.choice.outcome import Choice
 from beardyn_core.choice.rule import Alternative, Decision, Rule, tolerance
 from beardyn_core.choice.search import Stage, cheapest
 from beardyn_core.effects import Audit, EffectSet
 from beardyn_core.errors import ValidityError
-from beardyn_core.integrate.step_choice import StepChoice
+from beardyn_core.integrate.friction_steps import StepChoice
+from beardyn_core.scene.free import Free
 from beardyn_core.scene.scene import QUANTITIES, Scene
 from beardyn_core.scene.tier import TIERS
 

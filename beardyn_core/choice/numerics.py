@@ -14,11 +14,12 @@ from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_la
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.choice.rule import Influence, percent
+from beardyn_core.choice.usual_step import served
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.integrate.step_choice import AUDIBLE_BAND, StepChoice, choose_steps
+from beardyn_core.integrate.friction_steps import StepChoice
+from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
 from beardyn_core.model.fault_params import lamina_cover
 from beardyn_core.scene.defect import Patch
-from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 
 _FINE = 400
 _DEPTH = 1.0e-5  # of a working load [m]
@@ -160,10 +161,3 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         band=AUDIBLE_BAND if vibration else 0.0,
     )
     return served(found, scene.sensors)
-
-
-def served(choice: StepChoice, sensors: tuple[Accelerometer, ...]) -> StepChoice:
-    """A choice of the step, or a finer one where the sensors need it."""
-    steps = choice.steps_per_sample
-    problem = steps_do_not_fit(sensors, steps)
-    return choice if problem is None else StepChoice(max(FINE_STEPS, steps + steps % 2), problem)

@@ -35,7 +35,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.config import load_scene
+    from beardyn_core.choice import load_scene
     from beardyn_core.study import desk_run
     from beardyn_core.study.demo_report import RECORDING_NAME, demo_folder
     from beardyn_core.study.monitored_recording import MonitoredRecording

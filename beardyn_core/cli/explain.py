@@ -11,8 +11,8 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
+    from beardyn_core.choice import Explanation
     from beardyn_core.choice.outcome import Choice
-    from beardyn_core.config.automatic import Explanation
 
 DONE = 0
 _WIDTH = 110
@@ -46,7 +46,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.config import explain_scene
+    from beardyn_core.choice import explain_scene
 
     try:
         found = explain_scene(

@@ -56,7 +56,8 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from dataclasses import asdict
 
-    from beardyn_core.config import load_bearing, scene_from_text
+    from beardyn_core.choice import scene_from_text
+    from beardyn_core.config import load_bearing
     from beardyn_core.errors import InputError
     from beardyn_core.observe.chain import algorithm_named
     from beardyn_core.record.reading import read_run

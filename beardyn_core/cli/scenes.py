@@ -88,7 +88,7 @@ def entries(kind: str) -> list[dict[str, Any]]:
 
 
 def _scene(name: str) -> dict[str, Any]:
-    from beardyn_core.config import load_scene
+    from beardyn_core.choice import load_scene
 
     scene = load_scene(name)
     vehicle, vehicle_speed, shaft_speed = _speeds(scene)
@@ -185,7 +185,7 @@ def _effects(name: str) -> dict[str, Any]:
 
 
 def _trial(name: str) -> dict[str, Any]:
-    from beardyn_core.config import load_trial
+    from beardyn_core.choice import load_trial
 
     trial = load_trial(name)
     return {

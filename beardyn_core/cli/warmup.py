@@ -37,7 +37,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.config import load_scene
+    from beardyn_core.choice import load_scene
     from beardyn_core.jit import when_compiling
     from beardyn_core.twin import Twin
 
@@ -60,7 +60,8 @@ def run(args: argparse.Namespace) -> int:
 
 def _shipped(effects: str | None, tier: str | None) -> Iterator[tuple[str, Scene]]:
     """List shipped scenes as they are, then every preset in every tier, each with its name."""
-    from beardyn_core.config import load_scene, shipped_names
+    from beardyn_core.choice import load_scene
+    from beardyn_core.config import shipped_names
     from beardyn_core.scene.tier import TIERS
 
     for name in shipped_names("scenes"):

@@ -1,57 +1,54 @@
 """The config room: YAML files in edge units become frozen nouns in SI, or every mistake at once.
 
-=============== ============================================================
-module          responsibility, in the order of the data
-=============== ============================================================
-folders         where configuration lies; a name becomes a file
-yaml_text       YAML text to a mapping and back
-units           units in key names, factors to SI
-file_model      base of the models: strict numbers, unknown keys explained
-bearing_file    keys of a bearing
-lubricant_file  keys of a lubricant
-vehicle_file    keys of a vehicle
-effects_file    keys of an effects preset
-effect_keys     keys of each effect
-excitation_file keys of irregularity and of defects of wheel and rail
-running_file    keys of curves, braking, starting and timetables
-measured_file   keys of load and speed from a file
-defect_file     keys of defects, waviness and roughness
-operation_file  keys of an operation
-scene_file      keys of a scene
-problems        refusals to sentences with file, key, value, what is allowed
-missing         what of a scene speaks of rollers that are not there
-automatic       `auto` to what has been chosen
-load            references resolved, nouns made
-trial_file      keys of a trial; the scene of one of its runs
-schema          JSON schema for editors
-=============== ============================================================
+============ ==================================================================
+module       responsibility, in the order of the data
+============ ==================================================================
+folders      where configuration lies; a name becomes a file
+yaml_text    YAML text to a mapping and back
+file_model   base of the models: unknown keys explained, all mistakes kept
+keys         from an annotated noun to the model of its file
+effects_file a preset of effects, and what changes it
+scene_file   what the parts of a scene say otherwise than their nouns
+problems     refusals to sentences with file, key, value, what is allowed
+automatic    what `auto` leaves open
+missing      rows and rollers that are not there
+load         references resolved, nouns made
+text         a scene back to YAML
+trial_file   the trial file
+schema       JSON schema for editors
+============ ==================================================================
+
+`beardyn_core.choice` closes what a scene leaves open: `load_scene` is there.
 """
 
 from beardyn_core.config.folders import config_folder, shipped_names
 from beardyn_core.config.load import (
-    explain_scene,
+    OpenScene,
     load_bearing,
     load_effects,
     load_lubricant,
-    load_scene,
     load_vehicle,
-    scene_from_text,
+    read_scene,
+    read_scene_mapping,
+    read_scene_text,
 )
 from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
-from beardyn_core.config.trial_file import load_trial, trial_scene
+from beardyn_core.config.text import scene_text
+from beardyn_core.config.trial_file import read_trial
 
 __all__ = [
     "SCHEMA_KINDS",
+    "OpenScene",
     "config_folder",
-    "explain_scene",
     "json_schema",
     "load_bearing",
     "load_effects",
     "load_lubricant",
-    "load_scene",
-    "load_trial",
     "load_vehicle",
-    "scene_from_text",
+    "read_scene",
+    "read_scene_mapping",
+    "read_scene_text",
+    "read_trial",
+    "scene_text",
     "shipped_names",
-    "trial_scene",
 ]

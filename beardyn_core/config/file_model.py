@@ -2,63 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Annotated, Any, TypeVar, get_args
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, get_args
 
 from pydantic import (
     BaseModel,
     ConfigDict,
-    Discriminator,
     Field,
     GetJsonSchemaHandler,
-    Tag,
+    PrivateAttr,
     ValidationError,
     model_validator,
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from beardyn_core.config.folders import closest
-from beardyn_core.config.units import stem_of, unit_of
-
-# Strict: a text such as "3 mm" and `true` are not numbers; not-a-number and infinity are refused.
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
-NonNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
-Fraction = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0, le=1.0)]
-Friction = Annotated[NonNegative, Field(le=1.0)]
-Count = Annotated[int, Field(strict=True)]
-Text = Annotated[str, Field(strict=True)]
-Name = Annotated[str, Field(strict=True, min_length=1, max_length=80)]
-Vector = tuple[Number, Number, Number]
-PositiveVector = tuple[Positive, Positive, Positive]
-NonNegativeVector = tuple[NonNegative, NonNegative, NonNegative]
-
-Model = TypeVar("Model", bound="FileModel")
-# Tags of unions stand in brackets so that no key is mistaken for one.
-# A reference by name, or the thing itself written in place.
-Reference = Annotated[
-    Annotated[str, Tag("<name>")] | Annotated[Model, Tag("<inline>")],
-    Discriminator(lambda value: "<name>" if isinstance(value, str) else "<inline>"),
-]
-# Options, `true` for the usual ones, `false` or nothing for absent.
-Switch = Annotated[
-    Annotated[bool | None, Tag("<switch>")] | Annotated[Model, Tag("<options>")],
-    Discriminator(lambda value: "<switch>" if value is None or isinstance(value, bool) else "<options>"),
-]
-
-
-def kind_tag(value: Any) -> str | None:
-    """Tag of a mapping (or model) that says what it is with its key ``kind``."""
-    if isinstance(value, dict):
-        return f"<{value.get('kind')}>"
-    kind = getattr(value, "kind", None)
-    return None if kind is None else f"<{kind}>"
+from beardyn_core.edge import NounError, Place, Problem, Unit, alternatives, rules_of, stem_of, unit_of
 
 
 class FileModel(BaseModel):
     """Mapping in a configuration file; keys end in their unit."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, ser_json_inf_nan="constants")
+    noun_type: ClassVar[type | None] = None
+    places: ClassVar[tuple[Place, ...]] = ()
+    schema_changes: ClassVar[dict[str, Callable[[dict[str, Any]], None]]] = {}  # of a key, in the JSON schema
+    checked_elsewhere: ClassVar[tuple[str, ...]] = ()  # keys that the reader of the whole file checks
+    _noun: Any = PrivateAttr(None)
+
+    def values(self) -> dict[str, Any]:
+        """Convert the keys to the fields of the noun, SI; a key left out has the noun's usual value."""
+        found = {}
+        for place in self.places:
+            value = _in_si(getattr(self, place.key), place.at.scale)
+            if place.at.switch and value is False:
+                value = None
+            if isinstance(value, str) and Path in alternatives(place.hint):
+                value = Path(value)
+            if value is not None or not place.at.absent:
+                found[place.field] = value
+        return found
+
+    def make(self) -> Any:
+        """Make the noun."""
+        assert self.noun_type is not None
+        return self.noun_type(**self.values())
+
+    def noun(self) -> Any:
+        """Return the noun, SI."""
+        return self._noun
 
     @model_validator(mode="wrap")
     @classmethod
@@ -81,6 +74,7 @@ class FileModel(BaseModel):
         excused = {cls._meant(str(key), set(data)) for key in unknown}
         try:
             made = handler(known)
+            details += made._mistakes()
         except ValidationError as error:
             details += [
                 _again(found)
@@ -91,10 +85,33 @@ class FileModel(BaseModel):
             raise ValidationError.from_exception_data(cls.__name__, details)
         return made
 
+    def rules(self) -> Iterator[str | Problem]:
+        """Find what the keys, each right by itself, cannot be together before there is a noun."""
+        yield from ()
+
+    def _mistakes(self) -> list[InitErrorDetails]:
+        """Make the noun and find what its numbers cannot be together."""
+        found = list(rules_of(self))
+        if self.noun_type and not found:
+            try:
+                self._noun = self.make()
+                found = list(rules_of(self._noun))
+            except NounError as error:
+                found = error.found
+        return [
+            InitErrorDetails(type=problem(each.text), loc=each.place, input=None)
+            for each in found
+            if not (each.place and each.place[0] in self.checked_elsewhere)
+        ]
+
     @classmethod
     def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:
-        """Mapping with short forms written out."""
-        return data
+        """Write short forms out: `true` as options without a key, `false` as the key that is not there."""
+        prepared = dict(data)
+        for place in cls.places:
+            if place.at.switch and isinstance(value := data.get(place.key), bool):
+                prepared[place.key] = {} if value else cls.model_fields[place.key].default
+        return prepared
 
     @classmethod
     def _meant(cls, key: str, given: set[str]) -> str | None:
@@ -115,6 +132,17 @@ class FileModel(BaseModel):
         if unit and stem_of(meant) == stem_of(key):
             return f"unknown key; give `{meant}`, a number in {unit}"
         return f"unknown key; did you mean `{meant}`? {allowed[0].upper()}{allowed[1:]}"
+
+
+def _in_si(value: Any, scale: Unit) -> Any:
+    """Convert the value of a key to that of the field."""
+    if isinstance(value, FileModel):
+        return value.noun()
+    if isinstance(value, tuple):
+        return tuple(_in_si(each, scale) for each in value)
+    if isinstance(value, bool) or not isinstance(value, float | int):
+        return value
+    return scale.to_si(value)
 
 
 def _again(found: Any) -> InitErrorDetails:
@@ -167,11 +195,17 @@ def _is_part(annotation: Any) -> bool:
 class SourcedModel(SourcedPart):
     """A file whose numbers may say where they come from: ``{value: 17, source: catalogue}``."""
 
-    sources: dict[str, Text] = Field({}, description="key without unit -> where its value comes from")
+    sources: dict[str, Annotated[str, Field(strict=True)]] = Field(
+        {}, description="key without unit -> where its value comes from"
+    )
+
+    def values(self) -> dict[str, Any]:
+        """Convert the keys to the fields of the noun, SI; sources become pairs."""
+        return {**super().values(), "sources": tuple(self.sources.items())}
 
     @classmethod
     def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:
-        plain, sources = _without_sources(data, "")
+        plain, sources = _without_sources(super()._prepare(data), "")
         if sources and "sources" not in plain:
             plain["sources"] = sources
         return plain

@@ -2,82 +2,76 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError
 
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.choice.free import Free
-from beardyn_core.choice.usual_step import usual_step
-from beardyn_core.config.automatic import AUTO, REFERENCE, Explanation, choice_for, resolved, take_auto
-from beardyn_core.config.bearing_file import BearingKeys
-from beardyn_core.config.defect_file import DefectKeys, WavinessKeys
-from beardyn_core.config.effects_file import EffectsKeys, overlay
-from beardyn_core.config.excitation_file import WheelDefectKeys
-from beardyn_core.config.file_model import FileModel, Vector
+from beardyn_core.config.automatic import take_auto
+from beardyn_core.config.effects_file import overlay
 from beardyn_core.config.folders import find
-from beardyn_core.config.lubricant_file import LubricantKeys
+from beardyn_core.config.keys import keys_of, valid
 from beardyn_core.config.missing import missing_problems
-from beardyn_core.config.operation_file import USUAL_WHEEL_DIAMETER_MM, WheelDiameter
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
-from beardyn_core.config.scene_file import NumericsKeys, SceneKeys
-from beardyn_core.config.units import KN, stem_of
-from beardyn_core.config.vehicle_file import VehicleKeys
-from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
+from beardyn_core.config.scene_file import SceneKeys, with_length
+from beardyn_core.config.yaml_text import read_file, read_mapping
+from beardyn_core.edge import UNITS, stem_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
 from beardyn_core.rail.table import read_table
+from beardyn_core.scene.defect import Defect
+from beardyn_core.scene.excitation import WheelDefect
+from beardyn_core.scene.free import Free
 from beardyn_core.scene.integrator import integrator_problems
 from beardyn_core.scene.irregularity import MEASURED
-from beardyn_core.scene.operation import Vehicle
-from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.operation import QuarterVehicleOperation, Vehicle
+from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.tier import TIER_NAMES, contradictions
-
-Noun = TypeVar("Noun", covariant=True)
-Keys = TypeVar("Keys", bound=FileModel)
+from beardyn_core.scene.waviness import Waviness
 
 
-class _Describes(Protocol[Noun]):
-    def noun(self) -> Noun: ...
+@dataclass(frozen=True)
+class OpenScene:
+    """A scene as its file has it, before `beardyn_core.choice` closes what the file leaves open.
+
+    Parameters
+    ----------
+    scene : Scene
+        With stand-ins for what is open.
+    free : Free
+        What the file leaves to be chosen with ``auto``.
+    step_given : bool
+        Whether the file gives the time step.
+    """
+
+    scene: Scene
+    free: Free
+    step_given: bool
 
 
-def load_scene(
-    name: str | Path,
-    *,
-    effects: str | None = None,
-    tier: str | None = None,
-    duration: float | None = None,
-    laminae: int | None = None,
-    seed: int | None = None,
-    accuracy_percent: float | None = None,
-    quantities: list[str] | None = None,
-    outside_load: bool = False,
-) -> Scene:
-    """Scene of a shipped name or of a file.
+def read_scene(
+    name: str | Path, overrides: dict[Place, Any] | None = None, without: tuple[str, ...] = ()
+) -> OpenScene:
+    """Read the scene of a shipped name or of a file; what it leaves open with ``auto`` stays open.
 
     Parameters
     ----------
     name : str or Path
         A shipped scene, or the path of a YAML file.
-    effects : str, optional
-        Preset or file instead of the scene's effects, or ``auto``.
-    tier : str, optional
-    duration : float, optional
-        [s].
-    laminae, seed : int, optional
-    accuracy_percent, quantities : float, list of str, optional
-        What is asked for, when something is ``auto``.
-    outside_load : bool
-        Whether the load comes from elsewhere than the scene's operation: the lumped tier then takes no steps
-        longer than a sample unless the scene gives them.
+    overrides : dict, optional
+        Place of a key -> value instead of the file's, of the command line.
+    without : tuple of str, optional
+        Keys to leave out.
 
     Raises
     ------
@@ -85,102 +79,60 @@ def load_scene(
         With every mistake in the scene and in the files it refers to.
     """
     path = find("scenes", str(name))
-    overrides: dict[Place, Any] = {
-        ("effects",): effects,
-        ("tier",): tier,
-        ("duration_s",): duration,
-        ("numerics", "laminae"): laminae,
-        ("seed",): seed,
-        ("accuracy_percent",): accuracy_percent,
-        ("quantities",): quantities,
-    }
-    given = {place: value for place, value in overrides.items() if value is not None}
-    return _Reading(read_file(path), str(path), path.parent, outside_load).scene(given)
+    data = {key: value for key, value in read_file(path).items() if key not in without}
+    return _Reading(data, str(path), path.parent).scene(overrides or {})
 
 
-def explain_scene(
-    name: str | Path,
-    *,
-    effects: str | None = None,
-    tier: str | None = None,
-    accuracy_percent: float | None = None,
-    quantities: list[str] | None = None,
-) -> Explanation:
-    """Why a scene is computed as it is, and what would be chosen for it; arguments as of `load_scene`.
-
-    Parameters
-    ----------
-    name : str or Path
-    effects, tier : str, optional
-    accuracy_percent : float, optional
-        Instead of the scene's.
-    quantities : list of str, optional
-        Instead of the scene's.
-
-    Raises
-    ------
-    InputError
-        With every mistake.
-    """
-    path = find("scenes", str(name))
-    overrides: dict[Place, Any] = {
-        ("effects",): effects,
-        ("tier",): tier,
-        ("accuracy_percent",): accuracy_percent,
-        ("quantities",): quantities,
-    }
-    given = {place: value for place, value in overrides.items() if value is not None}
-    reference = load_effects(REFERENCE)
-    keys, free = _Reading(read_file(path), str(path), path.parent).keys(given)
-    current = choice_for(keys, free, reference)
-    if free.anything:
-        return Explanation(resolved(keys, current), current, None)
-    every = _Reading(read_file(path), str(path), path.parent)
-    every.data.pop("tier", None)
-    every.data.pop("numerics", None)
-    automatic = choice_for(*every.keys({**given, ("effects",): AUTO, ("tier",): AUTO}), reference)
-    return Explanation(keys.noun(""), current, automatic)
+def read_scene_text(text: str, label: str = "scene") -> OpenScene:
+    """Read the scene of a YAML text, such as the one recorded with a run; see `read_scene`."""
+    return read_scene_mapping(read_mapping(text, label), label, Path())
 
 
-def scene_from_text(text: str, label: str = "scene") -> Scene:
-    """Scene of a YAML text, such as the one recorded with a run; see `load_scene`."""
-    return _Reading(read_mapping(text, label), label, Path()).scene({})
-
-
-def scene_from_mapping(data: dict[str, Any], label: str, folder: Path) -> Scene:
-    """Scene of the mapping in a scene file that lies in a folder; see `load_scene`."""
+def read_scene_mapping(data: dict[str, Any], label: str, folder: Path) -> OpenScene:
+    """Read the scene of the mapping in a scene file that lies in a folder; see `read_scene`."""
     return _Reading(data, label, folder).scene({})
 
 
 def load_bearing(name: str | Path) -> Bearing:
-    """Bearing of a shipped name or of a file; raises `InputError` with every mistake and contradiction."""
+    """Load a shipped bearing or that of a file; raises `InputError` with every mistake and contradiction."""
     path = find("bearings", str(name))
-    bearing = _load(BearingKeys, path).noun()
+    bearing: Bearing = read_noun(Bearing, read_file(path), str(path))
     if problems := check(bearing):
         raise InputError([f"{path}: {_plain(problem)}" for problem in problems])
     return bearing
 
 
 def load_lubricant(name: str | Path) -> Lubricant:
-    """Lubricant of a shipped name or of a file; raises `InputError` with every mistake."""
-    return _load(LubricantKeys, find("lubricants", str(name))).noun()
+    """Load a shipped lubricant or that of a file; raises `InputError` with every mistake."""
+    return _load(Lubricant, find("lubricants", str(name)))
 
 
 def load_vehicle(name: str | Path) -> Vehicle:
-    """Vehicle of a shipped name or of a file; raises `InputError` with every mistake."""
-    return _load(VehicleKeys, find("vehicles", str(name))).noun()
+    """Load a shipped vehicle or that of a file; raises `InputError` with every mistake."""
+    return _load(Vehicle, find("vehicles", str(name)))
 
 
 def load_effects(name: str | Path) -> EffectSet:
-    """Effects of a shipped preset or of a file; raises `InputError` with every mistake."""
-    return _load(EffectsKeys, find("effects", str(name))).noun()
+    """Load the effects of a shipped preset or of a file; raises `InputError` with every mistake."""
+    return _load(EffectSet, find("effects", str(name)))
 
 
-def _load(keys: type[Keys], path: Path) -> Keys:
+def _load(noun: type, path: Path) -> Any:
+    return read_noun(noun, read_file(path), str(path))
+
+
+def read_noun(noun: type, data: dict[str, Any], label: str) -> Any:
+    """Read a noun of a type from the mapping of its file.
+
+    Raises
+    ------
+    InputError
+        With every mistake, each with the label of the file.
+    """
     try:
-        return keys.model_validate(read_file(path))
+        return keys_of(noun).model_validate(data).noun()
     except ValidationError as error:
-        raise InputError(sentences(error, [Origin((), str(path))])) from None
+        raise InputError(sentences(error, [Origin((), label)])) from None
 
 
 def _plain(problem: str) -> str:
@@ -190,21 +142,14 @@ def _plain(problem: str) -> str:
 class _Reading:
     """One scene being read: the resolved mapping, where its parts came from, the mistakes so far."""
 
-    def __init__(self, data: dict[str, Any], label: str, folder: Path, outside_load: bool = False) -> None:
+    def __init__(self, data: dict[str, Any], label: str, folder: Path) -> None:
         self.data = dict(data)
         self.folder = folder
-        self.outside_load = outside_load
         self.origins = [Origin((), label)]
         self.problems: list[str] = []
 
-    def scene(self, overrides: dict[Place, Any]) -> Scene:
-        keys, free = self.keys(overrides)
-        if free.anything:
-            return resolved(keys, choice_for(keys, free, load_effects(REFERENCE)))
-        return keys.noun(write_mapping(keys.model_dump(mode="json", exclude_none=True)))
-
-    def keys(self, overrides: dict[Place, Any]) -> tuple[SceneKeys, Free]:
-        """The validated scene, and what of it may be chosen."""
+    def scene(self, overrides: dict[Place, Any]) -> OpenScene:
+        """Resolve the references, read the scene and find every mistake."""
         for place, value in overrides.items():
             self._override(place, value)
         self._inline(self.data, "bearing", "bearings", ())
@@ -217,17 +162,16 @@ class _Reading:
             operation = self.data["operation"] = dict(operation)
             self._inline(operation, "vehicle", "vehicles", ("operation",))
             self._locate_files(operation)
+        scene: Scene | None = None
         try:
-            keys = SceneKeys.model_validate(self.data)
+            scene = SceneKeys.model_validate(self.data).noun()
         except ValidationError as error:
             self.problems += sentences(error, self.origins)
         self._check_contradictions(free)
         self._check_integrator(free)
-        if self.problems:
+        if self.problems or scene is None:
             raise InputError(list(dict.fromkeys(self.problems)))
-        if not free.anything and "steps_per_sample" not in self.data.get("numerics", {}):
-            keys = _with_usual_step(keys, self.outside_load)
-        return keys, free
+        return OpenScene(scene, free, "steps_per_sample" in self.data.get("numerics", {}))
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = located(place, self.origins)
@@ -239,7 +183,7 @@ class _Reading:
         for key in place[:-1]:
             inner = owner.get(str(key), {})
             if not isinstance(inner, dict):
-                return  # the scene file is wrong here and is told so
+                return  # a mistake of the scene file, reported later
             copy = dict(inner)
             owner[str(key)] = copy
             owner = copy
@@ -307,14 +251,13 @@ class _Reading:
             self.problems += error.problems
 
     def _check_contradictions(self, free: Free) -> None:
-        """What is well written and cannot be; parts with other mistakes are left out."""
+        """Find what is well written and cannot be; parts with other mistakes are left out."""
         self._check_tier(free)
         self._check_pockets()
         self._check_wheel()
-        bearing_keys = _valid(BearingKeys, self.data.get("bearing"))
-        if bearing_keys is None:
+        bearing = valid(Bearing, self.data.get("bearing"))
+        if bearing is None:
             return
-        bearing = bearing_keys.noun()
         label = max(
             (origin for origin in self.origins if origin.place in ((), ("bearing",))),
             key=lambda o: len(o.place),
@@ -322,13 +265,13 @@ class _Reading:
         problems = check(bearing)
         self.problems += [f"{label}: {_plain(problem)}" for problem in problems]
         self._check_forces(bearing)
-        faults: tuple[tuple[str, Any], ...] = (("defects", DefectKeys), ("waviness", WavinessKeys))
-        for key, keys in faults:
+        faults: tuple[tuple[str, Any], ...] = (("defects", Defect), ("waviness", Waviness))
+        for key, hint in faults:
             entries = self.data.get(key)
             for index, given in enumerate(entries if isinstance(entries, list) and not problems else []):
-                fault = _valid(keys, given)
-                for problem in fault.contradictions(bearing) if fault else []:
-                    self.problems.append(f"{self.origins[0].label}: {key_path((key, index))}.{problem}")
+                if fault := valid(hint, given):
+                    for problem in with_length(fault, bearing.effective_length).contradictions(bearing):
+                        self.problems.append(f"{self.origins[0].label}: {key_path((key, index))}.{problem}")
         for place, problem in missing_problems(self.data, bearing):
             self._complain(place, [problem])
 
@@ -343,10 +286,11 @@ class _Reading:
             (("operation", "steps", index), step)
             for index, step in enumerate(steps if isinstance(steps, list) else [])
         ]
-        vector: Any = Vector
         for place, owner in given:
-            force = _valid(vector, owner.get("force_kN")) if isinstance(owner, dict) else None
-            problem, _ = load_doubts(bearing, [each * KN for each in force]) if force else ("", "")
+            force = owner.get("force_kN") if isinstance(owner, dict) else None
+            if not isinstance(force, list) or not all(_is_number(each) for each in force):
+                continue
+            problem, _ = load_doubts(bearing, [UNITS["kN"].to_si(float(each)) for each in force])
             if problem:
                 self._complain((*place, "force_kN"), [problem])
 
@@ -354,22 +298,23 @@ class _Reading:
         operation = self.data.get("operation")
         if not isinstance(operation, dict):
             return
-        diameter: Any = WheelDiameter
-        diameter_mm = _valid(diameter, operation.get("wheel_diameter_mm", USUAL_WHEEL_DIAMETER_MM))
+        usual = UNITS["mm"].to_edge(QuarterVehicleOperation.wheel_diameter)
+        given = operation.get("wheel_diameter_mm", usual)
+        if not _is_number(given):
+            return
         entries = operation.get("wheel_defects")
-        keys: Any = WheelDefectKeys
-        for index, given in enumerate(entries if isinstance(entries, list) and diameter_mm else []):
-            defect = _valid(keys, given)
-            for problem in defect.contradictions(diameter_mm) if defect else []:
-                place = key_path(("operation", "wheel_defects", index))
-                self.problems.append(f"{self.origins[0].label}: {place}.{problem}")
+        for index, written in enumerate(entries if isinstance(entries, list) else []):
+            if defect := valid(WheelDefect, written):
+                for problem in defect.contradictions(0.5 * UNITS["mm"].to_si(float(given))):
+                    place = key_path(("operation", "wheel_defects", index))
+                    self.problems.append(f"{self.origins[0].label}: {place}.{problem}")
 
     def _check_tier(self, free: Free) -> None:
         tier = self.data.get("tier", "full")
-        effects = _valid(EffectsKeys, self.data.get("effects"))
-        numerics = _valid(NumericsKeys, self.data.get("numerics", {}))
+        effects = valid(EffectSet, self.data.get("effects"))
+        numerics = valid(Numerics, self.data.get("numerics", {}))
         if tier in TIER_NAMES and effects is not None and numerics is not None:
-            has_rib = effects.noun().rib is not None
+            has_rib = effects.rib is not None
             found = contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample)
             if free.tier:
                 found = [f"auto may have to take the tier {tier!r}: {problem}" for problem in found]
@@ -383,8 +328,8 @@ class _Reading:
             self._complain(("numerics", "integrator"), problems)
 
     def _check_pockets(self) -> None:
-        effects, entries = _valid(EffectsKeys, self.data.get("effects")), self.data.get("defects")
-        if effects is None or effects.noun().cage is not None or not isinstance(entries, list):
+        effects, entries = valid(EffectSet, self.data.get("effects")), self.data.get("defects")
+        if effects is None or effects.cage is not None or not isinstance(entries, list):
             return
         for index, given in enumerate(entries):
             if isinstance(given, dict) and given.get("kind") == "worn_pocket":
@@ -394,16 +339,5 @@ class _Reading:
                 )
 
 
-def _with_usual_step(keys: SceneKeys, outside_load: bool) -> SceneKeys:
-    """The scene with the step that its tier takes for it."""
-    assert isinstance(keys.numerics, NumericsKeys)
-    steps = usual_step(keys.noun(""), outside_load).steps_per_sample
-    numerics = keys.numerics.model_copy(update={"steps_per_sample": steps})
-    return keys.model_copy(update={"numerics": numerics})
-
-
-def _valid(keys: type[Keys], data: Any) -> Keys | None:
-    try:
-        return TypeAdapter(keys).validate_python(data)
-    except ValidationError:
-        return None
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)

@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
-
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.config.defect_file import MissingRollerKeys
+from beardyn_core.config.keys import valid
 from beardyn_core.config.problems import Place
+from beardyn_core.scene.defect import MissingRoller
 
 _ROW_NAMES = ("inboard", "outboard")
 
 
 def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[Place, str]]:
-    """Contradictions of `rows` and `missing_rollers` with each other and with the faults.
+    """Find contradictions of `rows` and `missing_rollers` with each other and with the faults.
 
     Parameters
     ----------
@@ -34,17 +33,17 @@ def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[P
     problems: list[tuple[Place, str]] = []
     missing: set[tuple[int, int]] = set()
     for place, given in _entries(scene, "missing_rollers"):
-        keys = _valid(given)
-        if keys is None:
+        found = valid(MissingRoller, given)
+        if found is None:
             continue
-        wrong = keys.contradictions(bearing)
-        if keys.row >= rows:
-            wrong.append(_no_row(keys.row))
-        if (keys.row, keys.roller) in missing:
-            wrong.append(f"roller {keys.roller} of row {keys.row} is given twice; name each roller once")
+        wrong = list(found.contradictions(bearing))
+        if found.row >= rows:
+            wrong.append(_no_row(found.row))
+        if (found.row, found.roller) in missing:
+            wrong.append(f"roller {found.roller} of row {found.row} is given twice; name each roller once")
         problems += [(place, text) for text in wrong]
         if not wrong:
-            missing.add((keys.row, keys.roller))
+            missing.add((found.row, found.roller))
     for row in range(rows):
         if sum(each == row for each, _ in missing) >= bearing.roller_count:
             name = _ROW_NAMES[row]
@@ -72,10 +71,3 @@ def _entries(scene: Mapping[str, Any], key: str) -> list[tuple[Place, dict[str, 
     if not isinstance(entries, list):
         return []
     return [((key, index), given) for index, given in enumerate(entries) if isinstance(given, dict)]
-
-
-def _valid(given: dict[str, Any]) -> MissingRollerKeys | None:
-    try:
-        return TypeAdapter(MissingRollerKeys).validate_python(given)
-    except ValidationError:
-        return None

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from beardyn_core.config.folders import closest
-from beardyn_core.config.units import unit_of
+from beardyn_core.edge import LIMIT_WORDS, unit_of
 
 Place = tuple[str | int, ...]
 
@@ -35,10 +35,10 @@ class Origin:
 
 
 _LIMITS = {
-    "greater_than": ("gt", "greater than"),
-    "greater_than_equal": ("ge", "at least"),
-    "less_than": ("lt", "less than"),
-    "less_than_equal": ("le", "at most"),
+    "greater_than": "gt",
+    "greater_than_equal": "ge",
+    "less_than": "lt",
+    "less_than_equal": "le",
 }
 
 
@@ -68,8 +68,8 @@ def _expectation(found: Any, unit: str | None) -> str:
     kind, context = found["type"], found.get("ctx", {})
     in_unit = f" in {unit}" if unit else ""
     if kind in _LIMITS:
-        limit, words = _LIMITS[kind]
-        return f"it must be {words} {context[limit]:g}"
+        limit = _LIMITS[kind]
+        return f"it must be {LIMIT_WORDS[limit]} {context[limit]:g}"
     if kind in ("float_type", "float_parsing"):
         plain = (
             " (the unit is in the key, write the number alone)"

@@ -4,27 +4,27 @@ from __future__ import annotations
 
 from typing import Any
 
-from beardyn_core.config.bearing_file import BearingKeys
-from beardyn_core.config.effects_file import EffectsKeys
-from beardyn_core.config.file_model import FileModel
-from beardyn_core.config.lubricant_file import LubricantKeys
-from beardyn_core.config.scene_file import SceneKeys
-from beardyn_core.config.trial_file import TrialKeys
-from beardyn_core.config.vehicle_file import VehicleKeys
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.config.effects_file import EffectSet
+from beardyn_core.config.keys import keys_of
+from beardyn_core.config.scene_file import Scene
+from beardyn_core.scene.operation import Vehicle
+from beardyn_core.scene.trial import Trial
 
-_MODELS: dict[str, type[FileModel]] = {
-    "scene": SceneKeys,
-    "bearing": BearingKeys,
-    "lubricant": LubricantKeys,
-    "vehicle": VehicleKeys,
-    "effects": EffectsKeys,
-    "trial": TrialKeys,
+_NOUNS: dict[str, type] = {
+    "scene": Scene,
+    "bearing": Bearing,
+    "lubricant": Lubricant,
+    "vehicle": Vehicle,
+    "effects": EffectSet,
+    "trial": Trial,
 }
-SCHEMA_KINDS = tuple(_MODELS)
+SCHEMA_KINDS = tuple(_NOUNS)
 
 
 def json_schema(kind: str = "scene") -> dict[str, Any]:
-    """JSON schema (2020-12) of one kind of file.
+    """Make the JSON schema (2020-12) of one kind of file.
 
     Parameters
     ----------
@@ -33,6 +33,6 @@ def json_schema(kind: str = "scene") -> dict[str, Any]:
     """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        **_MODELS[kind].model_json_schema(),
+        **keys_of(_NOUNS[kind]).model_json_schema(),
         "title": f"beardyn {kind}",
     }

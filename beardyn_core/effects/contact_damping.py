@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import At
 from beardyn_core.effects.about import About
 
 
 @dataclass(frozen=True)
 class ContactDamping:
-    """Velocity-proportional loss of raceway and rib contacts.
-
-    Parameters
-    ----------
-    time_constant : float
-        Damping force over tangent stiffness and normal velocity, [s].
-    """
+    """Velocity-proportional loss of raceway and rib contacts."""
 
     about: ClassVar[About] = About(
         adds="Velocity-proportional normal loss in raceway and rib contacts.",
@@ -26,4 +22,6 @@ class ContactDamping:
         source="Kraemer (1992), damping time 2.5e-6 to 2.5e-5 s; clipped so that a contact never pulls",
     )
 
-    time_constant: float = 5e-6
+    time_constant: A[
+        float, At("us", gt=0.0, le=1000.0), "damping force over tangent stiffness and normal velocity"
+    ] = 5e-6

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
+from typing import Annotated as A
 
+from beardyn_core.edge import At
 from beardyn_core.effects.audit import Audit
 from beardyn_core.effects.cage import Cage, CageModel
 from beardyn_core.effects.contact_damping import ContactDamping
@@ -22,25 +25,36 @@ from beardyn_core.effects.traction import MixedTraction, Traction
 
 @dataclass(frozen=True)
 class EffectSet:
-    """Which effects a scene simulates, and their options; ``None`` is absent at no cost.
+    """The effects of a scene, each with its options or absent.
 
-    Faults are not listed: they are present when the scene has defects.
+    ``None`` is absent at no cost. Faults are not listed: they are present when the scene has defects.
     """
 
-    contact_damping: ContactDamping | None = ContactDamping()
-    lamina_coupling: LaminaCoupling | None = None
-    traction: Traction | None = MixedTraction()
-    film: LineFilm | None = LineFilm()
-    rolling_resistance: RollingResistance | None = None
-    drag: Drag | None = None
-    rib: Rib | None = Rib()
-    small_rib: SmallRib | None = None
-    cage: CageModel | None = Cage()
-    seal: Seal | None = None
-    ring_flexibility: RingFlexibility | None = None
-    gravity: Gravity | None = Gravity()
-    thermal: Thermal | None = None
-    audit: Audit | None = Audit()
+    contact_damping: A[
+        ContactDamping | None, At(switch=True), "loss of contacts that are pressed together"
+    ] = ContactDamping()
+    lamina_coupling: A[
+        LaminaCoupling | None, At(switch=True), "laminae of a raceway contact that sink with each other"
+    ] = None
+    traction: A[Traction | None, "friction of the raceway contacts"] = MixedTraction()
+    film: A[LineFilm | None, At(switch=True), "lubricant film of the raceway contacts"] = LineFilm()
+    rolling_resistance: A[
+        RollingResistance | None, At(switch=True), "couple of the raceway contacts against rolling"
+    ] = None
+    drag: A[Drag | None, At(switch=True), "drag and churning of the rollers"] = None
+    rib: A[Rib | None, At(switch=True), "large roller ends on the cone rib"] = Rib()
+    small_rib: A[SmallRib | None, At(switch=True), "small roller ends on the small rib of the cone"] = None
+    cage: A[CageModel | None, At(switch=True), "cage of each row"] = Cage()
+    seal: A[Seal | None, At(switch=True), "friction of the seals"] = None
+    ring_flexibility: A[RingFlexibility | None, At(switch=True), "bending of the cup in its housing"] = None
+    gravity: A[Gravity | None, At(switch=True), "weight of rollers, cages and axlebox"] = Gravity()
+    thermal: A[Thermal | None, At(switch=True), "slow warming of the parts; needs the audit"] = None
+    audit: A[Audit | None, At(switch=True), "energy balance kept while the model runs"] = Audit()
+
+    def rules(self) -> Iterator[str]:
+        """Find what the effects cannot be together."""
+        if self.thermal and self.audit is None:
+            yield "thermal needs the audit, which tells what each source loses: set audit to true"
 
     def names(self) -> tuple[str, ...]:
         """Names of the effects that are present, in the order of the catalogue."""

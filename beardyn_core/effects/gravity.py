@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import At
 from beardyn_core.effects.about import About
 
 
 @dataclass(frozen=True)
 class Gravity:
-    """Weight of rollers, cages and axlebox.
-
-    Parameters
-    ----------
-    acceleration : float
-        Acceleration of free fall, [m/s^2].
-    """
+    """Weight of rollers, cages and axlebox."""
 
     about: ClassVar[About] = About(
         adds="Weight of rollers, cages and axlebox.",
@@ -26,4 +22,4 @@ class Gravity:
         source="Standard gravity, CGPM (1901)",
     )
 
-    acceleration: float = 9.80665
+    acceleration: A[float, At("m_per_s2", ge=0.0), "of free fall"] = 9.80665

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import SHARE, At
 from beardyn_core.effects.about import About
 
 
 @dataclass(frozen=True)
 class LaminaCoupling:
-    """Laminae coupled through the half-space, so that the ends of a contact are stiffer than its middle.
-
-    Parameters
-    ----------
-    pressure : float
-        Hertz pressure of the contact whose width is taken for the influence between laminae, [Pa].
-    strength : float
-        Share of the half-space's influence between different laminae, 0 to 1, [-]. 0 is uncoupled.
-    """
+    """Laminae coupled through the half-space, so that the ends of a contact are stiffer than its middle."""
 
     about: ClassVar[About] = About(
         adds="A loaded lamina sinks its neighbours: edge load, stiffer ends; Palmgren's total is kept.",
@@ -28,5 +22,9 @@ class LaminaCoupling:
         source="Teutsch and Sauer (2004), alternative slicing; rectangular patches after Love (1929)",
     )
 
-    pressure: float = 1.0e9
-    strength: float = 1.0
+    pressure: A[
+        float,
+        At("MPa", ge=10.0, le=5000.0),
+        "Hertz pressure of the contact whose width is taken for the influence",
+    ] = 1.0e9
+    strength: A[float, SHARE, "share of the influence between different laminae"] = 1.0

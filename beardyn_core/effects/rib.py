@@ -3,25 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import SHARE, At
 from beardyn_core.effects.about import About
 
 
 @dataclass(frozen=True)
 class RibMixedFilm:
-    """Lubricant film of the rib that shares the load with the asperities, each with a constant coefficient.
+    """Film and asperities of the rib share the load, each with a constant coefficient of friction."""
 
-    Parameters
-    ----------
-    starvation : float
-        Film thickness over the fully flooded one, 0 to 1.
-    boundary_friction : float
-        Coefficient of friction of the asperities, 0.1 to 0.2.
-    film_friction : float
-        Coefficient of friction of the film, 0.002 to 0.02.
-    """
-
+    kind: ClassVar[str] = "mixed"
     about: ClassVar[About] = About(
         adds="Film of the rib contact; its friction falls from boundary to film with the film parameter.",
         states="none",
@@ -30,23 +23,16 @@ class RibMixedFilm:
         source="Hamrock and Dowson (1977); load sharing of Zhao et al. (2026)",
     )
 
-    starvation: float = 0.7
-    boundary_friction: float = 0.1
-    film_friction: float = 0.01
+    starvation: A[float, At(gt=0.0, le=1.0), "film over the fully flooded film"] = 0.7
+    boundary_friction: A[float, SHARE, "coefficient of friction of the asperities, 0.1 to 0.2"] = 0.1
+    film_friction: A[float, SHARE, "coefficient of friction of the film, 0.002 to 0.02"] = 0.01
 
 
 @dataclass(frozen=True)
 class RibShearedFilm:
-    """Lubricant film of the rib that shears: Newtonian at the mean pressure up to a limiting shear stress.
+    """Lubricant film of the rib that shears: Newtonian at the mean pressure up to a limiting shear stress."""
 
-    Parameters
-    ----------
-    starvation, boundary_friction : float
-        As in `RibMixedFilm`.
-    limiting_shear : float
-        Limiting shear stress of the lubricant over the mean contact pressure.
-    """
-
+    kind: ClassVar[str] = "sheared_film"
     about: ClassVar[About] = About(
         adds="Film of the rib contact with a friction that follows from its viscosity.",
         states="none",
@@ -55,9 +41,11 @@ class RibShearedFilm:
         source="Hamrock and Dowson (1977); Bair and Winer (1979) for the limiting shear stress",
     )
 
-    starvation: float = 0.7
-    boundary_friction: float = 0.1
-    limiting_shear: float = 0.045
+    starvation: A[float, At(gt=0.0, le=1.0), "film over the fully flooded film"] = 0.7
+    boundary_friction: A[float, SHARE, "coefficient of friction of the asperities, 0.1 to 0.2"] = 0.1
+    limiting_shear: A[
+        float, At(gt=0.0, le=0.2), "limiting shear stress of the lubricant over the mean contact pressure"
+    ] = 0.045
 
 
 RibLubrication = RibMixedFilm | RibShearedFilm
@@ -65,27 +53,7 @@ RibLubrication = RibMixedFilm | RibShearedFilm
 
 @dataclass(frozen=True)
 class Rib:
-    """Contact of the spherical large roller end with the conical cone rib.
-
-    Parameters
-    ----------
-    friction : float
-        Coefficient of friction of the rib contact; not used with a lubrication.
-    regularisation_speed : float
-        Slip speed at which 71 % of the friction is reached, [m/s].
-    stiffness : str
-        ``fitted``: simplified elliptic integrals; ``exact``: complete elliptic integrals, 1 % apart.
-    window : bool
-        The face ends at the undercut and at the rib's corner; otherwise it is an unlimited cone.
-    edge_radius : float
-        Rounding of both edges of the face, [m].
-    roller_end : bool
-        The sphere ends at the rim of the roller end; otherwise it is a whole sphere.
-    drilling : bool
-        Friction of the spin inside the contact ellipse.
-    lubrication : RibMixedFilm or RibShearedFilm or None
-        Film and friction of the lubricated contact; None is dry friction.
-    """
+    """Contact of the spherical large roller end with the conical cone rib."""
 
     about: ClassVar[About] = About(
         adds="Sphere-on-cone contact of the large roller end with the cone rib, its edges and its film.",
@@ -95,11 +63,13 @@ class Rib:
         source="Hertz (1881), fit of Hamrock and Brewe (1983)",
     )
 
-    friction: float = 0.05
-    regularisation_speed: float = 0.05
-    stiffness: str = "fitted"
-    window: bool = True
-    edge_radius: float = 0.3e-3
-    roller_end: bool = False
-    drilling: bool = False
-    lubrication: RibLubrication | None = None
+    friction: A[float, SHARE, "without a lubrication"] = 0.05
+    regularisation_speed: A[
+        float, At("m_per_s", gt=0.0), "slip speed at which 71 % of the friction is reached"
+    ] = 0.05
+    stiffness: A[str, At(one_of=("fitted", "exact")), "elliptic integrals of the contact"] = "fitted"
+    window: A[bool, "the face ends at the undercut and at the rib's corner"] = True
+    edge_radius: A[float, At("mm", gt=0.0, le=2.0), "rounding of both edges of the face"] = 0.3e-3
+    roller_end: A[bool, "the sphere ends at the rim of the roller end"] = False
+    drilling: A[bool, "friction of the spin inside the contact ellipse"] = False
+    lubrication: A[RibLubrication | None, "nothing: dry friction"] = None

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import SHARE, At
 from beardyn_core.effects.about import About
 
 
@@ -14,21 +16,6 @@ class RingFlexibility:
 
     The cup and the wall are two thin rings that bend together without sticking to each other, so their
     bending stiffnesses add.
-
-    Parameters
-    ----------
-    highest_mode : int
-        The ring bends with 2, 3, ... up to this many waves around its circumference.
-    housing_wall : float
-        Thickness of the housing around the cup, 0 for a cup that stands alone, [m].
-    housing_modulus : float
-        Young's modulus of the housing, [Pa].
-    housing_density : float
-        [kg/m^3].
-    stiffness_factor : float
-        Factor on the stiffness of every mode, for a housing that has been measured or computed.
-    damping_ratio : float
-        Damping of every mode over the critical one.
     """
 
     about: ClassVar[About] = About(
@@ -41,9 +28,9 @@ class RingFlexibility:
         "circular rings, case 1",
     )
 
-    highest_mode: int = 4
-    housing_wall: float = 0.025
-    housing_modulus: float = 170.0e9
-    housing_density: float = 7100.0
-    stiffness_factor: float = 1.0
-    damping_ratio: float = 0.03
+    highest_mode: A[int, At(ge=2, le=12), "waves around the circumference, 2 to this number"] = 4
+    housing_wall: A[float, At("mm", ge=0.0, le=200.0), "0 for a cup that stands alone"] = 0.025
+    housing_modulus: A[float, At("GPa", gt=0.0), "Young's modulus of the housing"] = 170.0e9
+    housing_density: A[float, At("kg_per_m3", gt=0.0), "of the housing"] = 7100.0
+    stiffness_factor: A[float, At(gt=0.0), "on every mode, for a housing measured or computed"] = 1.0
+    damping_ratio: A[float, SHARE, "damping of every mode over the critical one"] = 0.03

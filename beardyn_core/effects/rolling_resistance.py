@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar, Literal
 
+from beardyn_core.edge import SHARE, At
 from beardyn_core.effects.about import About
 
 RollingKind = Literal["aihara", "zhou_hoeprich", "biboulet_houpert", "hysteresis"]
@@ -12,22 +15,7 @@ RollingKind = Literal["aihara", "zhou_hoeprich", "biboulet_houpert", "hysteresis
 
 @dataclass(frozen=True)
 class RollingResistance:
-    """Couple on roller and ring against their relative rotation about the contact line.
-
-    Parameters
-    ----------
-    kind : str
-        Law of the film's couple: ``aihara``, ``zhou_hoeprich`` (measured on tapered roller bearings) or
-        ``biboulet_houpert`` (from light to heavy loads); ``hysteresis`` for none.
-    supply : float
-        Couple over that of a fully flooded inlet, 0 to 1.
-    thermal : bool
-        Reduce the couple by heating of the inlet. The film thickness is not reduced by this.
-    hysteresis : float
-        Share of the elastic energy that the steel loses in a cycle, 0 for none.
-    regularisation_speed : float
-        Entrainment speed at which 71 % of the couple is reached, [m/s].
-    """
+    """Couple on roller and ring against their relative rotation about the contact line."""
 
     about: ClassVar[About] = About(
         adds="Rolling couple of the raceway contacts: hydrodynamic inlet, elastic hysteresis.",
@@ -37,8 +25,18 @@ class RollingResistance:
         source="Aihara (1987); Zhou and Hoeprich (1991); Biboulet and Houpert (2010); Johnson (1985)",
     )
 
-    kind: RollingKind = "zhou_hoeprich"
-    supply: float = 1.0
-    thermal: bool = True
-    hysteresis: float = 0.0
-    regularisation_speed: float = 0.01
+    kind: A[RollingKind, "law of the film's couple"] = "zhou_hoeprich"
+    supply: A[float, SHARE, "couple over that of a flooded inlet"] = 1.0
+    thermal: A[bool, "heating of the inlet"] = True
+    hysteresis: A[float, At(ge=0.0, le=0.1), "share of the elastic energy lost in a cycle"] = 0.0
+    regularisation_speed: A[
+        float, At("m_per_s", gt=0.0), "entrainment speed at which 71 % of the couple is reached"
+    ] = 0.01
+
+    def rules(self) -> Iterator[str]:
+        """Find what the options cannot be together."""
+        if self.kind == "hysteresis" and self.hysteresis == 0.0:
+            yield (
+                "kind is hysteresis, but hysteresis is 0; give the share of the elastic energy lost in a "
+                "cycle, 0.005 to 0.01 for bearing steel"
+            )

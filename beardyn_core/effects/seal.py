@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import At
 from beardyn_core.effects.about import About
 
 
 @dataclass(frozen=True)
 class Seal:
-    """Friction of the two seals, one at each end of the cup, on the shaft.
-
-    Parameters
-    ----------
-    torque : float
-        Of one seal, independent of speed, [N m].
-    speed_coefficient : float
-        Torque of one seal over speed, [N m s/rad].
-    regularisation_speed : float
-        Shaft speed at which 71 % of the torque is reached, [rad/s].
-    """
+    """Friction of the two seals, one at each end of the cup, on the shaft."""
 
     about: ClassVar[About] = About(
         adds="Torque of both seals on the shaft.",
@@ -31,6 +23,8 @@ class Seal:
         "130 mm; speed part assumed",
     )
 
-    torque: float = 0.3
-    speed_coefficient: float = 5e-4
-    regularisation_speed: float = 0.1
+    torque: A[float, At("N_m", ge=0.0), "of one seal, independent of speed"] = 0.3
+    speed_coefficient: A[float, At("N_m_s_per_rad", ge=0.0), "torque of one seal over speed"] = 5e-4
+    regularisation_speed: A[
+        float, At("rad_per_s", gt=0.0), "shaft speed at which 71 % of the torque is reached"
+    ] = 0.1

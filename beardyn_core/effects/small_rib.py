@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import SHARE, At
 from beardyn_core.effects.about import About
 
 
@@ -13,17 +15,6 @@ class SmallRib:
     """Contact of the flat small roller end with the small rib of the cone.
 
     Height and clearance of the rib are the bearing's.
-
-    Parameters
-    ----------
-    stiffness : float
-        Of one contact, [N/m].
-    damping : float
-        Of one contact, [N s/m].
-    friction : float
-        Coefficient of friction.
-    regularisation_speed : float
-        Slip speed at which 71 % of the friction is reached, [m/s].
     """
 
     about: ClassVar[About] = About(
@@ -34,7 +25,9 @@ class SmallRib:
         source="Plane on circle, exact; stiffness and damping assumed",
     )
 
-    stiffness: float = 2.0e8
-    damping: float = 1.0e3
-    friction: float = 0.1
-    regularisation_speed: float = 0.05
+    stiffness: A[float, At("MN_per_m", gt=0.0), "of one contact"] = 2.0e8
+    damping: A[float, At("N_s_per_m", ge=0.0), "of one contact"] = 1.0e3
+    friction: A[float, SHARE, "coefficient of friction"] = 0.1
+    regularisation_speed: A[
+        float, At("m_per_s", gt=0.0), "slip speed at which 71 % of the friction is reached"
+    ] = 0.05

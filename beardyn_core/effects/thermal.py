@@ -3,41 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import At
 from beardyn_core.effects.about import About
 
 
 @dataclass(frozen=True)
 class Thermal:
-    """Temperatures of cup, cone, rollers, cages, grease and axlebox, fed by what friction loses.
-
-    Parameters
-    ----------
-    ambient : float
-        Temperature of the air, [K].
-    time_scale : float
-        Heating goes on this many times as fast: a scaling of the heat capacities, 1 is real. It leaves
-        steady temperatures as they are.
-    wheel_diameter : float
-        Turns the shaft speed into the speed of the air along the axlebox, [m].
-    box_area : float
-        Surface of the axlebox in the air, [m^2].
-    still_air : float
-        Heat transfer of the axlebox at standstill, free convection and radiation, [W/(m^2 K)].
-    axle_heat_transfer : float
-        Of the axle that carries heat away from the cones, [W/(m^2 K)].
-    contact_conductance : float
-        Of one roller to each of its raceways, [W/K].
-    grease_heat_transfer : float
-        Of the surfaces inside the bearing to the grease, [W/(m^2 K)].
-    grease_mass : float
-        [kg].
-    seat_gap : float
-        Air gap that stands for the seat of the cup in the axlebox, [m].
-    expansion : float
-        Of rings and rollers, for the end play, [1/K].
-    """
+    """Temperatures of cup, cone, rollers, cages, grease and axlebox, fed by what friction loses."""
 
     about: ClassVar[About] = About(
         adds="Temperatures of the parts; they change the lubricant's viscosity and the end play.",
@@ -49,14 +24,20 @@ class Thermal:
         "analysis; end play as in Timken's indirect mounting; conductances assumed",
     )
 
-    ambient: float = 293.15
-    time_scale: float = 1.0
-    wheel_diameter: float = 0.92
-    box_area: float = 0.6
-    still_air: float = 6.0
-    axle_heat_transfer: float = 25.0
-    contact_conductance: float = 5.0
-    grease_heat_transfer: float = 100.0
-    grease_mass: float = 0.5
-    seat_gap: float = 2.0e-5
-    expansion: float = 12.0e-6
+    ambient: A[float, At("C", ge=-60.0, le=80.0), "of the air"] = 293.15
+    time_scale: A[float, At(gt=0.0, le=1e5), "heating goes on this many times as fast, 1 is real"] = 1.0
+    wheel_diameter: A[float, At("mm", gt=0.0, le=2000.0), "for the speed of the air along the axlebox"] = 0.92
+    box_area: A[float, At("m2", gt=0.0), "surface of the axlebox in the air"] = 0.6
+    still_air: A[float, At("W_per_m2_K", ge=0.0), "axlebox at standstill: free convection and radiation"] = (
+        6.0
+    )
+    axle_heat_transfer: A[
+        float, At("W_per_m2_K", ge=0.0), "of the axle that carries heat away from the cones"
+    ] = 25.0
+    contact_conductance: A[float, At("W_per_K", gt=0.0), "of one roller to each raceway"] = 5.0
+    grease_heat_transfer: A[
+        float, At("W_per_m2_K", gt=0.0), "of the surfaces inside the bearing to the grease"
+    ] = 100.0
+    grease_mass: A[float, At("kg", gt=0.0), "of the grease in the bearing"] = 0.5
+    seat_gap: A[float, At("um", gt=0.0), "air gap that stands for the cup's seat"] = 2.0e-5
+    expansion: A[float, At("um_per_m_K", ge=0.0), "of rings and rollers"] = 12.0e-6

@@ -2,29 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import ClassVar
 
+from beardyn_core.edge import SHARE, At
 from beardyn_core.effects.about import About
+
+REGULARISATIONS = ("smooth", "threlfall", "ambrosio", "arctangent")
+
+RegularisationSpeed = A[
+    float,
+    At("m_per_s", gt=0.0),
+    "slip speed at which smooth has 71 % of its friction, threlfall 95 %, ambrosio all, arctangent half",
+]
+Regularisation = A[str, At(one_of=REGULARISATIONS), "law of dry friction below the regularisation speed"]
+RegularisationStart = A[float, At("m_per_s", ge=0.0), "slip speed below which ambrosio has no friction"]
+BoundaryFriction = A[float, SHARE, "coefficient of friction of the asperities"]
+BoundaryFilmParameter = A[float, At(ge=0.0), "film parameter below which asperities carry all load"]
+FullFilmParameter = A[float, At(gt=0.0), "film parameter above which the film carries all load"]
 
 
 @dataclass(frozen=True)
 class CoulombTraction:
-    """Dry friction, regularised over a slip speed.
+    """Dry friction, regularised over a slip speed."""
 
-    Parameters
-    ----------
-    friction : float
-        Coefficient of friction at full slip.
-    regularisation_speed : float
-        Slip speed of the regularisation, [m/s]: 71 % of the friction is reached there by ``smooth``, 95 % by
-        ``threlfall``, all by ``ambrosio``, half by ``arctangent``.
-    regularisation : str
-        ``smooth``, ``threlfall``, ``ambrosio`` or ``arctangent``.
-    regularisation_start : float
-        Slip speed below which ``ambrosio`` has no friction, [m/s].
-    """
-
+    kind: ClassVar[str] = "coulomb"
     about: ClassVar[About] = About(
         adds="Dry friction between rollers and raceways, smooth through zero slip.",
         states="none",
@@ -33,30 +37,21 @@ class CoulombTraction:
         source="Coulomb's law; u / sqrt(u^2 + u_r^2), Threlfall (1978) or Ambrosio (2003) near zero slip",
     )
 
-    friction: float = 0.1
-    regularisation_speed: float = 0.01
-    regularisation: str = "smooth"
-    regularisation_start: float = 0.0
+    friction: A[float, SHARE, "coefficient of friction at full slip"] = 0.1
+    regularisation_speed: RegularisationSpeed = 0.01
+    regularisation: Regularisation = "smooth"
+    regularisation_start: RegularisationStart = 0.0
+
+    def rules(self) -> Iterator[str]:
+        """Find what the options cannot be together."""
+        return _starts_before_full(self)
 
 
 @dataclass(frozen=True)
 class MixedTraction:
-    """Boundary and full-film friction blended over the film parameter, both regularised.
+    """Boundary and full-film friction blended over the film parameter, both regularised."""
 
-    Parameters
-    ----------
-    boundary_friction : float
-        Coefficient of friction of the dry asperities.
-    full_film_friction : float
-        Coefficient of friction of the lubricant film at full slip.
-    regularisation_speed, regularisation, regularisation_start : float, str, float
-        As in `CoulombTraction`.
-    boundary_film_parameter : float
-        Film parameter below which all load is carried by asperities.
-    full_film_parameter : float
-        Film parameter above which all load is carried by the film.
-    """
-
+    kind: ClassVar[str] = "mixed"
     about: ClassVar[About] = About(
         adds="Raceway friction blended from boundary to full film over the film parameter.",
         states="none",
@@ -65,13 +60,18 @@ class MixedTraction:
         source="Santos (2017), Eq. 8, after Harada and Sakaguchi (2005)",
     )
 
-    boundary_friction: float = 0.1
-    full_film_friction: float = 0.02
-    regularisation_speed: float = 0.02
-    boundary_film_parameter: float = 0.01
-    full_film_parameter: float = 1.5
-    regularisation: str = "smooth"
-    regularisation_start: float = 0.0
+    boundary_friction: BoundaryFriction = 0.1
+    full_film_friction: A[float, SHARE, "coefficient of friction of the film at full slip"] = 0.02
+    regularisation_speed: RegularisationSpeed = 0.02
+    boundary_film_parameter: BoundaryFilmParameter = 0.01
+    full_film_parameter: FullFilmParameter = 1.5
+    regularisation: Regularisation = "smooth"
+    regularisation_start: RegularisationStart = 0.0
+
+    def rules(self) -> Iterator[str]:
+        """Find what the options cannot be together."""
+        yield from _starts_before_full(self)
+        yield from _film_parameters_in_order(self)
 
 
 @dataclass(frozen=True)
@@ -79,17 +79,9 @@ class ShearedFilmTraction:
     """The blend of `MixedTraction` with a film that shears: Newtonian up to a limiting shear stress.
 
     Light contacts have almost no traction then, so the bearing can skid as a real one does.
-
-    Parameters
-    ----------
-    boundary_friction, boundary_film_parameter, full_film_parameter : float
-        As in `MixedTraction`.
-    regularisation_speed, regularisation, regularisation_start : float, str, float
-        As in `CoulombTraction`, of the boundary friction.
-    limiting_shear : float
-        Limiting shear stress of the lubricant over the mean contact pressure.
     """
 
+    kind: ClassVar[str] = "sheared_film"
     about: ClassVar[About] = About(
         adds="The blend with a film that shears up to a limiting stress.",
         states="none",
@@ -98,39 +90,27 @@ class ShearedFilmTraction:
         source="Bair and Winer (1979) for the limiting shear stress",
     )
 
-    boundary_friction: float = 0.1
-    regularisation_speed: float = 0.02
-    boundary_film_parameter: float = 0.01
-    full_film_parameter: float = 1.5
-    limiting_shear: float = 0.045
-    regularisation: str = "smooth"
-    regularisation_start: float = 0.0
+    boundary_friction: BoundaryFriction = 0.1
+    regularisation_speed: RegularisationSpeed = 0.02
+    boundary_film_parameter: BoundaryFilmParameter = 0.01
+    full_film_parameter: FullFilmParameter = 1.5
+    limiting_shear: A[
+        float, At(gt=0.0, le=0.2), "limiting shear stress of the lubricant over the mean contact pressure"
+    ] = 0.045
+    regularisation: Regularisation = "smooth"
+    regularisation_start: RegularisationStart = 0.0
+
+    def rules(self) -> Iterator[str]:
+        """Find what the options cannot be together."""
+        yield from _starts_before_full(self)
+        yield from _film_parameters_in_order(self)
 
 
 @dataclass(frozen=True)
 class LoadSharingTraction:
-    """Asperities and film share the load, each with its own friction.
+    """Asperities and film share the load, each with its own friction."""
 
-    Parameters
-    ----------
-    boundary_friction : float
-        Coefficient of friction of the asperities at full slip; also the most the film may have.
-    boundary_slope : float
-        How steeply the asperities' friction rises: argument of the arctangent over the slide-to-roll ratio.
-    film_traction : str
-        ``aihara`` (a fit to tests), ``eyring`` (sinh law) or ``bair_winer`` (limiting shear stress).
-    largest_slide : float
-        Upper limit of the slide-to-roll ratio s_max of ``aihara``, whose fit extrapolates to any size for
-        thin oils and light loads.
-    eyring_stress : float
-        tau_0 of ``eyring``, [Pa].
-    limiting_shear : float
-        Limiting shear stress of ``bair_winer`` over the mean contact pressure.
-    inlet_shear : bool
-        Shear of the oil in the gap around the contact, which drives rollers that are hardly loaded: there it
-        is many times what the small Hertzian area gives.
-    """
-
+    kind: ClassVar[str] = "load_sharing"
     about: ClassVar[About] = About(
         adds="Raceway friction as a load-weighted sum of asperity friction and traction of a sheared film.",
         states="none",
@@ -139,13 +119,43 @@ class LoadSharingTraction:
         source="D-BRAIN (NSK); Aihara (1987); Johnson and Tevaarwerk (1977); Bair and Winer (1979)",
     )
 
-    boundary_friction: float = 0.1
-    boundary_slope: float = 1000.0
-    film_traction: str = "aihara"
-    largest_slide: float = 0.25
-    eyring_stress: float = 5.0e6
-    limiting_shear: float = 0.045
-    inlet_shear: bool = False
+    boundary_friction: BoundaryFriction = 0.1
+    boundary_slope: A[
+        float, At(gt=0.0), "steepness of the asperities' friction over slip per entrainment speed"
+    ] = 1000.0
+    film_traction: A[
+        str,
+        At(one_of=("aihara", "eyring", "bair_winer")),
+        "a fit to tests, a sinh law, or a limiting shear stress",
+    ] = "aihara"
+    largest_slide: A[float, At(gt=0.0, le=1.0), "upper limit of s_max of aihara"] = 0.25
+    eyring_stress: A[float, At("MPa", gt=0.0), "tau_0 of eyring"] = 5.0e6
+    limiting_shear: A[float, At(gt=0.0, le=0.2), "of bair_winer, over the mean contact pressure"] = 0.045
+    inlet_shear: A[bool, "shear of the oil around the contact as well"] = False
 
 
 Traction = CoulombTraction | MixedTraction | ShearedFilmTraction | LoadSharingTraction
+
+
+def _starts_before_full(dry: CoulombTraction | MixedTraction | ShearedFilmTraction) -> Iterator[str]:
+    """Find a regularisation that starts where its law has none, or too late."""
+    start, full = dry.regularisation_start, dry.regularisation_speed
+    if start > 0.0 and dry.regularisation != "ambrosio":
+        yield (
+            f"regularisation_start_m_per_s is {start:g}; only the regularisation ambrosio has one, "
+            f"{dry.regularisation} starts at 0"
+        )
+    elif start >= full:
+        yield (
+            f"regularisation_start_m_per_s is {start:g}; it must be less than "
+            f"regularisation_speed_m_per_s, {full:g}"
+        )
+
+
+def _film_parameters_in_order(blend: MixedTraction | ShearedFilmTraction) -> Iterator[str]:
+    """Find film parameters that leave nothing to blend."""
+    if blend.boundary_film_parameter >= blend.full_film_parameter:
+        yield (
+            f"boundary_film_parameter is {blend.boundary_film_parameter:g}; it must be less than "
+            f"full_film_parameter, {blend.full_film_parameter:g}"
+        )

@@ -17,6 +17,7 @@ quasistatic        explicit steps of the quasistatic tier
 spring_trend       rollers of the lumped tier at some instants
 warming            slow warming, once a block
 tiers              what each tier computes with
+friction_steps     the step that friction asks for, without an equilibrium
 status             status bits and the sentence of each
 step_choice        the coarsest step that is converged
 restraint          what holds the bearing against tilt

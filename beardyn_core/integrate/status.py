@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.integrate.friction_steps import LARGEST_CHATTER_INDEX
 from beardyn_core.integrate.state import State
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.vectors import cross, dot
@@ -34,7 +35,6 @@ from beardyn_core.model.layout import (
 )
 
 LARGEST_PENETRATION = 2.0e-4
-LARGEST_CHATTER_INDEX = 0.2
 CHATTER_LOAD_FLOOR = 5.0
 # Rib contacts and films are judged only where they carry this much [N].
 SMALLEST_JUDGED_LOAD = 100.0

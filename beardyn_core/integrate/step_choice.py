@@ -22,7 +22,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -30,21 +29,23 @@ from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import (
     Cage,
-    CoulombTraction,
     EffectSet,
     LoadSharingTraction,
-    MixedTraction,
     RotatingCage,
-    ShearedFilmTraction,
+)
+from beardyn_core.integrate.friction_steps import (
+    LARGEST_EXPECTED_INDEX,
+    LARGEST_STEPS,
+    StepChoice,
+    fixed_slope,
+    friction_steps,
+    shared_slope,
 )
 from beardyn_core.integrate.static import StaticSolution, solve
-from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.mounting import Mounting
-from beardyn_core.scene.tier import TIERS
 
 AUDIBLE_BAND = 10_000.0
-LARGEST_STEPS = 64
 # Upper ends of the third octaves that stayed within 1.5 dB, [Hz], by steps per sample. 2 steps are up to
 # 1.4 dB off at 8 and 10 kHz; 3 hold to 11.3 kHz, beyond in proportion. One step is no waveform: nothing
 # filters what folds back.
@@ -52,35 +53,8 @@ _WITHIN_DECIBELS = {2: 7_100.0}
 _FULL_BAND_STEPS = 3
 _BAND_PER_STEP = 3_770.0
 _BOUNCES_PER_STEP, _UNDAMPED_BOUNCES_PER_STEP = 0.5, 0.25
-# Chatter index of friction with a slope of 10 s/m at 2 steps per sample, before what moves was taken off it:
-# on the side of more steps; it goes with this power of the step.
-_CHATTER_INDEX = 0.33
-_CHATTER_SLOPE = 10.0
-_CHATTER_POWER = 1.4
-# The index was measured with 6 laminae. Fewer carry more each; their friction is taken as steeper by the
-# root of that: a margin that fits one scene, where at 80 kN 2 laminae flip with 2 steps and not with 3.
-_USUAL_LAMINAE = 6
-_LARGEST_EXPECTED_INDEX = 0.85 * LARGEST_CHATTER_INDEX
 _LARGEST_EXPLICIT_TURN = 0.6  # [rad]
 _BARS = 4  # touches of a roller with both bars of its pocket
-_CREEP = 0.01  # slowest entrainment that is looked at [m/s]
-_USUAL_ENTRAINMENT = 5.0  # [m/s]
-
-
-@dataclass(frozen=True)
-class StepChoice:
-    """Time step of a run.
-
-    Parameters
-    ----------
-    steps_per_sample : float
-        Time steps per waveform sample of 1/25600 s.
-    reason : str
-        What decided.
-    """
-
-    steps_per_sample: float
-    reason: str
 
 
 def choose_steps(
@@ -177,60 +151,22 @@ def _bounce(bearing: Bearing, static: StaticSolution, laminae: int, damped: bool
     )
 
 
-def usual_steps(effects: EffectSet, laminae: int) -> int:
-    """Steps per sample of a full run that names none: the tier's, or more where friction is steep.
-
-    Friction whose slope depends on the speed (load sharing without a film) is taken at an entrainment of
-    5 m/s; `choose_steps` knows the slowest speed.
-
-    Parameters
-    ----------
-    effects : EffectSet
-    laminae : int
-    """
-    slope = _fixed_slope(effects)
-    if isinstance(effects.traction, LoadSharingTraction) and effects.film is None:
-        slope = _shared_slope(effects.traction, _USUAL_ENTRAINMENT)
-    return max(TIERS["full"].steps_per_sample, min(_friction_steps(slope, laminae), LARGEST_STEPS))
-
-
-def _fixed_slope(effects: EffectSet) -> float:
-    """Rise of the coefficient of friction with the slip speed where the speed does not matter, [s/m]."""
-    traction = effects.traction
-    if isinstance(traction, CoulombTraction):
-        return traction.friction / traction.regularisation_speed
-    if isinstance(traction, MixedTraction | ShearedFilmTraction):
-        return traction.boundary_friction / traction.regularisation_speed
-    return 0.0
-
-
-def _shared_slope(traction: LoadSharingTraction, entrainment: float) -> float:
-    """Of load sharing without a film, [s/m]."""
-    return 2.0 / math.pi * traction.boundary_friction * traction.boundary_slope / max(entrainment, _CREEP)
-
-
 def dry_slope(bearing: Bearing, effects: EffectSet, speed: float) -> float:
     """Steepest rise of the coefficient of friction with the slip speed, [s/m]."""
     traction = effects.traction
     if isinstance(traction, LoadSharingTraction) and effects.film is None:
-        return _shared_slope(traction, 0.25 * bearing.pitch_diameter * speed)
-    return _fixed_slope(effects)
-
-
-def _friction_steps(slope: float, laminae: int) -> int:
-    coarse = max(1.0, math.sqrt(_USUAL_LAMINAE / laminae))
-    ratio = _CHATTER_INDEX * slope * coarse / (_CHATTER_SLOPE * _LARGEST_EXPECTED_INDEX)
-    return max(1, math.ceil(2.0 * ratio ** (1.0 / _CHATTER_POWER)))
+        return shared_slope(traction, 0.25 * bearing.pitch_diameter * speed)
+    return fixed_slope(effects)
 
 
 def _friction(bearing: Bearing, effects: EffectSet, slowest: float, laminae: int) -> Iterator[StepChoice]:
     slope = dry_slope(bearing, effects, slowest)
     if slope > 0.0:
-        steps = _friction_steps(slope, laminae)
+        steps = friction_steps(slope, laminae)
         yield StepChoice(
             steps,
             f"friction that rises by {slope:.3g} per m/s of slip keeps its chatter index below "
-            f"{_LARGEST_EXPECTED_INDEX:.2g} with {steps} steps per sample",
+            f"{LARGEST_EXPECTED_INDEX:.2g} with {steps} steps per sample",
         )
 
 

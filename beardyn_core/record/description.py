@@ -145,10 +145,12 @@ class RunDescription:
         body_names: Sequence[str],
         load: LoadHistory | None = None,
     ) -> RunDescription:
-        """Describe a run of a scene."""
+        """Describe a run of a scene; its text is written from the scene as it is."""
+        from beardyn_core.config.text import scene_text  # pydantic is not for readers of a recording
+
         return cls(
             scene=scene.name,
-            scene_text=scene.source_text,
+            scene_text=scene_text(scene),
             shape=BearingShape.of(scene.bearing),
             body_names=tuple(body_names),
             sensor_names=tuple(sensor.name for sensor in scene.sensors),

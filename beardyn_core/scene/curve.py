@@ -4,57 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 
-from beardyn_core.scene.ranges import outside, refuse
+from beardyn_core.edge import At, refuse
 
 HANDS = ("left", "right")
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A circular arc between two clothoids, on which curvature and cant grow linearly.
+    """A circular arc between two clothoids, on which curvature and cant grow linearly."""
 
-    Parameters
-    ----------
-    radius : float
-        Of the arc, [m].
-    cant : float
-        The outer rail above the inner one; negative when it lies lower, [m].
-    begin : float
-        Where the first transition begins, from the start of the run, [m].
-    length : float
-        From there to the end of the second transition, [m].
-    transition : float
-        Length of each transition, [m].
-    hand : str
-        ``left`` or ``right``: where it turns, looking forward. A left axlebox runs on the inner rail of a
-        left-hand curve.
-    """
-
-    radius: float
-    cant: float
-    begin: float
-    length: float
-    transition: float
-    hand: str = "left"
+    radius: A[float, At("m", gt=0.0, ge=50.0, le=1e5), "of the arc"]
+    cant: A[float, At("mm", ge=-50.0, le=250.0), "the outer rail above the inner one"] = 0.0
+    begin: A[
+        float, At("m", ge=0.0, le=1e6), "where the first transition begins, from the start of the run"
+    ] = 0.0
+    length: A[float, At("m", gt=0.0, ge=2.0, le=1e5, required=True), "with both transitions"] = 100.0
+    transition: A[float, At("m", gt=0.0, ge=1.0, le=1e4, required=True), "length of each"] = 30.0
+    hand: A[
+        str,
+        At(one_of=HANDS),
+        "where it turns; a left axlebox is on the inner rail of a left-hand curve",
+    ] = "left"
 
     def __post_init__(self) -> None:
-        refuse(self._problems())
+        refuse(self, "curve")
 
-    def _problems(self) -> Iterator[str]:
-        owner = "curve"
-        yield from outside(owner, "radius", self.radius, 50.0, 1e5, "m")
-        yield from outside(owner, "cant", self.cant, -0.05, 0.25, "m")
-        yield from outside(owner, "begin", self.begin, 0.0, 1e6, "m")
-        yield from outside(owner, "length", self.length, 2.0, 1e5, "m")
-        yield from outside(owner, "transition", self.transition, 1.0, 1e4, "m")
+    def rules(self) -> Iterator[str]:
+        """Find transitions that the curve cannot hold."""
         if 2.0 * self.transition > self.length:
             yield (
-                f"{owner}: transition is {self.transition:g} m; it must be at most half of the length, "
-                f"{0.5 * self.length:g} m"
+                f"transition_m is {self.transition:g}; it must be at most half of length_m, "
+                f"{0.5 * self.length:g}"
             )
-        if self.hand not in HANDS:
-            yield f"{owner}: hand is {self.hand!r}; allowed are {', '.join(HANDS)}"
 
     @property
     def end(self) -> float:

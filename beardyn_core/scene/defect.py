@@ -3,35 +3,52 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.edge import INTERNAL, ROW, At
 
 SMALLEST_SINK = 1e-8  # of a roller into a patch that it bridges [m]
+
 PATCH_KINDS = ("spall", "rectangular", "half_sine", "elliptic", "dent", "brinelling")
+
+
+def no_such(key: str, number: int, bearing: Bearing) -> Iterator[str]:
+    """Find the number of a roller or pocket that the bearing does not have."""
+    if number >= bearing.roller_count:
+        yield (
+            f"{key} is {number}; {bearing.name} has {bearing.roller_count} rollers per row, "
+            f"0 to {bearing.roller_count - 1}"
+        )
+
+
+def not_on_a_roller(roller: int, on: str) -> str:
+    """Say that a surface that is no roller has a roller's number."""
+    return f"roller is {roller}, but on is {on!r}: only `on: roller` has a roller's number"
 
 
 @dataclass(frozen=True)
 class Growth:
-    """Linear growth of a patch from a share of its size to all of it.
+    """Linear growth of a patch from a share of its size to all of it."""
 
-    Parameters
-    ----------
-    start, end : float
-        Simulated time before which the patch has its initial and after which it has its full size, [s].
-    initial : float
-        Share of the size at the start, 0 to 1, [-].
-    width, depth : bool
-        Which sizes grow; depth includes the height of the rim.
-    """
+    start: A[float, At("s", ge=0.0, key="from"), "simulated time up to which it has its initial size"]
+    end: A[float, At("s", gt=0.0, key="to"), "simulated time from which it has its full size"]
+    initial: A[float, At(ge=0.0, le=1.0, key="initial_share"), "of the full size"] = 0.0
+    width: A[bool, INTERNAL, "the width grows"] = True
+    depth: A[bool, INTERNAL, "depth and height of the rim grow"] = True
 
-    start: float
-    end: float
-    initial: float = 0.0
-    width: bool = True
-    depth: bool = True
+    def rules(self) -> Iterator[str]:
+        """Find a growth that ends before it begins."""
+        if self.end <= self.start:
+            yield f"to_s is {self.end:g}; it must be greater than from_s, {self.start:g}"
+
+    def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
+        """Write which sizes grow as one word."""
+        size = {(True, True): "both", (True, False): "width", (False, True): "depth"}
+        return {**keys, "size": size[self.width, self.depth]}
 
     def factor(self, time: float) -> float:
         """Share of the size at a time [s], [-]."""
@@ -43,47 +60,79 @@ class Growth:
 class Patch:
     """A patch of a raceway or a roller that is not where it should be.
 
-    Parameters
-    ----------
-    on : str
-        ``cup``, ``cone`` or ``roller``.
-    row : int
-        0 inboard, 1 outboard.
-    azimuth : float
-        Centre, from +z towards +x, in the body's own frame (the cone's and the roller's at the start
-        of the run; a roller's 0 faces the cup), [rad]. Of brinelling the centre of its first dent.
-    width : float
-        Extent in rolling direction without the rim; of brinelling that of each dent, [m].
-    depth : float
-        Depth, [m].
-    length : float
-        Extent along the roller, [m].
-    offset : float
-        Centre along the roller from the middle of its effective length, positive towards the large
-        end, [m].
-    roller : int
-        Which roller, for ``on='roller'``.
-    kind : str
-        Floor of the patch, with u from -1 to 1 across the width and h the depth: ``spall`` and
-        ``rectangular`` h, ``half_sine`` h cos(pi u / 2), ``elliptic`` h sqrt(1 - u^2), ``dent``
-        h cos^2(pi u / 2) (a bell without edges), ``brinelling`` one elliptic groove a roller pitch.
-    rim_height, rim_width : float
-        Raised shoulder on both sides, sin^2 in rolling direction, [m].
-    growth : Growth or None
+    The azimuth is that of its centre, of brinelling of the centre of its first dent; a roller's 0 faces the
+    cup. The width is without the rim, of brinelling that of each dent. The rim is sin^2 in rolling direction.
+    With u from -1 to 1 across the width and h the depth the floor is: ``spall`` and ``rectangular`` h,
+    ``half_sine`` h cos(pi u / 2), ``elliptic`` h sqrt(1 - u^2), ``dent`` h cos^2(pi u / 2) (a bell without
+    edges), ``brinelling`` one elliptic groove a roller pitch.
     """
 
-    on: str
-    row: int
-    azimuth: float
-    width: float
-    depth: float
-    length: float
-    offset: float = 0.0
-    roller: int = 0
-    kind: str = "spall"
-    rim_height: float = 0.0
-    rim_width: float = 0.0
-    growth: Growth | None = None
+    on: A[str, At(one_of=("cup", "cone", "roller")), "the surface it is on"]
+    row: A[int, ROW, "0 inboard, 1 outboard"]
+    azimuth: A[
+        float,
+        At("deg", usual=0.0),
+        "from +z (the top) towards +x, in the body's own frame at the start of the run",
+    ]
+    width: A[float, At("mm", gt=0.0, le=200.0), "in rolling direction"]
+    depth: A[float, At("um", gt=0.0, le=5000.0), "below the sound surface"]
+    length: A[
+        float,
+        At("mm", gt=0.0, optional=True),
+        "along the roller; the whole contact when not given",
+    ]
+    offset: A[float, At("mm"), "centre from mid-length, positive towards the large end"] = 0.0
+    roller: A[int, At(ge=0), "which roller, with `on: roller`"] = 0
+    kind: A[str, At(one_of=PATCH_KINDS), "shape of its floor"] = "spall"
+    rim_height: A[float, At("um", ge=0.0, le=500.0), "raised shoulder"] = 0.0
+    rim_width: A[
+        float,
+        At("mm", ge=0.0, le=50.0, optional=True),
+        "of the shoulder on each side; a quarter of the width when not given",
+    ] = 0.0
+    growth: A[Growth | None, "of its size during the run"] = None
+
+    def rules(self) -> Iterator[str]:
+        """Find what the patch by itself cannot be."""
+        if self.on != "roller" and self.roller != 0:  # a recorded scene says every number, 0 too
+            yield not_on_a_roller(self.roller, self.on)
+        if self.rim_height > 0.0 and self.rim_width == 0.0:
+            yield f"rim_width_mm is 0; a shoulder with rim_height_um {self.rim_height * 1e6:g} needs a width"
+
+    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+        """Find what of the patch does not fit the bearing."""
+        effective, length = bearing.effective_length * 1e3, self.length * 1e3
+        slack = 1e-9 * effective
+        if self.on == "roller":
+            yield from no_such("roller", self.roller, bearing)
+        if problem := width_problem(self.width, self.on, bearing):
+            yield problem
+        if length > effective + slack:
+            yield f"length_mm is {length:g}; it must be at most {effective:g}, the effective length"
+        elif abs(self.offset * 1e3) + 0.5 * length > 0.5 * effective + slack:
+            yield (
+                f"offset_mm is {self.offset * 1e3:g}; with length_mm {length:g} the patch reaches beyond the "
+                f"effective roller length, {effective:g} mm"
+            )
+        if self.on == "roller" and self.width > bearing.roller_diameter:
+            yield (
+                f"width_mm is {self.width * 1e3:g}; it must be at most {bearing.roller_diameter * 1e3:g}, "
+                "the roller diameter"
+            )
+        if self.depth > 0.1 * bearing.roller_diameter:
+            yield (
+                f"depth_um is {self.depth * 1e6:g}; it must be at most "
+                f"{0.1 * bearing.roller_diameter * 1e6:g}, a tenth of the roller diameter"
+            )
+        if self.kind == "brinelling":
+            pitch = math.pi * (bearing.pitch_diameter - bearing.roller_diameter) / bearing.roller_count
+            if self.on == "roller":
+                yield "on is 'roller'; brinelling is one dent a roller, on the cup or the cone"
+            elif self.width > 0.5 * pitch:
+                yield (
+                    f"width_mm is {self.width * 1e3:g}; it must be at most {0.5e3 * pitch:.4g}, "
+                    "half a roller pitch"
+                )
 
     def size_at(self, time: float) -> tuple[float, float, float]:
         """Width, depth and rim height at a time [s], [m]."""
@@ -110,19 +159,20 @@ Spall = Patch  # what `Patch` is without a `kind`
 
 @dataclass(frozen=True)
 class RollerError:
-    """A roller of another diameter than the others.
+    """A roller of another diameter than the others."""
 
-    Parameters
-    ----------
-    row, roller : int
-    diameter : float
-        Difference to the nominal diameter, positive when too large, [m].
-    """
+    row: A[int, ROW, "0 inboard, 1 outboard"]
+    roller: A[int, At(ge=0), "which roller"]
+    diameter: A[
+        float,
+        At("um", ge=-1000.0, le=200.0),
+        "difference to the nominal diameter, positive when too large",
+    ]
+    kind: A[str, At(one_of=("diameter",), required=True), "which of the kinds this is"] = "diameter"
 
-    row: int
-    roller: int
-    diameter: float
-    kind: str = "diameter"
+    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+        """Find what of the defect does not fit the bearing."""
+        return no_such("roller", self.roller, bearing)
 
     @property
     def on(self) -> str:
@@ -136,20 +186,20 @@ class RollerError:
 
 @dataclass(frozen=True)
 class WornPocket:
-    """A cage pocket with more room than the others.
+    """A cage pocket with more room than the others."""
 
-    Parameters
-    ----------
-    row, pocket : int
-        The pocket of the roller of the same number.
-    clearance : float
-        Added to the clearance along the pitch circle, front and rear together, [m].
-    """
+    row: A[int, ROW, "0 inboard, 1 outboard"]
+    pocket: A[int, At(ge=0), "the pocket of the roller of the same number"]
+    clearance: A[
+        float,
+        At("mm", gt=0.0, le=5.0),
+        "added to the clearance along the pitch circle, front and rear together",
+    ]
+    kind: A[str, At(one_of=("worn_pocket",), required=True), "which of the kinds this is"] = "worn_pocket"
 
-    row: int
-    pocket: int
-    clearance: float
-    kind: str = "worn_pocket"
+    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+        """Find what of the defect does not fit the bearing."""
+        return no_such("pocket", self.pocket, bearing)
 
     @property
     def on(self) -> str:
@@ -163,16 +213,15 @@ class WornPocket:
 
 @dataclass(frozen=True)
 class MissingRoller:
-    """A roller that is not there; its pocket is empty.
+    """A roller that is not there; its pocket is empty."""
 
-    Parameters
-    ----------
-    row, roller : int
-    """
+    row: A[int, ROW, "0 inboard, 1 outboard"]
+    roller: A[int, At(ge=0), "which roller"]
+    kind: A[str, INTERNAL] = "missing"
 
-    row: int
-    roller: int
-    kind: str = "missing"
+    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+        """Find what of the roller does not fit the bearing."""
+        return no_such("roller", self.roller, bearing)
 
     @property
     def on(self) -> str:

@@ -5,10 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
+from typing import ClassVar
 
-from beardyn_core.scene.ranges import not_finite, outside
+from beardyn_core.edge import SEED, At
 
 FLAT_SHAPES = ("fresh", "rounded")
+AMPLITUDE = At("um", ge=0.0, le=2000.0)
+POSITION = At("m", ge=0.0, le=1e6)
 
 # a length and a depth are measured apart; they may disagree by this share
 _TOLERANCE = 0.05
@@ -17,18 +21,6 @@ _TOLERANCE = 0.05
 @dataclass(frozen=True)
 class WheelFlat:
     """A spot of the running surface ground flat by a sliding wheel.
-
-    Parameters
-    ----------
-    length : float
-        Along the circumference; of a rounded flat with its rounded ends, [m].
-    depth : float or None
-        In the middle, [m]; ``None``: as the length and the wheel have it, see `usual_depth`.
-    shape : str
-        ``fresh``: a chord with sharp ends; ``rounded``: its ends are rolled round, a haversine.
-    azimuth : float
-        Middle of the flat, from +z (the top) towards +x (forward) at the start of the run, [rad]. At
-        pi it is on the rail.
 
     Notes
     -----
@@ -44,10 +36,24 @@ class WheelFlat:
     as if a fresh flat of the same depth had become longer by the square root of 2.
     """
 
-    length: float
-    depth: float | None = None
-    shape: str = "fresh"
-    azimuth: float = 0.0
+    kind: ClassVar[str] = "flat"
+
+    length: A[
+        float,
+        At("mm", gt=0.0, ge=1.0, le=150.0),
+        "along the circumference; of a rounded flat with its rounded ends",
+    ]
+    depth: A[
+        float | None,
+        At("mm", ge=0.0),
+        "L^2 / (8 R) of a fresh, L^2 / (16 R) of a rounded flat when not given",
+    ] = None
+    shape: A[str, At(one_of=FLAT_SHAPES), "a chord with sharp ends, or rolled round (haversine)"] = "fresh"
+    azimuth: A[
+        float,
+        At("deg"),
+        "of its middle, from +z (the top) towards +x (forward) at the start of the run",
+    ] = 0.0
 
     def usual_depth(self, wheel_radius: float) -> float:
         """Depth that belongs to the length, [m].
@@ -82,36 +88,21 @@ class WheelFlat:
             )
         return None
 
-    def problems(self, wheel_radius: float) -> Iterator[str]:
-        """What is wrong with it on a wheel of this radius [m]."""
-        yield from outside("flat", "length", self.length, 1e-3, 0.15, "m")
-        yield from not_finite("flat", "azimuth", (self.azimuth,))
-        if self.shape not in FLAT_SHAPES:
-            yield f"flat: shape is {self.shape!r}; allowed are {', '.join(FLAT_SHAPES)}"
-        if self.depth is not None and not 0.0 <= self.depth < math.inf:
-            yield f"flat: depth is {self.depth:g} m; it must be a finite number, not negative"
-        elif problem := self.contradiction(wheel_radius):
-            assert self.depth is not None
-            yield f"flat: depth is {1e3 * self.depth:g} mm; {problem}"
+    def contradictions(self, wheel_radius: float) -> Iterator[str]:
+        """Find what of the flat does not fit a wheel of this radius [m]."""
+        if found := self.contradiction(wheel_radius):
+            yield f"depth_mm is {1e3 * (self.depth or 0.0):g}; {found}"
 
 
 @dataclass(frozen=True)
 class WheelPolygon:
-    """A wheel that is out of round with a number of waves around its circumference.
+    """A wheel that is out of round with a number of waves around its circumference."""
 
-    Parameters
-    ----------
-    order : int
-        Waves per circumference; 1 is eccentricity.
-    amplitude : float
-        Of the radius about its mean, half of what a gauge reads from valley to crest, [m].
-    azimuth : float
-        Of a crest, from +z towards +x at the start of the run, [rad].
-    """
+    kind: ClassVar[str] = "polygon"
 
-    order: int
-    amplitude: float
-    azimuth: float = 0.0
+    order: A[int, At(ge=1, le=100), "waves per circumference"]
+    amplitude: A[float, AMPLITUDE, "about the mean radius, half of valley to crest"]
+    azimuth: A[float, At("deg"), "of a crest, from +z towards +x at the start of the run"] = 0.0
 
     def contradiction(self, wheel_radius: float) -> str | None:
         """What is wrong between order and wheel: a wave must be longer than the contact patch."""
@@ -120,62 +111,44 @@ class WheelPolygon:
             return None
         return f"at most {highest} waves of 20 mm fit on a wheel of {2e3 * wheel_radius:g} mm"
 
-    def problems(self, wheel_radius: float) -> Iterator[str]:
-        """What is wrong with it on a wheel of this radius [m]."""
-        yield from outside("polygon", "order", self.order, 1, 100, "waves")
-        yield from outside("polygon", "amplitude", self.amplitude, 0.0, 2e-3, "m")
-        yield from not_finite("polygon", "azimuth", (self.azimuth,))
-        if problem := self.contradiction(wheel_radius):
-            yield f"polygon: order is {self.order}; {problem}"
+    def contradictions(self, wheel_radius: float) -> Iterator[str]:
+        """Find what of the polygon does not fit a wheel of this radius [m]."""
+        if found := self.contradiction(wheel_radius):
+            yield f"order is {self.order}; {found}"
 
 
 @dataclass(frozen=True)
 class WheelOutOfRound:
     """A wheel with a whole spectrum of waves, as a roundness measurement gives it.
 
-    Parameters
-    ----------
-    amplitudes : tuple of float
-        Of the orders 1, 2, 3 ..., about the mean radius, [m].
-    seed : int
-        Of the azimuths, which such a spectrum does not tell.
-
     References
     ----------
     Nielsen, Johansson (2000), Out-of-round railway wheels, a literature survey, Proc. IMechE F 214.
     """
 
-    amplitudes: tuple[float, ...]
-    seed: int = 1
+    kind: ClassVar[str] = "out_of_round"
+
+    amplitudes: A[
+        tuple[float, ...],
+        AMPLITUDE,
+        At(size=(1, 100)),
+        "of the orders 1, 2, 3 ..., about the mean radius",
+    ]
+    seed: A[int, SEED, "of the azimuths of the waves"] = 1
 
     def contradiction(self, wheel_radius: float) -> str | None:
         """What is wrong between the highest order and the wheel."""
         return WheelPolygon(len(self.amplitudes), 0.0).contradiction(wheel_radius)
 
-    def problems(self, wheel_radius: float) -> Iterator[str]:
-        """What is wrong with it on a wheel of this radius [m]."""
-        if not 1 <= len(self.amplitudes) <= 100:
-            yield f"out of round: {len(self.amplitudes)} amplitudes; allowed are 1 to 100, one an order"
-        for order, amplitude in enumerate(self.amplitudes, start=1):
-            yield from outside("out of round", f"amplitude of order {order}", amplitude, 0.0, 2e-3, "m")
-        if problem := self.contradiction(wheel_radius):
-            yield f"out of round: {len(self.amplitudes)} orders; {problem}"
+    def contradictions(self, wheel_radius: float) -> Iterator[str]:
+        """Find what of the waves does not fit a wheel of this radius [m]."""
+        if found := self.contradiction(wheel_radius):
+            yield f"amplitudes_um has {len(self.amplitudes)} orders; {found}"
 
 
 @dataclass(frozen=True)
 class DippedJoint:
     """A joint or weld whose two rail ends hang down and meet in a kink.
-
-    Parameters
-    ----------
-    position : float
-        Of the kink, from the start of the run, [m].
-    angle : float
-        Between the two rail ends, twice the slope of each, [rad].
-    length : float
-        Of the dip, both sides together, [m].
-    spacing : float or None
-        To the next such joint, and so on; ``None``: there is only this one, [m].
 
     References
     ----------
@@ -183,56 +156,41 @@ class DippedJoint:
     wheel/rail vertical dynamic forces, Railway Engineering Journal 3: each side a parabola.
     """
 
-    position: float
-    angle: float
-    length: float = 1.0
-    spacing: float | None = None
+    kind: ClassVar[str] = "dipped_joint"
+
+    position: A[float, POSITION, "of the kink, from the start of the run"]
+    angle: A[float, At("mrad", ge=0.0, le=50.0), "between the two rail ends, twice the slope of each"]
+    length: A[float, At("m", gt=0.0, ge=0.05, le=5.0), "of the dip, both sides together"] = 1.0
+    spacing: A[float | None, At("m", gt=0.0), "to the next such joint; only one when not given"] = None
 
     @property
     def depth(self) -> float:
         """Of the kink below the sound rail, [m]."""
         return 0.125 * self.angle * self.length
 
-    def problems(self) -> Iterator[str]:
-        """What is wrong with it."""
-        yield from outside("dipped joint", "position", self.position, 0.0, 1e6, "m")
-        yield from outside("dipped joint", "angle", self.angle, 0.0, 0.05, "rad")
-        yield from outside("dipped joint", "length", self.length, 0.05, 5.0, "m")
-        if self.spacing is not None and not self.length <= self.spacing < math.inf:
-            yield (
-                f"dipped joint: spacing is {self.spacing:g} m; it must be at least the length of the dip, "
-                f"{self.length:g} m"
-            )
+    def rules(self) -> Iterator[str]:
+        """Find joints that run into each other."""
+        if self.spacing is not None and self.spacing < self.length:
+            yield f"spacing_m is {self.spacing:g}; it must be at least length_m, {self.length:g}"
 
 
 @dataclass(frozen=True)
 class Corrugation:
-    """Waves of one length on a stretch of rail.
+    """Waves of one length on a stretch of rail."""
 
-    Parameters
-    ----------
-    wavelength : float
-        [m].
-    amplitude : float
-        About the mean, half of what a gauge reads from valley to crest, [m].
-    begin, end : float
-        Of the stretch, from the start of the run, [m]; it grows and fades within two waves.
-    """
+    kind: ClassVar[str] = "corrugation"
 
-    wavelength: float
-    amplitude: float
-    begin: float = 0.0
-    end: float = math.inf
+    wavelength: A[float, At("mm", gt=0.0, ge=20.0, le=2000.0), "of the waves along the rail"]
+    amplitude: A[float, AMPLITUDE, "about the mean, half of valley to crest"]
+    begin: A[float, POSITION, At(key="from"), "from the start of the run"] = 0.0
+    end: A[float, At("m", gt=0.0, key="to", absent=True), "to the end of the run when not given"] = math.inf
 
-    def problems(self) -> Iterator[str]:
-        """What is wrong with it."""
-        yield from outside("corrugation", "wavelength", self.wavelength, 0.02, 2.0, "m")
-        yield from outside("corrugation", "amplitude", self.amplitude, 0.0, 2e-3, "m")
-        yield from outside("corrugation", "begin", self.begin, 0.0, 1e6, "m")
-        if not self.end >= self.begin + 4.0 * self.wavelength:
+    def rules(self) -> Iterator[str]:
+        """Find a stretch too short for its waves."""
+        if self.end < self.begin + 4.0 * self.wavelength:
             yield (
-                f"corrugation: end is {self.end:g} m; it must be at least four waves behind begin, "
-                f"{self.begin:g} m"
+                f"to_m is {self.end:g}; it must be at least four waves behind from_m, "
+                f"{self.begin + 4.0 * self.wavelength:g}"
             )
 
 
@@ -240,57 +198,34 @@ class Corrugation:
 class DippedWeld:
     """A weld that has sunk: a long smooth hollow, and perhaps a short one in its middle.
 
-    Parameters
-    ----------
-    position : float
-        Of its middle, from the start of the run, [m].
-    depth, length : float
-        Of the long hollow, [m].
-    short_depth, short_length : float
-        Of the short hollow in the softened zone, which adds to it, [m].
-    spacing : float or None
-        To the next such weld, and so on; ``None``: there is only this one, [m].
-
     References
     ----------
     Zhai (2020), Vehicle-Track Coupled Dynamics, chapter 3: a cosine of about 1 m with one of about 0.1 m
     on it; Steenbergen, Esveld (2006), Rail weld geometry and assessment concepts, Proc. IMechE F 220.
     """
 
-    position: float
-    depth: float
-    length: float = 1.0
-    short_depth: float = 0.0
-    short_length: float = 0.1
-    spacing: float | None = None
+    kind: ClassVar[str] = "dipped_weld"
 
-    def problems(self) -> Iterator[str]:
-        """What is wrong with it."""
-        yield from outside("dipped weld", "position", self.position, 0.0, 1e6, "m")
-        yield from outside("dipped weld", "depth", self.depth, 0.0, 5e-3, "m")
-        yield from outside("dipped weld", "length", self.length, 0.2, 5.0, "m")
-        yield from outside("dipped weld", "short_depth", self.short_depth, 0.0, 1e-3, "m")
-        yield from outside("dipped weld", "short_length", self.short_length, 0.05, self.length, "m")
-        if self.spacing is not None and not self.length <= self.spacing < math.inf:
-            yield (
-                f"dipped weld: spacing is {self.spacing:g} m; it must be at least the length of the dip, "
-                f"{self.length:g} m"
-            )
+    position: A[float, POSITION, "of its middle, from the start of the run"]
+    depth: A[float, At("mm", ge=0.0, le=5.0), "of the long hollow"]
+    length: A[float, At("m", gt=0.0, ge=0.2, le=5.0), "of the long hollow"] = 1.0
+    short_depth: A[float, At("mm", ge=0.0, le=1.0), "of the short hollow in its middle, which adds to it"] = (
+        0.0
+    )
+    short_length: A[float, At("m", gt=0.0, ge=0.05, le=1.0), "of the short hollow"] = 0.1
+    spacing: A[float | None, At("m", gt=0.0), "to the next such weld; only one when not given"] = None
+
+    def rules(self) -> Iterator[str]:
+        """Find welds that run into each other, and a short hollow that is the longer one."""
+        if self.spacing is not None and self.spacing < self.length:
+            yield f"spacing_m is {self.spacing:g}; it must be at least length_m, {self.length:g}"
+        if self.short_length > self.length:
+            yield f"short_length_m is {self.short_length:g}; it must be at most length_m, {self.length:g}"
 
 
 @dataclass(frozen=True)
 class Crossing:
     """The fixed crossing of a turnout: the wheel sinks along the wing rail and is lifted by the nose.
-
-    Parameters
-    ----------
-    position : float
-        Where the nose takes the wheel over, from the start of the run, [m].
-    depth : float
-        Of the way of the wheel at that place, [m].
-    wing_length, nose_length : float
-        From where it begins to sink, and to where it is up again, [m]. Run over against the nose; with
-        the two exchanged it is run over from the nose.
 
     Notes
     -----
@@ -304,26 +239,24 @@ class Crossing:
     Wear 294: V-shaped vertical way of the wheel, 1 to 4 mm deep.
     """
 
-    position: float
-    depth: float
-    wing_length: float = 0.3
-    nose_length: float = 0.2
+    kind: ClassVar[str] = "crossing"
+
+    position: A[float, POSITION, "where the nose takes the wheel over, from the start of the run"]
+    depth: A[float, At("mm", ge=0.0, le=10.0), "of the way of the wheel there"]
+    wing_length: A[float, At("m", gt=0.0, ge=0.05, le=3.0), "from where the wheel begins to sink"] = 0.3
+    nose_length: A[float, At("m", gt=0.0, ge=0.05, le=3.0), "to where the wheel is up again"] = 0.2
 
     @property
     def angle(self) -> float:
         """Between falling and rising way of the wheel, [rad]."""
         return self.depth / self.wing_length + self.depth / self.nose_length
 
-    def problems(self) -> Iterator[str]:
-        """What is wrong with it."""
-        yield from outside("crossing", "position", self.position, 0.0, 1e6, "m")
-        yield from outside("crossing", "depth", self.depth, 0.0, 0.01, "m")
-        yield from outside("crossing", "wing_length", self.wing_length, 0.05, 3.0, "m")
-        yield from outside("crossing", "nose_length", self.nose_length, 0.05, 3.0, "m")
+    def rules(self) -> Iterator[str]:
+        """Find a crossing that is a step."""
         if self.angle > 0.1:
             yield (
-                f"crossing: the way of the wheel turns by {1e3 * self.angle:.3g} mrad; allowed are 100 mrad: "
-                "make it shallower or longer"
+                f"depth_mm is {1e3 * self.depth:g}; with these lengths the way of the wheel turns by "
+                f"{1e3 * self.angle:.3g} mrad, allowed are 100: make it shallower or longer"
             )
 
 

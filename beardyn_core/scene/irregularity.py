@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 
-from beardyn_core.scene.ranges import outside, refuse
+from beardyn_core.edge import At, refuse
 
 # one-sided spectra that have a name; those without an alignment are vertical only
 SPECTRA = (
@@ -26,47 +27,40 @@ DIRECTIONS = ("vertical", "lateral")
 
 @dataclass(frozen=True)
 class Irregularity:
-    """Irregularity of the rail, drawn from a power spectral density or measured.
+    """Irregularity of the rail, drawn from a power spectral density or measured."""
 
-    Parameters
-    ----------
-    kind : str
-        One of `IRREGULARITY_KINDS`: a spectrum by name, ``csv`` (a measured profile over the distance),
-        ``density_csv`` (a table of a density over the wavelength) or ``none``.
-    shortest_wavelength, longest_wavelength : float
-        Band of the spectrum that is synthesised, [m]; a measured profile is taken as it is.
-    short_waves : str or None
-        ``iso_3095``: the density between 1 cm and 0.5 m is at least that of the rail roughness limit.
-    path : Path or None
-        Of the file of a measured kind.
-    """
-
-    kind: str = "german_low"
-    shortest_wavelength: float = 0.1
-    longest_wavelength: float = 150.0
-    short_waves: str | None = None
-    path: Path | None = None
+    kind: A[
+        str,
+        At(one_of=IRREGULARITY_KINDS),
+        "a spectrum by name, or a file of a profile or of a density",
+    ] = "german_low"
+    shortest_wavelength: A[float, At("m", gt=0.0, ge=0.02, le=50.0), "of the band of the spectrum"] = 0.1
+    longest_wavelength: A[float, At("m", gt=0.0, ge=1.0, le=1000.0), "of the band of the spectrum"] = 150.0
+    short_waves: A[
+        str | None,
+        At(one_of=SHORT_WAVES),
+        "rail roughness between 1 cm and 0.5 m, at least that of the limit for test tracks",
+    ] = None
+    path: A[
+        Path | None,
+        "of a kind from a file, relative to the scene file; columns distance_m, vertical_mm and "
+        "perhaps lateral_mm, or wavelength_m, vertical_mm2_m and perhaps lateral_mm2_m",
+    ] = None
 
     def __post_init__(self) -> None:
-        refuse(self._problems())
+        refuse(self, "irregularity")
 
-    def _problems(self) -> Iterator[str]:
-        if self.kind not in IRREGULARITY_KINDS:
-            yield f"irregularity: kind is {self.kind!r}; allowed are {', '.join(IRREGULARITY_KINDS)}"
-        if self.short_waves is not None and self.short_waves not in SHORT_WAVES:
-            yield f"irregularity: short_waves is {self.short_waves!r}; allowed are {', '.join(SHORT_WAVES)}"
-        if (self.path is not None) != (self.kind in MEASURED):
-            yield (
-                f"irregularity: path is {self.path}, kind is {self.kind!r}; a path is for "
-                f"{' and '.join(MEASURED)}, which need one"
-            )
-        yield from outside("irregularity", "shortest_wavelength", self.shortest_wavelength, 0.02, 50.0, "m")
-        yield from outside("irregularity", "longest_wavelength", self.longest_wavelength, 1.0, 1000.0, "m")
+    def rules(self) -> Iterator[str]:
+        """Find an empty band, and a file that is missing or out of place."""
         if self.shortest_wavelength >= self.longest_wavelength:
             yield (
-                f"irregularity: shortest_wavelength {self.shortest_wavelength:g} m must be less than "
-                f"longest_wavelength {self.longest_wavelength:g} m"
+                f"shortest_wavelength_m is {self.shortest_wavelength:g}; it must be less than "
+                f"longest_wavelength_m, {self.longest_wavelength:g}"
             )
+        if self.kind in MEASURED and self.path is None:
+            yield f"path is missing; kind {self.kind!r} needs the path of a CSV file"
+        if self.kind not in MEASURED and self.path is not None:
+            yield f"path is {str(self.path)!r}; it goes with kind {' or '.join(map(repr, MEASURED))}"
 
     @property
     def has_alignment(self) -> bool:

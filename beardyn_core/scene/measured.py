@@ -2,62 +2,57 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
+from typing import ClassVar
 
-from beardyn_core.scene.ranges import not_finite, outside, refuse
+from beardyn_core.edge import At, Vector, refuse
+from beardyn_core.scene.speed import POINTS, Profile, not_ascending
 
 TAKES = ("both", "force", "speed")
 
 
 @dataclass(frozen=True)
 class MeasuredOperation:
-    """Load and speed read from a CSV file or from a recording (see `rail.measured`).
+    """Load and speed read from a CSV file or from a recording (see `rail.measured`)."""
 
-    Parameters
-    ----------
-    path : Path
-        The file; the config room resolves a relative path against the folder of the scene file.
-    take : str
-        ``both``; ``force``: the speed is `speed_profile`; ``speed``: the load is `force`.
-    speed_profile : tuple of (time, speed) pairs
-        Time, [s], and speed of the vehicle, [m/s]: linear in between, held before and after.
-    wheel_diameter : float
-        Running diameter, for the speed profile, [m].
-    force : tuple of 3 floats or None
-        On the journal, [N].
-    """
+    KINDS: ClassVar[tuple[str, ...]] = ("csv", "mcap")
 
-    path: Path
-    take: str = "both"
-    speed_profile: tuple[tuple[float, float], ...] = ()
-    wheel_diameter: float = 0.92
-    force: tuple[float, float, float] | None = None
+    path: A[
+        Path,
+        "relative to the scene file; of a CSV file columns as in the documentation of `rail.measured`, of a "
+        "recording load/blocks, load/wrench and load/shaft, or force and shaft",
+    ]
+    take: A[
+        str,
+        At(one_of=TAKES),
+        "force: the speed is modelled, speed_profile; speed: the load is, force_kN",
+    ] = "both"
+    speed_profile: A[Profile, POINTS, "with take: force; linear in between, held before and after"] = ()
+    wheel_diameter: A[
+        float, At("mm", gt=0.0, ge=300.0, le=1500.0), "running diameter, for the speed profile"
+    ] = 0.92
+    force: A[Vector | None, At("kN"), "with take: speed; on the journal along x, y, z"] = None
 
     def __post_init__(self) -> None:
-        refuse(self._problems())
+        refuse(self, "operation (measured)")
 
-    def _problems(self) -> Iterator[str]:
-        owner = "operation (measured)"
-        if self.take not in TAKES:
-            yield f"{owner}: take is {self.take!r}; allowed are {', '.join(TAKES)}"
-        if bool(self.speed_profile) != (self.take == "force"):
-            yield f"{owner}: a speed_profile is given when, and only when, take is 'force'"
-        if (self.force is not None) != (self.take == "speed"):
-            yield f"{owner}: a force is given when, and only when, take is 'speed'"
-        yield from outside(owner, "wheel_diameter", self.wheel_diameter, 0.3, 1.5, "m")
-        if self.force is not None:
-            yield from not_finite(owner, "force", self.force)
-        for index, (time, speed) in enumerate(self.speed_profile):
-            yield from not_finite(owner, f"time of speed_profile point {index}", (time,))
-            yield from outside(
-                owner, f"speed of speed_profile point {index}", abs(speed), 0.0, 400 / 3.6, "m/s"
-            )
-        for index, ((one, _), (two, _)) in enumerate(itertools.pairwise(self.speed_profile), start=1):
-            if not two > one:
-                yield (
-                    f"{owner}: speed_profile point {index} is at {two:g} s; it must be later than point "
-                    f"{index - 1} at {one:g} s"
-                )
+    @property
+    def kind(self) -> str:
+        """Kind of the file."""
+        return "mcap" if self.path.suffix.lower() == ".mcap" else "csv"
+
+    def rules(self) -> Iterator[str]:
+        """Find what is wanted from the file and given as well, or neither, and times that go back."""
+        wants_speed, wants_force = self.take == "force", self.take == "speed"
+        if wants_speed and not self.speed_profile:
+            yield "speed_profile is missing; take is 'force', so the speed must come from there"
+        if wants_force and self.force is None:
+            yield "force_kN is missing; take is 'speed', so the load must come from there"
+        if self.speed_profile and not wants_speed:
+            yield f"speed_profile is given and take is {self.take!r}; it needs take: force"
+        if self.force is not None and not wants_force:
+            yield f"force_kN is given and take is {self.take!r}; it needs take: speed"
+        yield from not_ascending("speed_profile", [time for time, _ in self.speed_profile])

@@ -2,61 +2,81 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
+
+from beardyn_core.edge import UNITS, At, Vector
 
 
 @dataclass(frozen=True)
 class Mounting:
     """Axlebox on its suspension, and the journal in it.
 
-    Parameters
-    ----------
-    cup : str
-        ``held`` (fixed in space) or ``suspended`` (moves with the axlebox).
-    journal_tilt : str
-        ``locked`` or ``free``: tilt of the journal in space.
-    box_mass : float
-        Axlebox without the cup, [kg].
-    box_inertia : tuple of 3 floats
-        About x, y, z through the bearing centre, without the cup, [kg m^2].
-    journal_mass : float
-        Half wheelset, carried with the cones, [kg].
-    journal_inertia : float
-        Tilt inertia about x and z, [kg m^2].
-    stiffness, damping : tuple of 3 floats
-        Suspension between axlebox and bogie in x, y, z, [N/m], [N s/m].
-    rotational_stiffness, rotational_damping : tuple of 3 floats
-        The same about x, y, z: the restraint of the axlebox against tilting, [N m/rad], [N m s/rad].
-    box_centre : tuple of 3 floats
-        Centre of mass of the axlebox without the cup, from the bearing centre, [m].
-    suspension_centre : tuple of 3 floats
-        Where the suspension springs act on the axlebox, from the bearing centre, [m].
-    load_offset : tuple of 3 floats
-        Where the load acts on the journal, from the bearing centre: its force also turns the journal
-        with the moment offset x force, [m]. A journal that is locked holds all but its first value.
-    axial_prop_stiffness, axial_prop_damping : float
-        Between journal and ground along y, [N/m], [N s/m]; zeros for none. A single row, which thrusts the
-        journal out, needs it.
+    A load that acts beside the bearing centre also turns the journal with the moment offset x force; a
+    journal that is locked holds all but its first value. A single row thrusts the journal out along y.
     """
 
-    cup: str = "suspended"
-    journal_tilt: str = "locked"
-    box_mass: float = 100.0
-    box_inertia: tuple[float, float, float] = (2.0, 2.0, 2.0)
-    journal_mass: float = 900.0
-    journal_inertia: float = 50.0
-    stiffness: tuple[float, float, float] = (1.0e7, 5.0e6, 1.2e6)
-    damping: tuple[float, float, float] = (2.0e4, 2.0e4, 1.0e4)
-    rotational_stiffness: tuple[float, float, float] = (1.0e5, 2.0e5, 1.0e5)
-    rotational_damping: tuple[float, float, float] = (5.0e2, 1.0e3, 5.0e2)
-    box_centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    suspension_centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    load_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    axial_prop_stiffness: float = 0.0
-    axial_prop_damping: float = 0.0
+    cup: A[str, At(one_of=("held", "suspended")), "fixed in space, or moving with the axlebox"] = "suspended"
+    journal_tilt: A[str, At(one_of=("locked", "free")), "tilt of the journal in space"] = "locked"
+    box_mass: A[float, At("kg", gt=0.0), "axlebox without the cup"] = 100.0
+    box_inertia: A[
+        Vector, At("kg_m2", gt=0.0), "axlebox without the cup, about x, y, z through the bearing centre"
+    ] = (2.0, 2.0, 2.0)
+    journal_mass: A[float, At("kg", gt=0.0), "half wheelset"] = 900.0
+    journal_inertia: A[float, At("kg_m2", gt=0.0), "about x and z"] = 50.0
+    stiffness: A[Vector, At("MN_per_m", ge=0.0), "suspension between axlebox and bogie along x, y, z"] = (
+        1.0e7,
+        5.0e6,
+        1.2e6,
+    )
+    damping: A[Vector, At("kN_s_per_m", ge=0.0), "suspension between axlebox and bogie along x, y, z"] = (
+        2.0e4,
+        2.0e4,
+        1.0e4,
+    )
+    rotational_stiffness: A[
+        Vector, At("kN_m_per_rad", ge=0.0), "restraint of the axlebox against turning about x, y, z"
+    ] = (1.0e5, 2.0e5, 1.0e5)
+    rotational_damping: A[
+        Vector, At("N_m_s_per_rad", ge=0.0), "of the axlebox against turning about x, y, z"
+    ] = (5.0e2, 1.0e3, 5.0e2)
+    box_centre: A[
+        Vector, At("mm"), "centre of mass of the axlebox without the cup, from the bearing centre"
+    ] = (0.0, 0.0, 0.0)
+    suspension_centre: A[
+        Vector, At("mm"), "where the springs act on the axlebox, from the bearing centre"
+    ] = (0.0, 0.0, 0.0)
+    load_offset: A[Vector, At("mm"), "where the load acts on the journal, from the bearing centre"] = (
+        0.0,
+        0.0,
+        0.0,
+    )
+    axial_prop_stiffness: A[
+        float,
+        At("MN_per_m", ge=0.0),
+        "of a spring between journal and ground along y; a single row needs it",
+    ] = 0.0
+    axial_prop_damping: A[float, At("kN_s_per_m", ge=0.0), "of a damper beside that spring"] = 0.0
+
+    def rules(self) -> Iterator[str]:
+        """Find a box lighter about the bearing than at its centre, and an offset that turns nothing."""
+        squares = [c * c for c in self.box_centre]
+        least = tuple(self.box_mass * (sum(squares) - squares[axis]) for axis in range(3))
+        if any(have <= need for have, need in zip(self.box_inertia, least, strict=True) if need):
+            yield (
+                f"box_inertia_kg_m2 is {list(self.box_inertia)}; about the bearing centre it must be "
+                f"above {[round(value, 4) for value in least]}, what box_mass_kg alone has at box_centre_mm"
+            )
+        if any(self.load_offset) and self.cup == "held" and self.journal_tilt == "locked":
+            offset = [UNITS["mm"].to_edge(value) for value in self.load_offset]
+            yield (
+                f"load_offset_mm is {offset}; it turns nothing while cup is held and "
+                "journal_tilt is locked: set journal_tilt to free or cup to suspended"
+            )
 
     def about_bearing_centre(self, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
         """Loads where they act on the journal, reduced to the bearing centre.

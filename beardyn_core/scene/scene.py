@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Annotated as A
+from typing import Any, Literal
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.thermal_closure import PartTemperatures
+from beardyn_core.bearing.thermal_closure import Temperatures
+from beardyn_core.edge import INTERNAL, SEED, UNITS, At
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.defect import Defect, MissingRoller
+from beardyn_core.scene.integrator import LARGEST_STEPS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Operation
 from beardyn_core.scene.sensor import Accelerometer
-from beardyn_core.scene.tier import missing_effects
+from beardyn_core.scene.tier import TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
 
 # what a user can ask of a run; see `choice`
@@ -25,89 +29,78 @@ _FULL_RIB_OPTIONS = ("lubrication", "roller_end", "drilling")
 
 @dataclass(frozen=True)
 class Numerics:
-    """Discretisation of a run.
+    """Discretisation of a run."""
 
-    Parameters
-    ----------
-    laminae : int
-        Laminae of each roller.
-    steps_per_sample : float
-        Time steps per waveform sample (25.6 kHz): the step is 1 / (25 600 x this), [-]. A whole number, or
-        in the lumped tier 0.5 or 0.25.
-    integrator : str
-        See `scene.integrator`.
-    """
+    laminae: A[int, At(ge=1, le=100), "of each roller"] = 6
+    steps_per_sample: A[
+        float,
+        "time steps per waveform sample of 1/25600 s; 1 in the fast tiers, also 0.5 and in tier "
+        "lumped 0.25; to be given with integrator: explicit, up to "
+        f"{LARGEST_STEPS['explicit']}",
+    ] = 4
+    integrator: A[
+        str,
+        At(one_of=("implicit", "explicit")),
+        "explicit takes the contact forces of the beginning of a step: for references only, in "
+        "tier full; friction hides an oscillation in it with steps above 0.5 us (dry) to 5 us (films)",
+    ] = "implicit"
 
-    laminae: int = 6
-    steps_per_sample: float = 4
-    integrator: str = "implicit"
 
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Scene:
-    """One bearing under one operation, with all that is asked of the run.
+    """One bearing under one operation, with all that is asked of the run."""
 
-    Parameters
-    ----------
-    name, purpose : str
-    bearing : Bearing
-    lubricant : Lubricant
-    temperature : float
-        Of lubricant and bearing, [K].
-    end_play : float
-        Total axial travel of the mounted bearing at its temperatures, negative for preload, [m].
-    tier : str
-        Name of a tier, see `scene.tier`.
-    effects : EffectSet
-    operation : Operation
-        Where load and speed come from.
-    mounting : Mounting
-    defects : tuple of Patch, RollerError, WornPocket
-    sensors : tuple of Accelerometer
-    numerics : Numerics
-    duration : float
-        Simulated time, [s].
-    seed : int
-        Seed of irregularity and sensor noise.
-    source_text : str
-        The YAML the scene was read from, all references resolved; recorded with the run.
-    waviness : tuple of Waviness
-    temperatures : PartTemperatures or None
-        Of cup, cone and rollers where they differ; `end_play` already has what they do to it.
-    accuracy : float or None
-        Stated relative accuracy of the quantities, for what is chosen automatically, [-].
-    quantities : tuple of str
-        What is asked of the run, out of `QUANTITIES`.
-    chosen : tuple of str
-        What has been chosen automatically, each with its reason.
-    rows : int
-        Rows of rollers, each with its cage: 2, or 1 for row 0 (inboard) alone.
-    missing_rollers : tuple of MissingRoller
-    """
+    name: A[str, At(longest=80, key="scene"), "name of the scene"]
+    purpose: A[str, "one line: what the scene is for"] = ""
+    bearing: A[Bearing, At(reference=True), "a shipped bearing, a path, or the keys of one"]
+    lubricant: A[Lubricant, At(reference=True), "a shipped lubricant, a path, or the keys of one"]
+    temperature: A[float, At("C", ge=-60.0, le=200.0), "lubricant and bearing"] = 343.15
+    end_play: A[
+        float,
+        At("mm", ge=-0.5, le=2.0, optional=True),
+        "total axial travel, negative for preload; the bearing's own when not given",
+    ]
+    tier: A[str, At(one_of=(*TIER_NAMES, "auto")), "which bodies move by their own equations of motion"] = (
+        "full"
+    )
+    temperatures: A[
+        Temperatures | None,
+        "of the parts; with them end_play_mm is the one mounted at assembly_C",
+    ] = None
+    effects: A[
+        EffectSet,
+        At(reference=True, usual="standard"),
+        "a preset, a path, which effects are on, or auto",
+    ] = EffectSet()
+    accuracy: A[
+        float | None,
+        At("percent", gt=0.0, ge=0.1, le=50.0),
+        "of what is asked for, when something is auto; 5 when not given",
+    ] = None
+    quantities: A[
+        tuple[str, ...],
+        At(one_of=QUANTITIES, size=(1, None)),
+        "what is asked of the run, when something is auto",
+    ] = USUAL_QUANTITIES
+    operation: A[Operation, "where load and speed come from"]
+    mounting: A[Mounting, "axlebox on its suspension, and the journal in it"] = Mounting()
+    rows: A[Literal[1, 2], "2, or 1 for row 0 (inboard) alone"] = 2
+    missing_rollers: A[tuple[MissingRoller, ...], "rollers that are not there"] = ()
+    defects: A[tuple[Defect, ...], "patches, a roller of another diameter, worn pockets"] = ()
+    waviness: A[tuple[Waviness, ...], "harmonics of raceways and rollers"] = ()
+    sensors: A[tuple[Accelerometer, ...], At(size=(1, None)), "on the axlebox"] = (Accelerometer(),)
+    numerics: A[Numerics, "discretisation of the run, or auto"] = Numerics()
+    duration: A[float, At("s", gt=0.0, le=86400.0), "simulated time"] = 2.0
+    seed: A[int, SEED, "of irregularity and sensor noise"] = 1
+    # what has been chosen automatically, each with its reason
+    chosen: A[tuple[str, ...], INTERNAL] = field(default=(), compare=False)
 
-    name: str
-    purpose: str
-    bearing: Bearing
-    lubricant: Lubricant
-    temperature: float
-    end_play: float
-    tier: str
-    effects: EffectSet
-    operation: Operation
-    mounting: Mounting
-    defects: tuple[Defect, ...]
-    sensors: tuple[Accelerometer, ...]
-    numerics: Numerics
-    duration: float
-    seed: int
-    source_text: str
-    waviness: tuple[Waviness, ...] = ()
-    temperatures: PartTemperatures | None = None
-    accuracy: float | None = None
-    quantities: tuple[str, ...] = USUAL_QUANTITIES
-    chosen: tuple[str, ...] = ()
-    rows: int = 2
-    missing_rollers: tuple[MissingRoller, ...] = ()
+    def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
+        """Write the end play as it is mounted, before the temperatures change it."""
+        if self.temperatures is not None:
+            closure = self.temperatures.closure(self.bearing)
+            keys["end_play_mm"] = UNITS["mm"].to_edge(self.end_play, closure)
+        return keys
 
     @property
     def effect_names(self) -> tuple[str, ...]:

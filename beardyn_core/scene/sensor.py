@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
+
+from beardyn_core.edge import At, Vector
 
 RATES = (25_600.0, 51_200.0)  # [Hz]
 FINE_STEPS = 8  # fewest time steps per sample of 25.6 kHz that resolve the band of the faster rate
@@ -11,22 +15,6 @@ FINE_STEPS = 8  # fewest time steps per sample of 25.6 kHz that resolve the band
 @dataclass(frozen=True)
 class Accelerometer:
     """A three-axis accelerometer screwed to the axlebox.
-
-    Parameters
-    ----------
-    name : str
-    position : tuple of 3 floats
-        From the bearing centre, world axes, [m].
-    noise_density : float
-        White noise, one-sided, [m/s^2/sqrt(Hz)].
-    range : float
-        Clipping level of each axis, [m/s^2].
-    mounting_resonance : float or None
-        Of the accelerometer on its mounting, undamped, in each axis, [Hz]; ``None`` for a rigid one.
-    mounting_damping_ratio : float
-        Of critical damping; the gain at the resonance is 1 over twice of it, [-].
-    rate : float
-        Out of `RATES`, [Hz].
 
     Notes
     -----
@@ -39,13 +27,36 @@ class Accelerometer:
     ISO 5348, Mechanical vibration and shock - Mechanical mounting of accelerometers.
     """
 
-    name: str = "axlebox_top"
-    position: tuple[float, float, float] = (0.0, 0.0, 0.17)
-    noise_density: float = 0.02
-    range: float = 5000.0
-    mounting_resonance: float | None = None
-    mounting_damping_ratio: float = 0.02
-    rate: float = RATES[0]
+    name: A[str, At(longest=80, pattern=r"^[A-Za-z][A-Za-z0-9_]*$"), "of the sensor"] = "axlebox_top"
+    position: A[Vector, At("mm"), "from the bearing centre along x, y, z"] = (0.0, 0.0, 0.17)
+    noise_density: A[float, At("m_per_s2_per_sqrt_Hz", ge=0.0), "white noise of each axis, one-sided"] = 0.02
+    range: A[float, At("m_per_s2", gt=0.0), "clipping level of each axis"] = 5000.0
+    mounting_resonance: A[
+        float | None,
+        At("Hz", gt=0.0, ge=500.0, le=100_000.0),
+        "of the accelerometer on its mounting (ISO 5348); rigid when not given",
+    ] = None
+    mounting_damping_ratio: A[
+        float,
+        At(gt=0.0, ge=0.001, le=0.9, absent=True),
+        "of critical; 0.02 when not given",
+    ] = 0.02
+    rate: A[
+        float,
+        At("kHz"),
+        f"51.2 needs an even numerics.steps_per_sample of {FINE_STEPS} or more, its default then",
+    ] = RATES[0]
+
+    def rules(self) -> Iterator[str]:
+        """Find a rate that is not offered, and a damping of nothing."""
+        if self.rate not in RATES:
+            allowed = f"{RATES[0] / 1e3:g} or {RATES[1] / 1e3:g}"
+            yield f"rate_kHz is {self.rate / 1e3:g}; allowed is {allowed}"
+        if self.mounting_damping_ratio != 0.02 and self.mounting_resonance is None:
+            yield (
+                f"mounting_damping_ratio is {self.mounting_damping_ratio:g}; it damps nothing without "
+                "mounting_resonance_Hz: give that too, or leave both out for a rigid mounting"
+            )
 
 
 def steps_do_not_fit(sensors: tuple[Accelerometer, ...], steps_per_sample: float) -> str | None:

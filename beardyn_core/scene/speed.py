@@ -2,11 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated as A
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-Profile = tuple[tuple[float, float], ...]
+from beardyn_core.edge import At
+
 Float = NDArray[np.float64]
+
+
+class SpeedPoint(NamedTuple):
+    """Speed of the vehicle at one time."""
+
+    time: A[float, At("s", ge=0.0), "from the start of the run"]
+    speed: A[float, At("kmh", ge=-400.0, le=400.0), "negative when it runs backwards"]
+
+
+Profile = tuple[tuple[float, float], ...]
+POINTS = At(entry=SpeedPoint)
+
+
+def not_ascending(key: str, times: list[float]) -> Iterator[str]:
+    """Find times of a list that do not follow each other."""
+    for index, (one, two) in enumerate(pairwise(times), start=1):
+        if not two > one:
+            yield f"{key}[{index}].time_s is {two:g}; it must be greater than the {one:g} before it"
 
 
 def speed_at(profile: Profile, time: Float) -> Float:

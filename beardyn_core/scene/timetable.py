@@ -3,65 +3,33 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 
-from beardyn_core.scene.ranges import outside, refuse
+from beardyn_core.edge import At, refuse
 from beardyn_core.scene.speed import Profile
 
 
 @dataclass(frozen=True)
 class Stop:
-    """One stop of a timetable.
+    """One stop of a timetable."""
 
-    Parameters
-    ----------
-    distance : float
-        From the stop before, [m].
-    wait : float
-        Standing time there, [s].
-    top_speed : float
-        On the way to it, [m/s].
-    """
-
-    distance: float
-    wait: float
-    top_speed: float
+    distance: A[float, At("m", gt=0.0, ge=1.0, le=1e6), "from the stop before"]
+    wait: A[float, At("s", gt=0.0, ge=0.5, le=3600.0), "standing time there"] = 20.0
+    top_speed: A[float, At("kmh", gt=0.0, ge=1.8, le=400.0, required=True), "on the way to it"] = 100.0 / 3.6
 
 
 @dataclass(frozen=True)
 class Timetable:
-    """Stops after each other; the run begins standing.
+    """Stops after each other; the run begins standing."""
 
-    Parameters
-    ----------
-    stops : tuple of Stop
-    acceleration, deceleration : float
-        [m/s^2].
-    wait : float
-        Standing time before the first departure, [s].
-    """
-
-    stops: tuple[Stop, ...]
-    acceleration: float = 0.5
-    deceleration: float = 0.6
-    wait: float = 1.0
+    stops: A[tuple[Stop, ...], At(size=(1, None)), "one after the other"]
+    acceleration: A[float, At("m_per_s2", gt=0.0, ge=0.01, le=3.0), "from each stop"] = 0.5
+    deceleration: A[float, At("m_per_s2", gt=0.0, ge=0.01, le=3.0), "to each stop"] = 0.6
+    wait: A[float, At("s", gt=0.0, ge=0.5, le=3600.0), "before the first departure"] = 1.0
 
     def __post_init__(self) -> None:
-        refuse(self._problems())
-
-    def _problems(self) -> Iterator[str]:
-        owner = "timetable"
-        if not self.stops:
-            yield f"{owner}: stops is empty; give at least one"
-        yield from outside(owner, "acceleration", self.acceleration, 0.01, 3.0, "m/s^2")
-        yield from outside(owner, "deceleration", self.deceleration, 0.01, 3.0, "m/s^2")
-        yield from outside(owner, "wait", self.wait, 0.5, 3600.0, "s")
-        for index, stop in enumerate(self.stops):
-            name = f"{owner}, stop {index}"
-            yield from outside(name, "distance", stop.distance, 1.0, 1e6, "m")
-            yield from outside(name, "wait", stop.wait, 0.5, 3600.0, "s")
-            yield from outside(name, "top_speed", stop.top_speed, 0.5, 400 / 3.6, "m/s")
+        refuse(self, "timetable")
 
     def speed_profile(self) -> Profile:
         """Points of time and speed: speed up, hold the top speed where the way is long enough, brake.

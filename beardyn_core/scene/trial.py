@@ -7,41 +7,33 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
+from typing import Annotated as A
+from typing import Any
+
+from beardyn_core.edge import INTERNAL, At
+from beardyn_core.scene.excitation import WheelDefect
 
 HEALTHY = "none"
 FAULTS = ("cup", "cone", "roller")
+TIERS = ("lumped", "quasistatic", "full")
+REPEATS = At(ge=1, le=1000)
 
 
 @dataclass(frozen=True)
 class TrialWheel:
-    """A wheel of the matrix.
+    """A wheel of the matrix."""
 
-    Parameters
-    ----------
-    name : str
-    defects : tuple of dict
-        As in a scene file under ``operation.wheel_defects``.
-    """
-
-    name: str
-    defects: tuple[dict[str, object], ...] = ()
+    name: A[str, At(longest=80), "of the wheel in the results"]
+    defects: A[tuple[WheelDefect, ...], "flats and polygons of the wheel"] = ()
 
 
 @dataclass(frozen=True)
 class Spall:
-    """How the spall of a size looks.
+    """How the spall of a size looks."""
 
-    Parameters
-    ----------
-    length_per_width, depth_per_width : float
-        [-].
-    deepest : float
-        [m].
-    """
-
-    length_per_width: float
-    depth_per_width: float
-    deepest: float
+    length_per_width: A[float, At(gt=0.0, le=20.0), "along the roller"] = 2.0
+    depth_per_width: A[float, At(gt=0.0, le=1.0), "depth over width"] = 0.1
+    deepest: A[float, At("um", gt=0.0, le=1000.0), "limit of the depth"] = 100.0e-6
 
     def depth(self, width: float) -> float:
         """Of a spall of a width, [m]."""
@@ -96,60 +88,72 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Trial:
-    """A matrix of scenes.
+class Check:
+    """Which runs are repeated in another tier."""
 
-    Parameters
-    ----------
-    name, purpose : str
-    scene : str
-        What every run starts from, a shipped name or a file.
-    folder : Path
-        Of the trial's own file, where a scene file is looked for first.
-    tier : str
-    effects : str or dict or None
-        As in a scene file; ``None``: the scene's.
-    faults : tuple of str
-    sizes : tuple of floats
-        Widths of the spalls, [m].
-    spall : Spall
-    speeds : tuple of floats
-        Of the train, [m/s].
-    tracks : tuple of str
-        Kinds of irregularity.
-    wheels : tuple of TrialWheel
-    repeats, healthy_repeats : int
-        Runs of every combination with and without a fault.
-    revolutions : float
-        Shaft revolutions of a run, [-].
-    interval : float
-        Time between two analyses, [s].
-    seed : int
-    check_tier : str or None
-        In which some runs are repeated.
-    check_every : int
-        Every how manieth run is.
+    tier: A[str, At(one_of=TIERS), "in which they are repeated"]
+    every: A[int, At(ge=1), "every how manieth run of the matrix"]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A matrix of scenes that a monitor is put to.
+
+    `folder` is that of its file, where a scene file is looked for first.
     """
 
-    name: str
-    purpose: str
-    scene: str
-    folder: Path
-    tier: str
-    effects: object
-    faults: tuple[str, ...]
-    sizes: tuple[float, ...]
-    spall: Spall
-    speeds: tuple[float, ...]
-    tracks: tuple[str, ...]
-    wheels: tuple[TrialWheel, ...]
-    repeats: int
-    healthy_repeats: int
-    revolutions: float
-    interval: float
-    seed: int
-    check_tier: str | None = None
-    check_every: int = 1
+    name: A[str, At(longest=80, key="trial"), "name of the trial"]
+    purpose: A[str, "one line: what the trial is for"]
+    scene: A[
+        str,
+        At(longest=80),
+        "what every run starts from; its operation a quarter_vehicle",
+    ] = "smooth_run"
+    folder: A[Path, INTERNAL] = Path()
+    tier: A[str, At(one_of=TIERS), "of the runs"] = "quasistatic"
+    effects: A[str | dict[str, Any] | None, "as in a scene file; the scene's when not given"] = None
+    faults: A[tuple[str, ...], At(one_of=FAULTS, size=(1, None)), "parts that are spalled"] = FAULTS
+    sizes: A[
+        tuple[float, ...],
+        At("mm", gt=0.0, le=100.0, size=(1, None), required=True),
+        "widths of the spalls",
+    ] = ()
+    spall: A[Spall, "how a spall of a width looks"] = Spall()
+    speeds: A[
+        tuple[float, ...],
+        At("kmh", gt=0.0, ge=5.0, le=400.0, size=(1, None), required=True),
+        "of the train",
+    ] = ()
+    tracks: A[tuple[str, ...], At(longest=80, size=(1, None), required=True), "kinds of irregularity"] = ()
+    wheels: A[tuple[TrialWheel, ...], At(size=(1, None), required=True), "wheels of the matrix"] = ()
+    repeats: A[int, REPEATS, "runs of each combination with a fault"] = 1
+    healthy_repeats: A[int, REPEATS, "runs of each combination without"] = 1
+    revolutions: A[float, At(gt=0.0, ge=16.0, le=10_000.0), "of the shaft, a run"] = 40.0
+    interval: A[float, At("s", gt=0.0, ge=0.1, le=60.0), "between two analyses"] = 1.0
+    seed: A[int, At(ge=0), "of tracks, noise and places of the spalls"] = 1
+    check: A[Check | None, "repeat some runs in another tier"] = None
+
+    def rules(self) -> Iterator[str]:
+        """Find entries that stand twice, and a check in the tier of the matrix."""
+        lists = {
+            "faults": self.faults,
+            "sizes_mm": self.sizes,
+            "speeds_kmh": self.speeds,
+            "tracks": self.tracks,
+        }
+        for key, values in lists.items():
+            if len(set(values)) < len(values):
+                yield f"{key} has an entry twice; each must stand once"
+        names = [wheel.name for wheel in self.wheels]
+        if len(set(names)) < len(names):
+            yield "wheels has a name twice; each must stand once"
+        if self.check is not None and self.check.tier == self.tier:
+            yield f"check.tier is {self.check.tier!r}, the tier of the matrix itself; it must be another"
+
+    @property
+    def check_tier(self) -> str | None:
+        """Tier in which some runs are repeated."""
+        return None if self.check is None else self.check.tier
 
     def wheel(self, name: str) -> TrialWheel:
         """Wheel of a name."""
@@ -162,11 +166,12 @@ class Trial:
     def cells(self) -> tuple[Cell, ...]:
         """All runs, those of the check last."""
         own = tuple(self._matrix())
-        if self.check_tier is None:
+        if self.check is None:
             return own
+        every, tier = self.check.every, self.check.tier
         # an odd stride walks through speeds, tracks and wheels
-        checked = (cell for place, cell in enumerate(own) if place % self.check_every == 0)
-        return (*own, *(_again(cell, self.check_tier) for cell in checked))
+        checked = (cell for place, cell in enumerate(own) if place % every == 0)
+        return (*own, *(_again(cell, tier) for cell in checked))
 
     def _matrix(self) -> Iterator[Cell]:
         loads = [(HEALTHY, 0.0, self.healthy_repeats)]

@@ -3,44 +3,88 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.edge import ROW, SEED, At, WorkedOut, written
+from beardyn_core.scene.defect import no_such, not_on_a_roller
 
 _SURFACES = ("cup", "cone", "roller")
 
 
 @dataclass(frozen=True)
+class Band:
+    """A band of orders whose amplitudes fall with a power of the order."""
+
+    first: A[int, At(ge=1, le=1000), "lowest order, waves per circumference"]
+    last: A[int, At(ge=1, le=1000), "highest order"]
+    rms: A[float, At("um", ge=0.0, le=50.0), "of the whole band"]
+    exponent: A[float, At(ge=0.0, le=4.0), "power of the order with which the amplitudes fall"] = 1.0
+
+    def rules(self) -> Iterator[str]:
+        """Find a band without orders."""
+        if self.last < self.first:
+            yield f"last is {self.last}; it must be at least first, {self.first}"
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Waves per circumference."""
+        return tuple(range(self.first, self.last + 1))
+
+    @property
+    def amplitudes(self) -> WorkedOut:
+        """Amplitude of each order, [m]."""
+        return WorkedOut(band_amplitudes(self.first, self.last, self.rms, self.exponent), self)
+
+
+@dataclass(frozen=True)
 class Waviness:
-    """Deviation from the circle, a sum of ``a_k cos(k theta + psi_k)`` with phases from a seed.
+    """Harmonics around a raceway or the rollers: single orders or a band.
 
-    Parameters
-    ----------
-    on : str
-        ``cup``, ``cone`` or ``roller``.
-    row : int
-        0 inboard, 1 outboard.
-    orders : tuple of int
-        Waves per circumference.
-    amplitudes : tuple of float
-        Amplitude of each order, [m].
-    roller : int or None
-        Which roller; ``None``: all of the row, each with phases of its own.
-    seed : int
-        Of the phases.
-
-    Notes
-    -----
-    The same all along the generator line. Positive is away from the other body (a gap).
+    The deviation from the circle is a sum of ``a_k cos(k theta + psi_k)`` with phases from a seed, of each
+    roller its own, the same all along the generator line. Positive is away from the other body (a gap).
     """
 
-    on: str
-    row: int
-    orders: tuple[int, ...]
-    amplitudes: tuple[float, ...]
-    roller: int | None = None
-    seed: int = 1
+    on: A[str, At(one_of=_SURFACES), "the surface it is on"]
+    row: A[int, ROW, "0 inboard, 1 outboard"]
+    orders: A[tuple[int, ...], At(ge=1, le=1000, size=(1, None), optional=True), "waves per circumference"]
+    amplitudes: A[
+        tuple[float, ...],
+        At("um", ge=0.0, le=50.0, key="amplitude", optional=True),
+        "of each order: one for all, or one an order",
+    ]
+    roller: A[int | None, At(ge=0), "which roller, with `on: roller`; all of the row when not given"] = None
+    seed: A[int, SEED, "of the phases"] = 1
+
+    def rules(self) -> Iterator[str]:
+        """Find a roller's number on a raceway, and amplitudes without an order."""
+        if self.on != "roller" and self.roller is not None:
+            yield not_on_a_roller(self.roller, self.on)
+        if len(self.orders) != len(self.amplitudes):
+            yield (
+                f"amplitude_um has {len(self.amplitudes)} entries; it must have one, or one for each of the "
+                f"{len(self.orders)} orders"
+            )
+
+    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+        """Find what of the waviness does not fit the bearing."""
+        return no_such("roller", self.roller or 0, bearing)
+
+    def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
+        """Write a band as the band it is, and equal amplitudes as one number."""
+        band = getattr(self.amplitudes, "source", None)
+        if band is not None and band.orders == self.orders:
+            del keys["orders"], keys["amplitude_um"]
+            return {**keys, "band": written(band)}
+        if len(set(self.amplitudes)) == 1:
+            keys["amplitude_um"] = keys["amplitude_um"][0]
+        return keys
 
     def phases(self, roller: int = 0) -> NDArray[np.float64]:
         """Phase of each order; the rollers differ, shape [order], [rad]."""

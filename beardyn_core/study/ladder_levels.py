@@ -8,7 +8,7 @@ from beardyn_core.choice.choose import choose
 from beardyn_core.choice.outcome import Choice
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
-from beardyn_core.integrate.step_choice import usual_steps
+from beardyn_core.integrate.friction_steps import usual_steps
 from beardyn_core.scene.scene import QUANTITIES, Numerics, Scene
 from beardyn_core.scene.sensor import RATES
 from beardyn_core.scene.tier import TIERS

@@ -15,7 +15,7 @@ from multiprocessing import connection, get_context, parent_process
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from beardyn_core.config import trial_scene
+from beardyn_core.choice import trial_scene
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import algorithm_named
 from beardyn_core.outputs import is_being_written, open_to_append, write_whole

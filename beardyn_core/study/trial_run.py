@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.config import trial_scene
+from beardyn_core.choice import trial_scene
+from beardyn_core.config import scene_text
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
 from beardyn_core.observe.monitoring import Monitor
@@ -87,7 +88,7 @@ def run_digest(scene: Scene, trial: Trial, code: str) -> str:
     code : str
         Digest of simulator and monitor.
     """
-    digest = hashlib.sha256(f"{scene.source_text}\n{trial.interval}\n{code}".encode())
+    digest = hashlib.sha256(f"{scene_text(scene)}\n{trial.interval}\n{code}".encode())
     irregularity = getattr(scene.operation, "irregularity", None)
     for owner in (scene.operation, irregularity):
         path = getattr(owner, "path", None)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.config import scene_from_text
+from beardyn_core.choice import scene_from_text
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
 from beardyn_core.rail.build import load_history

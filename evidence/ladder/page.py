@@ -14,7 +14,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, expected_wall, plan_of

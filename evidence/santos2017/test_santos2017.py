@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_scene, shipped_names
+from beardyn_core.choice import load_scene
+from beardyn_core.config import shipped_names
 from beardyn_core.effects import CoulombTraction
 from beardyn_core.scene.scene import Scene
 from evidence.santos2017.comparison import (

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cache
 
-from beardyn_core.config import load_effects, load_scene
-from beardyn_core.integrate.step_choice import AUDIBLE_BAND, StepChoice, choose_steps
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_effects
+from beardyn_core.integrate.friction_steps import StepChoice
+from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import lru_cache
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.study.desk_run import RunSummary, run
 from evidence.validation.anchor import Anchor, Finding, Trend
 

@@ -22,7 +22,8 @@ from beardyn_core.bearing.film_thickness import (
     thermal_loading,
 )
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.config import load_bearing, load_lubricant, load_scene
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction, MixedTraction
 from beardyn_core.effects.traction import Traction
 from beardyn_core.kernels.lanes import Lanes

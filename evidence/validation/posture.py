@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.effects import LineFilm, LoadSharingTraction, Rib, RibShearedFilm
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.operation import ConstantOperation

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.effects import (
     Cage,
     Drag,

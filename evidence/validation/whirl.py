@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from evidence.validation.anchor import Finding, Trend
 from evidence.validation.cage_whirl import Whirl, WhirlCase, cage_whirl
 

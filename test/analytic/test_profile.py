@@ -46,7 +46,7 @@ def test_drop_is_proportional_to_all_lengths(kind: str) -> None:
     share = np.linspace(-1.0, 1.0, 41)
     shape = profile(kind)
     small = shape.drop_at(share * HALF, HALF, DIAMETER, MODULUS)
-    larger = replace(shape, drop=2.0 * shape.drop)
+    larger = replace(shape, drop=2.0 * (shape.drop or 0.0))
     large = larger.drop_at(share * 2.0 * HALF, 2.0 * HALF, 2.0 * DIAMETER, MODULUS)
     np.testing.assert_allclose(large, 2.0 * small, rtol=1e-12)
 

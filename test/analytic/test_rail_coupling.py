@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import FADE_IN, load_history, ride_of
 from beardyn_core.rail.running import running
 from beardyn_core.scene.operation import QuarterVehicleOperation

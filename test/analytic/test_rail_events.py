@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_scene, shipped_names
+from beardyn_core.choice import load_scene
+from beardyn_core.config import shipped_names
 from beardyn_core.rail.build import ride_of
 from beardyn_core.rail.events import MOST_TIMES, events_of
 from beardyn_core.rail.vehicle import quarter_vehicle

@@ -20,7 +20,8 @@ from beardyn_core.bearing.life import (
     static_rating,
 )
 from beardyn_core.bearing.reference_life import reference_life
-from beardyn_core.config import load_bearing, load_lubricant, load_scene
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.integrate.static import solve
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory

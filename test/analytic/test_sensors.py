@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_CHANNELS
 from beardyn_core.observe.accelerometer import GRAVITY
 from beardyn_core.observe.decimate import DELAY

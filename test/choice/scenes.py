@@ -6,7 +6,7 @@ from typing import Any
 
 import yaml
 
-from beardyn_core.config import scene_from_text
+from beardyn_core.choice import scene_from_text
 from beardyn_core.scene.scene import Scene
 
 BASE: dict[str, Any] = {

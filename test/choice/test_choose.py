@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import pytest
 
+from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.choice.choose import choose
-from beardyn_core.config import config_folder, load_effects, load_scene, scene_from_text
+from beardyn_core.config import config_folder, load_effects, scene_text
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.effects import (
     Cage,
@@ -227,7 +228,7 @@ def test_a_held_cup_has_no_vibration_to_resolve() -> None:
 
 def test_the_recorded_scene_reads_back_as_it_was_chosen() -> None:
     scene = load_scene("smooth_run", effects="auto", duration=1.0)
-    again = scene_from_text(scene.source_text)
+    again = scene_from_text(scene_text(scene))
     assert again.effects == scene.effects
     assert (again.tier, again.numerics) == (scene.tier, scene.numerics)
     assert again.chosen == ()
@@ -260,7 +261,7 @@ def test_every_expected_error_is_within_what_was_asked_for() -> None:
 
 
 def test_the_reference_itself_is_expected_to_have_no_error() -> None:
-    from beardyn_core.choice.free import NOTHING
+    from beardyn_core.scene.free import NOTHING
 
     scene = load_scene("smooth_run", effects="full", duration=1.0)
     found = choose(replace(scene, numerics=replace(scene.numerics, laminae=40)), NOTHING)

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from beardyn_core import twin
+from beardyn_core.choice import load_scene
 from beardyn_core.cli.main import main
-from beardyn_core.config import load_scene
 from beardyn_core.jit import when_compiling
 
 
@@ -58,7 +58,7 @@ def test_ctrl_c_while_compiling_ends_the_command(repository: Path, tmp_path: Pat
 
 
 FIRST_BLOCK = """
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.jit import when_compiling
 from beardyn_core.rail.build import load_history
 from beardyn_core.twin import Twin

@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.life import load_doubts, static_rating
+from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import main as command
 from beardyn_core.cli import simulate
-from beardyn_core.config import load_bearing, load_scene, scene_from_text
+from beardyn_core.config import load_bearing
 from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import MonitorResult

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.cli import report as report_command
 from beardyn_core.cli import simulate
 from beardyn_core.cli.json_output import SCHEMA_VERSION, json_text, plain
 from beardyn_core.cli.main import COMMANDS, DONE, main
-from beardyn_core.config import load_scene, load_trial
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSSES
 from beardyn_core.observe.stage_clock import StageTime

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.cli.main import BAD_INPUT, DONE, main
 from beardyn_core.cli.new import POSSIBLE
 from beardyn_core.cli.scenes import KINDS
@@ -16,8 +17,6 @@ from beardyn_core.config import (
     load_bearing,
     load_effects,
     load_lubricant,
-    load_scene,
-    load_trial,
     load_vehicle,
     shipped_names,
 )

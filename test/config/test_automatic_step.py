@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 import yaml
 
-from beardyn_core.config import explain_scene, load_scene
-from beardyn_core.config.load import scene_from_text
+from beardyn_core.choice import explain_scene, load_scene, scene_from_text
+from beardyn_core.config import scene_text
 from beardyn_core.errors import InputError
 from beardyn_core.scene.scene import Scene
 
@@ -17,7 +17,7 @@ SUSPENDED = {"cup": "suspended"}
 
 
 def scene(numerics: Any, **changes: Any) -> Scene:
-    data = yaml.safe_load(load_scene("static_80kN").source_text)
+    data = yaml.safe_load(scene_text(load_scene("static_80kN")))
     return scene_from_text(yaml.safe_dump({**data, **changes, "numerics": numerics}))
 
 
@@ -40,8 +40,8 @@ def test_effects_matter() -> None:
 
 def test_what_is_recorded_is_the_number_and_reads_back_as_the_same_scene() -> None:
     found = scene(AUTO)
-    assert yaml.safe_load(found.source_text)["numerics"]["steps_per_sample"] == 2
-    again = scene_from_text(found.source_text)
+    assert yaml.safe_load(scene_text(found))["numerics"]["steps_per_sample"] == 2
+    again = scene_from_text(scene_text(found))
     assert (again.numerics, again.effects, again.tier) == (found.numerics, found.effects, found.tier)
 
 
@@ -78,7 +78,7 @@ def test_a_load_from_outside_takes_no_long_steps() -> None:
 
 def test_a_fast_sensor_keeps_what_friction_needs() -> None:
     steep = {"preset": "dry", "traction": {"regularisation_speed_m_per_s": 0.002}}
-    data = yaml.safe_load(load_scene("static_80kN").source_text)
+    data = yaml.safe_load(scene_text(load_scene("static_80kN")))
     del data["numerics"]["steps_per_sample"]
     sensors = [{"name": "fast", "rate_kHz": 51.2}]
     alone = scene_from_text(yaml.safe_dump({**data, "effects": steep, "mounting": SUSPENDED}))

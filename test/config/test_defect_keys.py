@@ -11,7 +11,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
-from beardyn_core.config import load_scene, scene_from_text
+from beardyn_core.choice import load_scene, scene_from_text
+from beardyn_core.config import scene_text
 from beardyn_core.config.yaml_text import write_mapping
 from beardyn_core.errors import InputError
 from beardyn_core.record.description import RunDescription
@@ -209,7 +210,7 @@ def test_any_allowed_defects_load_build_and_come_back_from_the_recording(
 ) -> None:
     """The scene's own text gives the same scene again, and so does a recording's truth; paths are finite."""
     scene = scene_of(tmp_path, defects=defects)
-    assert scene_from_text(scene.source_text).defects == scene.defects
+    assert scene_from_text(scene_text(scene)).defects == scene.defects
     twin = Twin(scene)
     described = RunDescription.of(scene, twin.truth(), twin.body_names)
     assert RunDescription.from_json(described.to_json()).defects == scene.defects

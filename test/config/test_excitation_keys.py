@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from beardyn_core.config import load_scene, scene_from_text
+from beardyn_core.choice import load_scene, scene_from_text
+from beardyn_core.config import scene_text
 from beardyn_core.errors import InputError
 from beardyn_core.scene.excitation import (
     Corrugation,
@@ -77,8 +77,8 @@ def test_a_recorded_scene_says_the_same_again(tmp_path: Path) -> None:
     path = tmp_path / "mine.yaml"
     path.write_text(GOOD.replace(", to_m: 60", ""))
     scene = load_scene(path)
-    again = scene_from_text(scene.source_text)
-    assert replace(again, source_text="") == replace(scene, source_text="")
+    again = scene_from_text(scene_text(scene))
+    assert again == scene
 
 
 def test_the_shipped_flat_is_a_healthy_bearing_under_a_fresh_flat() -> None:
@@ -191,7 +191,7 @@ def test_measured_operations_in_si(tmp_path: Path) -> None:
     )
     scene = load_scene(path)
     assert scene.operation == MeasuredOperation(file, "speed", force=(0.0, 1e3, 80e3))
-    assert replace(scene_from_text(scene.source_text), source_text="") == replace(scene, source_text="")
+    assert scene_from_text(scene_text(scene)) == scene
     path.write_text(MEASURED.replace(", take: force, speed_profile: [{time_s: 0, speed_kmh: 36}]", ""))
     assert load_scene(path).operation == MeasuredOperation(file)
 
@@ -205,7 +205,7 @@ def test_a_vehicle_runs_with_a_measured_speed(tmp_path: Path) -> None:
     radius = 0.43
     assert points == pytest.approx([0.0, 20 * math.pi * radius, 4.0, 40 * math.pi * radius])
     scene = load_scene(path)
-    assert replace(scene_from_text(scene.source_text), source_text="") == replace(scene, source_text="")
+    assert scene_from_text(scene_text(scene)) == scene
 
 
 @pytest.mark.parametrize(

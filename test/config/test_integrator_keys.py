@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import yaml
 
-from beardyn_core.config import load_scene
-from beardyn_core.config.load import scene_from_text
+from beardyn_core.choice import load_scene, scene_from_text
+from beardyn_core.config import scene_text
 from beardyn_core.errors import InputError
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
@@ -20,7 +20,7 @@ REFERENCE = {"integrator": "explicit", "steps_per_sample": 391}
 
 
 def scene(numerics: Any, **changes: Any) -> Scene:
-    data = yaml.safe_load(load_scene("static_80kN").source_text)
+    data = yaml.safe_load(scene_text(load_scene("static_80kN")))
     return scene_from_text(yaml.safe_dump({**data, **changes, "numerics": numerics}))
 
 
@@ -42,8 +42,8 @@ def test_an_explicit_reference_has_steps_of_a_tenth_of_a_microsecond() -> None:
 
 def test_what_is_recorded_reads_back_as_the_same_integrator() -> None:
     made = scene(REFERENCE)
-    assert yaml.safe_load(made.source_text)["numerics"]["integrator"] == "explicit"
-    assert scene_from_text(made.source_text).numerics == made.numerics
+    assert yaml.safe_load(scene_text(made))["numerics"]["integrator"] == "explicit"
+    assert scene_from_text(scene_text(made)).numerics == made.numerics
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
+from beardyn_core.config import scene_text
 from beardyn_core.config.schema import json_schema
 from beardyn_core.errors import InputError
 from beardyn_core.scene.defect import MissingRoller, defect_from, truth_of
@@ -41,7 +42,7 @@ def test_missing_rollers_and_one_row_are_read_and_written_back(tmp_path: Path) -
     assert "faults" in scene.effect_names
     assert scene.fault_sentences == ("roller 3, row 0, missing", "roller 16, row 0, missing")
     again = tmp_path / "again.yaml"
-    again.write_text(scene.source_text)
+    again.write_text(scene_text(scene))
     assert load_scene(again).missing_rollers == scene.missing_rollers
 
 

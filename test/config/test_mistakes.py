@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.config import load_bearing, load_effects, load_scene, scene_from_text
+from beardyn_core.choice import load_scene, scene_from_text
+from beardyn_core.config import load_bearing, load_effects, scene_text
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
 from beardyn_core.effects import Cage, KinematicCage, LandGuidance, PocketFilm, RotatingCage
@@ -345,7 +346,7 @@ def test_lubricant_without_pressure_viscosity_has_that_of_its_base_oil(write: Wr
     del oil["pressure_viscosity_per_GPa"]
     loaded = load_scene(write(write_mapping({**read_file(find("scenes", "static_80kN")), "lubricant": oil})))
     assert loaded.lubricant.pressure_viscosity == pytest.approx(13.65e-9, rel=1e-3)
-    again = scene_from_text(loaded.source_text)
+    again = scene_from_text(scene_text(loaded))
     assert again.lubricant == loaded.lubricant
 
 

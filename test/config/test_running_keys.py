@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.config import load_scene, load_vehicle
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_vehicle
 from beardyn_core.errors import InputError
 from beardyn_core.scene.braking import Braking, Starting
 from beardyn_core.scene.curve import Curve

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from beardyn_core.config import load_scene, shipped_names
+from beardyn_core.choice import load_scene
+from beardyn_core.config import shipped_names
 from beardyn_core.scene.measured import MeasuredOperation
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene

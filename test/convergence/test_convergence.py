@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.model.layout import CONE_BODY, POSITION, SIGNAL_TORQUE
 from beardyn_core.scene.operation import ConstantOperation

@@ -8,8 +8,8 @@ from functools import cache
 import numpy as np
 import pytest
 
+from beardyn_core.choice import load_scene
 from beardyn_core.choice.fast_step import fast_steps, fastest_mode
-from beardyn_core.config import load_scene
 from beardyn_core.integrate.static import solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history

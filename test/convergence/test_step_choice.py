@@ -8,7 +8,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_bearing, load_effects, load_scene
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_bearing, load_effects
 from beardyn_core.effects import CoulombTraction, EffectSet, LoadSharingTraction
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, Status, chatter_index, describe

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.signal import butter, hilbert, sosfiltfilt
 
 from beardyn_core.bearing.kinematics import FaultFrequencies, fault_frequencies
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.observe.chain import MonitorResult
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.rail.build import load_history

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.imex import advance

@@ -10,8 +10,9 @@ import pytest
 
 from beardyn_core.bearing.thermal_closure import PartTemperatures, end_play_change, end_play_per_kelvin
 from beardyn_core.bearing.thermal_network import ThermalNetwork
+from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import simulate
-from beardyn_core.config import load_bearing, load_scene, scene_from_text, shipped_names
+from beardyn_core.config import load_bearing, scene_text, shipped_names
 from beardyn_core.effects import EffectSet, Thermal
 from beardyn_core.errors import InputError
 from beardyn_core.model.heat import BOX_NODE, NODES, heat_shares, moving_air, thermal_network
@@ -65,18 +66,18 @@ def test_the_same_warming_everywhere_leaves_the_end_play() -> None:
 def test_scene_with_temperatures_runs_at_the_closed_end_play() -> None:
     """Cone 20 K and rollers 15 K above the cup, all above the assembly: 0.2 mm less than mounted."""
     scene = load_scene("static_80kN")
-    text = scene.source_text + "temperatures: {assembly_C: 20, cup_C: 60, cone_C: 80, rollers_C: 75}\n"
+    text = scene_text(scene) + "temperatures: {assembly_C: 20, cup_C: 60, cone_C: 80, rollers_C: 75}\n"
     hot = scene_from_text(text)
     rate = end_play_per_kelvin(scene.bearing)
     expected = scene.end_play + 40.0 * rate.cup + 60.0 * rate.cone + 55.0 * rate.rollers
     assert hot.end_play == pytest.approx(expected, rel=1e-12)
     assert -2.5e-4 < hot.end_play - scene.end_play < -1.5e-4
     assert hot.temperatures == pytest.approx(PartTemperatures(333.15, 353.15, 348.15))
-    assert scene_from_text(hot.source_text).end_play == hot.end_play
+    assert scene_from_text(scene_text(hot)).end_play == hot.end_play
 
 
 def test_thermal_without_the_audit_is_refused() -> None:
-    text = load_scene("static_80kN").source_text.replace("audit: {}", "audit: false\n  thermal: true")
+    text = scene_text(load_scene("static_80kN")).replace("audit: {}", "audit: false\n  thermal: true")
     with pytest.raises(InputError, match="thermal needs the audit"):
         scene_from_text(text)
 

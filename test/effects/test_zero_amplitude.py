@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 import yaml
 
-from beardyn_core.config import scene_from_text
+from beardyn_core.choice import scene_from_text
+from beardyn_core.config import scene_text
 from beardyn_core.effects import (
     Audit,
     Cage,
@@ -205,7 +206,7 @@ def test_roughness_written_as_it_is_changes_nothing() -> None:
     bearing = standard_scene().bearing
 
     def rough(factor: float) -> Float:
-        written = yaml.safe_load(standard_scene().source_text)
+        written = yaml.safe_load(scene_text(standard_scene()))
         written["roughness"] = {
             "raceway_um": factor * bearing.raceway_roughness * 1e6,
             "rib_um": factor * bearing.rib_roughness * 1e6,

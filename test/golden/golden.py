@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from test.kernels.runs import Record, record
 
 FILE = Path(__file__).with_name("static_80kN.json")

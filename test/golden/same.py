@@ -28,14 +28,13 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.config import (
     SCHEMA_KINDS,
     json_schema,
     load_bearing,
     load_effects,
     load_lubricant,
-    load_scene,
-    load_trial,
     load_vehicle,
     shipped_names,
 )

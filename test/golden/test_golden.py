@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.scene.operation import ConstantOperation
 from test.golden.golden import DURATION_S, FILE, standard_statistics, statistics
 from test.kernels.runs import record

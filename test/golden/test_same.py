@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from test.golden.same import RUNS, TIERS, _bytes_of, _canonical, compare, digest, digests_of_run
 
 

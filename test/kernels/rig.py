@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.effects import EffectSet
 from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.state import State, WorkSpace, initial_state, work_space

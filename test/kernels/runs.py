@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.effects import Cage
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history

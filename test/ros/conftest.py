@@ -29,7 +29,7 @@ def graph(tmp_path: Path) -> Iterator[Graph]:
 @pytest.fixture(scope="session")
 def compiled_kernels() -> None:
     """Kernels of the shipped spall scene in the disk cache, so that a real twin starts within seconds."""
-    from beardyn_core.config import load_scene
+    from beardyn_core.choice import load_scene
     from beardyn_core.twin import Twin
 
     Twin(load_scene("cup_spall")).warm()

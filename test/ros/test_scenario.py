@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.excitation import WheelFlat
 from beardyn_core.scene.operation import QuarterVehicleOperation

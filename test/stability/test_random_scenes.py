@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 
-from beardyn_core.config import scene_from_text
+from beardyn_core.choice import scene_from_text
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
 from beardyn_core.errors import InputError, ValidityError

@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_scene, shipped_names
+from beardyn_core.choice import load_scene
+from beardyn_core.config import shipped_names
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.events import events_of

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.operation import QuarterVehicleOperation

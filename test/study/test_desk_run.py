@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.choice import load_scene
 from beardyn_core.cli import simulate
-from beardyn_core.config import load_scene
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.stage_clock import StageClock

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from beardyn_core.choice import load_scene
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.config import load_effects, load_scene
+from beardyn_core.config import load_effects
 from beardyn_core.effects import KinematicCage
 from beardyn_core.errors import ValidityError
 from beardyn_core.scene.scene import Scene

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.scene.excitation import WheelFlat, WheelPolygon
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.study.ladder import window_edges

@@ -7,8 +7,8 @@ import time
 import numpy as np
 import pytest
 
+from beardyn_core.choice import load_scene
 from beardyn_core.cli.simulate import json_object, text
-from beardyn_core.config import load_scene
 from beardyn_core.model.stages import KERNEL_STAGES
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.stage_clock import (

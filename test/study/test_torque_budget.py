@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.choice import load_scene
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.report import json_object as report_object
 from beardyn_core.cli.simulate import json_object, text
-from beardyn_core.config import load_scene
 from beardyn_core.effects import Drag, RollingResistance, Seal
 from beardyn_core.model.layout import LOSS_NAMES, LOSSES
 from beardyn_core.observe.torque_budget import NUMERICAL, torque_budget

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.stats import beta
 
+from beardyn_core.choice import load_trial, trial_scene
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.config import load_trial, trial_scene
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_append
 from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Trial
@@ -147,7 +147,7 @@ def test_rates_and_smallest_size_are_counted_from_the_runs(quick: Trial) -> None
 def test_an_interrupted_trial_goes_on_where_it_was(
     quick: Trial, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    trial = replace(quick, check_tier=None, sizes=(0.006,), faults=("cup",), healthy_repeats=1)
+    trial = replace(quick, check=None, sizes=(0.006,), faults=("cup",), healthy_repeats=1)
     done: list[str] = []
 
     def stand_in(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialRun:
@@ -174,7 +174,7 @@ def test_an_interrupted_trial_goes_on_where_it_was(
 
 @pytest.fixture
 def small(quick: Trial) -> Trial:
-    return replace(quick, check_tier=None, sizes=(0.006,), faults=("cup",), healthy_repeats=1)
+    return replace(quick, check=None, sizes=(0.006,), faults=("cup",), healthy_repeats=1)
 
 
 @pytest.fixture
@@ -278,7 +278,7 @@ def test_a_folder_of_an_earlier_version_is_refused_when_it_has_other_runs(
 
 def test_scores_grow_with_the_spall_and_runs_repeat_bit_by_bit(quick: Trial) -> None:
     """In the quasistatic tier, every part, round wheel; a healthy run stays below all thresholds."""
-    trial = replace(quick, revolutions=30.0, wheels=quick.wheels[:1], healthy_repeats=1, check_tier=None)
+    trial = replace(quick, revolutions=30.0, wheels=quick.wheels[:1], healthy_repeats=1, check=None)
     scores: dict[str, list[float]] = {}
     for cell in trial.cells():
         run = conduct_run(trial, cell, "", "d")

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies, roller_cone_spin
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.torque import running_torque
 from beardyn_core.model.layout import CAGE_BODY, TURN

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_scene
+from beardyn_core.choice import load_scene
 from beardyn_core.integrate.kinematic_step import TRENDS_PER_BLOCK
 from beardyn_core.observe import channels
 from beardyn_core.observe.block import Block, Vibration

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
-from beardyn_core.config import load_scene
-from beardyn_core.config.load import scene_from_text
+from beardyn_core.choice import load_scene, scene_from_text
+from beardyn_core.config import scene_text
 from beardyn_core.observe.chain import MonitorResult
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.rail.build import load_history
@@ -142,8 +142,8 @@ def test_the_full_tier_misses_nothing() -> None:
 def test_a_tier_brings_its_own_step_and_a_resolved_scene_keeps_it(tier: str) -> None:
     scene = load_scene("static_80kN", tier=tier)
     assert scene.numerics.steps_per_sample == {"lumped": 0.25, "quasistatic": 0.5, "full": 4}[tier]
-    assert scene_from_text(scene.source_text).numerics == scene.numerics
-    assert scene_from_text(scene.source_text).tier == tier
+    assert scene_from_text(scene_text(scene)).numerics == scene.numerics
+    assert scene_from_text(scene_text(scene)).tier == tier
 
 
 @pytest.mark.parametrize("tier", FAST)

@@ -1,0 +1,184 @@
+"""Scenes ready to run: read by `config`, what they leave open closed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from beardyn_core.choice.usual_step import usual_step
+from beardyn_core.config.automatic import AUTO, REFERENCE
+from beardyn_core.config.load import (
+    OpenScene,
+    load_effects,
+    read_scene,
+    read_scene_mapping,
+    read_scene_text,
+)
+from beardyn_core.effects import EffectSet
+from beardyn_core.scene.free import EFFECTS
+from beardyn_core.scene.scene import Numerics, Scene
+
+if TYPE_CHECKING:
+    from beardyn_core.choice.outcome import Choice
+
+
+def load_scene(
+    name: str | Path,
+    *,
+    effects: str | None = None,
+    tier: str | None = None,
+    duration: float | None = None,
+    laminae: int | None = None,
+    seed: int | None = None,
+    accuracy_percent: float | None = None,
+    quantities: list[str] | None = None,
+    outside_load: bool = False,
+) -> Scene:
+    """Load the scene of a shipped name or of a file.
+
+    Parameters
+    ----------
+    name : str or Path
+        A shipped scene, or the path of a YAML file.
+    effects : str, optional
+        Preset or file instead of the scene's effects, or ``auto``.
+    tier : str, optional
+    duration : float, optional
+        [s].
+    laminae, seed : int, optional
+    accuracy_percent, quantities : float, list of str, optional
+        What is asked for, when something is ``auto``.
+    outside_load : bool
+        Whether the load comes from elsewhere than the scene's operation: the lumped tier then takes no steps
+        longer than a sample unless the scene gives them.
+
+    Raises
+    ------
+    InputError
+        With every mistake in the scene and in the files it refers to.
+    """
+    overrides = {
+        ("effects",): effects,
+        ("tier",): tier,
+        ("duration_s",): duration,
+        ("numerics", "laminae"): laminae,
+        ("seed",): seed,
+        ("accuracy_percent",): accuracy_percent,
+        ("quantities",): quantities,
+    }
+    return closed(read_scene(name, _given(overrides)), outside_load)
+
+
+def scene_from_text(text: str, label: str = "scene") -> Scene:
+    """Load the scene of a YAML text, such as the one recorded with a run; see `load_scene`."""
+    return closed(read_scene_text(text, label))
+
+
+def scene_from_mapping(data: dict[str, Any], label: str, folder: Path) -> Scene:
+    """Load the scene of the mapping in a scene file that lies in a folder; see `load_scene`."""
+    return closed(read_scene_mapping(data, label, folder))
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A scene, why it is computed as it is, and what would be chosen for it.
+
+    Parameters
+    ----------
+    scene : Scene
+        Resolved.
+    current : Choice
+        What it has, with what has been chosen.
+    automatic : Choice or None
+        What `effects: auto` would choose; ``None`` where `current` is that already.
+    """
+
+    scene: Scene
+    current: Choice
+    automatic: Choice | None
+
+
+def explain_scene(
+    name: str | Path,
+    *,
+    effects: str | None = None,
+    tier: str | None = None,
+    accuracy_percent: float | None = None,
+    quantities: list[str] | None = None,
+) -> Explanation:
+    """Explain why a scene is computed as it is, and what would be chosen; arguments as of `load_scene`.
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
+    given = _given(
+        {
+            ("effects",): effects,
+            ("tier",): tier,
+            ("accuracy_percent",): accuracy_percent,
+            ("quantities",): quantities,
+        }
+    )
+    found = with_usual_step(read_scene(name, given))
+    current = choice_for(found)
+    if found.free.anything:
+        return Explanation(with_choice(found.scene, current), current, None)
+    every = read_scene(name, {**given, ("effects",): AUTO, ("tier",): AUTO}, without=("tier", "numerics"))
+    return Explanation(found.scene, current, choice_for(every))
+
+
+def _given(overrides: dict[Any, Any]) -> dict[Any, Any]:
+    return {place: value for place, value in overrides.items() if value is not None}
+
+
+def closed(found: OpenScene, outside_load: bool = False) -> Scene:
+    """Close what a scene leaves open: the choice with its reasons, or the usual step of its tier."""
+    if found.free.anything:
+        return with_choice(found.scene, choice_for(found))
+    return with_usual_step(found, outside_load).scene
+
+
+def with_usual_step(found: OpenScene, outside_load: bool = False) -> OpenScene:
+    """Give a scene that leaves nothing open, and no step, the step that its tier takes for it."""
+    if found.free.anything or found.step_given:
+        return found
+    scene = found.scene
+    steps = usual_step(scene, outside_load).steps_per_sample
+    return replace(found, scene=replace(scene, numerics=replace(scene.numerics, steps_per_sample=steps)))
+
+
+def choice_for(found: OpenScene) -> Choice:
+    """Choose for a scene as it is read."""
+    from beardyn_core.choice.choose import choose  # brings the compiler along
+
+    scene = found.scene
+    if found.free.anything:
+        # what is written down is wanted so, and not an error
+        return choose(scene, found.free)
+    reference = load_effects(REFERENCE)
+    return choose(replace(scene, effects=_judged_by(scene.effects, reference)), found.free, scene.effects)
+
+
+def _judged_by(given: EffectSet, reference: EffectSet) -> EffectSet:
+    """Give the reference the options of the scene; cheaper kinds are judged against the reference's own."""
+    graded = ("traction", "film", "rib", "cage")
+    own = {
+        name: getattr(given, name)
+        for name in EFFECTS
+        if name not in graded and getattr(given, name) is not None
+    }
+    own |= {
+        name: getattr(given, name)
+        for name in graded
+        if getattr(given, name) is None and getattr(reference, name) is None
+    }
+    return replace(reference, **own)
+
+
+def with_choice(scene: Scene, choice: Choice) -> Scene:
+    """Put a choice and its reasons into a scene."""
+    numerics = Numerics(choice.laminae, choice.steps_per_sample, scene.numerics.integrator)
+    return replace(scene, tier=choice.tier, effects=choice.effects, numerics=numerics, chosen=choice.reasons)

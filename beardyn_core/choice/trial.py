@@ -1,0 +1,138 @@
+"""The scenes of a trial: one for each run of its matrix."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.choice.load import scene_from_mapping
+from beardyn_core.config.effects_file import overlay
+from beardyn_core.config.folders import find
+from beardyn_core.config.trial_file import read_trial
+from beardyn_core.config.yaml_text import read_file
+from beardyn_core.edge import UNITS, written
+from beardyn_core.errors import InputError
+from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.trial import HEALTHY, Cell, Spall, Trial
+
+# a spall of the cup is where the load is
+_LOAD_ZONE_DEG = 30.0
+
+
+def load_trial(name: str | Path, *, tier: str | None = None, seed: int | None = None) -> Trial:
+    """Load the trial of a shipped name or of a file.
+
+    Parameters
+    ----------
+    name : str or Path
+    tier, seed : optional
+        Instead of the file's; with another tier the check falls away where it is the same one.
+
+    Raises
+    ------
+    InputError
+        With every mistake in the file and in the scenes that it asks for.
+    """
+    trial, path = read_trial(name, tier=tier, seed=seed)
+    problems = dict.fromkeys(
+        f"{path}: {problem}" for cell in _corners(trial) for problem in _scene_problems(trial, cell)
+    )
+    if problems:
+        raise InputError(list(problems))
+    return trial
+
+
+def _scene_problems(trial: Trial, cell: Cell) -> tuple[str, ...]:
+    try:
+        trial_scene(trial, cell)
+    except InputError as error:
+        return tuple(error.problems)
+    return ()
+
+
+def trial_scene(trial: Trial, cell: Cell) -> Scene:
+    """Make the scene of one run.
+
+    Row and place of the spall follow from the run's seed: on the cup within 30 degrees of the middle of the
+    load zone, anywhere on the cone or a roller.
+
+    Parameters
+    ----------
+    trial : Trial
+    cell : Cell
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
+    path = find("scenes", trial.scene, trial.folder)
+    data = read_file(path)
+    operation = data.get("operation")
+    if not isinstance(operation, dict) or operation.get("kind") != "quarter_vehicle":
+        raise InputError(
+            f"scene {trial.scene}: operation.kind must be 'quarter_vehicle', whose speed a trial sets"
+        )
+    irregularity = operation.get("irregularity")
+    given = operation.get("wheel_diameter_mm")
+    diameter = QuarterVehicleOperation.wheel_diameter if given is None else UNITS["mm"].to_si(float(given))
+    seed = cell.seed(trial.seed)
+    data["operation"] = {
+        **operation,
+        "irregularity": {**(irregularity if isinstance(irregularity, dict) else {}), "kind": cell.track},
+        "speed_profile": [{"time_s": 0, "speed_kmh": UNITS["kmh"].to_edge(cell.speed)}],
+        "wheel_defects": [written(defect) for defect in trial.wheel(cell.wheel).defects],
+    }
+    data |= {
+        "scene": f"{trial.name}, {cell.key}"[:80],
+        "tier": cell.tier,
+        "duration_s": trial.duration(cell.speed, diameter),
+        "seed": seed,
+        "defects": [] if cell.fault == HEALTHY else [_spall(trial.spall, cell, seed)],
+    }
+    if cell.tier == "lumped":  # healthy and faulty runs with the same band
+        data["numerics"] = {"steps_per_sample": 1, **data.get("numerics", {})}
+    if isinstance(trial.effects, dict) and "preset" not in trial.effects:
+        effects = data.get("effects")
+        data["effects"] = overlay(
+            effects if isinstance(effects, dict) else {"preset": effects or "standard"}, trial.effects
+        )
+    elif trial.effects is not None:
+        data["effects"] = trial.effects
+    return scene_from_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)
+
+
+def _spall(spall: Spall, cell: Cell, seed: int) -> dict[str, Any]:
+    random = np.random.default_rng(seed)
+    row, roller = int(random.integers(2)), int(random.integers(8))
+    reach = _LOAD_ZONE_DEG if cell.fault == "cup" else 180.0
+    return {
+        "kind": "spall",
+        "on": cell.fault,
+        "row": row,
+        "azimuth_deg": float(random.uniform(-reach, reach)),
+        "width_mm": UNITS["mm"].to_edge(cell.size),
+        "depth_um": UNITS["um"].to_edge(spall.depth(cell.size)),
+        "length_mm": UNITS["mm"].to_edge(spall.length_per_width * cell.size),
+        **({"roller": roller} if cell.fault == "roller" else {}),
+    }
+
+
+def _corners(trial: Trial) -> list[Cell]:
+    """Find runs among which every entry of the matrix stands once, sizes with every fault."""
+    first = trial.cells()[0]
+    speed, track, wheel = first.speed, first.track, first.wheel
+    tiers = dict.fromkeys(cell.tier for cell in trial.cells())
+    corners = [Cell(HEALTHY, 0.0, speed, track, wheel, 0, tier) for tier in tiers]
+    corners += [Cell(HEALTHY, 0.0, other, track, wheel, 0, trial.tier) for other in trial.speeds[1:]]
+    corners += [Cell(HEALTHY, 0.0, speed, other, wheel, 0, trial.tier) for other in trial.tracks[1:]]
+    corners += [Cell(HEALTHY, 0.0, speed, track, other.name, 0, trial.tier) for other in trial.wheels[1:]]
+    corners += [
+        Cell(fault, size, speed, track, wheel, 0, trial.tier)
+        for fault in trial.faults
+        for size in (trial.sizes[0], trial.sizes[-1])
+    ]
+    return list(dict.fromkeys(corners))

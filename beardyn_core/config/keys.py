@@ -1,0 +1,204 @@
+"""From an annotated noun to the model of its file: keys in edge units, limits, words, and the noun back."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from functools import cache, reduce
+from operator import or_
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
+
+from pydantic import Discriminator, Field, StrictBool, Tag, TypeAdapter, ValidationError, create_model
+
+from beardyn_core.config.file_model import FileModel, SourcedModel, SourcedPart
+from beardyn_core.edge import (
+    At,
+    Place,
+    Unit,
+    alternatives,
+    is_kind,
+    is_noun,
+    kinds_of,
+    may_be_none,
+    places,
+    plain_hint,
+)
+
+Text = Annotated[str, Field(strict=True)]
+Name = Annotated[str, Field(strict=True, min_length=1, max_length=80)]
+
+_BASES: dict[type, type[FileModel]] = {}
+_Model = TypeVar("_Model", bound=FileModel)
+
+
+def reads(noun: type) -> Callable[[type[_Model]], type[_Model]]:
+    """Make a model the base of the keys of a noun: keys of the file alone, short forms, what follows."""
+
+    def register(base: type[_Model]) -> type[_Model]:
+        _BASES[noun] = base
+        return base
+
+    return register
+
+
+@cache
+def keys_of(noun: Any, usual_kind: str | None = None, part_of_sourced: bool = False) -> type[FileModel]:
+    """Make the model of the mapping that a noun is read from.
+
+    Parameters
+    ----------
+    noun : type
+        A dataclass or named tuple whose fields have `beardyn_core.edge.At`.
+    usual_kind : str, optional
+        Kind of a mapping that does not say its kind.
+    part_of_sourced : bool
+        Whether the mapping is in a file whose numbers may say where they come from.
+    """
+    sourced = part_of_sourced or any(place.key == "sources" for place in places(noun))
+    own = SourcedModel if sourced and not part_of_sourced else SourcedPart if sourced else FileModel
+    base = _BASES.get(noun, own)
+    made: dict[str, Any] = {}
+    if is_kind(noun):
+        kinds: Any = Literal[kinds_of(noun)]
+        words = "which of the kinds this is"
+        made["kind"] = (
+            kinds,
+            Field(usual_kind, description=words) if usual_kind else Field(description=words),
+        )
+    for place in places(noun):
+        if place.key not in base.model_fields:
+            made[place.key] = _field(place, sourced)
+            if place.key in base.schema_changes:
+                made[place.key][1].json_schema_extra = base.schema_changes[place.key]
+    model: Any = create_model(
+        f"{noun.__name__}Keys",
+        __base__=base,
+        __doc__=(noun.__doc__ or "").split("\n")[0],
+        __module__=__name__,
+        **made,
+    )
+    model.noun_type, model.places = noun, places(noun)
+    made_model: type[FileModel] = model
+    return made_model
+
+
+@cache
+def _adapter(hint: Any) -> TypeAdapter[Any]:
+    return TypeAdapter(_annotation(hint, At(), False))
+
+
+def valid(hint: Any, data: Any) -> Any:
+    """Read a noun of a type, or of one of a union, from what a file says; ``None`` when it is wrong."""
+    try:
+        return _adapter(hint).validate_python(data).noun()
+    except ValidationError:
+        return None
+
+
+def _field(place: Place, sourced: bool) -> tuple[Any, Any]:
+    """Type and usual value of a key."""
+    at, default = place.at, place.default
+    annotation = _annotation(place.hint, at, sourced)
+    words = place.words or None
+    if at.usual is not None:
+        return annotation, Field(_usual(at.usual, None, sourced), description=words)
+    if at.required or (default is dataclasses.MISSING and not at.optional):
+        return annotation, Field(description=words)
+    if at.switch:
+        return annotation, Field(None if default is None else False, description=words)
+    if at.absent or at.optional or may_be_none(place.hint):
+        return annotation | None, Field(None, description=words)
+    return annotation, Field(_usual(default, at.scale, sourced), description=words)
+
+
+def _usual(value: Any, scale: Unit | None, sourced: bool) -> Any:
+    """Usual value of a key from that of the field."""
+    if is_noun(type(value)):
+        return keys_of(type(value), None, sourced)()
+    if isinstance(value, tuple):
+        return tuple(_usual(each, scale, sourced) for each in value)
+    return scale.to_edge(value) if isinstance(value, float) and scale else value
+
+
+def _annotation(hint: Any, at: At, sourced: bool) -> Any:
+    """Pydantic type of a key."""
+    hint, _ = plain_hint(hint)
+    options = alternatives(hint)
+    if options != (hint,):
+        return _union(options, at, sourced)
+    if is_noun(hint):
+        return _union((hint,), at, sourced)
+    if get_origin(hint) is tuple:
+        return _list(get_args(hint), at, sourced)
+    if at.one_of:
+        return Literal[at.one_of]
+    # strict: a text such as "3 mm" and `true` are not numbers; not-a-number and infinity are refused
+    if hint is float:
+        return Annotated[float, Field(strict=True, allow_inf_nan=False, **_limits(at))]
+    if hint is int:
+        return Annotated[int, Field(strict=True, **_limits(at))]
+    if hint is bool:
+        return StrictBool
+    if hint in (str, Path):
+        limits: dict[str, Any] = {"min_length": 1, "max_length": at.longest} if at.longest else {}
+        return Annotated[str, Field(strict=True, pattern=at.pattern, **limits)]
+    return hint
+
+
+def _limits(at: At) -> dict[str, Any]:
+    return dict(at.limits)
+
+
+def _list(entries: tuple[Any, ...], at: At, sourced: bool) -> Any:
+    inner = dataclasses.replace(at, size=None, entry=None)
+    if at.entry:
+        entries = (at.entry, ...)
+    if entries[-1] is not ...:
+        return tuple[tuple(_annotation(each, inner, sourced) for each in entries)]  # type: ignore[misc]
+    several: Any = tuple[_annotation(entries[0], inner, sourced), ...]  # type: ignore[misc]
+    if at.size is None:
+        return several
+    fewest, most = at.size
+    return Annotated[several, Field(min_length=fewest, max_length=most)]
+
+
+def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
+    """Mapping of one of several nouns, a name or a switch; tags stand in brackets so that no key is one."""
+    if not all(is_noun(option) for option in options):
+        return reduce(or_, (_annotation(option, at, sourced) for option in options))
+    tagged: list[Any] = []
+    usual: str | None = None
+    if len(options) == 1:
+        model = keys_of(options[0], None, sourced)
+        if not (at.switch or at.reference):
+            return model
+        tagged = [Annotated[model, Tag("<options>" if at.switch else "<inline>")]]
+    else:
+        usual = kinds_of(options[0])[0] if at.switch else next(filter(None, map(_usual_kind, options)), None)
+        for option in options:
+            model = keys_of(option, usual if usual in kinds_of(option) and is_kind(option) else None, sourced)
+            tagged += [Annotated[model, Tag(f"<{kind}>")] for kind in kinds_of(option)]
+    if at.switch:
+        tagged.insert(0, Annotated[bool | None, Tag("<switch>")])
+    if at.reference:
+        tagged.insert(0, Annotated[str, Tag("<name>")])
+
+    def tag(value: Any) -> str | None:
+        """Tag of a value: what it is, or the kind that it says or usually has."""
+        if at.switch and (value is None or isinstance(value, bool)):
+            return "<switch>"
+        if at.reference:
+            return "<name>" if isinstance(value, str) else "<inline>"
+        if len(options) == 1:
+            return "<options>"
+        kind = value.get("kind", usual) if isinstance(value, dict) else getattr(value, "kind", None)
+        return f"<{kind}>" if kind is not None or isinstance(value, dict) else None
+
+    return Annotated[reduce(or_, tagged), Discriminator(tag)]
+
+
+def _usual_kind(noun: type) -> str | None:
+    """Kind that a mapping of a noun has when it does not say one."""
+    field = next((place for place in places(noun) if place.key == "kind"), None)
+    return None if field is None or field.at.required else field.default

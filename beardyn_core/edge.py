@@ -1,0 +1,436 @@
+"""What a field of a noun is at the edge: its unit and limits there, and the way to SI and back.
+
+A noun is a frozen dataclass in SI. What its file says in other units stands on the field::
+
+    length: Annotated[float, At("mm", gt=0.0, le=150.0), "along the circumference"] = 0.04
+
+From that one line follow the key ``length_mm`` of the file, its limits, its words in the JSON schema and in
+the reference page (`beardyn_core.config`), the text of a recorded scene (`written`) and what a noun made in
+Python refuses (`refuse`).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+
+from beardyn_core.errors import InputError
+
+
+class Unit(NamedTuple):
+    """A unit at the edge and how a number in it comes to SI: ``value * times / over + plus``."""
+
+    words: str
+    times: float = 1.0
+    over: float = 1.0  # small units are divided by: a decimal number stays the nearest one to its SI value
+    plus: float = 0.0
+
+    def to_si(self, value: float) -> float:
+        """Convert a number to SI."""
+        if self.over != 1.0:
+            return value / self.over
+        if self.plus != 0.0:
+            return value + self.plus
+        return value * self.times if self.times != 1.0 else value
+
+    def to_edge(self, value: float, added: float = 0.0) -> float:
+        """Convert a number from SI: the shortest decimal of which `to_si` makes it, else the nearest one.
+
+        Parameters
+        ----------
+        value : float
+            SI.
+        added : float, optional
+            What is added to the number, in SI, before it is the value.
+        """
+        if not math.isfinite(value) or (self[1:] == (1.0, 1.0, 0.0) and added == 0.0):
+            return value
+        about = (value - added) * self.over / self.times - self.plus
+        for digits in range(1, 18):
+            if self.to_si(found := float(f"{about:.{digits}g}")) + added == value:
+                return found
+        near = (about, math.nextafter(about, math.inf), math.nextafter(about, -math.inf))
+        return min(near, key=lambda found: abs(self.to_si(found) + added - value))
+
+
+# Ending of a key -> its unit; longer endings stand before the shorter ones that they end in.
+UNITS = {
+    "m_per_s2_per_sqrt_Hz": Unit("metres per second squared per square root of hertz"),
+    "N_m_s_per_rad": Unit("newton metre seconds per radian"),
+    "kN_m_per_rad": Unit("kilonewton metres per radian", times=1e3),
+    "kg_per_m3": Unit("kilograms per cubic metre"),
+    "mm2_per_s": Unit("square millimetres per second (centistokes)", over=1e6),
+    "W_per_m2_K": Unit("watts per square metre and kelvin"),
+    "um_per_m_K": Unit("micrometres per metre and kelvin", over=1e6),
+    "W_per_m_K": Unit("watts per metre and kelvin"),
+    "W_per_K": Unit("watts per kelvin"),
+    "kN_s_per_m": Unit("kilonewton seconds per metre", times=1e3),
+    "N_s_per_m": Unit("newton seconds per metre"),
+    "kN_per_mm": Unit("kilonewtons per millimetre", times=1e6),
+    "MN_per_m": Unit("meganewtons per metre", times=1e6),
+    "kg_per_m": Unit("kilograms per metre"),
+    "rad_per_s": Unit("radians per second"),
+    "m_per_s2": Unit("metres per second squared"),
+    "m_per_s": Unit("metres per second"),
+    "per_GPa": Unit("1 per gigapascal", over=1e9),
+    "per_K": Unit("1 per kelvin"),
+    "MN_m2": Unit("meganewton square metres", times=1e6),
+    "kg_m2": Unit("kilogram square metres"),
+    "kN_m": Unit("kilonewton metres", times=1e3),
+    "N_m": Unit("newton metres"),
+    "mrad": Unit("milliradians", over=1e3),
+    "kmh": Unit("kilometres per hour", times=1.0 / 3.6),
+    "rpm": Unit("revolutions per minute", times=2.0 * math.pi / 60.0),
+    "deg": Unit("degrees", times=math.pi / 180.0),
+    "kHz": Unit("kilohertz", times=1e3),
+    "GPa": Unit("gigapascals", times=1e9),
+    "MPa": Unit("megapascals", times=1e6),
+    "MN": Unit("meganewtons", times=1e6),
+    "kN": Unit("kilonewtons", times=1e3),
+    "kg": Unit("kilograms"),
+    "um": Unit("micrometres", over=1e6),
+    "us": Unit("microseconds", over=1e6),
+    "m2": Unit("square metres"),
+    "Hz": Unit("hertz"),
+    "mm": Unit("millimetres", over=1e3),
+    "C": Unit("degrees Celsius", plus=273.15),
+    "s": Unit("seconds"),
+    "t": Unit("tonnes", times=1e3),
+    "m": Unit("metres"),
+}
+_PLAIN = Unit("")
+_PERCENT = Unit("", times=0.01)
+# Endings that people write for a unit and that no key uses.
+_FOREIGN = (
+    *("cm", "inch", "in", "ft", "nm", "K", "F", "rad", "rad_s", "mph", "m_s", "ms", "ns", "min", "h"),
+    *("N", "lbf", "Nm", "kNm", "N_per_m", "kN_per_m", "g", "lb", "Pa", "kPa", "bar"),
+)
+_ENDINGS = tuple(sorted((*UNITS, *_FOREIGN), key=len, reverse=True))
+
+
+def unit_of(key: str) -> str | None:
+    """Find the unit, in words, that a key is given in; ``None`` when its name says none."""
+    return next((unit.words for ending, unit in UNITS.items() if key.endswith(f"_{ending}")), None)
+
+
+def stem_of(key: str) -> str:
+    """Take the unit off a key, foreign units included: ``width_cm`` -> ``width``."""
+    return next((key.removesuffix(f"_{ending}") for ending in _ENDINGS if key.endswith(f"_{ending}")), key)
+
+
+@dataclasses.dataclass(frozen=True)
+class At:
+    """How a field is written at the edge.
+
+    Parameters
+    ----------
+    unit : str
+        Ending of the key, one of `UNITS` or ``percent``; empty for a number or text without a unit.
+    gt, ge, lt, le : float, optional
+        Limits in that unit, of every number in the field.
+    one_of : tuple of str
+        The texts that are allowed.
+    size : pair of int, optional
+        Fewest and most entries of a list.
+    entry : type, optional
+        Named tuple that each entry of a list of plain tuples is written as.
+    longest : int, optional
+        Most characters of a text, which then cannot be empty.
+    key : str, optional
+        Key without its unit where it is not the field's own name.
+    required : bool
+        The file must give the key although the field has a usual value.
+    optional : bool
+        The file may leave the key out although the field has no usual value; its reader fills it in.
+    usual : object, optional
+        Usual value, in the unit of the edge, of a key whose field has none.
+    pattern : str, optional
+        Regular expression that a text must fit.
+    absent : bool
+        The usual value stands for a key that is not given: the file has no number for it.
+    switch : bool
+        ``true`` stands for the usual options, ``false`` for none.
+    reference : bool
+        The name of a file may stand for the mapping.
+    """
+
+    unit: str = ""
+    gt: float | None = None
+    ge: float | None = None
+    lt: float | None = None
+    le: float | None = None
+    one_of: tuple[str, ...] = ()
+    size: tuple[int, int | None] | None = None
+    entry: Any = None
+    longest: int | None = None
+    key: str | None = None
+    required: bool = False
+    optional: bool = False
+    usual: Any = None
+    pattern: str | None = None
+    absent: bool = False
+    switch: bool = False
+    reference: bool = False
+
+    @property
+    def scale(self) -> Unit:
+        """Unit of the numbers."""
+        return _PERCENT if self.unit == "percent" else UNITS.get(self.unit, _PLAIN)
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """Limits that are set, in the unit of the edge."""
+        every = {"gt": self.gt, "ge": self.ge, "lt": self.lt, "le": self.le}
+        return {name: limit for name, limit in every.items() if limit is not None}
+
+
+LIMIT_WORDS = {"gt": "greater than", "ge": "at least", "lt": "less than", "le": "at most"}
+INTERNAL = "<not in a file>"
+Vector = tuple[float, float, float]
+ROW = At(ge=0, le=1)
+SHARE = At(ge=0.0, le=1.0)
+SEED = At(ge=0, le=2**32 - 1)
+
+
+class Place(NamedTuple):
+    """A field of a noun, and the key it is written with."""
+
+    field: str
+    key: str
+    hint: Any  # type without its notes
+    at: At
+    words: str
+    default: Any  # `dataclasses.MISSING` where there is none
+
+
+@cache
+def places(noun: Any) -> tuple[Place, ...]:
+    """List the fields of a noun (a dataclass or a named tuple) that a file can give, in their order."""
+    hints = get_type_hints(noun, include_extras=True)
+    found = []
+    for name, default in _defaults(noun).items():
+        hint, notes = plain_hint(hints[name])
+        if INTERNAL in notes:
+            continue
+        at = At()
+        for note in (each for each in notes if isinstance(each, At)):
+            set_here = {
+                f.name: v for f in dataclasses.fields(At) if (v := getattr(note, f.name)) != f.default
+            }
+            at = dataclasses.replace(at, **set_here)
+        words = next((each for each in reversed(notes) if isinstance(each, str)), "")
+        stem = at.key or name
+        found.append(Place(name, f"{stem}_{at.unit}" if at.unit else stem, hint, at, words, default))
+    return tuple(found)
+
+
+def _defaults(noun: type) -> dict[str, Any]:
+    """Fields of a noun with their usual values."""
+    if not dataclasses.is_dataclass(noun):
+        usual: dict[str, Any] = noun._field_defaults  # type: ignore[attr-defined]
+        return {name: usual.get(name, dataclasses.MISSING) for name in noun._fields}  # type: ignore[attr-defined]
+    return {
+        field.name: field.default_factory()
+        if field.default_factory is not dataclasses.MISSING
+        else field.default
+        for field in dataclasses.fields(noun)
+    }
+
+
+def plain_hint(hint: Any) -> tuple[Any, tuple[Any, ...]]:
+    """Split a type from the notes that `Annotated` puts on it."""
+    if get_origin(hint) is Annotated:
+        inner, *notes = get_args(hint)
+        deeper, before = plain_hint(inner)
+        return deeper, (*before, *notes)
+    return hint, ()
+
+
+def is_noun(hint: Any) -> bool:
+    """Tell whether a type is written as a mapping of keys."""
+    return isinstance(hint, type) and (dataclasses.is_dataclass(hint) or hasattr(hint, "_field_defaults"))
+
+
+def alternatives(hint: Any) -> tuple[Any, ...]:
+    """List the types of a union without ``None``; a type alone is its only alternative."""
+    if get_origin(hint) in (Union, UnionType):
+        return tuple(each for each in get_args(hint) if each is not NoneType)
+    return (hint,)
+
+
+def may_be_none(hint: Any) -> bool:
+    """Tell whether a union has ``None`` in it."""
+    return NoneType in get_args(hint)
+
+
+def kinds_of(noun: type) -> tuple[str, ...]:
+    """List the values of the key ``kind`` that stand for a noun where several are possible."""
+    field = next((place for place in places(noun) if place.key == "kind"), None)
+    if field is not None:
+        return field.at.one_of
+    kinds: tuple[str, ...] = getattr(noun, "KINDS", ()) or (noun.kind,)  # type: ignore[attr-defined]
+    return kinds
+
+
+def is_kind(noun: type) -> bool:
+    """Tell whether the file names the kind of a noun with a key that is no field of it."""
+    return isinstance(noun.__dict__.get("kind"), (str, property)) and "kind" not in _defaults(noun)
+
+
+def written(noun: Any) -> dict[str, Any]:
+    """Write a noun as the mapping of its file: edge units, every number, nothing that is ``None``.
+
+    A noun whose file says something in another way changes the mapping in its method ``as_written``.
+    """
+    found: dict[str, Any] = {"kind": noun.kind} if is_kind(type(noun)) else {}
+    for place in places(type(noun)):
+        value = getattr(noun, place.field)
+        if place.key == "sources":
+            found["sources"] = dict(value)
+        elif value is not None and not (place.at.absent and value == place.default):
+            found[place.key] = written_value(value, place.at)
+    return noun.as_written(found) if hasattr(noun, "as_written") else found
+
+
+def written_value(value: Any, at: At) -> Any:
+    """Write one value of a field as it stands in a file."""
+    if isinstance(value, Path):
+        return str(value)
+    if is_noun(type(value)):
+        return written(value)
+    if isinstance(value, tuple):
+        return [written_value(_named(each, at), at) for each in value]
+    return at.scale.to_edge(value) if isinstance(value, float | int) and at.unit else value
+
+
+def _named(entry: Any, at: At) -> Any:
+    """Give an entry of a list, a plain tuple, the names of its numbers."""
+    return at.entry(*entry) if at.entry and type(entry) is tuple else entry
+
+
+class Problem(NamedTuple):
+    """What is wrong with a noun: a sentence, in keys and units of the file, and the part it is about."""
+
+    text: str
+    place: tuple[str | int, ...] = ()
+
+
+class NounError(InputError):
+    """A noun that cannot be.
+
+    Parameters
+    ----------
+    owner : str
+        What the noun is called.
+    found : list of Problem
+    """
+
+    def __init__(self, owner: str, found: list[Problem]) -> None:
+        super().__init__([f"{owner}{_path(problem.place)}: {problem.text}" for problem in found])
+        self.found = found
+
+
+def rules_of(noun: Any) -> Iterator[Problem]:
+    """Find what the numbers of a noun, each right by itself, cannot be together (its method `rules`)."""
+    for found in noun.rules() if hasattr(noun, "rules") else ():
+        yield Problem(found) if isinstance(found, str) else found
+
+
+def outside(noun: Any) -> Iterator[Problem]:
+    """Find values of a noun beyond their limits, not finite, or no word that is allowed."""
+    for place in places(type(noun)):
+        value = getattr(noun, place.field)
+        if value is None or (place.at.absent and value == place.default):
+            continue
+        if place.at.one_of and isinstance(value, str) and value not in place.at.one_of:
+            yield Problem(f"{place.key} is {value!r}; allowed are {', '.join(place.at.one_of)}")
+        elif isinstance(value, float | int):
+            yield from _number_outside(place.key, value, place.at)
+        elif isinstance(value, tuple):
+            yield from _entries_outside(place, value)
+        else:
+            yield from _inside(value, place.key)
+
+
+def _entries_outside(place: Place, value: tuple[Any, ...]) -> Iterator[Problem]:
+    fewest, most = place.at.size or (0, None)
+    if len(value) < fewest:
+        yield Problem(f"{place.key} is {value or 'empty'}; give at least {fewest}")
+    if most is not None and len(value) > most:
+        yield Problem(f"{place.key} has {len(value)} entries; allowed are {fewest} to {most}")
+    if value and all(isinstance(each, float | int) for each in value):
+        found = [each for one in value for each in _number_outside(place.key, one, place.at)]
+        if found and not all(math.isfinite(each) for each in value):
+            yield Problem(f"{place.key} is {value}; every component must be a finite number")
+        else:
+            for index, one in enumerate(value):
+                yield from _number_outside(f"{place.key}[{index}]", one, place.at)
+        return
+    for index, each in enumerate(value):
+        yield from _inside(_named(each, place.at), place.key, index)
+
+
+def _inside(part: Any, *place: str | int) -> Iterator[Problem]:
+    """Find the mistakes of a part that does not refuse them by itself."""
+    if is_noun(type(part)) and not hasattr(part, "__post_init__"):
+        for found in list(outside(part)) or list(rules_of(part)):
+            yield Problem(found.text, (*place, *found.place))
+
+
+def _number_outside(name: str, value: float, at: At) -> Iterator[Problem]:
+    edge, limits = at.scale.to_edge(value), at.limits
+    kept = {
+        "gt": edge > limits.get("gt", -math.inf),
+        "ge": edge >= limits.get("ge", -math.inf),
+        "lt": edge < limits.get("lt", math.inf),
+        "le": edge <= limits.get("le", math.inf),
+    }
+    broken = next((limit for limit in limits if not kept[limit]), None)
+    if broken is not None:
+        yield Problem(f"{name} is {edge:g}; it must be {LIMIT_WORDS[broken]} {limits[broken]:g}")
+    elif not math.isfinite(edge):
+        yield Problem(f"{name} is {edge:g}; it must be a finite number")
+
+
+def refuse(noun: Any, owner: str) -> None:
+    """Raise `InputError` with every mistake in a noun made in Python, if there is one.
+
+    Parameters
+    ----------
+    noun : dataclass
+    owner : str
+        What to call it.
+    """
+    if found := [*outside(noun), *rules_of(noun)]:
+        raise NounError(owner, found)
+
+
+def _path(place: tuple[str | int, ...]) -> str:
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in place)
+
+
+class WorkedOut(tuple):
+    """A tuple that remembers what it has been worked out from; equal to the plain tuple.
+
+    Parameters
+    ----------
+    values : iterable
+    source : object
+        What stands in the file instead of the values.
+    """
+
+    source: Any
+
+    def __new__(cls, values: Any, source: Any = None) -> WorkedOut:
+        """Make it."""
+        made = super().__new__(cls, values)
+        made.source = source
+        return made
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (WorkedOut, (tuple(self), self.source))
