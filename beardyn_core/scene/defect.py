@@ -229,7 +229,8 @@ class MissingRoller:
         return f"roller {self.roller}, row {self.row}, missing"
 
 
-Defect = Patch | RollerError | WornPocket | MissingRoller
+ListedDefect = Patch | RollerError | WornPocket  # under `defects` in a scene
+Defect = ListedDefect | MissingRoller
 
 
 def defect_from(stored: Mapping[str, Any]) -> Defect:
