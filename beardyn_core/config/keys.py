@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache, reduce
 from operator import or_
 from pathlib import Path
@@ -29,6 +29,7 @@ Text = Annotated[str, Field(strict=True)]
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=80)]
 
 _BASES: dict[type, type[FileModel]] = {}
+_MADE: dict[str, type[FileModel]] = {}
 _Model = TypeVar("_Model", bound=FileModel)
 
 
@@ -79,8 +80,17 @@ def keys_of(noun: Any, usual_kind: str | None = None, part_of_sourced: bool = Fa
         **made,
     )
     model.noun_type, model.places = noun, places(noun)
+    _MADE[model.__name__] = model
     made_model: type[FileModel] = model
     return made_model
+
+
+def in_order(name: str, keys: Iterable[str]) -> list[str]:
+    """Put the keys of a model in the order of its noun, those of the file alone behind them."""
+    model = _MADE.get(name)
+    order = [place.key for place in model.places] if model else []
+    head = ("kind", "name", "purpose", "preset")
+    return sorted(keys, key=lambda key: (key not in head, order.index(key) if key in order else len(order)))
 
 
 @cache

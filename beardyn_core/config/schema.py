@@ -7,7 +7,7 @@ from typing import Any
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.effects_file import EffectSet
-from beardyn_core.config.keys import keys_of
+from beardyn_core.config.keys import in_order, keys_of
 from beardyn_core.config.scene_file import Scene
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.trial import Trial
@@ -31,8 +31,13 @@ def json_schema(kind: str = "scene") -> dict[str, Any]:
     kind : str
         One of `SCHEMA_KINDS`.
     """
+    model = keys_of(_NOUNS[kind])
+    schema = model.model_json_schema()
+    for name, part in {model.__name__: schema, **schema.get("$defs", {})}.items():
+        if "properties" in part:
+            part["properties"] = {key: part["properties"][key] for key in in_order(name, part["properties"])}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        **keys_of(_NOUNS[kind]).model_json_schema(),
+        **schema,
         "title": f"beardyn {kind}",
     }

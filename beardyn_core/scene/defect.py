@@ -233,7 +233,8 @@ class MissingRoller:
         return f"roller {self.roller}, row {self.row}, missing"
 
 
-Defect = Patch | RollerError | WornPocket | MissingRoller
+ListedDefect = Patch | RollerError | WornPocket  # under `defects` in a scene
+Defect = ListedDefect | MissingRoller
 
 
 def width_problem(width: float, on: str, bearing: Bearing) -> str:

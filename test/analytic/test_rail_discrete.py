@@ -159,19 +159,25 @@ def test_a_run_that_turns_back_meets_the_same_rail_again():
 @pytest.mark.parametrize(
     ("defects", "words"),
     [
-        ({"rail_defects": (DippedWeld(1.0, 6e-3),)}, ["dipped weld: depth is 0.006 m", "0 to 0.005 m"]),
-        ({"rail_defects": (DippedWeld(1.0, 1e-3, spacing=0.5),)}, ["spacing is 0.5 m", "length of the dip"]),
-        ({"rail_defects": (DippedWeld(1.0, 1e-3, short_length=2.0),)}, ["short_length is 2 m"]),
-        ({"rail_defects": (DippedWeld(float("nan"), 1e-3),)}, ["position is nan"]),
+        ({"rail_defects": (DippedWeld(1.0, 6e-3),)}, ["rail_defects[0]: depth_mm is 6", "at most 5"]),
+        (
+            {"rail_defects": (DippedWeld(1.0, 1e-3, spacing=0.5),)},
+            ["spacing_m is 0.5", "at least length_m"],
+        ),
+        ({"rail_defects": (DippedWeld(1.0, 1e-3, short_length=2.0),)}, ["short_length_m is 2"]),
+        ({"rail_defects": (DippedWeld(float("nan"), 1e-3),)}, ["position_m is nan"]),
         ({"rail_defects": (Crossing(1.0, 0.009, 0.1, 0.1),)}, ["turns by 180 mrad", "shallower or longer"]),
-        ({"rail_defects": (Crossing(1.0, 0.02, 3.0, 3.0),)}, ["crossing: depth is 0.02 m"]),
-        ({"wheel_defects": (WheelOutOfRound(()),)}, ["0 amplitudes", "1 to 100"]),
-        ({"wheel_defects": (WheelOutOfRound((1e-4, -1.0)),)}, ["amplitude of order 2 is -1 m"]),
+        (
+            {"rail_defects": (Crossing(1.0, 0.02, 3.0, 3.0),)},
+            ["[0]: depth_mm is 20", "at most 10"],
+        ),
+        ({"wheel_defects": (WheelOutOfRound(()),)}, ["amplitudes_um is empty", "at least 1"]),
+        ({"wheel_defects": (WheelOutOfRound((1e-4, -1.0)),)}, ["amplitudes_um[1] is -1e+06"]),
         (
             {"wheel_defects": (WheelOutOfRound((0.0,) * 80),), "wheel_diameter": 0.4},
             ["80 orders", "at most 62 waves"],
         ),
-        ({"contact_patch": 0.1}, ["contact_patch is 0.1 m"]),
+        ({"contact_patch": 0.1}, ["contact_patch_mm is 100"]),
     ],
 )
 def test_what_cannot_be_is_refused_in_a_sentence(defects, words):

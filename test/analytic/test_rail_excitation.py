@@ -300,15 +300,15 @@ def height_of(operation, rate, count, seed):
 @pytest.mark.parametrize(
     ("defects", "words"),
     [
-        ({"wheel_defects": (WheelFlat(0.04, 1e-3),)}, ["depth is 1 mm", "0.435 mm deep while fresh"]),
+        ({"wheel_defects": (WheelFlat(0.04, 1e-3),)}, ["depth_mm is 1", "0.435 mm deep while fresh"]),
         ({"wheel_defects": (WheelFlat(0.04, 1e-3, "rounded"),)}, ["at most 0.435 mm", "0.217 mm"]),
         ({"wheel_defects": (WheelFlat(0.04, shape="oval"),)}, ["'oval'", "fresh, rounded"]),
-        ({"wheel_defects": (WheelFlat(0.5),)}, ["length is 0.5 m"]),
-        ({"wheel_defects": (WheelFlat(float("nan")),)}, ["length is nan"]),
+        ({"wheel_defects": (WheelFlat(0.5),)}, ["length_mm is 500"]),
+        ({"wheel_defects": (WheelFlat(float("nan")),)}, ["length_mm is nan"]),
         ({"wheel_defects": (WheelPolygon(0, 1e-5),)}, ["order is 0"]),
         ({"wheel_defects": (WheelPolygon(80, 1e-5),), "wheel_diameter": 0.4}, ["at most 62 waves of 20 mm"]),
-        ({"rail_defects": (DippedJoint(1.0, 0.01, 1.0, 0.5),)}, ["spacing is 0.5 m"]),
-        ({"rail_defects": (Corrugation(0.05, 1e-5, 3.0, 3.1),)}, ["end is 3.1 m", "four waves"]),
+        ({"rail_defects": (DippedJoint(1.0, 0.01, 1.0, 0.5),)}, ["spacing_m is 0.5"]),
+        ({"rail_defects": (Corrugation(0.05, 1e-5, 3.0, 3.1),)}, ["to_m is 3.1", "four waves"]),
     ],
 )
 def test_a_defect_that_cannot_be_is_refused_in_a_sentence(defects, words):

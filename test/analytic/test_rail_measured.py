@@ -148,12 +148,18 @@ def test_everything_wrong_with_a_file_is_told_at_once(tmp_path):
     ("options", "words"),
     [
         ({"take": "all"}, ["take is 'all'", "both, force, speed"]),
-        ({"take": "force"}, ["speed_profile is given when, and only when, take is 'force'"]),
-        ({"take": "speed"}, ["force is given when, and only when, take is 'speed'"]),
-        ({"take": "speed", "force": (0.0, 0.0, float("inf"))}, ["force is (0.0, 0.0, inf)", "finite"]),
-        ({"take": "force", "speed_profile": ((0.0, 1.0), (0.0, 2.0))}, ["must be later than point 0"]),
-        ({"take": "force", "speed_profile": ((0.0, 200.0),)}, ["speed of speed_profile point 0 is 200 m/s"]),
-        ({"wheel_diameter": 2.0}, ["wheel_diameter is 2 m"]),
+        ({"take": "force"}, ["speed_profile is missing; take is 'force'"]),
+        ({"take": "speed"}, ["force_kN is missing; take is 'speed'"]),
+        ({"take": "speed", "force": (0.0, 0.0, float("inf"))}, ["force_kN is (0.0, 0.0, inf)", "finite"]),
+        (
+            {"take": "force", "speed_profile": ((0.0, 1.0), (0.0, 2.0))},
+            ["[1].time_s is 0", "greater than the 0"],
+        ),
+        (
+            {"take": "force", "speed_profile": ((0.0, 200.0),)},
+            ["[0]: speed_kmh is 720", "at most 400"],
+        ),
+        ({"wheel_diameter": 2.0}, ["wheel_diameter_mm is 2000", "at most 1500"]),
     ],
 )
 def test_an_operation_that_cannot_be_is_refused_in_a_sentence(options, words):

@@ -203,10 +203,10 @@ def test_an_empty_freight_wagon_is_light_and_a_laden_one_heavy():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"curves": (CURVE,), "lateral": False}, ["lateral is False", "curves need"]),
-        ({"curves": (CURVE, CURVE)}, ["curve 1 begins at 30 m", "530 m"]),
-        ({"payload": -1.0}, ["payload is -1 kg"]),
-        ({"speed_profile": ((0.0, -120.0),)}, ["-120 m/s", "-111.111"]),
+        ({"curves": (CURVE,), "lateral": False}, ["lateral is false", "a curve needs"]),
+        ({"curves": (CURVE, CURVE)}, ["curve[1].begin_m is 30", "at least 530"]),
+        ({"payload": -1.0}, ["payload_t is -0.001", "at least 0"]),
+        ({"speed_profile": ((0.0, -120.0),)}, ["speed_kmh is -432", "-400"]),
     ],
 )
 def test_what_cannot_be_run_is_refused(changes, words):

@@ -41,12 +41,12 @@ HS = load_bearing("HS130x230")
     [
         ({"sphere_ratio": 1.0}, ("sphere_ratio is 1",)),
         ({"sphere_ratio": 1.02}, ("sphere_ratio is 1.02",)),
-        ({"rib_contact_height": 0.0}, ("rib_contact_height is 0 mm",)),
+        ({"rib_contact_height": 0.0}, ("rib_contact_height_mm is 0",)),
         ({"rib_contact_height": 0.8e-3}, ("rib_contact_height 0.8 mm", "rib_undercut 1 mm")),
         ({"rib_contact_height": 5.2e-3}, ("rib_contact_height 5.2 mm", "rib_height 5 mm")),
         ({"roller_chamfer": 3e-3}, ("rib_contact_height 2.5 mm", "roller_chamfer 3 mm")),
-        ({"rib_height": -1e-3}, ("rib_height is -1 mm",)),
-        ({"small_rib_clearance": -1e-4}, ("small_rib_clearance is -0.1 mm",)),
+        ({"rib_height": -1e-3}, ("rib_height_mm is -1",)),
+        ({"small_rib_clearance": -1e-4}, ("small_rib_clearance_mm is -0.1",)),
         ({"small_rib_height": 13e-3}, ("small_rib_height 13 mm", "small-end radius 12.67 mm")),
     ],
 )
