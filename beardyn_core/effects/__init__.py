@@ -1,5 +1,27 @@
 """The catalogue of effects: what each adds, what it costs, where it holds; and sets of them.
 
+================== ===================================================
+module             responsibility, in the order of the catalogue
+================== ===================================================
+about              what the catalogue says of an effect
+contact_damping    loss of contacts that are pressed together
+lamina_coupling    laminae that sink with each other
+traction           friction of the raceway contacts
+film               lubricant film of the raceway contacts
+rolling_resistance couple of the raceway contacts against rolling
+drag               drag and churning of the rollers
+rib                large roller ends on the cone rib
+small_rib          small roller ends on the small rib
+cage               cage of each row
+seal               friction of the seals
+ring_flexibility   bending of the cup in its housing
+gravity            weight of rollers, cages and axlebox
+thermal            slow warming of the parts
+audit              energy balance
+effect_set         sets of effects
+catalogue          every effect with what is known of it
+================== ===================================================
+
 An effect is present when its member of `EffectSet` is an options object and absent when the member is
 ``None``; the kernels are compiled for the members that are present.
 """
