@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.edge import At
+from beardyn_core.edge import UNITS, At
 
 STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
 
@@ -42,9 +42,11 @@ class Temperatures:
 
     def closure(self, bearing: Bearing) -> float:
         """Find what they add to the end play of a bearing, [m]."""
-        change = PartTemperatures(
-            self.cup - self.assembly, self.cone - self.assembly, self.rollers - self.assembly
+        # differences of the numbers as they are written, so that zeros of the scales cost no digit
+        cup, cone, rollers, assembly = (
+            UNITS["C"].to_edge(value) for value in (self.cup, self.cone, self.rollers, self.assembly)
         )
+        change = PartTemperatures(cup - assembly, cone - assembly, rollers - assembly)
         return end_play_change(bearing, change, self.expansion)
 
 

@@ -70,8 +70,9 @@ def keys_of(noun: Any, usual_kind: str | None = None, part_of_sourced: bool = Fa
     for place in places(noun):
         if place.key not in base.model_fields:
             made[place.key] = _field(place, sourced)
-            if place.key in base.schema_changes:
-                made[place.key][1].json_schema_extra = base.schema_changes[place.key]
+            if change := base.schema_changes.get(place.key):
+                annotation, field = made[place.key]
+                made[place.key] = (Annotated[annotation, Field(json_schema_extra=change)], field)
     model: Any = create_model(
         f"{noun.__name__}Keys",
         __base__=base,

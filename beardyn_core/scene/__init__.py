@@ -2,27 +2,27 @@
 
 ============ ===============================================================================
 module       responsibility, in the order of the data
-============ ===============================================================================
-ranges       values outside their range, each a sentence
-irregularity which irregularity a rail has
-excitation   flats and waves of the wheel; joints, welds, crossings, corrugation of the rail
-curve        a curve of the track: radius, cant, transitions
-braking      what an axle does when the vehicle slows down or speeds up
-suspension   primary suspension of freight bogies
-guidance     what the lateral motion of a vehicle depends on
-measured     load and speed from a file
-operation    where load and speed come from
+============ =====================================================================
 speed        speed and distance over time
 timetable    a run from stop to stop as a speed profile
+irregularity which irregularity a rail has
+excitation   flats and waves of the wheel; joints, welds, crossings, corrugation
+curve        radius, cant and transitions of a curve
+braking      brake and drive of an axle
+guidance     what the sideways motion of a vehicle depends on
+suspension   springs of freight bogies with their friction
+measured     load and speed from a file
+operation    where load and speed come from
 load         load on the journal as samples
 load_buffer  the load as a stream: accepted, refused, interpolated
 mounting     axlebox, suspension, journal
 defect       patches, roller diameter, worn pocket
 waviness     harmonics of raceways and rollers
 sensor       accelerometers
+tier         which bodies move by their own equations of motion
 integrator   how the full tier takes a time step
-tier         which bodies move by their own equations
+free         what of a scene may be chosen
 scene        all of it
-trial        the matrix of runs that a monitor is put to
-============ ===============================================================================
+trial        the matrix of scenes that a monitor is put to
+============ =====================================================================
 """
