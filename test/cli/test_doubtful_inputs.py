@@ -215,7 +215,7 @@ def test_a_monitor_of_one_s_own_that_goes_wrong_is_a_sentence(
     monitor = Monitor(fault_frequencies(BEARING), BEARING.roller_count, algorithm=algorithm)
     time_ns = np.arange(0, 4 * 25_600, dtype=np.int64) * 1_000_000_000 // 25_600
     monitor.push_vibration(time_ns, np.zeros((len(time_ns), 3)))
-    monitor.push_shaft(time_ns[::64], np.arange(len(time_ns[::64])) * 0.2)
+    monitor.push_shaft(time_ns[::64], 0.2 * np.arange(len(time_ns[::64]), dtype=np.float64))
     with pytest.raises(InputError) as refused:
         monitor.result()
     for word in words:
