@@ -22,7 +22,7 @@ extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 help: ## what there is to make
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
 
-demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view
+demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view (again: ARGS=--force)
 	@$(BIN)/python -m beardyn_ros demo $(ARGS)
 
 test: $(VENV)/.ready-test ## set up, then the tests

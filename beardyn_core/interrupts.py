@@ -1,8 +1,8 @@
 """Ctrl-C: a command ends within a second or two, also while machine code is compiled.
 
-Python answers a signal between two of its own instructions, and an exception that is raised in a callback
-of the compiler is swallowed there. So a thread watches too: when Ctrl-C has not been answered after
-`GRACE_S`, and the main thread is in a section that may be left at any moment, the process ends there.
+An exception that is raised inside of the compiler, in a callback from C, is swallowed there or worse. So
+Ctrl-C waits until the compiler has returned; and because that may take half a minute, a thread of the
+command line watches too and ends the process when nothing is open that would be lost.
 """
 
 from __future__ import annotations
@@ -13,35 +13,74 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from types import FrameType
 
 GRACE_S = 0.7
 EXIT_INTERRUPTED = 130
 _LOOK_S = 0.05
 
-_depth = 0
+_sealed = 0  # depth of sections of the main thread that an exception must not be raised in
+_leavable = 0  # depth of those that the process may be ended in
+_pending = False  # whether Ctrl-C waits for the end of a sealed section
 _last_words: list[Callable[[], str]] = []
 
 
-def enter() -> None:
-    """Begin a section that the process may be ended in, such as compiling: nothing is open or half done."""
-    global _depth
-    _depth += 1
+def seal() -> None:
+    """Begin a section that Ctrl-C waits for the end of, such as the compiler; other threads have none."""
+    global _sealed
+    if threading.current_thread() is threading.main_thread():
+        _sealed += 1
 
 
-def leave() -> None:
-    """End a section begun by `enter`."""
-    global _depth
-    _depth -= 1
+def unseal() -> None:
+    """End a section begun by `seal`; raises `KeyboardInterrupt` when Ctrl-C came meanwhile."""
+    global _sealed
+    if threading.current_thread() is threading.main_thread():
+        _sealed -= 1
+        _raise_pending()
+
+
+def _raise_pending() -> None:
+    global _pending
+    if _pending and not _sealed:
+        _pending = False
+        raise KeyboardInterrupt
+
+
+def _answer(number: int, frame: FrameType | None) -> None:
+    global _pending
+    _pending = True
+    _raise_pending()
 
 
 @contextmanager
 def may_be_left() -> Iterator[None]:
     """Mark a section that the process may be ended in: nothing is open, nothing is half written."""
-    enter()
+    global _leavable
+    _leavable += 1
     try:
         yield
     finally:
-        leave()
+        _leavable -= 1
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Answer Ctrl-C only outside of sealed sections, while the context lasts."""
+    global _pending
+    if (
+        threading.current_thread() is not threading.main_thread()
+        or signal.getsignal(signal.SIGINT) is not signal.default_int_handler
+    ):
+        yield
+        return
+    _pending = False
+    signal.signal(signal.SIGINT, _answer)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    _raise_pending()
 
 
 @contextmanager
@@ -93,7 +132,8 @@ def watching() -> Iterator[None]:
     sys.unraisablehook = lambda lost: None if lost.exc_type is KeyboardInterrupt else complain(lost)
     threading.Thread(target=_watch, args=(reader, answered), name="interrupts", daemon=True).start()
     try:
-        yield
+        with held_back():
+            yield
     finally:
         answered.set()
         sys.unraisablehook = complain
@@ -106,7 +146,7 @@ def _watch(reader: int, answered: threading.Event) -> None:
         pass
     answered.wait(GRACE_S)
     while not answered.wait(_LOOK_S):
-        if _depth > 0:
+        if _sealed or _leavable:
             _end()
     os.close(reader)
 

@@ -10,13 +10,10 @@ import hashlib
 import inspect
 import os
 import re
-import signal
-import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 import numba
@@ -25,8 +22,7 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.registry import CPUDispatcher
 
-from beardyn_core.interrupts import enter as enter_leavable
-from beardyn_core.interrupts import leave as leave_leavable
+from beardyn_core.interrupts import held_back, seal, unseal
 
 # No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars then differ by the rounding of
 # fused multiplications only, and one machine always gives the same bits.
@@ -185,19 +181,19 @@ def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH) -> A
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
 
 
-class _Leavable(event.Listener):
-    """Lets Ctrl-C end the process while something is compiled: a file of the cache is written whole."""
+class _Sealed(event.Listener):
+    """Keeps Ctrl-C out of the compiler: an exception in one of its callbacks crashes it or is swallowed."""
 
     def on_start(self, event: Any) -> None:
-        """Begin to compile a function, perhaps inside of another one."""
-        enter_leavable()
+        """Begin to compile a function or to load it, perhaps inside of another one."""
+        seal()
 
     def on_end(self, event: Any) -> None:
-        """Have compiled it, or failed to."""
-        leave_leavable()
+        """Be outside again."""
+        unseal()
 
 
-event.register("numba:compile", _Leavable())
+event.register("numba:compiler_lock", _Sealed())
 
 
 class _CompilerWatch(event.Listener):
@@ -227,28 +223,5 @@ def when_compiling(say: Callable[[], None]) -> Iterator[list[str]]:
         What has been compiled: empty when all came from the cache.
     """
     watch = _CompilerWatch(say)
-    with _no_interrupt_lost(), event.install_listener("numba:compile", watch):
+    with held_back(), event.install_listener("numba:compile", watch):
         yield watch.begun
-
-
-@contextmanager
-def _no_interrupt_lost() -> Iterator[None]:
-    """Ctrl-C in one of the compiler's callbacks is swallowed there: then it comes at the end instead."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.getsignal(signal.SIGINT)
-    pressed: list[int] = []
-
-    def remember(number: int, frame: FrameType | None) -> None:
-        pressed.append(number)
-        if callable(before):
-            before(number, frame)
-
-    signal.signal(signal.SIGINT, remember)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before if before is not None else signal.SIG_DFL)
-    if pressed and before is signal.default_int_handler:
-        raise KeyboardInterrupt

@@ -13,7 +13,7 @@ from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_
 from beardyn_core.record.topics import FRAME, TOPICS, Topic, topic
 from beardyn_ros.diagnostics import OK, RECORDER, WARN, diagnostic_name
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.recording import Recording, parsed_truth
+from beardyn_ros.recording import Recording, free_name, parsed_truth
 from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
@@ -90,12 +90,8 @@ class RecorderNode(Node):
             path = Path(self._values.output).expanduser()
         else:
             path = Path(f"{scene}_{time.strftime('%Y%m%d_%H%M%S')}.mcap")
-        named = path
-        if number > 1:
-            path = named.with_name(f"{named.stem}_{number}{named.suffix}")
-        while path.is_file() and not (self._values.replace and number == 1):
-            number += 1  # a run that has begun goes into the next free name rather than into nothing
-            path = named.with_name(f"{named.stem}_{number}{named.suffix}")
+        if number > 1 or not self._values.replace:
+            path = free_name(path, number)
         self.get_logger().info(f"recording into {path}")
         return path
 

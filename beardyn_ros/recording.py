@@ -218,6 +218,22 @@ class Recording:
         return self.current.loss.total if self.current else 0
 
 
+def free_name(path: Path, number: int) -> Path:
+    """Name the file of a run: ``run.mcap``, ``run_2.mcap`` and so on, the first that does not exist.
+
+    A run that has begun cannot be refused any more, so an earlier file makes it take a later number.
+
+    Parameters
+    ----------
+    path : Path
+        Of the first run.
+    number : int
+        Of the run, from 1.
+    """
+    named = path if number == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}")
+    return free_name(path, number + 1) if named.is_file() else named
+
+
 def run_id_of(truth: str) -> str:
     """Run id in the content of ``truth``; '' when it has none."""
     return str(parsed_truth(truth).get("run_id", ""))

@@ -107,7 +107,10 @@ def page(found: dict[str, Any]) -> str:
         "",
         f"{found['purpose']} The matrix is [config/trials/{found['trial']}.yaml]"
         f"(../config/trials/{found['trial']}.yaml); `beardyn trial MATRIX.yaml -o FOLDER` runs one of your "
-        "own, keeps every run as it ends and goes on where it was stopped.",
+        "own, keeps every run as it ends and goes on where it was stopped. A folder of another matrix or "
+        "monitor is refused, `--force` starts it over. A run is done again when its scene, the simulator, or "
+        "any module that the monitor imports has changed; data that a monitor reads from other files is not "
+        "noticed.",
         "",
         "![Detection rate over size, and scores](pictures/trial.png)",
         "",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import subprocess
-from argparse import ArgumentParser
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -13,7 +12,7 @@ import numpy as np
 import pytest
 import rerun as rr
 
-from beardyn_core.cli import view as view_command
+from beardyn_core.cli import main as command
 from beardyn_core.errors import InputError
 from beardyn_core.record import meshes
 from beardyn_core.record.description import BearingShape
@@ -31,10 +30,7 @@ from test.record.synthetic_run import SHAPE, SyntheticRun, description
 
 
 def run_view(arguments: list[str]) -> int:
-    parser = ArgumentParser()
-    view_command.add_parser(parser.add_subparsers())
-    args = parser.parse_args(["view", *arguments])
-    return int(args.run(args))
+    return command.main(["view", *arguments])
 
 
 SPECTRUM = "/plots/envelope/spectrum"

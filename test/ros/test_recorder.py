@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import signal
+import subprocess
+import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -11,9 +14,10 @@ import numpy as np
 
 from beardyn_core.record.clouds import cloud_to_arrays
 from beardyn_core.record.load_stream import encode_load
-from beardyn_core.record.messages import header_stamp
+from beardyn_core.record.messages import encode_string, header_stamp
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.topics import TOPICS, topic
+from beardyn_ros.recording import Recording, free_name
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 
@@ -186,3 +190,30 @@ def test_recorder_of_a_validity_error_says_how_the_run_ended(graph: Graph) -> No
     assert "a roller has left its rib" in (run.status or "")
     assert len(run.vibration["vibration"]) == 6 * 512
     assert topic("vibration").path() == "/axlebox/vibration"
+
+
+def test_an_existing_file_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    path.write_text("of last week")
+    done = subprocess.run(
+        [sys.executable, "-m", "beardyn_ros", "recorder", "--ros-args", "-p", f"output:={path}"],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert f"output '{path}': the file exists; give another name, or replace:=true" in done.stderr
+    assert path.read_text() == "of last week"
+
+
+def test_a_reset_never_writes_over_an_earlier_recording(tmp_path: Path) -> None:
+    """A run that has begun takes the next free name, for it cannot be refused any more."""
+    (tmp_path / "run_2.mcap").write_text("of last week")
+    names = ["run.mcap", "run_3.mcap"]
+    recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
+    for run_id in ("one", "two"):
+        recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": run_id})))
+    recording.close("")
+    assert [path.name for path in recording.paths] == names
+    assert (tmp_path / "run_2.mcap").read_text() == "of last week"
