@@ -15,8 +15,8 @@ from beardyn_core.errors import InputError, ValidityError
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.kinematics import FaultFrequencies
+    from beardyn_core.integrate.rating_life import RatingLife
     from beardyn_core.integrate.static import StaticSolution
-    from beardyn_core.study.rating_life import RatingLife
 
 TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
 _DEFAULT_LOAD = (0.0, 0.0, 80.0e3)
@@ -134,7 +134,7 @@ def _life(
     if args.lubricant is None:
         return None
     from beardyn_core.config import load_lubricant
-    from beardyn_core.study.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
+    from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
 
     always = LoadClass(1.0, (load[0], load[1], load[2]), (0.0, 0.0, 0.0), abs(args.speed) * _RPM)
     return rating_life(

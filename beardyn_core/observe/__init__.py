@@ -10,5 +10,7 @@
 | `sensors` | all accelerometers of a scene |
 | `features` | envelope, order tracking, spectrum, line search |
 | `diagnosis` | the pure monitoring algorithm: one stretch of signal to a verdict |
-| `monitoring` | the streaming monitor around it |
+| `monitoring` | the streaming monitor around it, and what it is fed with |
+| `labels` | labels of a run for learners |
+| `summary` | what a run came to: means, losses, life |
 """

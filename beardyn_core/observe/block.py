@@ -72,6 +72,12 @@ class EnergyAudit:
         return abs(missing) / max(self.dissipated, SMALLEST_LOSS)
 
 
+def body_names(roller_count: int) -> tuple[str, ...]:
+    """Name the bodies in the order of `Block.body_pose`, for rows of so many rollers."""
+    rollers = (f"roller_{row}_{k}" for row in range(2) for k in range(roller_count))
+    return ("cup", "cone", "cage_0", "cage_1", *rollers)
+
+
 class Pictures(Protocol):
     """Bodies and contacts at some instants, worked out when somebody looks.
 

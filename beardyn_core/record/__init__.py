@@ -13,7 +13,13 @@ description        what a run says about itself (the content of ``truth``)
 sinks              where blocks go: memory, MCAP
 mcap_writing       crash-safe MCAP that rosbag2 reads
 mcap_scanning      reading that survives a cut file
-reading            a recording as arrays
+arrays             the arrays of a run: signals, angles, bodies, contacts, load
+run                a run as named arrays, whatever it comes from
+reading            the messages of a recording as a run
+collecting         the blocks of a simulation as a run
+tables             the signals of a run as columns, as xarray and as pandas
+exporting          signals of a run to Parquet, CSV, NPZ, HDF5 and WAV
+run_summary        the summary of a recorded run
 reporting          what a recording holds, in words and as JSON
 envelope           envelope order spectrum of a whole recording
 meshes             triangle meshes of the bearing's parts from its recorded shape

@@ -13,7 +13,6 @@ trial_run           one run of a trial of a monitor
 trial               all its runs, kept and taken up again
 trial_result        rates with intervals, smallest sizes
 trial_report        table and JSON; trial_picture draws it
-rating_life         rating life under a load history
 life_text           rating life in words
 output_folder       whether the folder of --output can be written to
 hard                the battery of hard cases

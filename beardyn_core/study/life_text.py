@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from beardyn_core.study.rating_life import RatingLife
+from beardyn_core.integrate.rating_life import RatingLife
 
 _MILLION = 1.0e6
 
