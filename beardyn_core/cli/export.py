@@ -12,8 +12,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "export",
         help="signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV",
         description="Write signals of a recording to a file of another format, SI units. Parquet, NPZ "
-        "and HDF5 carry the truth of the run; CSV and WAV get a JSON file with it beside them. Parquet, CSV and WAV "
-        "hold one table: with several signals each goes to NAME_SIGNAL.ENDING.",
+        "and HDF5 carry the truth of the run; CSV and WAV get a JSON file with it beside them. Parquet, CSV "
+        "and WAV hold one table: with several signals each goes to NAME_SIGNAL.ENDING.",
     )
     parser.add_argument("recording", metavar="run.mcap")
     parser.add_argument(

@@ -154,9 +154,14 @@ def scene_from_mapping(data: dict[str, Any], label: str, folder: Path) -> Scene:
 def load_bearing(name: str | Path) -> Bearing:
     """Bearing of a shipped name or of a file; raises `InputError` with every mistake and contradiction."""
     path = find("bearings", str(name))
-    bearing = _load(BearingKeys, path).noun()
+    return bearing_from_mapping(read_file(path), str(path))
+
+
+def bearing_from_mapping(data: dict[str, Any], label: str) -> Bearing:
+    """Make a bearing of the mapping in a bearing file; see `load_bearing`."""
+    bearing = _validated(BearingKeys, data, label).noun()
     if problems := check(bearing):
-        raise InputError([f"{path}: {_plain(problem)}" for problem in problems])
+        raise InputError([f"{label}: {_plain(problem)}" for problem in problems])
     return bearing
 
 
@@ -176,10 +181,14 @@ def load_effects(name: str | Path) -> EffectSet:
 
 
 def _load(keys: type[Keys], path: Path) -> Keys:
+    return _validated(keys, read_file(path), str(path))
+
+
+def _validated(keys: type[Keys], data: dict[str, Any], label: str) -> Keys:
     try:
-        return keys.model_validate(read_file(path))
+        return keys.model_validate(data)
     except ValidationError as error:
-        raise InputError(sentences(error, [Origin((), str(path))])) from None
+        raise InputError(sentences(error, [Origin((), label)])) from None
 
 
 def _plain(problem: str) -> str:

@@ -42,6 +42,10 @@ class EffectSet:
     thermal: Thermal | None = None
     audit: Audit | None = Audit()
 
+    def __repr__(self) -> str:
+        """Give the names of the effects that are present."""
+        return f"EffectSet({', '.join(self.names()) or 'none'})"
+
     def names(self) -> tuple[str, ...]:
         """Names of the effects that are present, in the order of the catalogue."""
         return tuple(field.name for field in fields(self) if getattr(self, field.name) is not None)

@@ -190,6 +190,15 @@ class Block:
     wall_s: float
     temperature: Float | None = None
 
+    def __repr__(self) -> str:
+        """Give number, time and what it holds, in one line."""
+        rates = ", ".join(f"{each.rate / 1e3:g} kHz" for each in self.vibration)
+        return (
+            f"Block {self.index}: {self.start_ns * 1e-9:.2f} to {self.end_ns * 1e-9:.2f} s, "
+            f"{len(self.trend_time_ns)} trend samples, {len(self.snapshot_time_ns)} snapshots, "
+            f"sensors: {rates or 'none'}, status {self.status}"
+        )
+
     def arrays(self) -> dict[str, Float | Int]:
         """Every array by its name, with those that are worked out at the first look."""
         every = {field.name: getattr(self, field.name) for field in fields(self)}

@@ -85,7 +85,7 @@ def export(
         targets = {name: path.with_name(f"{path.stem}_{name}{path.suffix}") for name in names}
     beside = [path.with_suffix(".json")] if kind in _BESIDE else []
     files = [*dict.fromkeys(targets.values()), *beside]
-    _refuse(run, files, force)
+    refuse_to_write(files, force=force, inputs=[] if run.path is None else [run.path])
     try:
         if kind == "npz":
             _write_npz(run, path, names)
@@ -113,14 +113,14 @@ def _not_sound(run: Run, name: str) -> str:
     return f"signal {name!r} cannot be a WAV file, only vibration can; choose .parquet, .csv, .npz or .h5"
 
 
-def _refuse(run: Run, files: Sequence[Path], force: bool) -> None:
-    """Raise `InputError` for files that must not be written."""
+def refuse_to_write(files: Sequence[Path], *, force: bool, inputs: Sequence[Path] = ()) -> None:
+    """Raise `InputError` for files that exist, or that are an input, which `force` does not change."""
     problems = []
     for file in files:
         if not file.parent.is_dir():
             problems.append(f"{file}: the folder {file.parent} does not exist; create it or choose another")
-        elif run.path is not None and file.exists() and file.samefile(run.path):
-            problems.append(f"{file}: is the recording itself; give another name")
+        elif any(file.exists() and each.exists() and file.samefile(each) for each in inputs):
+            problems.append(f"{file}: is what is read; an input is never replaced: give another name")
         elif file.is_dir():
             problems.append(f"{file}: is a folder; give the name of a file")
         elif file.exists() and not force:

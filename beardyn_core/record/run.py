@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -56,8 +56,8 @@ class Run:
         How the run ended: ``complete`` as asked, else a sentence; ``None`` when the file does not say.
     scene_text : str
         Resolved YAML of the scene.
-    summary : RunSummary, optional
-        Of the simulation; otherwise it is made from the arrays.
+    summary : callable, optional
+        Gives the summary of the simulation; otherwise it is made from the arrays.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class Run:
         problem: str = "",
         status: str | None = None,
         scene_text: str = "",
-        summary: RunSummary | None = None,
+        summary: Callable[[], RunSummary] | None = None,
     ) -> None:
         self._source = source
         self.description = description
@@ -79,8 +79,7 @@ class Run:
         self.problem = problem
         self.status = status
         self.scene_text = scene_text
-        if summary is not None:
-            self.__dict__["summary"] = summary
+        self._summary = summary
 
     @classmethod
     def of_blocks(
@@ -88,7 +87,7 @@ class Run:
         blocks: Iterable[Block],
         description: RunDescription | None = None,
         status: str | None = None,
-        summary: RunSummary | None = None,
+        summary: Callable[[], RunSummary] | None = None,
     ) -> Run:
         """Make a run of blocks, such as `beardyn_core.blocks` or a live twin gives.
 
@@ -100,7 +99,8 @@ class Run:
             Gives names of sensors and bodies, truth, and the load if it is known.
         status : str, optional
             How the run ended.
-        summary : RunSummary, optional
+        summary : callable, optional
+            Gives the summary of the simulation.
         """
         from beardyn_core.record.collecting import source_of_blocks
 
@@ -220,7 +220,7 @@ class Run:
         """
         from beardyn_core.record.run_summary import summary_of
 
-        return summary_of(self)
+        return summary_of(self) if self._summary is None else self._summary()
 
     @cached_property
     def duration(self) -> float:

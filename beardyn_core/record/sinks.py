@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
@@ -61,8 +62,8 @@ class MemorySink:
         """End the run."""
         self.status = status
 
-    def to_run(self, summary: RunSummary | None = None) -> Run:
-        """Give what has come so far as named arrays."""
+    def to_run(self, summary: Callable[[], RunSummary] | None = None) -> Run:
+        """Give what has come so far as named arrays; ``summary`` is that of the simulation."""
         status = COMPLETE if self.status == "" else self.status
         return Run.of_blocks(self.blocks, self.run, status, summary)
 

@@ -131,7 +131,7 @@ def columns_of(run: Run, name: str) -> dict[str, NDArray[Any]]:
             words = [str(axis[k]) for axis, k in zip(axes, place, strict=True)]
             stem = [part] if part in ("angle", "speed", "bogie", "shaft_speed") else []
             stem = [name] if part == "values" and not words else stem
-            columns["_".join((*stem, *words))] = array.values[(slice(None), *place)]
+            columns["_".join((*stem, *words))] = np.moveaxis(array.values, 0, -1)[place]
     return columns
 
 

@@ -35,6 +35,7 @@ def run(
     scene: Scene,
     sinks: Sequence[Sink] = (),
     progress: Callable[[Block], None] | None = None,
+    life: bool = True,
 ) -> RunSummary:
     """Simulate a scene to its end.
 
@@ -45,6 +46,8 @@ def run(
         Opened, fed and closed here; closed also when the run fails or is interrupted.
     progress : callable, optional
         Called with every block once the sinks have it.
+    life : bool
+        Whether the summary holds the rating life, which can take longer than a short run.
 
     Raises
     ------
@@ -92,13 +95,13 @@ def run(
         raise InputError(failures)
     return replace(
         trend.summary(scene, wall_time, status),
-        life=_life(scene, load.until(trend.end_ns)),
+        life=life_of(scene, load.until(trend.end_ns)) if life else None,
         stages=twin.stages.times(),
     )
 
 
-def _life(scene: Scene, load: LoadHistory) -> RatingLife | None:
-    """Rating life under the load of the run; a load that nothing can carry has none.
+def life_of(scene: Scene, load: LoadHistory) -> RatingLife | None:
+    """Rate the life under the load of a run; a load that nothing can carry has none.
 
     The standards rate the whole bearing: neither has one that lacks rollers.
     """

@@ -49,7 +49,7 @@ def hot() -> Scene:
 def run_both(scene: Scene, path: Path) -> Both:
     memory = MemorySink()
     summary = desk_run.run(scene, [memory, McapSink(path)])
-    return Both(memory.to_run(summary), read_run(path), summary)
+    return Both(memory.to_run(lambda: summary), read_run(path), summary)
 
 
 @pytest.fixture(scope="module")

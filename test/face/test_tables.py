@@ -145,7 +145,7 @@ def test_the_command_refuses_what_exists_and_what_is_the_input(
     link = tmp_path / "run.csv"
     link.symlink_to(recording)
     assert main(["export", str(recording), "-o", str(link), "--force", "--signals", "vibration"]) == 2
-    assert "is the recording itself" in capsys.readouterr().err
+    assert "an input is never replaced" in capsys.readouterr().err
     assert recording.read_bytes() == kept
 
 
