@@ -14,7 +14,6 @@ from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES
 
-ZERO_CELSIUS = 273.15
 HEALTHY = "healthy"
 
 Float = NDArray[np.float64]
@@ -31,7 +30,7 @@ def scene_labels(scene: Scene) -> dict[str, Any]:
     -------
     dict
         JSON-able, units in the keys: ``condition`` (the parts with a fault, ``healthy`` without),
-        ``geometry``, ``temperature_C``, ``end_play_m``, ``sampling_rate_Hz``, ``wheel_diameter_m`` (null
+        ``geometry``, ``temperature_K``, ``end_play_m``, ``sampling_rate_Hz``, ``wheel_diameter_m`` (null
         where no wheel belongs to the operation), ``duration_s``.
     """
     bearing, operation = scene.bearing, scene.operation
@@ -41,11 +40,11 @@ def scene_labels(scene: Scene) -> dict[str, Any]:
             "roller_count": bearing.roller_count,
             "roller_diameter_m": bearing.roller_diameter,
             "pitch_diameter_m": bearing.pitch_diameter,
-            "contact_angle_deg": math.degrees(bearing.contact_angle),
+            "contact_angle_rad": bearing.contact_angle,
             "effective_length_m": bearing.effective_length,
         },
         "lubricant": scene.lubricant.name,
-        "temperature_C": scene.temperature - ZERO_CELSIUS,
+        "temperature_K": scene.temperature,
         "end_play_m": scene.end_play,
         "sampling_rate_Hz": {
             "vibration": {sensor.name: sensor.rate for sensor in scene.sensors},

@@ -126,7 +126,7 @@ def test_truth_holds_what_a_learner_needs(both: Both) -> None:
     assert truth["fault_frequencies_Hz"]["BPFO"] == truth["fault_frequencies_per_rev"]["BPFO"] * hertz
     assert truth["geometry"]["roller_count"] == 17
     assert truth["end_play_m"] == pytest.approx(1e-4)
-    assert truth["temperature_C"] == pytest.approx(70.0)
+    assert truth["temperature_K"] == pytest.approx(343.15)
     assert truth["sampling_rate_Hz"]["vibration"] == {"axlebox_top": 25_600.0}
     row = both.file.labels
     assert row["fault_width_m"] == pytest.approx(6e-3)
