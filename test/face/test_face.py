@@ -165,7 +165,7 @@ def test_contradictions_of_a_scene_in_code_are_sentences() -> None:
         ({"faults": [{"on": "cup", "widht_mm": 3}]}, "width_mm"),
     ):
         with pytest.raises(bd.InputError, match=said):
-            bd.scene(**wrong)  # type: ignore[arg-type]
+            bd.scene(**wrong)
 
 
 def test_representations_are_short() -> None:

@@ -8,10 +8,10 @@ import pytest
 
 from beardyn_core.config import load_scene
 from beardyn_core.observe.block import Block
-from beardyn_core.rail.build import load_history
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.sinks import McapSink
+from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.study.desk_run import run
@@ -34,9 +34,7 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Scene:
 
 
 def started(scene: Scene) -> Twin:
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, scene.duration, scene.seed))
-    return twin
+    return start(scene).twin
 
 
 def blocks_of(scene: Scene, count: int = 6) -> list[Block]:
