@@ -190,7 +190,7 @@ class RunDescription:
 
     @classmethod
     def from_json(cls, text: str) -> RunDescription:
-        """Description from the content of the ``truth`` topic.
+        """Read a description from the content of the ``truth`` topic.
 
         Raises
         ------

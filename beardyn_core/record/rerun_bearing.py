@@ -67,7 +67,7 @@ def log_parts(stream: rr.RecordingStream, run: RunDescription) -> None:
 
 
 def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defect: Patch) -> None:
-    """A line from the spall to outside the bearing, with its name: raceways are hard to look at."""
+    """Draw a line from the spall to outside the bearing, with its name: raceways are hard to look at."""
     shape = run.shape
     axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + defect.offset)
     inner = shape.pitch_diameter / 2.0
@@ -252,7 +252,7 @@ def _log_resultant(stream: rr.RecordingStream, run: Run, largest_roller_load: fl
 
 
 def times(time_ns: NDArray[np.int64]) -> rr.TimeColumn:
-    """Simulated time as a rerun column."""
+    """Give simulated time as a rerun column."""
     return rr.TimeColumn(TIMELINE, duration=time_ns.astype("timedelta64[ns]"))
 
 
