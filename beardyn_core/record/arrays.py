@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.errors import InputError
 from beardyn_core.observe.block import CONTACT_KINDS
 from beardyn_core.scene.load import WRENCH_AXES
 
@@ -20,6 +24,24 @@ Int = NDArray[np.int64]
 Diagnostics = tuple[tuple[int, "tuple[Diagnostic, ...]"], ...]
 
 ACCELERATION_AXES = ("ax", "ay", "az")
+
+
+@contextmanager
+def damage_told(path: Path | str) -> Iterator[None]:
+    """Turn whatever goes wrong with bytes that nobody vouches for into a sentence about the file.
+
+    Chunks with checksums do not come this far when they are damaged; messages without, or of somebody
+    else's making, may hold anything.
+    """
+    try:
+        yield
+    except (InputError, OSError):
+        raise
+    except Exception as error:
+        raise InputError(
+            f"{path}: what is in it cannot be used ({type(error).__name__}: {error}); it is damaged, or "
+            "not a recording of an axlebox"
+        ) from error
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,6 +24,7 @@ from beardyn_core.record.arrays import (
     Load,
     Signal,
     Turning,
+    damage_told,
     no_signal,
 )
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
@@ -60,7 +61,7 @@ ROWS = 2
 
 
 def read_run(path: Path | str, namespace: str | None = None) -> Run:
-    """Arrays of a recording; of a cut-off one everything up to the last complete chunk.
+    """Read the arrays of a recording; of a cut-off one everything up to the last complete chunk.
 
     Parameters
     ----------
@@ -84,6 +85,11 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     if not any(name != path for name, path in zip(cdrs, recorded, strict=True)):
         found = f"it has {', '.join(sorted(recorded))}" if recorded else scan.problem or "it has no messages"
         raise InputError(f"{scan.path}: no messages under the namespace {namespace}; {found}")
+    with damage_told(scan.path):
+        return _run(scan, cdrs)
+
+
+def _run(scan: McapScan, cdrs: Mapping[str, list[bytes]]) -> Run:
     description = _description(scan, cdrs)
     scene_text = scan.attachments.get(SCENE_FILE, b"").decode(errors="replace")
     return run_of_messages(
@@ -107,7 +113,7 @@ def run_of_messages(
     status: str | None = None,
     scene_text: str = "",
 ) -> Run:
-    """Make a run of messages by the name of their topic, from a file or from a live graph.
+    """Gather a run of messages by the name of their topic, from a file or from a live graph.
 
     The messages are decoded when somebody looks at their array.
     """

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from beardyn_core.record.arrays import (
     Signal,
     Source,
     Turning,
+    damage_told,
     no_signal,
 )
 from beardyn_core.record.topics import vibration_topic
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
     from beardyn_core.observe.block import Block
     from beardyn_core.observe.summary import RunSummary
     from beardyn_core.record.description import RunDescription
+
+Part = TypeVar("Part")
 
 MONITOR_PART = 512  # vibration samples that a monitor gets at a time
 _NONE = np.zeros(0)
@@ -111,17 +114,17 @@ class Run:
     @cached_property
     def force(self) -> Signal:
         """Force and moment of the rollers on the cup at 400 Hz, values [sample, 6], [N, N m]."""
-        return self._source.force()
+        return self._take(self._source.force)
 
     @cached_property
     def force_waveform(self) -> Signal:
         """Force and moment of the rollers on the cup at 25.6 kHz, values [sample, 6], [N, N m]."""
-        return self._source.force_waveform()
+        return self._take(self._source.force_waveform)
 
     @cached_property
     def sensors(self) -> dict[str, Signal]:
         """Specific force that each accelerometer reads, by its name, values [sample, 3], [m/s^2]."""
-        return self._source.sensors()
+        return self._take(self._source.sensors)
 
     @property
     def vibration(self) -> Signal:
@@ -138,57 +141,57 @@ class Run:
     @cached_property
     def specific_force(self) -> Signal:
         """What the first accelerometer reads, decimated to 400 Hz, values [sample, 3], [m/s^2]."""
-        return self._source.specific_force()
+        return self._take(self._source.specific_force)
 
     @cached_property
     def shaft(self) -> Turning:
         """Angle and speed of the shaft at 400 Hz, each [sample]."""
-        return self._source.shaft()
+        return self._take(self._source.shaft)
 
     @cached_property
     def torque(self) -> Signal:
         """Torque of the bearing on the shaft at 200 Hz, values [sample], [N m]."""
-        return self._source.torque()
+        return self._take(self._source.torque)
 
     @cached_property
     def cages(self) -> Turning:
         """Orbit angle and speed of both cages at 200 Hz, each [sample, row]."""
-        return self._source.cages()
+        return self._take(self._source.cages)
 
     @cached_property
     def rollers(self) -> Turning:
         """Orbit angle and speed of all rollers at 200 Hz, each [sample, row, roller]."""
-        return self._source.rollers()
+        return self._take(self._source.rollers)
 
     @cached_property
     def bodies(self) -> Bodies:
         """Pose and motion of every body at 200 Hz."""
-        return self._source.bodies()
+        return self._take(self._source.bodies)
 
     @cached_property
     def contacts(self) -> Contacts:
         """Contacts of every roller at 200 Hz."""
-        return self._source.contacts()
+        return self._take(self._source.contacts)
 
     @cached_property
     def load(self) -> Load:
         """Load on the journal and shaft speed that went into the run."""
-        return self._source.load()
+        return self._take(self._source.load)
 
     @cached_property
     def temperature(self) -> Signal:
         """Temperature of each part every 0.2 s, values [sample, part], [K]; empty without the effect."""
-        return self._source.temperature()
+        return self._take(self._source.temperature)
 
     @cached_property
     def diagnostics(self) -> Diagnostics:
         """Stamp [ns] and statuses that the twin gave of itself every 0.2 s."""
-        return self._source.diagnostics()
+        return self._take(self._source.diagnostics)
 
     @cached_property
     def results(self) -> Diagnostics:
         """Stamp [ns] and statuses of the monitor that ran beside."""
-        return self._source.results()
+        return self._take(self._source.results)
 
     @cached_property
     def truth(self) -> Mapping[str, Any]:
@@ -198,8 +201,14 @@ class Run:
         """
         if self.description is None:
             return {}
-        truth = json.loads(json.dumps(dict(self.description.truth)))
-        return {**truth, **load_labels(self.load.time_ns, self.load.wrench, self.load.shaft_speed, truth)}
+        truth, load = json.loads(json.dumps(dict(self.description.truth))), self.load
+        with damage_told(self.label):
+            return {**truth, **load_labels(load.time_ns, load.wrench, load.shaft_speed, truth)}
+
+    def _take(self, part: Callable[[], Part]) -> Part:
+        """Decode an array; of a damaged file that is a sentence."""
+        with damage_told(self.label):
+            return part()
 
     @property
     def labels(self) -> dict[str, Any]:
@@ -225,7 +234,7 @@ class Run:
     @cached_property
     def duration(self) -> float:
         """Simulated time from the first block to the last, [s]."""
-        return self._source.duration()
+        return self._take(self._source.duration)
 
     def described(self) -> RunDescription:
         """Give the description.
