@@ -17,7 +17,9 @@ ROS_WHEELS = [
     "ros-kilted-std-msgs==5.5.1",
     "ros-kilted-std-srvs==5.5.1",
 ]
+DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
 TEST = [
+    *DATA,
     "hypothesis>=6.100",
     "jsonschema>=4.18",
     "mcap-ros2-support>=0.5",
@@ -82,7 +84,7 @@ setup(
         "tqdm>=4.66",
         "zstandard>=0.22",
     ],
-    extras_require={"ros": ROS_WHEELS, "test": TEST, "dev": DEV},
+    extras_require={"ros": ROS_WHEELS, "data": DATA, "test": TEST, "dev": DEV},
     entry_points={"console_scripts": ["beardyn = beardyn_core.cli.main:main"]},
     zip_safe=False,
 )

@@ -1,5 +1,12 @@
 """A real-time digital twin of a railway axlebox bearing, without ROS.
 
+What a Python program uses is here and explained in docs/python.md::
+
+    import beardyn_core as bd
+
+    run = bd.simulate("cup_spall", tier="quasistatic", duration=2.0)
+    run.vibration.values, run.vibration.time, run.truth
+
 ========== ===================================================================
 module     responsibility
 ========== ===================================================================
@@ -13,18 +20,138 @@ effects    the catalogue of effects and sets of them
 bearing    geometry, kinematics, materials, lubricants
 scene      one bearing under one operation: loads, mounting, defects, sensors
 rail       wheel-rail scenario to load on the journal
+config     YAML files to bearings and scenes, all mistakes at once
 model      bearing and scene to kernel parameters, and where each number stands
 kernels    contacts, rollers and rings as compiled lane code
 integrate  static equilibrium, state, time steps, status
 observe    raw signals to channels, sensors, features, monitoring
 choice     tier, effects, laminae and step for an accuracy, with reasons
 laboratory general contact search against closed forms: `beardyn contacts`
-config     YAML files to bearings and scenes, all mistakes at once
 twin       a scene that advances block by block
-record     the topic table, MCAP files, the rerun view
+run        the one loop: load, kernels, equilibrium, blocks to the end
+record     the topic table, MCAP files, runs as arrays, the rerun view
 study      desk runs, ladders, trials, summaries, pictures
+api        the functions of this module
 cli        the beardyn command, a module a subcommand
 ========== ===================================================================
 
-Imports run upwards only, from `cli` to `effects`; `pyproject.toml` holds the contract.
+Imports run upwards only, from `cli` to `effects`; `pyproject.toml` holds the contract. This module imports
+nothing before it is asked for.
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from beardyn_core.api.making import bearing, lubricant, scene
+    from beardyn_core.api.simulating import monitor, read, simulate
+    from beardyn_core.api.statics import (
+        equilibrium,
+        fault_frequencies,
+        film,
+        life,
+        load_distribution,
+        stiffness,
+        torque,
+    )
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.lubricant import Lubricant
+    from beardyn_core.effects import EffectSet
+    from beardyn_core.errors import InputError, ValidityError
+    from beardyn_core.observe.block import Block
+    from beardyn_core.observe.chain import Chain, MonitorSettings
+    from beardyn_core.observe.summary import RunSummary
+    from beardyn_core.record.run import Run
+    from beardyn_core.run import blocks
+    from beardyn_core.scene.scene import Scene
+    from beardyn_core.twin import Twin
+else:
+    from beardyn_core import bearing, scene
+
+__all__ = [
+    "Bearing",
+    "Block",
+    "Chain",
+    "EffectSet",
+    "InputError",
+    "Lubricant",
+    "MonitorSettings",
+    "Run",
+    "RunSummary",
+    "Scene",
+    "Twin",
+    "ValidityError",
+    "bearing",
+    "blocks",
+    "equilibrium",
+    "fault_frequencies",
+    "film",
+    "life",
+    "load_distribution",
+    "lubricant",
+    "monitor",
+    "read",
+    "scene",
+    "simulate",
+    "stiffness",
+    "torque",
+]
+
+_MODULES = {
+    "api.making": ("lubricant",),
+    "api.simulating": ("monitor", "read", "simulate"),
+    "api.statics": (
+        *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),
+    ),
+    "bearing.geometry": ("Bearing",),
+    "bearing.lubricant": ("Lubricant",),
+    "effects": ("EffectSet",),
+    "errors": ("InputError", "ValidityError"),
+    "observe.block": ("Block",),
+    "observe.chain": ("Chain", "MonitorSettings"),
+    "observe.summary": ("RunSummary",),
+    "record.run": ("Run",),
+    "run": ("blocks",),
+    "scene.scene": ("Scene",),
+    "twin": ("Twin",),
+}
+_PLACE = {name: module for module, names in _MODULES.items() for name in names}
+
+
+class _CallableRoom(ModuleType):
+    """A room whose name is also that of a function: ``bd.scene("cup_spall")`` makes a scene."""
+
+    def __call__(self, *arguments: Any, **options: Any) -> Any:
+        """Call the function of `beardyn_core.api.making` with the name of the room."""
+        return self._function(*arguments, **options)
+
+    @property
+    def __signature__(self) -> Any:
+        """Signature of that function, for help and completion."""
+        from inspect import signature
+
+        return signature(self._function)
+
+    @property
+    def _function(self) -> Any:
+        return getattr(import_module("beardyn_core.api.making"), self.__name__.rpartition(".")[2])
+
+
+if not TYPE_CHECKING:
+    bearing.__class__ = scene.__class__ = _CallableRoom
+
+    def __getattr__(name: str) -> Any:
+        """Import a name of `__all__` when it is first asked for."""
+        if name not in _PLACE:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        found = getattr(import_module(f"{__name__}.{_PLACE[name]}"), name)
+        globals()[name] = found
+        return found
+
+
+def __dir__() -> list[str]:
+    """List what a program may use."""
+    return [*__all__, *(name for name in globals() if name.startswith("__"))]

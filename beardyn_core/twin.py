@@ -31,8 +31,9 @@ from beardyn_core.model.layout import (
 )
 from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.absence import absence_of
-from beardyn_core.observe.block import Block, EnergyAudit
+from beardyn_core.observe.block import Block, EnergyAudit, body_names
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
+from beardyn_core.observe.labels import scene_labels
 from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
 from beardyn_core.rail.events import events_of
 from beardyn_core.scene.defect import Patch, truth_of
@@ -102,8 +103,7 @@ class Twin:
     @property
     def body_names(self) -> tuple[str, ...]:
         """Names of the bodies in the order of `Block.body_pose`."""
-        rollers = (f"roller_{row}_{k}" for row in range(self.rows) for k in range(self.roller_count))
-        return ("cup", "cone", "cage_0", "cage_1", *rollers)
+        return body_names(self.roller_count)
 
     @property
     def step_signals(self) -> Float:
@@ -341,7 +341,7 @@ class Twin:
         return EnergyAudit.of(self._audit - self._first_audit)
 
     def truth(self) -> dict[str, Any]:
-        """What is known of the run that a train could not know: scene, faults, frequencies, versions."""
+        """Tell what is known of the run that a train could not know: scene, faults, labels, versions."""
         scene, frequencies = self.scene, fault_frequencies(self.scene.bearing)
         return {
             "scene": scene.name,
@@ -363,6 +363,7 @@ class Twin:
                 "BPFI": frequencies.bpfi,
                 "BSF": frequencies.bsf,
             },
+            **scene_labels(scene),
             "laminae": scene.numerics.laminae,
             "step_s": self._parameters.step,
             "seed": scene.seed,

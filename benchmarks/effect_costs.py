@@ -48,7 +48,7 @@ from beardyn_core.effects import (
     SmallRib,
     Thermal,
 )
-from beardyn_core.rail.build import load_history
+from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.twin import Twin
@@ -124,11 +124,7 @@ CHANGES: dict[str, Callable[[Scene], Scene]] = {
 
 
 def _ready(scene: Scene, turns: int) -> Twin:
-    twin = Twin(scene)
-    twin.warm()
-    duration = (turns + SETTLING_TURNS) * twin.block_ns * 1e-9
-    twin.start(load_history(scene.operation, scene.mounting, duration, scene.seed))
-    return twin
+    return start(scene, (turns + SETTLING_TURNS) * Twin.block_ns * 1e-9).twin
 
 
 def _microseconds(twin: Twin) -> tuple[float, float]:

@@ -26,7 +26,7 @@ from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing, load_effects
 from beardyn_core.integrate.status import chatter_index
 from beardyn_core.model.layout import SIGNAL_TORQUE
-from beardyn_core.rail.build import load_history
+from beardyn_core.run import start
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.study.measures import NOMINAL_BANDS, third_octave_levels
@@ -51,10 +51,7 @@ class Run:
             numerics=replace(scene.numerics, steps_per_sample=steps),
         )
         self.steps = steps
-        self.twin = Twin(scene)
-        self.twin.warm()
-        duration = blocks * self.twin.block_ns * 1e-9
-        self.twin.start(load_history(scene.operation, scene.mounting, duration, scene.seed))
+        self.twin = start(scene, blocks * Twin.block_ns * 1e-9).twin
         self.wall: list[float] = []
         self.torque: list[Float] = []
         self.vibration: list[Float] = []

@@ -14,7 +14,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from beardyn_core.rail.build import load_history
+from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
 
@@ -86,10 +86,7 @@ class Timing:
 
 def started(scene: Scene, blocks: int) -> Twin:
     """A twin at t = 0 with load for some blocks."""
-    twin = Twin(scene)
-    twin.warm()
-    twin.start(load_history(scene.operation, scene.mounting, blocks * twin.block_ns * 1e-9, scene.seed))
-    return twin
+    return start(scene, blocks * Twin.block_ns * 1e-9).twin
 
 
 def take_turns(scenes: dict[str, Scene], turns: int) -> dict[str, Timing]:

@@ -8,19 +8,20 @@ import time
 from pathlib import Path
 
 from beardyn_core.choice import load_scene
-from beardyn_core.rail.build import load_history
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.sinks import McapSink, MemorySink, Sink
-from benchmarks.runs import Table, started
+from beardyn_core.run import start
+from beardyn_core.twin import Twin
+from benchmarks.runs import Table
 
 
 def sinks(blocks: int, repetitions: int) -> Table:
     """The blocks of one run into every sink, opening and closing included."""
     scene = load_scene("static_80kN")
-    twin = started(scene, blocks)
-    load = load_history(scene.operation, scene.mounting, blocks * twin.block_ns * 1e-9, scene.seed)
-    description = RunDescription.of(scene, twin.truth(), twin.body_names, load)
-    run = [twin.advance() for _ in range(blocks)]
+    simulation = start(scene, blocks * Twin.block_ns * 1e-9)
+    twin = simulation.twin
+    description = RunDescription.of(scene, twin.truth(), twin.body_names, simulation.load)
+    run = list(simulation.blocks())
     simulated = blocks * twin.block_ns * 1e-9
     rows = []
     with tempfile.TemporaryDirectory() as folder:

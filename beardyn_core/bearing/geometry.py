@@ -9,11 +9,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 from typing import Annotated as A
 
 from beardyn_core.bearing.material import Material
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.edge import INTERNAL, At, Vector
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.kinematics import FaultFrequencies
 
 
 @dataclass(frozen=True)
@@ -84,6 +88,23 @@ class Bearing:
         float, At("mm", ge=0.0), "free travel of a roller along its axis between the ribs"
     ] = 0.4e-3
     forced: A[bool, INTERNAL, "run it although `consistency.check` refuses it: for experiments"] = False
+
+    def __repr__(self) -> str:
+        """Give the main dimensions, and how many numbers are assumed or derived."""
+        weak = sum(source.startswith(("assumed", "derived")) for _, source in self.sources)
+        return (
+            f"Bearing {self.name}: 2 x {self.roller_count} rollers of "
+            f"{self.roller_diameter * 1e3:.4g} x {self.roller_length * 1e3:.4g} mm on "
+            f"{self.pitch_diameter * 1e3:.5g} mm at {math.degrees(self.contact_angle):.4g} deg, end play "
+            f"{self.end_play * 1e3:.3g} mm; {weak} numbers assumed or derived, see .sources"
+        )
+
+    @property
+    def frequencies(self) -> FaultFrequencies:
+        """Fault frequencies of one row per shaft revolution."""
+        from beardyn_core.bearing.kinematics import fault_frequencies
+
+        return fault_frequencies(self)
 
     @property
     def apex_distance(self) -> float:

@@ -16,6 +16,7 @@ warmup      kernels compiled ahead
 view        a recording in 3-D
 report      what a recording holds
 monitor     what a monitor says over a recording
+export      signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
 bearing     static answers about one bearing
 trial       a monitor over a matrix of scenes
 contacts    the contact laboratory

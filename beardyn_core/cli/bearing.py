@@ -16,8 +16,8 @@ from beardyn_core.errors import InputError
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.kinematics import FaultFrequencies
+    from beardyn_core.integrate.rating_life import RatingLife
     from beardyn_core.integrate.static import StaticSolution
-    from beardyn_core.study.rating_life import RatingLife
 
 TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
 _DEFAULT_LOAD = ("0", "0", "80")  # [kN]
@@ -116,8 +116,8 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.bearing.life import load_doubts
     from beardyn_core.config import load_bearing
     from beardyn_core.effects import LaminaCoupling
+    from beardyn_core.integrate.rating_life import life_lines, life_object
     from beardyn_core.integrate.static import solve
-    from beardyn_core.study.rating_life import life_lines, life_object
 
     operation = _operation(args)
     bearing = load_bearing(args.bearing)
@@ -183,7 +183,7 @@ def _life(
     if args.lubricant is None:
         return None
     from beardyn_core.config import load_lubricant
-    from beardyn_core.study.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
+    from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
 
     always = LoadClass(1.0, operation.load, (0.0, 0.0, 0.0), abs(operation.speed))
     return rating_life(

@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
         print(f"{target}: {target.stat().st_size / 1e6:.1f} MB; open it with: rerun {target}")
         return 0
     with tempfile.TemporaryDirectory(prefix="beardyn-view-") as folder:
-        target = save(recording, Path(folder) / f"{recording.path.stem}.rrd")
+        target = save(recording, Path(folder) / f"{Path(recording.label).stem}.rrd")
         if args.screenshot:
             print(viewer.take_picture(target, args.screenshot))
         elif args.web:

@@ -96,9 +96,14 @@ def read_scene_mapping(data: dict[str, Any], label: str, folder: Path) -> OpenSc
 def load_bearing(name: str | Path) -> Bearing:
     """Load a shipped bearing or that of a file; raises `InputError` with every mistake and contradiction."""
     path = find("bearings", str(name))
-    bearing: Bearing = read_noun(Bearing, read_file(path), str(path))
+    return bearing_from_mapping(read_file(path), str(path))
+
+
+def bearing_from_mapping(data: dict[str, Any], label: str) -> Bearing:
+    """Make a bearing of the mapping in a bearing file; see `load_bearing`."""
+    bearing: Bearing = read_noun(Bearing, data, label)
     if problems := check(bearing):
-        raise InputError([f"{path}: {_plain(problem)}" for problem in problems])
+        raise InputError([f"{label}: {_plain(problem)}" for problem in problems])
     return bearing
 
 

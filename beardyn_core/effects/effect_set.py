@@ -56,6 +56,10 @@ class EffectSet:
         if self.thermal and self.audit is None:
             yield "thermal needs the audit, which tells what each source loses: set audit to true"
 
+    def __repr__(self) -> str:
+        """Give the names of the effects that are present."""
+        return f"EffectSet({', '.join(self.names()) or 'none'})"
+
     def names(self) -> tuple[str, ...]:
         """Names of the effects that are present, in the order of the catalogue."""
         return tuple(field.name for field in fields(self) if getattr(self, field.name) is not None)

@@ -7,6 +7,7 @@ roller_contacts    contacts of resting rollers, with tangents
 roller_equilibrium every roller in balance
 line_load          load and pressure along one roller
 static             the double row in balance
+rating_life        life under a load history
 torque             running torque under static loads
 state              what changes during a run, and its start
 imex               linearly implicit steps of the full tier

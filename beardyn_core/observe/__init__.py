@@ -16,6 +16,8 @@ torque_budget mean power and torque of every loss
 stage_clock   wall time of a run by stage
 features      envelope, order tracking, spectrum, line search
 chain         the reference monitoring algorithm: a stretch of signal to a verdict
-monitoring    the streaming monitor around an algorithm
+monitoring    the streaming monitor around an algorithm, and what it is fed with
+labels        labels of a run for learners
+summary       what a run came to: means, losses, life
 ============= ====================================================================
 """

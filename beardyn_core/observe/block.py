@@ -72,6 +72,12 @@ class EnergyAudit:
         return abs(missing) / max(self.dissipated, SMALLEST_LOSS)
 
 
+def body_names(roller_count: int) -> tuple[str, ...]:
+    """Name the bodies in the order of `Block.body_pose`, for rows of so many rollers."""
+    rollers = (f"roller_{row}_{k}" for row in range(2) for k in range(roller_count))
+    return ("cup", "cone", "cage_0", "cage_1", *rollers)
+
+
 class Pictures(Protocol):
     """Bodies and contacts at some instants, worked out when somebody looks.
 
@@ -183,6 +189,15 @@ class Block:
     audit: EnergyAudit | None
     wall_s: float
     temperature: Float | None = None
+
+    def __repr__(self) -> str:
+        """Give number, time and what it holds, in one line."""
+        rates = ", ".join(f"{each.rate / 1e3:g} kHz" for each in self.vibration)
+        return (
+            f"Block {self.index}: {self.start_ns * 1e-9:.2f} to {self.end_ns * 1e-9:.2f} s, "
+            f"{len(self.trend_time_ns)} trend samples, {len(self.snapshot_time_ns)} snapshots, "
+            f"sensors: {rates or 'none'}, status {self.status}"
+        )
 
     def arrays(self) -> dict[str, Float | Int]:
         """List every array by its name, those included that are computed when they are first used."""

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.model.heat import BOX_NODE
+from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import (
     REFERENCE,
     Algorithm,
@@ -22,6 +27,61 @@ Int = NDArray[np.int64]
 _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
 _LEAST_HEATING_NS = 10_000_000_000
+
+
+@dataclass(frozen=True)
+class MonitorInput:
+    """What a train gives its monitor during a short time; the only way signals come to a `Monitor`.
+
+    Parameters
+    ----------
+    vibration_time_ns : int64 array, shape [sample], [ns]
+    acceleration : float64 array, shape [sample, 3]
+        Of the first accelerometer, [m/s^2].
+    shaft_time_ns : int64 array, shape [sample], [ns]
+    shaft_angle : float64 array, shape [sample], [rad]
+    load_time_ns : int64 array, shape [sample], [ns]
+    vertical_load : float64 array, shape [sample], [N]
+    temperature_time_ns : int64 array, shape [sample], [ns]
+        Empty without a thermometer.
+    temperature : float64 array, shape [sample]
+        Of the axlebox, [K].
+    """
+
+    vibration_time_ns: Int
+    acceleration: Float
+    shaft_time_ns: Int
+    shaft_angle: Float
+    load_time_ns: Int
+    vertical_load: Float
+    temperature_time_ns: Int
+    temperature: Float
+
+    @classmethod
+    def of_block(cls, block: Block) -> MonitorInput:
+        """Take from a block what a train would measure of it."""
+        first, known = block.vibration[0], block.temperature is not None
+        return cls(
+            first.time_ns, first.acceleration, block.trend_time_ns, block.shaft_angle,
+            block.trend_time_ns, block.load[:, 2],
+            np.array([block.end_ns] if known else [], np.int64),
+            np.array([block.temperature[BOX_NODE]] if block.temperature is not None else []),
+        )  # fmt: skip
+
+
+def listen(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[MonitorResult]:
+    """Feed a monitor with a run, live or recorded, and give its results as they become due.
+
+    Parameters
+    ----------
+    monitor : Monitor
+    inputs : iterable of MonitorInput
+        Such as ``map(MonitorInput.of_block, blocks)`` or ``run.monitor_inputs()``.
+    """
+    for part in inputs:
+        result = monitor.take(part)
+        if result is not None:
+            yield result
 
 
 class Monitor:
@@ -71,6 +131,17 @@ class Monitor:
         self._temperatures: list[tuple[int, float]] = []
         self._levels: list[Levels] = []
         self._next_ns: int | None = None
+
+    def take(self, part: MonitorInput) -> MonitorResult | None:
+        """Add what came in from all streams, and give a new result when one is due."""
+        self.push_vibration(part.vibration_time_ns, part.acceleration)
+        self.push_shaft(part.shaft_time_ns, part.shaft_angle)
+        self.push_load(part.load_time_ns, part.vertical_load)
+        for time_ns, temperature in zip(
+            part.temperature_time_ns.tolist(), part.temperature.tolist(), strict=True
+        ):
+            self.push_temperature(time_ns, temperature)
+        return self.update()
 
     def push_vibration(self, time_ns: Int, acceleration: Float) -> None:
         """Add a block of vibration.

@@ -1,29 +1,37 @@
 """Recording and viewing: the topic table, its messages, MCAP files, and the rerun view.
 
-============== =============================================================================
-module         responsibility
-============== =============================================================================
-topics         the one topic table: names, types, QoS
-messages       CDR bytes without ROS; templates for small messages; diagnostics, clock, text
-clouds         columns of samples as ``sensor_msgs/PointCloud2`` and back
-encoding       a `Block` as the messages of the topic table
-load_stream    load histories as messages of ``load/blocks`` and back
-load_reading   load and speed of a recording, for an operation from a file
-description    what a run says about itself (the content of ``truth``)
-sinks          where blocks go: memory, MCAP
-mcap_writing   crash-safe MCAP that rosbag2 reads
-mcap_scanning  reading that survives a cut file
-reading        a recording as arrays
-reporting      what a recording holds, in words and as JSON
-envelope       envelope order spectrum of a whole recording
-meshes         triangle meshes of the bearing's parts from its recorded shape
-rerun_bearing  the bearing in 3-D: motion, loads, contact forces
-rerun_plots    curves beside it
-rerun_spectrum the envelope spectrum as a drawn plot
-rerun_rolling  coin and roller of the contact laboratory as an animation
-rerun_view     a whole recording with its blueprint; ``.rrd`` files
-rerun_live     a running twin, fed with messages
-rerun_stream   where a live view goes: window, browser, file
-viewer         the rerun program: window, web page, picture without a screen
-============== =============================================================================
+In the order of the data:
+
+=================  =============================================================================
+module             responsibility
+=================  =============================================================================
+topics             the one topic table: names, types, QoS
+messages           CDR bytes without ROS; templates for small messages; diagnostics, clock, text
+clouds             columns of samples as ``sensor_msgs/PointCloud2`` and back
+encoding           a `Block` as the messages of the topic table
+load_stream        load histories as messages of ``load/blocks`` and back
+load_reading       load and speed of a recording, for an operation from a file
+description        what a run says about itself (the content of ``truth``)
+sinks              where blocks go: memory, MCAP
+mcap_writing       crash-safe MCAP that rosbag2 reads
+mcap_scanning      reading that survives a cut file
+arrays             the arrays of a run: signals, angles, bodies, contacts, load
+run                a run as named arrays, whatever it comes from
+reading            the messages of a recording as a run
+collecting         the blocks of a simulation as a run
+tables             the signals of a run as columns, as xarray and as pandas
+exporting          signals of a run to Parquet, CSV, NPZ, HDF5 and WAV
+run_summary        the summary of a recorded run
+reporting          what a recording holds, in words and as JSON
+envelope           envelope order spectrum of a whole recording
+meshes             triangle meshes of the bearing's parts from its recorded shape
+rerun_bearing      the bearing in 3-D: motion, loads, contact forces
+rerun_plots        curves beside it
+rerun_spectrum     the envelope spectrum as a drawn plot
+rerun_view         a whole recording with its blueprint; ``.rrd`` files
+rerun_live         a running twin, fed with messages
+rerun_stream       where a live view goes: window, browser, file
+rerun_rolling      coin and roller of the contact laboratory as an animation
+viewer             the rerun program: window, web page, picture without a screen
+=================  =============================================================================
 """

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.errors import InputError
+from beardyn_core.observe.labels import load_labels
 from beardyn_core.scene.defect import Defect, MissingRoller, defect_from
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.sensor import RATES
@@ -145,9 +146,11 @@ class RunDescription:
         body_names: Sequence[str],
         load: LoadHistory | None = None,
     ) -> RunDescription:
-        """Describe a run of a scene; its text is written from the scene as it is."""
+        """Describe a run of a scene as it is; the truth gets labels of the load when that is known."""
         from beardyn_core.config.text import scene_text  # pydantic is not for readers of a recording
 
+        if load is not None:
+            truth = {**truth, **load_labels(load.time_ns, load.wrench, load.shaft_speed, truth)}
         return cls(
             scene=scene.name,
             scene_text=scene_text(scene),

@@ -19,6 +19,7 @@ from beardyn_core.scene.load import WRENCH_AXES
 
 ZERO_CELSIUS = 273.15
 TEMPERATURE_EVERY = 10  # blocks
+DIAGNOSTICS_EVERY = 10
 POSE_AXES = ("x", "y", "z", "qx", "qy", "qz", "qw")
 TWIST_AXES = ("vx", "vy", "vz", "wx", "wy", "wz")
 WAVEFORM = column_dtype(tuple((axis, "f4") for axis in WRENCH_AXES))

@@ -6,21 +6,21 @@ import numpy as np
 
 from beardyn_core.observe.chain import MonitorSettings
 from beardyn_core.observe.features import OrderSpectrum, envelope, order_spectrum, resample_by_angle
-from beardyn_core.record.reading import Joints, Samples
+from beardyn_core.record.arrays import Signal, Turning
 
 LEAST_REVOLUTIONS = 4.0
 
 
 def envelope_order_spectrum(
-    vibration: Samples, shaft: Joints, highest_order: float, settings: MonitorSettings | None = None
+    vibration: Signal, shaft: Turning, highest_order: float, settings: MonitorSettings | None = None
 ) -> OrderSpectrum | None:
     """Compute the spectrum of the band-passed envelope over all axes, resampled over the shaft angle.
 
     Parameters
     ----------
-    vibration : Samples
+    vibration : Signal
         Acceleration, shape [sample, 3], [m/s^2].
-    shaft : Joints
+    shaft : Turning
         Tachometer.
     highest_order : float
         Where the result ends, [-].
@@ -37,10 +37,10 @@ def envelope_order_spectrum(
         return None
     # Samples outside the tachometer's span have no angle.
     known = (vibration.time_ns >= shaft.time_ns[0]) & (vibration.time_ns <= shaft.time_ns[-1])
-    time, signal = vibration.seconds[known], vibration.values[known]
+    time, signal = vibration.time[known], vibration.values[known]
     if len(time) < 1024:
         return None
-    angle = np.interp(time, shaft.time_ns * 1e-9, shaft.position[:, 0])
+    angle = np.interp(time, shaft.time, shaft.angle)
     angle = angle if angle[-1] > angle[0] else -angle
     if (angle[-1] - angle[0]) / (2.0 * np.pi) < LEAST_REVOLUTIONS or np.any(np.diff(angle) <= 0.0):
         return None

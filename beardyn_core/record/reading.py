@@ -1,11 +1,12 @@
-"""A recording as arrays."""
+"""From the messages of a recording, or of a live graph, to a `Run`."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -13,185 +14,50 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
+from beardyn_core.model.heat import NODES
+from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
+from beardyn_core.record.arrays import (
+    ACCELERATION_AXES,
+    Bodies,
+    Contacts,
+    Diagnostics,
+    Load,
+    Signal,
+    Turning,
+    damage_told,
+    no_signal,
+)
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES, force_template, imu_template, joint_template
+from beardyn_core.record.encoding import (
+    POSE_AXES,
+    TWIST_AXES,
+    ZERO_CELSIUS,
+    force_template,
+    imu_template,
+    joint_template,
+)
 from beardyn_core.record.load_stream import decode_load
-from beardyn_core.record.mcap_scanning import END_RECORD, McapScan
-from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, SCENE_FILE
-from beardyn_core.record.messages import Diagnostic, Template, decode, decode_diagnostics, decode_string
-from beardyn_core.record.topics import IMU, JOINTS, NAMESPACE, WRENCH, namespace_of, relative_name
-from beardyn_core.scene.load import WRENCH_AXES, LoadHistory
+from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, SCENE_FILE
+from beardyn_core.record.messages import Template, decode, decode_diagnostics, decode_string
+from beardyn_core.record.run import Run
+from beardyn_core.record.topics import (
+    IMU,
+    JOINTS,
+    NAMESPACE,
+    TEMPERATURE,
+    WRENCH,
+    namespace_of,
+    relative_name,
+    vibration_topic,
+)
+from beardyn_core.scene.load import WRENCH_AXES
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
-
-@dataclass(frozen=True)
-class Samples:
-    """Numbers over time.
-
-    Parameters
-    ----------
-    sample : int64 array, shape [sample]
-        Running index; empty for topics that carry none.
-    time_ns : int64 array, shape [sample], [ns]
-    values : float64 array, shape [sample, ...]
-    """
-
-    sample: Int
-    time_ns: Int
-    values: Float
-
-    def __len__(self) -> int:
-        return len(self.time_ns)
-
-    @property
-    def seconds(self) -> Float:
-        """Time of each sample, [s]."""
-        return np.asarray(self.time_ns * 1e-9, np.float64)
-
-
-@dataclass(frozen=True)
-class Joints:
-    """Joint states over time, one column per joint.
-
-    Parameters
-    ----------
-    names : tuple of str
-    time_ns : int64 array, shape [sample], [ns]
-    position, velocity, effort : float64 array, shape [sample, joint], [rad, rad/s, N m]
-    """
-
-    names: tuple[str, ...]
-    time_ns: Int
-    position: Float
-    velocity: Float
-    effort: Float
-
-    def __len__(self) -> int:
-        return len(self.time_ns)
-
-    def column(self, name: str) -> int:
-        """Find the index of a joint."""
-        return self.names.index(name)
-
-
-@dataclass(frozen=True)
-class Bodies:
-    """Snapshots of all bodies.
-
-    Parameters
-    ----------
-    sample, time_ns : int64 array, shape [snapshot], [-, ns]
-    pose : float64 array, shape [snapshot, body, 7]
-        x, y, z, qx, qy, qz, qw, [m, -].
-    twist : float64 array, shape [snapshot, body, 6], [m/s, rad/s]
-    """
-
-    sample: Int
-    time_ns: Int
-    pose: Float
-    twist: Float
-
-    def __len__(self) -> int:
-        return len(self.time_ns)
-
-
-@dataclass(frozen=True)
-class Run:
-    """A recording.
-
-    Parameters
-    ----------
-    path : Path
-    complete : bool
-        The file was closed properly.
-    problem : str
-        Where and why reading stopped; empty when complete.
-    status : str or None
-        How the run ended: ``complete`` as asked, else a sentence; ``None`` when the file does not say.
-    description : RunDescription or None
-    scene_text : str
-        Resolved YAML of the scene.
-    force : Samples
-        Force and moment of the rollers on the cup at 400 Hz, shape [sample, 6], [N, N m].
-    force_waveform : Samples
-        The same at full rate.
-    vibration : mapping of topic name to Samples
-        Specific force of each accelerometer at full rate, shape [sample, 3], [m/s^2].
-    specific_force : Samples
-        First accelerometer at 400 Hz, shape [sample, 3], [m/s^2].
-    shaft, orbit : Joints
-        Tachometer; cages, rollers and the shaft's torque.
-    bodies : Bodies
-    contacts : structured array, shape [contact]
-        Columns of the ``contacts`` topic.
-    contact_time_ns : int64 array, shape [contact], [ns]
-    load : LoadHistory
-        Load on the journal.
-    load_sample : int64 array, shape [sample]
-    diagnostics, results : tuple of (stamp [ns], statuses)
-        From ``/diagnostics`` and ``monitor/result``.
-    """
-
-    path: Path
-    complete: bool
-    problem: str
-    status: str | None
-    description: RunDescription | None
-    scene_text: str
-    force: Samples
-    force_waveform: Samples
-    vibration: Mapping[str, Samples]
-    specific_force: Samples
-    shaft: Joints
-    orbit: Joints
-    bodies: Bodies
-    contacts: NDArray[Any]
-    contact_time_ns: Int
-    load: LoadHistory
-    load_sample: Int
-    diagnostics: tuple[tuple[int, tuple[Diagnostic, ...]], ...]
-    results: tuple[tuple[int, tuple[Diagnostic, ...]], ...]
-
-    @property
-    def truth(self) -> Mapping[str, Any]:
-        """Ground truth; empty when the file has none."""
-        return self.description.truth if self.description is not None else {}
-
-    def described(self) -> RunDescription:
-        """Return the description, or refuse a recording without one.
-
-        Raises
-        ------
-        InputError
-            The file has none.
-        """
-        if self.description is None:
-            raise InputError(
-                f"{self.path}: the recording does not say which bearing it is of (no {DESCRIPTION_FILE} "
-                "and no topic truth); record the topic truth too"
-            )
-        return self.description
-
-
-@contextmanager
-def damage_told(path: Path) -> Iterator[None]:
-    """Turn whatever goes wrong with bytes that nobody vouches for into a sentence about the file.
-
-    Chunks with checksums do not come this far when they are damaged; messages without, or of somebody
-    else's making, may hold anything.
-    """
-    try:
-        yield
-    except (InputError, OSError):
-        raise
-    except Exception as error:
-        raise InputError(
-            f"{path}: what is in it cannot be used ({type(error).__name__}: {error}); it is damaged, or "
-            "not a recording of an axlebox"
-        ) from error
+ROWS = 2
 
 
 def read_run(path: Path | str, namespace: str | None = None) -> Run:
@@ -241,44 +107,191 @@ def run_of_messages(
     cdrs: Mapping[str, Sequence[bytes]],
     description: RunDescription | None,
     *,
-    path: Path = Path("live"),
+    path: Path | None = None,
     complete: bool = True,
     problem: str = "",
     status: str | None = None,
     scene_text: str = "",
 ) -> Run:
-    """Gather the arrays of messages by the name of their topic, from a file or from a live graph."""
+    """Gather a run of messages by the name of their topic, from a file or from a live graph.
 
-    def of(name: str) -> Sequence[bytes]:
-        return cdrs.get(name, ())
-
-    contacts, contact_time = _clouds(of("contacts"))
-    load, load_sample = _load(of("load/blocks"))
+    The messages are decoded when somebody looks at their array.
+    """
     return Run(
+        MessageSource(cdrs, description),
+        description,
         path=path,
         complete=complete,
         problem=problem,
         status=status,
-        description=description,
         scene_text=scene_text,
-        force=_stamped(of("force"), WRENCH, force_template, "wrench", _wrench_values, 6),
-        force_waveform=_waveform(of("force_waveform"), WRENCH_AXES),
-        vibration={
-            name: _waveform(of(name), ("ax", "ay", "az"))
-            for name in sorted(cdrs)
-            if (name == "vibration" or name.startswith("vibration/")) and cdrs[name]
-        },
-        specific_force=_stamped(of("imu"), IMU, imu_template, "acceleration", _imu_values, 3),
-        shaft=_joints(of("shaft")),
-        orbit=_joints(of("joint_states")),
-        bodies=_bodies(of("bodies")),
-        contacts=contacts,
-        contact_time_ns=contact_time,
-        load=load,
-        load_sample=load_sample,
-        diagnostics=tuple(decode_diagnostics(cdr) for cdr in of("/diagnostics")),
-        results=tuple(decode_diagnostics(cdr) for cdr in of("monitor/result")),
     )
+
+
+class MessageSource:
+    """The arrays of a run, decoded from its messages."""
+
+    def __init__(self, cdrs: Mapping[str, Sequence[bytes]], description: RunDescription | None) -> None:
+        self._cdrs = cdrs
+        self._description = description
+
+    def _of(self, name: str) -> Sequence[bytes]:
+        return self._cdrs.get(name, ())
+
+    def force(self) -> Signal:
+        """Give `Run.force`."""
+        return _stamped(
+            self._of("force"), WRENCH, force_template, "wrench", _wrench_values, WRENCH_AXES, "N, N m"
+        )
+
+    def force_waveform(self) -> Signal:
+        """Give `Run.force_waveform`."""
+        return _waveform(self._of("force_waveform"), WRENCH_AXES, "N, N m")
+
+    def sensors(self) -> dict[str, Signal]:
+        """Give `Run.sensors`."""
+        known = () if self._description is None else self._description.sensor_names
+        topics = {vibration_topic(number, known): name for number, name in enumerate(known)}
+        found = sorted(n for n in self._cdrs if n == "vibration" or n.startswith("vibration/"))
+        order = [name for name in topics if name in found] + [name for name in found if name not in topics]
+        return {
+            topics.get(name, name.rpartition("/")[2]): _waveform(self._of(name), ACCELERATION_AXES, "m/s^2")
+            for name in order
+            if self._of(name)
+        }
+
+    def specific_force(self) -> Signal:
+        """Give `Run.specific_force`."""
+        return _stamped(
+            self._of("imu"), IMU, imu_template, "acceleration", _imu_values, ACCELERATION_AXES, "m/s^2"
+        )
+
+    def shaft(self) -> Turning:
+        """Give `Run.shaft`."""
+        joints = _joints(self._of("shaft"))
+        column = slice(0, 1) if joints.names else slice(0)
+        return Turning(joints.time_ns, joints.position[:, column].ravel(), joints.velocity[:, column].ravel())
+
+    @cached_property
+    def _orbit(self) -> _Joints:
+        return _joints(self._of("joint_states"))
+
+    def torque(self) -> Signal:
+        """Give `Run.torque`."""
+        orbit, nothing = self._orbit, np.zeros(0, np.int64)
+        if "shaft" not in orbit.names or not orbit.effort.shape[1]:
+            return no_signal((), "N m")
+        return Signal(orbit.time_ns, orbit.effort[:, orbit.names.index("shaft")], (), "N m", nothing)
+
+    def cages(self) -> Turning:
+        """Give `Run.cages`."""
+        orbit = self._orbit
+        columns = [orbit.names.index(name) for name in ("cage_0", "cage_1") if name in orbit.names]
+        return Turning(orbit.time_ns, orbit.position[:, columns], orbit.velocity[:, columns])
+
+    def rollers(self) -> Turning:
+        """Give `Run.rollers`."""
+        orbit = self._orbit
+        columns = [k for k, name in enumerate(orbit.names) if name.startswith("roller_")]
+        shape = (len(orbit.time_ns), ROWS, len(columns) // ROWS)
+        return Turning(
+            orbit.time_ns,
+            orbit.position[:, columns].reshape(shape),
+            orbit.velocity[:, columns].reshape(shape),
+        )
+
+    @cached_property
+    def _bodies(self) -> Bodies:
+        points, time_ns = _clouds(self._of("bodies"))
+        names = () if self._description is None else self._description.body_names
+        if not len(points):
+            nothing = np.zeros(0, np.int64)
+            return Bodies(nothing, names, np.zeros((0, len(names), 7)), np.zeros((0, len(names), 6)), nothing)
+        count = int(points["body"].max()) + 1
+        numbers = _columns(points, POSE_AXES + TWIST_AXES).reshape(-1, count, 13)
+        return Bodies(
+            time_ns[::count],
+            names or tuple(f"body_{k}" for k in range(count)),
+            numbers[..., :7],
+            numbers[..., 7:],
+            points["sample"][::count].astype(np.int64),
+        )
+
+    def bodies(self) -> Bodies:
+        """Give `Run.bodies`."""
+        return self._bodies
+
+    def contacts(self) -> Contacts:
+        """Give `Run.contacts`, at the snapshots of the bodies where the file has them."""
+        points, time_ns = _clouds(self._of("contacts"))
+        sample, times = self._bodies.sample, self._bodies.time_ns
+        if not len(sample) and len(points):
+            found, first = np.unique(points["sample"], return_index=True)
+            sample, times = found.astype(np.int64), time_ns[first]
+        rollers = 0 if self._description is None else self._description.roller_count
+        if not rollers and len(points):
+            rollers = int(points["roller"].max()) + 1
+        shape = (len(sample), ROWS, rollers, len(CONTACT_KINDS), len(CONTACT_FIELDS))
+        numbers = np.full(shape, np.nan)
+        numbers[..., 3:6] = 0.0
+        if len(points) and len(sample):
+            place = np.minimum(np.searchsorted(sample, points["sample"]), len(sample) - 1)
+            known = sample[place] == points["sample"]
+            here = points[known]
+            numbers[place[known], here["row"], here["roller"], here["kind"]] = _columns(here, CONTACT_FIELDS)
+        return Contacts(times, numbers[..., :3], numbers[..., 3:6], numbers[..., 6], numbers[..., 7])
+
+    def load(self) -> Load:
+        """Give `Run.load`."""
+        parts = [decode_load(cdr) for cdr in self._of("load/blocks")]
+        if not parts:
+            nothing = np.zeros(0, np.int64)
+            return Load(nothing, np.zeros((0, 6)), np.zeros(0), np.zeros((0, 3)), nothing)
+        return Load(
+            np.concatenate([part.time_ns for part, _ in parts]),
+            np.concatenate([part.wrench for part, _ in parts]),
+            np.concatenate([part.shaft_speed for part, _ in parts]),
+            np.concatenate([part.bogie for part, _ in parts]),
+            np.concatenate([sample for _, sample in parts]),
+        )
+
+    def temperature(self) -> Signal:
+        """Give `Run.temperature`: one sample where all parts have one."""
+        found: dict[int, dict[str, float]] = defaultdict(dict)
+        for cdr in self._of("temperature"):
+            message = decode(TEMPERATURE, cdr)
+            part = message.header.frame_id.rpartition("/")[2]
+            found[_stamp(message)][part] = float(message.temperature) + ZERO_CELSIUS
+        rows = {stamp: parts for stamp, parts in sorted(found.items()) if all(n in parts for n in NODES)}
+        values = np.array([[parts[name] for name in NODES] for parts in rows.values()]).reshape(
+            -1, len(NODES)
+        )
+        return Signal(np.array(list(rows), np.int64), values, NODES, "K", np.zeros(0, np.int64))
+
+    def diagnostics(self) -> Diagnostics:
+        """Give `Run.diagnostics`."""
+        return tuple(decode_diagnostics(cdr) for cdr in self._of("/diagnostics"))
+
+    def results(self) -> Diagnostics:
+        """Give `Run.results`."""
+        return tuple(decode_diagnostics(cdr) for cdr in self._of("monitor/result"))
+
+    def duration(self) -> float:
+        """Give `Run.duration`: a block ends with its last snapshot."""
+        snapshots = self._bodies.time_ns
+        times = snapshots if len(snapshots) > 1 else self.shaft().time_ns
+        return float(times[-1] - 2 * times[0] + times[1]) * 1e-9 if len(times) > 1 else 0.0
+
+
+@dataclass(frozen=True)
+class _Joints:
+    """Joint states over time, arrays [sample, joint]."""
+
+    names: tuple[str, ...]
+    time_ns: Int
+    position: Float
+    velocity: Float
+    effort: Float
 
 
 def _description(scan: McapScan, cdrs: Mapping[str, list[bytes]]) -> RunDescription | None:
@@ -303,35 +316,9 @@ def _columns(points: NDArray[Any], names: Sequence[str]) -> Float:
     return np.stack([points[name].astype(np.float64) for name in names], axis=1)
 
 
-def _waveform(cdrs: Sequence[bytes], names: Sequence[str]) -> Samples:
+def _waveform(cdrs: Sequence[bytes], names: tuple[str, ...], unit: str) -> Signal:
     points, time_ns = _clouds(cdrs)
-    return Samples(points["sample"].astype(np.int64), time_ns, _columns(points, names))
-
-
-def _bodies(cdrs: Sequence[bytes]) -> Bodies:
-    points, time_ns = _clouds(cdrs)
-    if not len(points):
-        nothing = np.zeros(0, np.int64)
-        return Bodies(nothing, nothing, np.zeros((0, 0, 7)), np.zeros((0, 0, 6)))
-    count = int(points["body"].max()) + 1
-    numbers = _columns(points, POSE_AXES + TWIST_AXES).reshape(-1, count, 13)
-    return Bodies(
-        points["sample"][::count].astype(np.int64), time_ns[::count], numbers[..., :7], numbers[..., 7:]
-    )
-
-
-def _load(cdrs: Sequence[bytes]) -> tuple[LoadHistory, Int]:
-    parts = [decode_load(cdr) for cdr in cdrs]
-    if not parts:
-        nothing = np.zeros((0, 6)), np.zeros(0), np.zeros((0, 3))
-        return LoadHistory(np.zeros(0, np.int64), *nothing), np.zeros(0, np.int64)
-    history = LoadHistory(
-        np.concatenate([part.time_ns for part, _ in parts]),
-        np.concatenate([part.wrench for part, _ in parts]),
-        np.concatenate([part.shaft_speed for part, _ in parts]),
-        np.concatenate([part.bogie for part, _ in parts]),
-    )
-    return history, np.concatenate([sample for _, sample in parts])
+    return Signal(time_ns, _columns(points, names), names, unit, points["sample"].astype(np.int64))
 
 
 def _times(rows: NDArray[Any]) -> Int:
@@ -353,32 +340,38 @@ def _imu_values(message: Any) -> list[float]:
 
 
 def _stamped(
-    cdrs: Sequence[bytes], msgtype: str, template: Any, slot: str, values: Any, width: int
-) -> Samples:
-    nothing = np.zeros(0, np.int64)
+    cdrs: Sequence[bytes],
+    msgtype: str,
+    template: Any,
+    slot: str,
+    numbers: Callable[[Any], list[float]],
+    names: tuple[str, ...],
+    unit: str,
+) -> Signal:
     if not cdrs:
-        return Samples(nothing, nothing, np.zeros((0, width)))
+        return no_signal(names, unit)
+    nothing = np.zeros(0, np.int64)
     maker: Template = template(decode(msgtype, cdrs[0]).header.frame_id)
     rows = maker.decode(cdrs)
     if rows is not None:
-        return Samples(nothing, _times(rows), rows[slot].astype(np.float64))
+        return Signal(_times(rows), rows[slot].astype(np.float64), names, unit, nothing)
     messages = [decode(msgtype, cdr) for cdr in cdrs]
     times = np.array([_stamp(message) for message in messages], np.int64)
-    return Samples(nothing, times, np.array([values(message) for message in messages], float))
+    return Signal(times, np.array([numbers(message) for message in messages], float), names, unit, nothing)
 
 
-def _joints(cdrs: Sequence[bytes]) -> Joints:
+def _joints(cdrs: Sequence[bytes]) -> _Joints:
     if not cdrs:
-        return Joints((), np.zeros(0, np.int64), *(np.zeros((0, 0)) for _ in range(3)))
+        return _Joints((), np.zeros(0, np.int64), *(np.zeros((0, 0)) for _ in range(3)))
     first = decode(JOINTS, cdrs[0])
     names = tuple(first.name)
     rows = joint_template(names, first.header.frame_id, len(first.effort) > 0).decode(cdrs)
     if rows is not None:
         effort = rows["effort"] if "effort" in (rows.dtype.names or ()) else np.zeros((len(rows), 0))
-        return Joints(names, _times(rows), rows["position"].copy(), rows["velocity"].copy(), effort.copy())
+        return _Joints(names, _times(rows), rows["position"].copy(), rows["velocity"].copy(), effort.copy())
     messages = [decode(JOINTS, cdr) for cdr in cdrs]
     messages = [message for message in messages if tuple(message.name) == names]
-    return Joints(
+    return _Joints(
         names,
         np.array([_stamp(message) for message in messages], np.int64),
         np.array([message.position for message in messages], float),

@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.model.layout import LOSS_NAMES
-from beardyn_core.observe.torque_budget import NUMERICAL, TorqueBudget, torque_budget
-from beardyn_core.record.encoding import loss_key
+from beardyn_core.observe.torque_budget import TorqueBudget
+from beardyn_core.record.arrays import damage_told
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.reading import Run, damage_told, read_run
+from beardyn_core.record.reading import read_run
+from beardyn_core.record.run import Run
+from beardyn_core.record.run_summary import diagnosed, recorded_budget
 from beardyn_core.scene.defect import defect_from
 
 SAMPLE_RANGE = 1 << 32
-SETTLING_S = 0.25
 # What others say to the twin or about it, and what is said once: their times are not those of its signals.
 NOT_OF_THE_TWIN = (
     *("/load/blocks", "/load/consumed", "/load/wrench", "/load/shaft"),
@@ -162,7 +162,7 @@ def _report(
 ) -> Report:
     begin, end = _twin_span(spans)
     description = run.description
-    speed = run.shaft.velocity[:, 0] if len(run.shaft) else np.zeros(0)
+    speed = run.shaft.speed
     return Report(
         path=str(scan.path),
         size_bytes=scan.size_bytes,
@@ -182,9 +182,9 @@ def _report(
         faults=[asdict(defect) for defect in description.defects] if description else [],
         fault_frequencies_per_rev=description.shape.fault_frequencies if description else {},
         mean_shaft_speed=float(speed.mean()) if len(speed) else None,
-        real_time_factor=_mean(_diagnosed(run, "real_time_factor")),
-        energy_residual=_last(_diagnosed(run, "energy_residual")),
-        budget=_budget(run),
+        real_time_factor=_mean(diagnosed(run, "real_time_factor")),
+        energy_residual=_last(diagnosed(run, "energy_residual")),
+        budget=recorded_budget(run),
         monitor=run.results[-1][1][0].message if run.results and run.results[-1][1] else None,
         sensor_rates_Hz=dict(zip(description.sensor_names, description.sensor_rates, strict=True))
         if description
@@ -208,15 +208,15 @@ def _rate(count: int, span: tuple[int, int]) -> float | None:
 def gaps(run: Run) -> tuple[Gap, ...]:
     """Find every place where samples of a stream are missing, by running index or, without one, by time."""
     found: list[Gap] = []
-    for name, samples in (("force_waveform", run.force_waveform), *run.vibration.items()):
+    for name, samples in (("force_waveform", run.force_waveform), *run.sensor_topics.items()):
         found += _index_gaps(name, samples.sample, samples.time_ns)
     found += _index_gaps("bodies", run.bodies.sample, run.bodies.time_ns)
-    found += _index_gaps("load/blocks", run.load_sample, run.load.time_ns)
+    found += _index_gaps("load/blocks", run.load.sample, run.load.time_ns)
     for name, times in (
         ("force", run.force.time_ns),
         ("imu", run.specific_force.time_ns),
         ("shaft", run.shaft.time_ns),
-        ("joint_states", run.orbit.time_ns),
+        ("joint_states", run.cages.time_ns),
     ):
         found += _time_gaps(name, times)
     return tuple(found)
@@ -234,30 +234,6 @@ def _time_gaps(name: str, time_ns: NDArray[np.int64]) -> list[Gap]:
     regular = float(np.median(step))
     missing = np.round(step / max(regular, 1.0)).astype(int) - 1
     return [Gap(name, float(time_ns[i] * 1e-9), int(missing[i])) for i in np.flatnonzero(missing > 0)]
-
-
-def _diagnosed(run: Run, key: str) -> list[float]:
-    values = (status.value(key) for _, statuses in run.diagnostics for status in statuses)
-    return [float(value) for value in values if value is not None]
-
-
-def _budget(run: Run) -> TorqueBudget | None:
-    """Compute the torque budget from the energies in the diagnostics, without the first part of the run."""
-    wanted = [loss_key(source) for source in (*LOSS_NAMES, NUMERICAL)]
-    rows = [
-        (stamp * 1e-9, *(float(status.value(key) or 0.0) for key in wanted))
-        for stamp, statuses in run.diagnostics
-        for status in statuses
-        if not set(wanted).isdisjoint(key for key, _ in status.values)
-    ]
-    if len(rows) < 2:
-        return None
-    lost = np.array(rows)
-    lost = lost[lost[:, 0] >= lost[0, 0] + min(SETTLING_S, 0.5 * (lost[-1, 0] - lost[0, 0]))]
-    times = run.shaft.time_ns * 1e-9
-    within = (times >= lost[0, 0]) & (times <= lost[-1, 0])
-    speed = float(np.abs(run.shaft.velocity[within, 0]).mean()) if within.any() else float("nan")
-    return torque_budget(lost[:, 0].tolist(), lost[:, 1:], speed)
 
 
 def _mean(values: list[float]) -> float | None:

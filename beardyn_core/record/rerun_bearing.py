@@ -8,11 +8,10 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from beardyn_core.observe.block import CONTACT_KINDS
 from beardyn_core.record import meshes
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.meshes import Mesh
-from beardyn_core.record.reading import Run
+from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Patch
 
 TIMELINE = "time"
@@ -110,22 +109,8 @@ def log_motion(stream: rr.RecordingStream, run: Run) -> None:
 
 
 def roller_loads(run: Run) -> NDArray[np.float64]:
-    """Gather the cup-roller load at every snapshot, shape [snapshot, row, roller], [N]."""
-    count = run.described().roller_count
-    load = np.zeros((len(run.bodies), 2, count))
-    if len(run.contacts):
-        here = run.contacts[run.contacts["kind"] == CONTACT_KINDS.index("cup")]
-        here, snapshot = in_snapshots(run, here)
-        load[snapshot, here["row"], here["roller"]] = _size(here)
-    return load
-
-
-def in_snapshots(run: Run, contacts: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.int64]]:
-    """Select the contacts whose snapshot of the bodies is in the file too, with its index."""
-    snapshot = np.searchsorted(run.bodies.sample, contacts["sample"])
-    inside = np.minimum(snapshot, len(run.bodies) - 1)
-    known = run.bodies.sample[inside] == contacts["sample"]
-    return contacts[known], inside[known]
+    """Give the cup-roller load at every snapshot, shape [snapshot, row, roller], [N]."""
+    return run.contacts.load[..., run.contacts.of("cup")]
 
 
 def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None) -> None:
@@ -166,14 +151,15 @@ def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None
 
 
 def _log_contacts(stream: rr.RecordingStream, run: Run, scale: float) -> None:
-    for kind, name in enumerate(CONTACT_KINDS):
-        here, snapshot = in_snapshots(run, run.contacts[run.contacts["kind"] == kind])
-        if not len(here):
+    contacts = run.contacts
+    for kind, name in enumerate(contacts.kinds):
+        here = contacts.touching[..., kind]
+        if not here.any():
             continue
-        per_snapshot = np.bincount(snapshot, minlength=len(run.bodies))
-        origins = np.stack([here[axis] for axis in "xyz"], axis=1)
+        per_snapshot = here.sum(axis=(1, 2))
+        origins = contacts.point[..., kind, :][here]
         # Forces the rollers exert on their partners: they point out of the rollers and stay visible.
-        vectors = -scale * np.stack([here[axis] for axis in ("fx", "fy", "fz")], axis=1)
+        vectors = -scale * contacts.force[..., kind, :][here]
         stream.log(
             f"{ROOT}/contact_forces/{name}",
             rr.Arrows3D.from_fields(colors=[ARROW_COLOURS[name]], radii=[0.0009]),
@@ -275,10 +261,6 @@ def _polar(azimuth: NDArray[np.float64], radius: Any, axial: float) -> NDArray[n
     return np.stack(
         (radius * np.sin(azimuth), np.full(azimuth.shape, axial), radius * np.cos(azimuth)), axis=-1
     )
-
-
-def _size(contacts: NDArray[Any]) -> NDArray[np.float64]:
-    return np.sqrt(sum(contacts[axis].astype(float) ** 2 for axis in ("fx", "fy", "fz")))
 
 
 def _packed(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:

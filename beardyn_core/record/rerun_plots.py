@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from beardyn_core.observe.features import OrderSpectrum
 from beardyn_core.record.envelope import envelope_order_spectrum
-from beardyn_core.record.reading import Run
 from beardyn_core.record.rerun_bearing import roller_loads, times
 from beardyn_core.record.rerun_spectrum import log_spectrum
+from beardyn_core.record.run import Run
 from beardyn_core.record.topics import vibration_topic
 
 Colour = tuple[int, int, int]
@@ -69,8 +69,8 @@ def log_styles(stream: rr.RecordingStream, sensors: tuple[str, ...] = ()) -> Non
 def log_curves(stream: rr.RecordingStream, run: Run) -> None:
     """Log the samples of every curve."""
     _send(stream, FORCE, run.force.time_ns, run.force.values[:, :3] * 1e-3)
-    for name, vibration in run.vibration.items():
-        _send(stream, vibration_entity(name), vibration.time_ns, vibration.values)
+    for topic, vibration in run.sensor_topics.items():
+        _send(stream, vibration_entity(topic), vibration.time_ns, vibration.values)
     _send_speeds(stream, run)
     if len(run.contacts) and len(run.bodies):
         load = roller_loads(run) * 1e-3
@@ -79,28 +79,21 @@ def log_curves(stream: rr.RecordingStream, run: Run) -> None:
 
 
 def order_spectrum(run: Run) -> OrderSpectrum | None:
-    """Compute the envelope order spectrum of the first accelerometer, to a little over three times BPFI."""
-    vibration = run.vibration.get("vibration")
-    if vibration is None:
-        return None
+    """Envelope order spectrum of the first accelerometer, up to a little over three times BPFI."""
     highest = HIGHEST_ORDER_OF_BPFI * run.described().shape.fault_frequencies["BPFI"]
-    return envelope_order_spectrum(vibration, run.shaft, highest)
+    return envelope_order_spectrum(run.vibration, run.shaft, highest)
 
 
 def _send_speeds(stream: rr.RecordingStream, run: Run) -> None:
     if len(run.shaft):
-        _send(stream, SHAFT_SPEED, run.shaft.time_ns, run.shaft.velocity[:, :1] * 30.0 / np.pi)
-    if not len(run.orbit) or not len(run.shaft):
+        _send(stream, SHAFT_SPEED, run.shaft.time_ns, run.shaft.speed[:, None] * 30.0 / np.pi)
+    if not len(run.cages) or not len(run.shaft):
         return
-    orbit, shape = run.orbit, run.described().shape
-    shaft = np.interp(orbit.time_ns, run.shaft.time_ns, run.shaft.velocity[:, 0])
-    nominal = shape.fault_frequencies["FTF"] * shaft
+    shaft = np.interp(run.cages.time_ns, run.shaft.time_ns, run.shaft.speed)
+    nominal = run.described().shape.fault_frequencies["FTF"] * shaft
     nominal = np.where(np.abs(nominal) > 1e-6, nominal, np.nan)
-    columns = [orbit.velocity[:, orbit.column(f"cage_{row}")] for row in range(2)]
-    for row in range(2):
-        rollers = [orbit.column(f"roller_{row}_{k}") for k in range(shape.roller_count)]
-        columns.append(orbit.velocity[:, rollers].mean(axis=1))
-    _send(stream, SPEED_RATIO, orbit.time_ns, np.stack(columns, axis=1) / nominal[:, None])
+    speeds = np.concatenate((run.cages.speed, run.rollers.speed.mean(axis=2)), axis=1)
+    _send(stream, SPEED_RATIO, run.cages.time_ns, speeds / nominal[:, None])
 
 
 def _send(

@@ -10,10 +10,10 @@ import rerun.blueprint as rrb
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.reading import Run
 from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
 from beardyn_core.record.rerun_plots import log_plots
 from beardyn_core.record.rerun_spectrum import bounds
+from beardyn_core.record.run import Run
 
 APPLICATION = "beardyn"
 BACKGROUND = (16, 19, 26)
@@ -136,8 +136,8 @@ def _window(start: rr.TimeRangeBoundary, end: rr.TimeRangeBoundary) -> rrb.arche
 
 
 def run_blueprint(run: Run) -> rrb.Blueprint:
-    """Lay out the view of a recording, with its time window."""
-    times = run.vibration["vibration"].seconds if "vibration" in run.vibration else run.force.seconds
+    """Blueprint for a recording, with its time window."""
+    times = run.vibration.time if len(run.vibration) else run.force.time
     span = (float(times[0]), float(times[-1])) if len(times) else None
     described = run.described()
     return blueprint(described.shape.outer_diameter, span, sensors=described.sensor_names)
@@ -157,7 +157,7 @@ def save(run: Run, target: Path | str) -> Path:
         target.open("ab").close()
     except OSError as error:
         raise InputError(f"{target}: cannot write the rerun file ({error.strerror})") from error
-    stream = rr.RecordingStream(APPLICATION, recording_id=run.path.stem)
+    stream = rr.RecordingStream(APPLICATION, recording_id=Path(run.label).stem)
     stream.save(target, default_blueprint=layout)
     log_run(stream, run)
     stream.flush()

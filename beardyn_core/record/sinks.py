@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 
 from beardyn_core.observe.block import Block
+from beardyn_core.observe.summary import RunSummary
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.encoding import BlockEncoder, block_diagnostic
+from beardyn_core.record.encoding import DIAGNOSTICS_EVERY, BlockEncoder, block_diagnostic
 from beardyn_core.record.load_stream import encode_load
-from beardyn_core.record.mcap_writing import McapWriter
+from beardyn_core.record.mcap_writing import COMPLETE, McapWriter
 from beardyn_core.record.messages import encode_diagnostics, encode_string
+from beardyn_core.record.run import Run
 from beardyn_core.record.topics import FRAME, NAMESPACE
 
-DIAGNOSTICS_EVERY = 10
 LOAD_MESSAGE_SAMPLES = 400
 
 
@@ -59,6 +61,11 @@ class MemorySink:
     def close(self, status: str = "") -> None:
         """End the run."""
         self.status = status
+
+    def to_run(self, summary: Callable[[], RunSummary] | None = None) -> Run:
+        """Give what has come so far as named arrays; ``summary`` is that of the simulation."""
+        status = COMPLETE if self.status == "" else self.status
+        return Run.of_blocks(self.blocks, self.run, status, summary)
 
 
 class McapSink:

@@ -102,6 +102,15 @@ class Scene:
             keys["end_play_mm"] = UNITS["mm"].to_edge(self.end_play, closure)
         return keys
 
+    def __repr__(self) -> str:
+        """Give what it is about, in two lines."""
+        where = type(self.operation).__name__.removesuffix("Operation")
+        faults = "; ".join(self.fault_sentences) or "no faults"
+        return (
+            f"Scene {self.name}: bearing {self.bearing.name}, tier {self.tier}, {where}, "
+            f"{self.duration:g} s, {faults}\n  effects: {', '.join(self.effects.names()) or 'none'}"
+        )
+
     @property
     def effect_names(self) -> tuple[str, ...]:
         """Names of the effects that are present, faults included."""

@@ -6,7 +6,6 @@ module              responsibility
 desk_run            a scene from start to end, with its means
 monitored_recording a monitor beside a recording, or over one
 finding             a monitor's result in words and messages
-rating_life         rating life under a load history, as numbers and as text
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws

@@ -15,9 +15,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from types import ModuleType
 
-import beardyn_core
-
-_CORE = Path(beardyn_core.__file__).resolve().parent
+_CORE = Path(__file__).resolve().parents[1]
 _NUMBERS = ("numpy", "numba", "llvmlite", "scipy")
 _LENGTH = 16
 

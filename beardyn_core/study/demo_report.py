@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from beardyn_core.errors import InputError
+from beardyn_core.observe.summary import SETTLING_S
 from beardyn_core.outputs import folder_problems
 from beardyn_core.record.envelope import envelope_order_spectrum
-from beardyn_core.record.reading import Run, read_run
+from beardyn_core.record.reading import read_run
+from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Defect
 from beardyn_core.study.finding import HEALTHY, Conclusion, Finding, conclude
 from beardyn_core.study.summary_picture import FaultMarker, SummaryData, summary_picture
@@ -21,7 +23,6 @@ RERUN_NAME = "run.rrd"
 SUMMARY_NAME = "summary.png"
 VIEW_NAME = "view.png"
 FILES = (RECORDING_NAME, RERUN_NAME, SUMMARY_NAME, VIEW_NAME)
-SETTLING_S = 0.25
 HIGHEST_HARMONIC = 5.0
 LABEL_WIDTH = 22
 
@@ -133,7 +134,7 @@ def findings_of(run: Run) -> list[Finding]:
 
 
 def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
-    """What was found, one line each."""
+    """Say what was found, one line each."""
     description = run.described()
     factor = f"{pace.real_time_factor:.2f}"
     if pace.overall is not None:
@@ -168,7 +169,7 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
 
 
 def truth_sentence(defects: tuple[Defect, ...], conclusion: Conclusion) -> str:
-    """What is really in the bearing, and whether the monitor is right."""
+    """Say what is really in the bearing, and whether the monitor is right."""
     there = " and ".join(defect.described() for defect in defects)
     right = conclusion.verdict in ({d.on for d in defects} or {HEALTHY})
     return f"{there or 'no defect'}: the monitor is {'right' if right else 'wrong'}"
@@ -176,24 +177,15 @@ def truth_sentence(defects: tuple[Defect, ...], conclusion: Conclusion) -> str:
 
 def summary_data(run: Run, conclusion: Conclusion) -> SummaryData:
     """Arrays of the summary picture."""
-    from beardyn_core.record.rerun_bearing import roller_loads
-
     shape = run.described().shape
     orders = shape.fault_frequencies
-    time = run.force.seconds
-    load_time = run.load.time_ns * 1e-9
-    load = np.stack([np.interp(time, load_time, run.load.wrench[:, axis]) for axis in range(3)], axis=1)
-    cages = [run.orbit.column(f"cage_{row}") for row in range(2)]
-    cage_time = run.orbit.time_ns * 1e-9
-    cage_speed = np.stack(
-        [np.interp(time, cage_time, run.orbit.velocity[:, column]) for column in cages], axis=1
-    )
-    shaft_speed = np.interp(time, run.shaft.time_ns * 1e-9, run.shaft.velocity[:, 0])
-    settled = run.bodies.time_ns * 1e-9 >= min(SETTLING_S, 0.5 * float(run.bodies.time_ns[-1]) * 1e-9)
+    time = run.force.time
+    load = np.stack([np.interp(time, run.load.time, axis) for axis in run.load.wrench[:, :3].T], axis=1)
+    cage_speed = np.stack([np.interp(time, run.cages.time, row) for row in run.cages.speed.T], axis=1)
+    shaft_speed = np.interp(time, run.shaft.time, run.shaft.speed)
+    settled = run.bodies.time >= min(SETTLING_S, 0.5 * run.bodies.time[-1])
     centre = run.bodies.pose[settled, 4:, :3].reshape(int(settled.sum()), 2, shape.roller_count, 3)
-    spectrum = envelope_order_spectrum(
-        run.vibration["vibration"], run.shaft, HIGHEST_HARMONIC * orders["BPFI"]
-    )
+    spectrum = envelope_order_spectrum(run.vibration, run.shaft, HIGHEST_HARMONIC * orders["BPFI"])
     finding = conclusion.finding
     return SummaryData(
         title=f"{run.described().scene}: {shape.name}",
@@ -204,7 +196,7 @@ def summary_data(run: Run, conclusion: Conclusion) -> SummaryData:
         shaft_speed=shaft_speed,
         cage_speed=cage_speed,
         roller_azimuth=np.arctan2(centre[..., 0], centre[..., 2]),
-        roller_load=roller_loads(run)[settled],
+        roller_load=run.contacts.load[settled][..., run.contacts.of("cup")],
         envelope_order=spectrum.order if spectrum else np.zeros(0),
         envelope_amplitude=spectrum.amplitude if spectrum else np.zeros(0),
         markers=(

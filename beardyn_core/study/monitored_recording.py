@@ -4,23 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
-
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError
-from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
-from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import encode_diagnostics
-from beardyn_core.record.reading import Run
+from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.topics import FRAME, NAMESPACE
 from beardyn_core.study.finding import Finding
 
-BLOCK_SAMPLES = 512
 MONITOR_STATUS = "axlebox/monitor"
 
 
@@ -65,13 +61,7 @@ class MonitoredRecording(McapSink):
     def write(self, block: Block) -> None:
         """Append a block, and a result when one is due."""
         super().write(block)
-        self._monitor.push_vibration(block.vibration[0].time_ns, block.vibration[0].acceleration)
-        self._monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
-        self._monitor.push_load(block.trend_time_ns, block.load[:, 2])
-        if block.temperature is not None:
-            box = float(block.temperature[NODES.index("axlebox")])
-            self._monitor.push_temperature(block.end_ns, box)
-        result = self._monitor.update()
+        result = self._monitor.take(MonitorInput.of_block(block))
         if result is None:
             return
         finding = Finding.of(result)
@@ -90,12 +80,12 @@ def findings_of(
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
 ) -> list[Finding]:
-    """What a monitor says over a finished recording, as it would have said beside it.
+    """Let a monitor analyse a finished run, as it would have done beside it.
 
     Parameters
     ----------
     run : Run
-        Its ``vibration``, ``shaft`` and ``load/blocks`` are heard.
+        Vibration, shaft, load and temperature of it are used.
     bearing : Bearing
         What the name plate says.
     algorithm : function, optional
@@ -107,24 +97,9 @@ def findings_of(
     InputError
         When there is no vibration or no shaft in the recording.
     """
-    vibration = run.vibration.get("vibration")
-    if vibration is None or not len(vibration) or not len(run.shaft):
-        raise InputError(f"{run.path}: has no vibration with a shaft angle to listen to")
+    if not len(run.vibration) or not len(run.shaft):
+        raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
     monitor = Monitor(
         fault_frequencies(bearing), bearing.roller_count, settings=settings, algorithm=algorithm
     )
-    findings = []
-    shaft_time, shaft_angle = run.shaft.time_ns, run.shaft.position[:, 0]
-    load_time, force = run.load.time_ns, run.load.wrench[:, 2]
-    tachometer = loads = 0
-    for begin in range(0, len(vibration), BLOCK_SAMPLES):
-        part = slice(begin, begin + BLOCK_SAMPLES)
-        last = vibration.time_ns[part][-1]
-        monitor.push_vibration(vibration.time_ns[part], vibration.values[part])
-        heard = slice(tachometer, tachometer := int(np.searchsorted(shaft_time, last, side="right")))
-        monitor.push_shaft(shaft_time[heard], shaft_angle[heard])
-        carried = slice(loads, loads := int(np.searchsorted(load_time, last, side="right")))
-        monitor.push_load(load_time[carried], force[carried])
-        result = monitor.update()
-        findings += [] if result is None else [Finding.of(result)]
-    return findings
+    return [Finding.of(result) for result in listen(monitor, run.monitor_inputs())]

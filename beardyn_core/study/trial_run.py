@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import time
 from dataclasses import asdict, dataclass
-from math import ceil, isfinite
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +14,11 @@ from beardyn_core.choice import trial_scene
 from beardyn_core.config import scene_text
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
-from beardyn_core.observe.monitoring import Monitor
-from beardyn_core.rail.build import load_history
+from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
+from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import Cell, Trial
 from beardyn_core.study.finding import WAITING, Finding, conclude
-from beardyn_core.twin import Twin
 
 VALID = "complete"
 
@@ -119,7 +118,7 @@ def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialR
         algorithm=algorithm_named(algorithm),
     )
     try:
-        results, status = listen(scene, monitor)
+        results, status = results_over(scene, monitor)
     except InputError as error:
         raise InputError([f"{cell.key}: {problem}" for problem in error.problems]) from error
     findings = [Finding.of(result) for result in results]
@@ -139,27 +138,18 @@ def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialR
     )
 
 
-def listen(scene: Scene, monitor: Monitor) -> tuple[list[MonitorResult], str]:
-    """What a monitor says over a scene, and how the scene ended.
+def results_over(scene: Scene, monitor: Monitor) -> tuple[list[MonitorResult], str]:
+    """Simulate a scene with a monitor beside it: its results, and how the run ended.
 
     Parameters
     ----------
     scene : Scene
     monitor : Monitor
     """
-    twin = Twin(scene)
-    blocks = max(1, ceil(scene.duration * 1e9 / twin.block_ns - 1e-6))
-    results = []
+    results: list[MonitorResult] = []
     try:
-        twin.start(load_history(scene.operation, scene.mounting, blocks * twin.block_ns * 1e-9, scene.seed))
-        for _ in range(blocks):
-            block = twin.advance()
-            monitor.push_vibration(block.waveform_time_ns, block.acceleration[0])
-            monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
-            monitor.push_load(block.trend_time_ns, block.load[:, 2])
-            result = monitor.update()
-            results += [] if result is None else [result]
-    except ValidityError as error:
+        results.extend(listen(monitor, map(MonitorInput.of_block, blocks(scene))))
+    except ValidityError as error:  # the results up to there count
         return results, str(error)
     # the last word, after all revolutions
     return [*results, monitor.result()], VALID

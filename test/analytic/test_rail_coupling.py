@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
 from beardyn_core.choice import load_scene
-from beardyn_core.rail.build import FADE_IN, load_history, ride_of
+from beardyn_core.rail.build import FADE_IN, ride_of
 from beardyn_core.rail.running import running
+from beardyn_core.run import blocks
 from beardyn_core.scene.operation import QuarterVehicleOperation
-from beardyn_core.twin import Twin
 
 DURATION = 2.0
 SNAPSHOT_RATE = 200.0
@@ -30,11 +30,9 @@ def test_journal_accelerates_as_in_the_rail_model_below_50_hz() -> None:
     """Masses differ by the bearing's own 15 kg in 1000, which the rail model leaves out: hence 5 %."""
     scene = load_scene("smooth_run")
     assert isinstance(scene.operation, QuarterVehicleOperation)
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, DURATION, scene.seed))
-    blocks = [twin.advance() for _ in range(round(DURATION * 1e9) // twin.block_ns)]
-    time = np.concatenate([block.snapshot_time_ns for block in blocks]) * 1e-9
-    speed = np.concatenate([block.body_twist[:, CONE, 2] for block in blocks])
+    found = list(blocks(scene, DURATION))
+    time = np.concatenate([block.snapshot_time_ns for block in found]) * 1e-9
+    speed = np.concatenate([block.body_twist[:, CONE, 2] for block in found])
     ours = below_50_hz(np.gradient(speed, 1.0 / SNAPSHOT_RATE))
 
     ride, step = ride_of(scene.operation, scene.mounting, DURATION, scene.seed)
@@ -54,11 +52,9 @@ def test_journal_sways_as_in_the_rail_model_below_20_hz() -> None:
     scene = load_scene("smooth_run")
     assert isinstance(scene.operation, QuarterVehicleOperation)
     operation = dataclasses.replace(scene.operation, lateral=True)
-    twin = Twin(scene)
-    twin.start(load_history(operation, scene.mounting, DURATION, scene.seed))
-    blocks = [twin.advance() for _ in range(round(DURATION * 1e9) // twin.block_ns)]
-    time = np.concatenate([block.snapshot_time_ns for block in blocks]) * 1e-9
-    ours = np.concatenate([block.body_twist[:, CONE, 1] for block in blocks])
+    found = list(blocks(dataclasses.replace(scene, operation=operation), DURATION))
+    time = np.concatenate([block.snapshot_time_ns for block in found]) * 1e-9
+    ours = np.concatenate([block.body_twist[:, CONE, 1] for block in found])
 
     grid = np.arange(round(DURATION * 4000) + 1) / 4000
     fade = 0.5 - 0.5 * np.cos(np.pi * np.clip(grid / FADE_IN, 0.0, 1.0))

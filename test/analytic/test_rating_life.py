@@ -22,10 +22,10 @@ from beardyn_core.bearing.life import (
 from beardyn_core.bearing.reference_life import reference_life
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.integrate.rating_life import LoadClass, load_classes, rating_life, scene_life
 from beardyn_core.integrate.static import solve
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
-from beardyn_core.study.rating_life import LoadClass, load_classes, rating_life, scene_life
 
 BEARING = load_bearing("HS130x230")
 LUBRICANT = load_lubricant("LGEP2")

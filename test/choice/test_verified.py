@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.rail.build import load_history
+from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
-from beardyn_core.twin import Twin
 
 BLOCKS_PER_SECOND = 50
 REFERENCE_LAMINAE = 20
@@ -29,12 +28,8 @@ class Measured:
 
 
 def measured(scene: Scene, settled: float) -> Measured:
-    twin = Twin(scene)
-    twin.warm()
-    twin.start(load_history(scene.operation, scene.mounting, scene.duration, scene.seed))
     kept, status = [], 0
-    for _ in range(round(scene.duration * BLOCKS_PER_SECOND)):
-        block = twin.advance()
+    for block in blocks(scene):
         status |= block.status
         if block.start_ns * 1e-9 >= settled:
             kept.append(block)

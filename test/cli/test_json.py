@@ -16,6 +16,7 @@ from beardyn_core.cli import report as report_command
 from beardyn_core.cli import simulate
 from beardyn_core.cli.json_output import SCHEMA_VERSION, json_text, plain
 from beardyn_core.cli.main import COMMANDS, DONE, main
+from beardyn_core.integrate.rating_life import RatingLife
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSSES
 from beardyn_core.observe.stage_clock import StageTime
@@ -26,7 +27,6 @@ from beardyn_core.study.desk_run import RunSummary
 from beardyn_core.study.ladder import plan_of
 from beardyn_core.study.ladder_report import json_object as ladder_object
 from beardyn_core.study.measures import FaultLine
-from beardyn_core.study.rating_life import RatingLife
 from beardyn_core.study.trial_report import json_object as trial_object
 from beardyn_core.study.trial_result import TrialResult
 from test.cli.json_page import PAGE, check, documented

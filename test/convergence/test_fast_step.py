@@ -13,6 +13,7 @@ from beardyn_core.choice.fast_step import fast_steps, fastest_mode
 from beardyn_core.integrate.static import solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
+from beardyn_core.run import blocks
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
@@ -38,10 +39,7 @@ def quiet(tier: str, name: str, steps: float) -> Scene:
 
 @cache
 def record(tier: str, name: str, steps: float) -> tuple[Block, ...]:
-    scene = quiet(tier, name, steps)
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, DURATION + 0.1, scene.seed))
-    return tuple(twin.advance() for _ in range(round(DURATION / 0.02)))
+    return tuple(blocks(quiet(tier, name, steps), DURATION))
 
 
 def waveform(tier: str, name: str, steps: float) -> Float:

@@ -13,9 +13,8 @@ from scipy.signal import butter, hilbert, sosfiltfilt
 from beardyn_core.bearing.kinematics import FaultFrequencies, fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.observe.chain import MonitorResult
-from beardyn_core.observe.monitoring import Monitor
-from beardyn_core.rail.build import load_history
-from beardyn_core.twin import Twin
+from beardyn_core.observe.monitoring import Monitor, MonitorInput
+from beardyn_core.run import blocks
 
 DURATION = 2.2
 SETTLED = 0.1
@@ -38,17 +37,11 @@ def heard(scene_name: str, healthy: bool, seed: int | None = None) -> Heard:
     """Run a scene, with or without its defects, and let the monitor listen."""
     scene = load_scene(scene_name, seed=seed)
     scene = replace(scene, defects=()) if healthy else scene
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, DURATION, scene.seed))
     orders = fault_frequencies(scene.bearing)
     monitor = Monitor(orders, scene.bearing.roller_count)
     vibration, speed, results = [], [], []
-    for _ in range(round(DURATION * 1e9) // twin.block_ns):
-        block = twin.advance()
-        monitor.push_vibration(block.waveform_time_ns, block.acceleration[0])
-        monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
-        monitor.push_load(block.trend_time_ns, block.load[:, 2])
-        result = monitor.update()
+    for block in blocks(scene, DURATION):
+        result = monitor.take(MonitorInput.of_block(block))
         results += [result] if result is not None and result.verdict != "waiting" else []
         vibration.append(block.acceleration[0])
         speed.append(block.shaft_speed)

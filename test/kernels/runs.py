@@ -13,9 +13,8 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Cage
 from beardyn_core.observe.block import Block
-from beardyn_core.rail.build import load_history
+from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
-from beardyn_core.twin import Twin
 
 Float = NDArray[np.float64]
 SETTLED_S = 0.2
@@ -75,10 +74,7 @@ class Record:
 
 def record(scene: Scene, duration: float) -> Record:
     """Run a scene under its own load."""
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, duration + 0.1, scene.seed))
-    blocks = [twin.advance() for _ in range(round(duration * 1e9 / twin.block_ns))]
-    return Record(scene, tuple(blocks))
+    return Record(scene, tuple(blocks(scene, duration)))
 
 
 @cache

@@ -10,25 +10,23 @@ import pytest
 
 from beardyn_core.record.encoding import loss_key
 from beardyn_core.record.messages import Diagnostic
-from beardyn_core.record.reporting import _budget
+from beardyn_core.record.run_summary import recorded_budget
 
 SECOND = 1_000_000_000
 
 
 def recording(*values: tuple[tuple[str, str], ...]) -> Any:
-    shaft = SimpleNamespace(
-        time_ns=np.arange(len(values)) * SECOND, velocity=np.full((len(values), 1), 100.0)
-    )
+    shaft = SimpleNamespace(time=np.arange(len(values)) * 1.0, speed=np.full(len(values), 100.0))
     told = tuple((k * SECOND, (Diagnostic("axlebox", 0, "", each),)) for k, each in enumerate(values))
     return cast(Any, SimpleNamespace(diagnostics=told, shaft=shaft))
 
 
 def test_energies_lost_by_source_make_a_budget() -> None:
-    budget = _budget(recording(*(((loss_key("rib"), f"{50.0 * k}"),) for k in range(4))))
+    budget = recorded_budget(recording(*(((loss_key("rib"), f"{50.0 * k}"),) for k in range(4))))
     assert budget is not None
     assert budget.to_json()["power_W"]["rib"] == pytest.approx(50.0)
 
 
 def test_lost_samples_and_messages_of_the_nodes_are_no_energy() -> None:
     counts = (("lost_samples", "0"), ("lost_messages", "3"))
-    assert _budget(recording(counts, counts, counts)) is None
+    assert recorded_budget(recording(counts, counts, counts)) is None

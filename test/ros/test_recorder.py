@@ -52,11 +52,11 @@ def test_recording_is_complete_and_an_independent_reader_decodes_every_topic(gra
     run = read_run(path)
     assert run.complete
     assert run.status == "complete"
-    assert np.array_equal(run.vibration["vibration"].sample, np.arange(80 * 512))
+    assert np.array_equal(run.vibration.sample, np.arange(80 * 512))
     assert np.array_equal(run.force_waveform.sample, np.arange(80 * 512))
     assert len(run.force) == len(run.shaft) == len(run.specific_force) == 640
-    assert len(run.orbit) == len(run.bodies) == 320
-    assert np.array_equal(run.load_sample, np.arange(3201))
+    assert len(run.cages) == len(run.bodies) == 320
+    assert np.array_equal(run.load.sample, np.arange(3201))
     assert run.described().scene == "synthetic"
     assert run.truth["run_id"]
     assert run.results[-1][1][0].value("verdict") == "cup"
@@ -91,8 +91,8 @@ def test_kill_9_of_the_recorder_leaves_a_recoverable_file_and_the_twin_runs_on(g
     assert run.problem
     assert run.described().scene == "synthetic"
     # At a speed factor of 2 one second on the wall is 2 s of simulated time.
-    assert run.vibration["vibration"].seconds[-1] > simulated - 2.0
-    assert np.all(np.diff(run.vibration["vibration"].sample) == 1)
+    assert run.vibration.time[-1] > simulated - 2.0
+    assert np.all(np.diff(run.vibration.sample) == 1)
     before = len(graph.messages["vibration"])
     graph.until(
         lambda: len(graph.messages["vibration"]) > before + 50,
@@ -163,11 +163,11 @@ def test_reset_begins_a_new_file(graph: Graph) -> None:
     assert first.status == "the run was left by a reset"
     assert second.status == "complete"
     assert first.truth["run_id"] != second.truth["run_id"]
-    assert np.array_equal(second.vibration["vibration"].sample, np.arange(75 * 512))
-    old = first.vibration["vibration"]
+    assert np.array_equal(second.vibration.sample, np.arange(75 * 512))
+    old = first.vibration
     assert np.array_equal(old.sample, np.arange(len(old)))
-    assert np.array_equal(old.values, second.vibration["vibration"].values[: len(old)])
-    assert np.array_equal(np.unique(second.load_sample), np.arange(3001))
+    assert np.array_equal(old.values, second.vibration.values[: len(old)])
+    assert np.array_equal(np.unique(second.load.sample), np.arange(3001))
 
 
 def test_kill_9_of_the_twin_is_noticed_by_everybody(graph: Graph) -> None:
@@ -188,7 +188,7 @@ def test_recorder_of_a_validity_error_says_how_the_run_ended(graph: Graph) -> No
     run = read_run(path)
     assert run.complete
     assert "a roller has left its rib" in (run.status or "")
-    assert len(run.vibration["vibration"]) == 6 * 512
+    assert len(run.vibration) == 6 * 512
     assert topic("vibration").path() == "/axlebox/vibration"
 
 

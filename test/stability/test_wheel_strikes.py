@@ -7,10 +7,9 @@ import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
-from beardyn_core.observe.monitoring import Monitor
-from beardyn_core.rail.build import load_history
+from beardyn_core.observe.monitoring import Monitor, MonitorInput
+from beardyn_core.run import blocks
 from beardyn_core.scene.operation import QuarterVehicleOperation
-from beardyn_core.twin import Twin
 
 SETTLED = 0.3
 GRAVITY = 9.80665
@@ -21,16 +20,10 @@ def test_a_healthy_bearing_under_a_wheel_flat_shakes_once_a_revolution_and_gives
     """Field figures for axleboxes over flats and joints are 50 to 200 g; a 35 mm flat is a small one."""
     scene = load_scene("wheel_flat")
     assert isinstance(scene.operation, QuarterVehicleOperation)
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, scene.duration, scene.seed))
     monitor = Monitor(fault_frequencies(scene.bearing), scene.bearing.roller_count)
     vibration, times, verdicts = [], [], []
-    for _ in range(round(scene.duration * 1e9) // twin.block_ns):
-        block = twin.advance()
-        monitor.push_vibration(block.waveform_time_ns, block.acceleration[0])
-        monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
-        monitor.push_load(block.trend_time_ns, block.load[:, 2])
-        result = monitor.update()
+    for block in blocks(scene):
+        result = monitor.take(MonitorInput.of_block(block))
         if result is not None and result.verdict != "waiting":
             verdicts.append(result.verdict)
         vibration.append(block.acceleration[0][:, 2])

@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core import run
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.cli import simulate
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.stage_clock import StageClock
+from beardyn_core.observe.summary import SETTLING_S, averaging_start, time_mean
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.operation import MeasuredOperation
@@ -66,7 +68,7 @@ class PureRolling:
 @pytest.fixture
 def rolling(monkeypatch: pytest.MonkeyPatch) -> type[PureRolling]:
     twin = type("Twin", (PureRolling,), {})
-    monkeypatch.setattr(desk_run, "Twin", twin)
+    monkeypatch.setattr(run, "Twin", twin)
     return twin
 
 
@@ -95,7 +97,7 @@ def test_cage_speed_ratio_of_pure_rolling_is_one(rolling: type[PureRolling]) -> 
     assert summary.energy_residual == pytest.approx(0.01 / 9.99)
     revolution = 2 * math.pi / (fault_frequencies(load_scene("static_80kN").bearing).ftf * SHAFT_SPEED)
     first, last = summary.averaged
-    assert summary.cage_revolutions == math.floor((last - desk_run.SETTLING_S) / revolution)
+    assert summary.cage_revolutions == math.floor((last - SETTLING_S) / revolution)
     assert last - first == pytest.approx(summary.cage_revolutions * revolution, rel=3e-3)
 
 
@@ -163,17 +165,17 @@ def test_a_load_that_cannot_be_made_opens_no_sink(rolling: type[PureRolling], tm
 def test_means_over_whole_revolutions_do_not_see_what_turns_with_the_cage() -> None:
     times = np.arange(400) / 400.0
     speed = 53.0
-    first, revolutions = desk_run.averaging_start(times, np.full(400, speed))
+    first, revolutions = averaging_start(times, np.full(400, speed))
     signal = 7.0 + np.cos(speed * times)
-    assert revolutions == int((times[-1] - desk_run.SETTLING_S) * speed / (2 * math.pi))
+    assert revolutions == int((times[-1] - SETTLING_S) * speed / (2 * math.pi))
     # linear interpolation between 47 samples a revolution: (speed dt)^2 / 12 of the amplitude
-    assert desk_run.time_mean(times, signal, first) == pytest.approx(7.0, abs=2e-3)
-    assert abs(desk_run.time_mean(times, signal, first + 0.06) - 7.0) > 1e-2
+    assert time_mean(times, signal, first) == pytest.approx(7.0, abs=2e-3)
+    assert abs(time_mean(times, signal, first + 0.06) - 7.0) > 1e-2
 
 
 def test_a_resting_shaft_has_no_cage_speed_ratio() -> None:
     times = np.arange(40) / 400.0
-    first, revolutions = desk_run.averaging_start(times, np.zeros(40))
+    first, revolutions = averaging_start(times, np.zeros(40))
     assert revolutions == 0
     assert first == pytest.approx(0.5 * times[-1])
 

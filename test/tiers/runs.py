@@ -12,8 +12,8 @@ from beardyn_core.choice import load_scene
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
+from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
-from beardyn_core.twin import Twin
 
 Float = NDArray[np.float64]
 FAST = ("lumped", "quasistatic")
@@ -38,10 +38,7 @@ class Means:
 
 def blocks_of(scene: Scene, duration: float) -> tuple[Block, ...]:
     """Blocks of a run."""
-    twin = Twin(scene)
-    count = round(duration * 1e9) // twin.block_ns
-    twin.start(load_history(scene.operation, scene.mounting, (count + 1) * twin.block_ns * 1e-9, scene.seed))
-    return tuple(twin.advance() for _ in range(count))
+    return tuple(blocks(scene, duration))
 
 
 @cache

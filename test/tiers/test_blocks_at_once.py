@@ -10,7 +10,7 @@ from beardyn_core.choice import load_scene
 from beardyn_core.integrate.kinematic_step import TRENDS_PER_BLOCK
 from beardyn_core.observe import channels
 from beardyn_core.observe.block import Block, Vibration
-from beardyn_core.rail.build import load_history
+from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.study.desk_run import run
@@ -31,8 +31,7 @@ def scene_of(tier: str, name: str, steps: float = 1) -> Scene:
 
 
 def blocks_of(scene: Scene, cuts: list[int]) -> list[Block]:
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, COUNT * 0.02, scene.seed))
+    twin = start(scene, COUNT * 0.02).twin
     return [twin.advance(count) for count in cuts]
 
 
@@ -74,8 +73,7 @@ def test_one_block_says_where_it_begins_and_ends() -> None:
 
 def test_a_snapshot_between_long_blocks_goes_on_with_the_same_bits() -> None:
     scene = scene_of("lumped", "static_80kN")
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, COUNT * 0.02, scene.seed))
+    twin = start(scene, COUNT * 0.02).twin
     twin.advance(3)
     kept = twin.snapshot()
     first = streams([twin.advance(8)])

@@ -13,7 +13,7 @@ from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.observe.chain import MonitorResult
-from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIER_NAMES
@@ -163,14 +163,8 @@ def verdicts(tier: str, name: str, healthy: bool) -> list[MonitorResult]:
     scene = scene_of(name, tier)
     scene = replace(scene, defects=()) if healthy else scene
     monitor = Monitor(fault_frequencies(scene.bearing), scene.bearing.roller_count)
-    results = []
-    for block in blocks_of(scene, 2.2):
-        monitor.push_vibration(block.waveform_time_ns, block.acceleration[0])
-        monitor.push_shaft(block.trend_time_ns, block.shaft_angle)
-        monitor.push_load(block.trend_time_ns, block.load[:, 2])
-        result = monitor.update()
-        results += [result] if result is not None and result.verdict != "waiting" else []
-    return results
+    found = listen(monitor, map(MonitorInput.of_block, blocks_of(scene, 2.2)))
+    return [result for result in found if result.verdict != "waiting"]
 
 
 @pytest.mark.slow

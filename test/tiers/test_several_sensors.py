@@ -8,10 +8,10 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.observe.block import Block
-from beardyn_core.rail.build import load_history
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.sinks import McapSink
+from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.study.desk_run import run
@@ -34,9 +34,7 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Scene:
 
 
 def started(scene: Scene) -> Twin:
-    twin = Twin(scene)
-    twin.start(load_history(scene.operation, scene.mounting, scene.duration, scene.seed))
-    return twin
+    return start(scene).twin
 
 
 def blocks_of(scene: Scene, count: int = 6) -> list[Block]:
@@ -101,12 +99,12 @@ def test_every_sensor_has_its_topic_in_the_recording(scene: Scene, tmp_path: Pat
     run(scene, [McapSink(path)])
     found, blocks = read_run(path), blocks_of(scene, 10)
     topics = ("vibration", "vibration/magnet", "vibration/fast")
-    assert set(found.vibration) == set(topics)
+    assert set(found.sensor_topics) == set(topics)
     for number, name in enumerate(topics):
         values = np.concatenate([block.vibration[number].acceleration for block in blocks])
-        np.testing.assert_array_equal(found.vibration[name].values, values.astype(np.float32))
+        np.testing.assert_array_equal(found.sensor_topics[name].values, values.astype(np.float32))
         time_ns = np.concatenate([block.vibration[number].time_ns for block in blocks])
-        np.testing.assert_array_equal(found.vibration[name].time_ns, time_ns)
+        np.testing.assert_array_equal(found.sensor_topics[name].time_ns, time_ns)
     told = report(path)
     assert told.gaps == ()
     assert told.sensor_rates_Hz == {"top": 25_600.0, "magnet": 25_600.0, "fast": 51_200.0}

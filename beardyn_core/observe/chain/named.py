@@ -8,7 +8,6 @@ import traceback
 from pathlib import Path
 from typing import cast
 
-import beardyn_core
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm
@@ -17,7 +16,7 @@ from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
 
-_CORE = Path(beardyn_core.__file__).resolve().parent
+_CORE = Path(__file__).resolve().parents[2]
 OURS = "beardyn_core.observe.chain:REFERENCE"
 
 

@@ -1,0 +1,12 @@
+"""What a Python program asks for: runs, things made in code, answers without a run.
+
+=========== ==================================================================
+module      responsibility
+=========== ==================================================================
+making      bearings, lubricants and scenes from a handful of arguments
+simulating  simulate a scene, read a recording, let a monitor judge a run
+statics     stiffness, torque, life, film and load distribution, no run needed
+=========== ==================================================================
+
+Users take all of it from `beardyn_core` itself.
+"""

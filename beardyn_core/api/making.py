@@ -1,0 +1,280 @@
+"""Bearings, lubricants and scenes from names, files, mappings or a handful of arguments."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.choice import scene_from_mapping
+from beardyn_core.config.folders import find
+from beardyn_core.config.load import bearing_from_mapping, load_lubricant
+from beardyn_core.config.yaml_text import read_file
+from beardyn_core.edge import written
+from beardyn_core.effects import EffectSet
+from beardyn_core.errors import InputError
+from beardyn_core.scene.scene import Scene
+
+USUAL_BEARING, USUAL_LUBRICANT = "HS130x230", "L055"
+USUAL_LOAD_KN, USUAL_SPEED_RPM = 80.0, 1000.0
+_STEEL_DENSITY = 7830.0  # [kg/m^3]
+# what a bearing in code must say; see `_derived` for the rest
+_NEEDED = ("rollers", "pitch_diameter_mm", "roller_diameter_mm", "roller_length_mm", "contact_angle_deg")
+
+
+def bearing(name: str | Path | None = None, *, rollers: int | None = None, **keys: Any) -> Bearing:
+    """Give a shipped bearing, one of a file, or one made in code.
+
+    Parameters
+    ----------
+    name : str or Path, optional
+        Shipped bearing or YAML file. Without it the bearing is made of ``rollers``, ``pitch_diameter_mm``,
+        ``roller_diameter_mm``, ``roller_length_mm`` and ``contact_angle_deg``; every other number is derived
+        from them as docs/python.md says, and marked so in ``bearing.sources``.
+    rollers : int, optional
+        Per row.
+    **keys
+        Keys of a bearing file in its units, in place of what the file or the derivation gives:
+        ``end_play_mm=0.1``.
+
+    Returns
+    -------
+    Bearing
+
+    Raises
+    ------
+    InputError
+        With every mistake and contradiction.
+
+    Examples
+    --------
+    >>> bearing("HS130x230", end_play_mm=0.1).end_play
+    0.0001
+    """
+    if rollers is not None:
+        keys = {"roller_count": rollers, **keys}
+    if name is not None:
+        path = find("bearings", str(name))
+        return bearing_from_mapping({**read_file(path), **keys}, str(path))
+    missing = [
+        key for key in _NEEDED if key not in keys and not (key == "rollers" and "roller_count" in keys)
+    ]
+    if missing:
+        raise InputError(
+            f"bearing made in code: {', '.join(missing)} not given; give them, or the name of a bearing"
+        )
+    wrong = [key for key in _NEEDED[1:] if not isinstance(keys[key], int | float) or not keys[key] > 0]
+    if wrong:
+        raise InputError(
+            [f"bearing made in code: {key} is {keys[key]!r}; it must be above 0" for key in wrong]
+        )
+    return bearing_from_mapping({**_derived(**keys), **keys}, "bearing made in code")
+
+
+def _derived(
+    *,
+    pitch_diameter_mm: float,
+    roller_diameter_mm: float,
+    roller_length_mm: float,
+    contact_angle_deg: float,
+    **_given: Any,
+) -> dict[str, Any]:
+    """Derive the keys that a bearing in code may leave out, each with its source.
+
+    The proportions are those of the four shipped bearings.
+    """
+    pitch, roller, length = pitch_diameter_mm, roller_diameter_mm, roller_length_mm
+    row_spacing, outer, bore = length + 25.0, pitch + 1.7 * roller, pitch - 2.0 * roller
+    width = row_spacing + length + 35.0
+    raceway = pitch + roller * math.cos(math.radians(contact_angle_deg))
+    cup = _ring(raceway, outer, width)
+    cone = _ring(bore, pitch - roller, 2.0 * length + 20.0)
+    cage_mass = 2.0e-3 * pitch
+    turned = cage_mass * (0.5e-3 * pitch) ** 2
+    assumed, derived = "assumed: as in the shipped bearings", "derived: proportions of the shipped bearings"
+    steel = "derived: solid ring of steel"
+    return {
+        "name": "bearing",
+        "description": f"made in code: {pitch:g} mm pitch diameter, {roller:g} mm rollers",
+        "effective_length_mm": _sourced(length - 2.0, "assumed: 1 mm at each end is no contact"),
+        "row_spacing_mm": _sourced(row_spacing, derived),
+        "sphere_ratio": _sourced(0.9, assumed),
+        "rib_contact_height_mm": _sourced(2.5, assumed),
+        "bore_mm": _sourced(round(bore, 3), derived),
+        "outer_diameter_mm": _sourced(round(outer, 3), derived),
+        "width_mm": _sourced(width, derived),
+        "end_play_mm": _sourced(0.2, assumed),
+        "raceway_roughness_um": _sourced(0.3, assumed),
+        "rib_roughness_um": _sourced(0.42, assumed),
+        "cup_mass_kg": _sourced(round(cup[0], 4), steel),
+        "cup_inertia_kg_m2": _sourced([round(cup[2], 6), round(cup[1], 6), round(cup[2], 6)], steel),
+        "cone_mass_kg": _sourced(round(cone[0], 4), steel),
+        "cage": {
+            "mass_kg": _sourced(round(cage_mass, 4), derived),
+            "polar_inertia_kg_m2": _sourced(round(turned, 8), "derived: thin ring on the pitch circle"),
+            "transverse_inertia_kg_m2": _sourced(round(0.52 * turned, 8), "derived: thin ring"),
+            "circumferential_clearance_mm": _sourced(0.25, assumed),
+            "axial_clearance_mm": _sourced(0.3, assumed),
+            "stiffness_MN_per_m": _sourced(20.0, assumed),
+            "damping_N_s_per_m": _sourced(300.0, assumed),
+        },
+    }
+
+
+def _sourced(value: Any, source: str) -> dict[str, Any]:
+    return {"value": value, "source": source}
+
+
+def _ring(inner_mm: float, outer_mm: float, width_mm: float) -> tuple[float, float, float]:
+    """Give mass [kg], polar and transverse inertia [kg m^2] of a solid steel ring."""
+    inner, outer, width = 0.5e-3 * inner_mm, 0.5e-3 * outer_mm, 1e-3 * width_mm
+    mass = math.pi * _STEEL_DENSITY * width * max(outer**2 - inner**2, 1e-6)
+    polar = 0.5 * mass * (outer**2 + inner**2)
+    return mass, polar, 0.5 * polar + mass * width**2 / 12.0
+
+
+def lubricant(name: str | Path) -> Lubricant:
+    """Give a shipped lubricant or one of a YAML file.
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
+    return load_lubricant(name)
+
+
+def scene(
+    source: str | Path | Mapping[str, Any] | Scene | None = None,
+    *,
+    bearing: str | Bearing | Mapping[str, Any] | None = None,
+    lubricant: str | None = None,
+    load_kN: float | Sequence[float] | None = None,
+    speed_rpm: float | None = None,
+    speed_kmh: float | None = None,
+    faults: Sequence[Mapping[str, Any]] | None = None,
+    tier: str | None = None,
+    effects: str | Mapping[str, Any] | EffectSet | None = None,
+    duration: float | None = None,
+    laminae: int | None = None,
+    seed: int | None = None,
+    **keys: Any,
+) -> Scene:
+    """Give a shipped scene, one of a file or of a mapping, or one made in code, with changes.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or Scene, optional
+        Name of a shipped scene, YAML file, mapping with the keys of a scene file, or a scene. Without it
+        the scene has the bearing HS130x230, the grease L055, 80 kN upwards on the journal and 1000 rpm.
+    bearing, lubricant : optional
+        Name, file or, of a bearing, what `bearing` gives.
+    load_kN : float or 3 floats, optional
+        Constant load on the journal, upwards or along x, y, z; it replaces the scene's operation.
+    speed_rpm : float, optional
+        Constant speed of the shaft; it replaces the scene's operation.
+    speed_kmh : float, optional
+        Constant speed of a scene that runs on a track.
+    faults : sequence of mappings, optional
+        Defects in place of the scene's, with the keys of a scene file; ``row`` is 0 and ``depth_um`` 100
+        where they are not given: ``[{"on": "cup", "width_mm": 6}]``. An empty sequence: none.
+    tier : str, optional
+        ``lumped``, ``quasistatic``, ``full`` or ``auto``.
+    effects : str, mapping or EffectSet, optional
+        Preset, file, ``auto`` or the effects themselves.
+    duration : float, optional
+        [s].
+    laminae, seed : int, optional
+    **keys
+        Other keys of a scene file in their units: ``end_play_mm=0.05``, ``temperature_C=40``.
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
+    data, label, folder = _mapping_of(source)
+    changes: dict[str, Any] = {
+        "bearing": written(bearing) if isinstance(bearing, Bearing) else bearing,
+        "lubricant": lubricant,
+        "tier": tier,
+        "effects": None if isinstance(effects, EffectSet) else effects,
+        "duration_s": duration,
+        "seed": seed,
+        "defects": None if faults is None else [_fault(each) for each in faults],
+        **keys,
+    }
+    data |= {key: value for key, value in changes.items() if value is not None}
+    _set_operation(data, load_kN, speed_rpm, speed_kmh)
+    numerics = data.get("numerics", {})
+    if isinstance(numerics, Mapping):
+        numerics = dict(numerics)
+        if tier is not None and isinstance(source, Scene):
+            numerics.pop("steps_per_sample", None)  # that of the new tier
+        if laminae is not None:
+            numerics["laminae"] = laminae
+        if numerics:
+            data["numerics"] = numerics
+    made = scene_from_mapping(data, label, folder)
+    return replace(made, effects=effects) if isinstance(effects, EffectSet) else made
+
+
+def _mapping_of(source: str | Path | Mapping[str, Any] | Scene | None) -> tuple[dict[str, Any], str, Path]:
+    """Give the keys of a scene, what to call it in messages, and the folder its files lie in."""
+    if isinstance(source, Scene):
+        return written(source), f"scene {source.name}", Path()
+    if isinstance(source, Mapping):
+        return dict(source), "scene", Path()
+    if source is not None:
+        path = find("scenes", str(source))
+        return read_file(path), str(path), path.parent
+    operation = {"kind": "constant", "force_kN": [0.0, 0.0, USUAL_LOAD_KN], "speed_rpm": USUAL_SPEED_RPM}
+    usual = {"scene": "scene", "bearing": USUAL_BEARING, "lubricant": USUAL_LUBRICANT}
+    return {**usual, "operation": operation}, "scene made in code", Path()
+
+
+def _set_operation(
+    data: dict[str, Any],
+    load_kN: float | Sequence[float] | None,
+    speed_rpm: float | None,
+    speed_kmh: float | None,
+) -> None:
+    """Change load and speed of a scene's keys."""
+    found = data.get("operation")
+    operation = dict(found) if isinstance(found, Mapping) else {}
+    if load_kN is not None or speed_rpm is not None:
+        if speed_kmh is not None:
+            raise InputError("speed_kmh is given with load_kN or speed_rpm; a constant load has speed_rpm")
+        if operation.get("kind") != "constant":
+            operation = {
+                "kind": "constant",
+                "force_kN": [0.0, 0.0, USUAL_LOAD_KN],
+                "speed_rpm": USUAL_SPEED_RPM,
+            }
+        if load_kN is not None:
+            upwards = isinstance(load_kN, int | float)
+            operation["force_kN"] = [0.0, 0.0, float(load_kN)] if upwards else [float(f) for f in load_kN]  # type: ignore[arg-type, union-attr]
+        if speed_rpm is not None:
+            operation["speed_rpm"] = float(speed_rpm)
+        data["operation"] = operation
+    elif speed_kmh is not None:
+        if operation.get("kind") != "quarter_vehicle":
+            raise InputError(
+                f"speed_kmh is {speed_kmh:g}; this scene does not run on a track, give speed_rpm instead"
+            )
+        operation["speed_profile"] = [{"time_s": 0, "speed_kmh": float(speed_kmh)}]
+        data["operation"] = operation
+
+
+def _fault(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Complete the keys of a fault: row 0, and 100 um deep when it is a patch."""
+    patch = given.get("kind", "spall") not in ("diameter", "worn_pocket")
+    return {"row": 0, **({"depth_um": 100.0} if patch else {}), **given}

@@ -1,0 +1,305 @@
+"""Answers that need no run: stiffness, torque, life, film, load distribution, fault frequencies.
+
+Every function takes the bearing as a `Bearing` or by name, a load in kN upwards on the journal or along x, y,
+z, and a scalar or a sequence of what it is asked over.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.kinematics import fault_frequencies as frequencies_per_rev
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.errors import InputError
+from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
+from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.integrate.torque import entrainment_speeds, running_torque
+from beardyn_core.model.lamina_table import equivalent_radius
+
+Float = NDArray[np.float64]
+Load = float | Sequence[float]
+
+_KN, _MM, _RPM, _ZERO_CELSIUS = 1e3, 1e3, math.pi / 30.0, 273.15
+_RIB_FRICTION = 0.05
+
+
+def equilibrium(
+    bearing: Bearing | str,
+    load_kN: Load = 80.0,
+    *,
+    end_play_mm: float | None = None,
+    speed_rpm: float = 0.0,
+    tilt: str = "locked",
+    laminae: int = 1,
+) -> StaticSolution:
+    """Solve the static equilibrium of a bearing: displacement, roller loads, stiffness.
+
+    Parameters
+    ----------
+    bearing : Bearing or str
+    load_kN : float or 3 floats
+        On the journal, upwards or along x, y, z.
+    end_play_mm : float, optional
+        Total axial travel, negative for preload; by default the bearing's own.
+    speed_rpm : float
+        Of the shaft, for the inertia forces of the rollers.
+    tilt : str
+        ``locked`` or ``free``: tilt of the journal against the cup.
+    laminae : int
+        Of each raceway contact; with 1 the rollers do not tilt.
+
+    Returns
+    -------
+    StaticSolution
+        SI units; ``cup_load`` is the load distribution, shape [row, roller].
+
+    Raises
+    ------
+    InputError, ValidityError
+        An argument makes no sense; there is no equilibrium.
+    """
+    chosen = _bearing(bearing)
+    return solve(
+        chosen,
+        _force(load_kN),
+        end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
+        tilt=tilt,
+        laminae=laminae,
+        speed=speed_rpm * _RPM,
+    )
+
+
+def load_distribution(bearing: Bearing | str, load_kN: Load = 80.0, **options: Any) -> Float:
+    """Give the load of every roller on the cup, shape [row, roller], [N]; options as of `equilibrium`."""
+    return equilibrium(bearing, load_kN, **options).cup_load
+
+
+def stiffness(
+    bearing: Bearing | str,
+    load_kN: Load = 80.0,
+    *,
+    end_play_mm: float | Sequence[float] | None = None,
+    tilt: str = "locked",
+    laminae: int = 1,
+) -> Float:
+    """Give the stiffness of a bearing against its end play or preload.
+
+    Parameters
+    ----------
+    bearing, load_kN, tilt, laminae
+        See `equilibrium`; with ``tilt="free"`` the tilt follows the displacement.
+    end_play_mm : float or sequence, optional
+        Negative for preload; by default the bearing's own.
+
+    Returns
+    -------
+    float64 array, shape [3, 3] or [case, 3, 3]
+        Change of the load along x, y, z with the displacement along x, y, z, [N/m].
+    """
+
+    def one(play: float | None) -> Float:
+        found = equilibrium(bearing, load_kN, end_play_mm=play, tilt=tilt, laminae=laminae)
+        return found.stiffness_tilt_free if tilt == "free" else found.stiffness_tilt_held
+
+    if end_play_mm is None or isinstance(end_play_mm, int | float):
+        return one(end_play_mm)
+    return np.array([one(float(play)) for play in end_play_mm])
+
+
+def torque(
+    bearing: Bearing | str,
+    speed_rpm: float | Sequence[float],
+    load_kN: Load = 80.0,
+    *,
+    lubricant: Lubricant | str = "L055",
+    temperature_C: float = 70.0,
+    rib_friction: float = _RIB_FRICTION,
+    end_play_mm: float | None = None,
+) -> Any:
+    """Give the running torque of raceways and ribs against speed, in pure rolling.
+
+    Parameters
+    ----------
+    bearing, load_kN, end_play_mm
+        See `equilibrium`.
+    speed_rpm : float or sequence
+        Of the shaft.
+    lubricant : Lubricant or str
+    temperature_C : float
+        At the inlets of the contacts.
+    rib_friction : float
+        Coefficient of friction on the ribs; 0.05 is assumed, of a rib that is well lubricated.
+
+    Returns
+    -------
+    float or float64 array, shape [speed]
+        [N m]. Seals, churning and cages are not in it: simulate a scene with ``effects="full"`` for those.
+
+    References
+    ----------
+    See `beardyn_core.integrate.torque.running_torque`.
+    """
+    chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
+
+    def one(rpm: float) -> float:
+        static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=rpm)
+        return running_torque(chosen, oil, kelvin, static, rpm * _RPM, rib_friction=rib_friction).total
+
+    if isinstance(speed_rpm, int | float):
+        return one(float(speed_rpm))
+    return np.array([one(float(rpm)) for rpm in speed_rpm])
+
+
+def life(
+    bearing: Bearing | str,
+    load_kN: Load = 80.0,
+    speed_rpm: float = 1000.0,
+    *,
+    lubricant: Lubricant | str = "L055",
+    temperature_C: float = 70.0,
+    contamination: float = USUAL_CONTAMINATION,
+    end_play_mm: float | None = None,
+    tilt: str = "locked",
+) -> RatingLife:
+    """Rate the life of a bearing under one load, ISO 281 and ISO 16281, basic and modified.
+
+    Parameters
+    ----------
+    bearing, load_kN, end_play_mm, tilt
+        See `equilibrium`.
+    speed_rpm : float
+        Of the shaft; it sets the film and with it the modified lives.
+    lubricant : Lubricant or str
+    temperature_C : float
+        Of lubricant and bearing.
+    contamination : float
+        e_C of ISO 281, 1 for extreme cleanliness; 0.6 by default, sealed and greased.
+
+    Returns
+    -------
+    RatingLife
+        [revolutions].
+
+    Raises
+    ------
+    InputError
+        The shaft stands.
+    """
+    if not speed_rpm:
+        raise InputError("speed_rpm is 0; life needs a shaft that turns")
+    chosen = _bearing(bearing)
+    x, y, z = _force(load_kN)
+    rated = rating_life(
+        chosen,
+        (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(speed_rpm) * _RPM),),
+        _lubricant(lubricant),
+        _kelvin(temperature_C),
+        end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
+        tilt=tilt,
+        contamination=contamination,
+    )
+    assert rated is not None
+    return rated
+
+
+def film(
+    bearing: Bearing | str,
+    speed_rpm: float,
+    load_kN: Load = 80.0,
+    *,
+    lubricant: Lubricant | str = "L055",
+    temperature_C: float = 70.0,
+    end_play_mm: float | None = None,
+) -> dict[str, Float]:
+    """Give the smallest film of every roller on both raceways in pure rolling.
+
+    Parameters
+    ----------
+    bearing, load_kN, end_play_mm
+        See `equilibrium`.
+    speed_rpm : float
+        Of the shaft.
+    lubricant : Lubricant or str
+    temperature_C : float
+        At the inlets of the contacts.
+
+    Returns
+    -------
+    dict of str to float64 array, shape [row, roller]
+        ``cup`` and ``cone``, [m]; NaN where a roller carries nothing. Flooded, with the heat of the inlet;
+        divide by ``bearing.raceway_roughness`` for the film parameter lambda.
+
+    References
+    ----------
+    Dowson and Higginson (1966), Murch and Wilson (1975): see `beardyn_core.bearing.film_thickness`.
+    """
+    chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
+    static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm)
+    viscosity, found = oil.dynamic_viscosity(kelvin), {}
+    speeds = entrainment_speeds(chosen, speed_rpm * _RPM)
+    for ring, loads, speed in zip(("cup", "cone"), (static.cup_load, static.cone_load), speeds, strict=True):
+        loading = thermal_loading(viscosity, oil.temperature_coefficient, speed, oil.thermal_conductivity)
+        radius = float(equivalent_radius(chosen, np.zeros(1), ring)[0])
+        films = np.full(loads.shape, np.nan)
+        for place in zip(*np.nonzero(loads > 0.0), strict=True):
+            films[place] = thermal_factor(loading, "murch_wilson") * line_film(
+                float(loads[place]) / chosen.effective_length, speed, radius,
+                chosen.material.contact_modulus, viscosity, oil.pressure_viscosity_at(kelvin),
+            )  # fmt: skip
+        found[ring] = films
+    return found
+
+
+def fault_frequencies(bearing: Bearing | str, speed_rpm: float | None = None) -> dict[str, float]:
+    """Give FTF, BPFO, BPFI and BSF of one row.
+
+    Parameters
+    ----------
+    bearing : Bearing or str
+    speed_rpm : float, optional
+        Of the shaft.
+
+    Returns
+    -------
+    dict
+        [Hz] at that speed, without one per revolution of the shaft. A roller fault strikes at 2 BSF.
+    """
+    found = frequencies_per_rev(_bearing(bearing))
+    hertz = 1.0 if speed_rpm is None else abs(speed_rpm) / 60.0
+    return {
+        name: hertz * value
+        for name, value in zip(
+            ("FTF", "BPFO", "BPFI", "BSF"), (found.ftf, found.bpfo, found.bpfi, found.bsf), strict=True
+        )
+    }
+
+
+def _bearing(bearing: Bearing | str) -> Bearing:
+    return bearing if isinstance(bearing, Bearing) else load_bearing(bearing)
+
+
+def _lubricant(lubricant: Lubricant | str) -> Lubricant:
+    return lubricant if isinstance(lubricant, Lubricant) else load_lubricant(lubricant)
+
+
+def _force(load_kN: Load) -> tuple[float, float, float]:
+    if isinstance(load_kN, int | float):
+        return 0.0, 0.0, load_kN * _KN
+    if len(load_kN) != 3:
+        raise InputError(f"load_kN is {list(load_kN)}; give one number, upwards, or three along x, y, z")
+    x, y, z = load_kN
+    return x * _KN, y * _KN, z * _KN
+
+
+def _kelvin(temperature_C: float) -> float:
+    if not -60.0 <= temperature_C <= 200.0:
+        raise InputError(f"temperature_C is {temperature_C:g}; it must be from -60 to 200")
+    return temperature_C + _ZERO_CELSIUS

@@ -1,0 +1,55 @@
+"""``beardyn export``: signals of a recording for other programs."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "export",
+        help="signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV",
+        description="Write signals of a recording to a file of another format, SI units. Parquet, NPZ "
+        "and HDF5 carry the truth of the run; CSV and WAV get a JSON file with it beside them. Parquet, CSV "
+        "and WAV hold one table: with several signals each goes to NAME_SIGNAL.ENDING.",
+    )
+    parser.add_argument("recording", metavar="run.mcap")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        required=True,
+        help="file to write; its ending is the format: .parquet, .csv, .npz, .h5 or .wav",
+    )
+    parser.add_argument(
+        "--signals",
+        metavar="NAMES",
+        default="",
+        help="commas between: vibration, force, force_waveform, shaft, torque, cages, rollers, bodies, "
+        "contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
+    )
+    parser.add_argument("--force", action="store_true", help="replace files that exist")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command and return the exit code."""
+    import sys
+
+    from beardyn_core.record.exporting import export
+    from beardyn_core.record.reading import read_run
+
+    recording = read_run(args.recording)
+    if recording.problem:
+        print(f"{recording.problem}; writing what is there", file=sys.stderr)
+    names = [name.strip() for name in args.signals.split(",") if name.strip()]
+    written = export(recording, args.output, signals=names, force=args.force)
+    if args.json:
+        print(json.dumps({"files": [str(path) for path in written]}))
+        return 0
+    for path in written:
+        print(f"{path}: {path.stat().st_size / 1e6:.2f} MB")
+    return 0

@@ -1,0 +1,196 @@
+"""What a run came to: means over whole cage revolutions, losses, life."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.integrate.rating_life import RatingLife
+from beardyn_core.observe.stage_clock import StageTime
+from beardyn_core.observe.torque_budget import TorqueBudget
+
+COMPLETE = "complete"
+# Oscillations of the start have died away by then; shorter runs are averaged over their second half.
+SETTLING_S = 0.25
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RunSummary:
+    """What a run came to; means over the last whole cage revolutions.
+
+    Parameters
+    ----------
+    scene, tier : str
+    effects : tuple of str
+        Names of the effects that were present.
+    not_in_tier : tuple of str
+        Names of the effects that the scene asks for and the tier does not represent.
+    duration : float
+        Simulated, [s].
+    wall_time : float
+        Spent in the simulation itself, without compiling, recording and drawing, [s].
+    status : str
+        ``complete``, or the sentence that says how the run left its validity.
+    mean_force : tuple of 3 floats
+        Of the rollers on the cup, world axes, [N].
+    shaft_torque : float
+        Mean torque of the bearing on the shaft, [N m].
+    cage_speed_ratio : tuple of floats, one a row
+        Cage speed over FTF and shaft speed, nominal 1; NaN with the shaft at rest.
+    energy_residual : float or None
+        Of the audit at the end; ``None`` without audit.
+    budget : TorqueBudget or None
+        Losses by source over the whole blocks of the means; ``None`` without audit.
+    averaged : tuple of 2 floats
+        First and last time of the means, [s].
+    cage_revolutions : int
+        Whole revolutions of the cage that the means cover; 0 when the run was shorter than one.
+    life : RatingLife or None
+        Under the run's load history; ``None`` when the shaft stood, or no equilibrium carries a load class.
+    faults : tuple of str
+        Defects and waviness of the scene in words.
+    temperatures : tuple of (part, temperature) pairs
+        At the end, with the thermal effect, [K].
+    clipped : tuple of (sensor, samples, all samples) tuples
+        Accelerometers that have read their largest value, and how often.
+    stages : tuple of StageTime
+        Where the wall time from the first block to the last went, recording and drawing included.
+    """
+
+    scene: str
+    tier: str
+    effects: tuple[str, ...]
+    not_in_tier: tuple[str, ...]
+    duration: float
+    wall_time: float
+    status: str
+    mean_force: tuple[float, float, float]
+    shaft_torque: float
+    cage_speed_ratio: tuple[float, ...]
+    energy_residual: float | None
+    budget: TorqueBudget | None
+    averaged: tuple[float, float]
+    cage_revolutions: int
+    life: RatingLife | None = None
+    faults: tuple[str, ...] = ()
+    temperatures: tuple[tuple[str, float], ...] = ()
+    clipped: tuple[tuple[str, int, int], ...] = ()
+    stages: tuple[StageTime, ...] = ()
+
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated over wall time."""
+        return self.duration / self.wall_time if self.wall_time > 0.0 else math.inf
+
+    @property
+    def nothing_to_average(self) -> bool:
+        """Whether the run ended before its first trend sample had passed the filters."""
+        return self.averaged[1] == 0.0
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run came to its end inside the model's validity."""
+        return self.status.startswith(COMPLETE)
+
+
+@dataclass(frozen=True)
+class TrendMeans:
+    """Means of a run over its last whole cage revolutions.
+
+    Parameters
+    ----------
+    force : tuple of 3 floats
+        Of the rollers on the cup, [N]; NaN like the others when there is nothing to average.
+    torque, shaft_speed : float
+        [N m], [rad/s].
+    cage_speed : tuple of 2 floats
+        Of each row, [rad/s].
+    averaged : tuple of 2 floats
+        First and last time, [s].
+    revolutions : int
+        Whole revolutions of the cage.
+    """
+
+    force: tuple[float, float, float] = (math.nan, math.nan, math.nan)
+    torque: float = math.nan
+    shaft_speed: float = math.nan
+    cage_speed: tuple[float, ...] = (math.nan, math.nan)
+    averaged: tuple[float, float] = (0.0, 0.0)
+    revolutions: int = 0
+
+    def cage_speed_ratio(self, ftf: float, rows: int) -> tuple[float, ...]:
+        """Compare the speed of each cage with that of pure rolling: nominal 1, NaN with the shaft at rest."""
+        epicyclic = ftf * self.shaft_speed
+        return tuple(speed / epicyclic if epicyclic else math.nan for speed in self.cage_speed[:rows])
+
+
+def trend_means(
+    times: Float, force: Float, torque: Float, shaft_speed: Float, cage_speed: Float
+) -> TrendMeans:
+    """Average the signals of a run over its last whole cage revolutions after the settling time.
+
+    Parameters
+    ----------
+    times : float64 array, shape [sample], [s]
+    force : float64 array, shape [sample, 3], [N]
+    torque, shaft_speed : float64 array, shape [sample], [N m], [rad/s]
+    cage_speed : float64 array, shape [sample, row], [rad/s]
+    """
+    if not len(times):
+        return TrendMeans()
+    first, revolutions = averaging_start(times, cage_speed[:, 0])
+    fx, fy, fz = (time_mean(times, component, first) for component in force.T)
+    return TrendMeans(
+        (fx, fy, fz),
+        time_mean(times, torque, first),
+        time_mean(times, shaft_speed, first),
+        tuple(time_mean(times, row, first) for row in cage_speed.T),
+        (first, float(times[-1])),
+        revolutions,
+    )
+
+
+def averaging_start(times: Float, cage_speed: Float) -> tuple[float, int]:
+    """Find where the last whole cage revolutions begin, not before the start has settled.
+
+    Parameters
+    ----------
+    times : float64 array, shape [sample]
+        [s].
+    cage_speed : float64 array, shape [sample]
+        [rad/s].
+
+    Returns
+    -------
+    float
+        Begin of the means, [s]. A run without a whole revolution is averaged from the settling time on.
+    int
+        Whole revolutions from there to the end.
+    """
+    settled = times[0] + min(SETTLING_S, 0.5 * (times[-1] - times[0]))
+    if len(times) < 2:
+        return float(settled), 0
+    turned = _running_integral(times, np.abs(cage_speed)) / (2.0 * math.pi)
+    to_end = turned[-1] - turned
+    revolutions = int(turned[-1] - np.interp(settled, times, turned) + 1e-9)
+    if revolutions == 0:
+        return float(settled), 0
+    return float(np.interp(-revolutions, -to_end, times)), revolutions
+
+
+def time_mean(times: Float, values: Float, first: float) -> float:
+    """Average a sampled signal, linear between its samples, from ``first`` to the last sample."""
+    if len(times) < 2:
+        return float(values[-1])
+    integral = _running_integral(times, values)
+    return float((integral[-1] - np.interp(first, times, integral)) / (times[-1] - first))
+
+
+def _running_integral(times: Float, values: Float) -> Float:
+    steps = 0.5 * (values[1:] + values[:-1]) * np.diff(times)
+    return np.concatenate([[0.0], np.cumsum(steps)])

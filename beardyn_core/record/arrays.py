@@ -1,0 +1,284 @@
+"""The arrays of a run: signals over time, angles, bodies, contacts, load."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.errors import InputError
+from beardyn_core.observe.block import CONTACT_KINDS
+from beardyn_core.scene.load import WRENCH_AXES
+
+if TYPE_CHECKING:
+    from beardyn_core.record.messages import Diagnostic
+
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+Diagnostics = tuple[tuple[int, "tuple[Diagnostic, ...]"], ...]
+
+ACCELERATION_AXES = ("ax", "ay", "az")
+
+
+@contextmanager
+def damage_told(path: Path | str) -> Iterator[None]:
+    """Turn whatever goes wrong with bytes that nobody vouches for into a sentence about the file.
+
+    Chunks with checksums do not come this far when they are damaged; messages without, or of somebody
+    else's making, may hold anything.
+    """
+    try:
+        yield
+    except (InputError, OSError):
+        raise
+    except Exception as error:
+        raise InputError(
+            f"{path}: what is in it cannot be used ({type(error).__name__}: {error}); it is damaged, or "
+            "not a recording of an axlebox"
+        ) from error
+
+
+@dataclass(frozen=True, eq=False)
+class Timed:
+    """What all signals have: the time of each sample.
+
+    Parameters
+    ----------
+    time_ns : int64 array, shape [sample]
+        Simulated time, the delay of filters compensated, [ns].
+    """
+
+    time_ns: Int
+
+    def __len__(self) -> int:
+        return len(self.time_ns)
+
+    @property
+    def time(self) -> Float:
+        """Simulated time of each sample, shape [sample], [s]."""
+        return np.asarray(self.time_ns * 1e-9, np.float64)
+
+    @property
+    def rate(self) -> float:
+        """Samples a second, to six digits; NaN for fewer than two samples, [Hz]."""
+        if len(self) < 2:
+            return float("nan")
+        steps = np.diff(self.time_ns)
+        step = steps.mean() if steps.max() < 1.5 * steps.min() else np.median(steps)
+        return float(f"{1e9 / step:.6g}")
+
+
+@dataclass(frozen=True, eq=False)
+class Signal(Timed):
+    """One quantity over time.
+
+    Parameters
+    ----------
+    time_ns : int64 array, shape [sample], [ns]
+    values : float64 array, shape [sample] or [sample, component]
+    components : tuple of str
+        Names along the last axis of `values`; empty for a scalar.
+    unit : str
+    sample : int64 array, shape [sample]
+        Running index that shows losses; empty where none is kept.
+    """
+
+    values: Float
+    components: tuple[str, ...]
+    unit: str
+    sample: Int
+
+    def __repr__(self) -> str:
+        """Give shape, rate and unit."""
+        names = f" ({', '.join(self.components)})" if self.components else ""
+        return f"Signal{list(self.values.shape)}{names} at {self.rate:g} Hz, [{self.unit}]"
+
+
+@dataclass(frozen=True, eq=False)
+class Turning(Timed):
+    """Angle and speed of things that turn about the bearing axis.
+
+    Parameters
+    ----------
+    time_ns : int64 array, shape [sample], [ns]
+    angle, speed : float64 array, shape [sample], [sample, row] or [sample, row, roller]
+        Angle from +z towards +x, and speed, [rad, rad/s].
+    """
+
+    angle: Float
+    speed: Float
+
+    def __repr__(self) -> str:
+        """Give shape and rate."""
+        return f"Turning{list(self.angle.shape)}: angle [rad], speed [rad/s] at {self.rate:g} Hz"
+
+
+@dataclass(frozen=True, eq=False)
+class Bodies(Timed):
+    """Pose and motion of all bodies.
+
+    Parameters
+    ----------
+    time_ns : int64 array, shape [snapshot], [ns]
+    names : tuple of str
+        ``cup``, ``cone``, ``cage_0``, ``cage_1``, ``roller_<row>_<number>``.
+    pose : float64 array, shape [snapshot, body, 7]
+        x, y, z, qx, qy, qz, qw, [m, -].
+    twist : float64 array, shape [snapshot, body, 6]
+        vx, vy, vz, wx, wy, wz, [m/s, rad/s].
+    sample : int64 array, shape [snapshot]
+    """
+
+    names: tuple[str, ...]
+    pose: Float
+    twist: Float
+    sample: Int
+
+    def __repr__(self) -> str:
+        """Give shape and rate."""
+        return f"Bodies: {len(self.names)} bodies, {len(self)} snapshots at {self.rate:g} Hz"
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts(Timed):
+    """Contacts of every roller with cup, cone, rib and pocket.
+
+    Parameters
+    ----------
+    time_ns : int64 array, shape [snapshot], [ns]
+    point : float64 array, shape [snapshot, row, roller, kind, 3]
+        World axes, [m]; NaN without contact, like `slip` and `film`.
+    force : float64 array, shape [snapshot, row, roller, kind, 3]
+        Of the partner on the roller, [N]; zero without contact.
+    slip : float64 array, shape [snapshot, row, roller, kind]
+        Sliding speed, [m/s].
+    film : float64 array, shape [snapshot, row, roller, kind]
+        Film thickness, [m].
+    """
+
+    point: Float
+    force: Float
+    slip: Float
+    film: Float
+    kinds = CONTACT_KINDS
+
+    @cached_property
+    def load(self) -> Float:
+        """Magnitude of the force, shape [snapshot, row, roller, kind], [N]."""
+        return np.asarray(np.linalg.norm(self.force, axis=-1), np.float64)
+
+    @property
+    def touching(self) -> NDArray[np.bool_]:
+        """Whether there is a contact, shape [snapshot, row, roller, kind]."""
+        return np.asarray(np.isfinite(self.point[..., 0]))
+
+    def of(self, kind: str) -> int:
+        """Index of a kind of contact: ``cup``, ``cone``, ``rib`` or ``pocket``."""
+        return self.kinds.index(kind)
+
+    def __repr__(self) -> str:
+        """Give shape and rate."""
+        return f"Contacts{list(self.slip.shape)} (kinds {', '.join(self.kinds)}) at {self.rate:g} Hz"
+
+
+@dataclass(frozen=True, eq=False)
+class Load(Timed):
+    """Load on the journal and shaft speed, as they went into the run.
+
+    Parameters
+    ----------
+    time_ns : int64 array, shape [sample], [ns]
+    wrench : float64 array, shape [sample, 6]
+        fx, fy, fz, mx, my, mz, [N, N m].
+    shaft_speed : float64 array, shape [sample], [rad/s]
+    bogie : float64 array, shape [sample, 3]
+        Displacement of the bogie end of the suspension, [m].
+    sample : int64 array, shape [sample]
+    """
+
+    wrench: Float
+    shaft_speed: Float
+    bogie: Float
+    sample: Int
+    components = WRENCH_AXES
+
+    def __repr__(self) -> str:
+        """Give the number of samples and the rate."""
+        return f"Load: wrench [N, N m], shaft_speed [rad/s], {len(self)} samples at {self.rate:g} Hz"
+
+
+class Source(Protocol):
+    """Where the arrays of a run come from; each is asked for once, when somebody looks."""
+
+    def force(self) -> Signal:
+        """Give `Run.force`."""
+        ...
+
+    def force_waveform(self) -> Signal:
+        """Give `Run.force_waveform`."""
+        ...
+
+    def sensors(self) -> dict[str, Signal]:
+        """Give `Run.sensors`."""
+        ...
+
+    def specific_force(self) -> Signal:
+        """Give `Run.specific_force`."""
+        ...
+
+    def shaft(self) -> Turning:
+        """Give `Run.shaft`."""
+        ...
+
+    def torque(self) -> Signal:
+        """Give `Run.torque`."""
+        ...
+
+    def cages(self) -> Turning:
+        """Give `Run.cages`."""
+        ...
+
+    def rollers(self) -> Turning:
+        """Give `Run.rollers`."""
+        ...
+
+    def bodies(self) -> Bodies:
+        """Give `Run.bodies`."""
+        ...
+
+    def contacts(self) -> Contacts:
+        """Give `Run.contacts`."""
+        ...
+
+    def load(self) -> Load:
+        """Give `Run.load`."""
+        ...
+
+    def temperature(self) -> Signal:
+        """Give `Run.temperature`."""
+        ...
+
+    def diagnostics(self) -> Diagnostics:
+        """Give `Run.diagnostics`."""
+        ...
+
+    def results(self) -> Diagnostics:
+        """Give `Run.results`."""
+        ...
+
+    def duration(self) -> float:
+        """Give `Run.duration`."""
+        ...
+
+
+def no_signal(components: tuple[str, ...], unit: str) -> Signal:
+    """Give a signal without samples."""
+    nothing = np.zeros(0, np.int64)
+    shape = (0, len(components)) if components else (0,)
+    return Signal(nothing, np.zeros(shape), components, unit, nothing)

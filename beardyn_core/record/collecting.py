@@ -1,0 +1,199 @@
+"""From the blocks of a run to its arrays, with the same names, rates and shapes as those of a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.model.heat import NODES
+from beardyn_core.observe.block import Block, body_names
+from beardyn_core.record.arrays import (
+    ACCELERATION_AXES,
+    Bodies,
+    Contacts,
+    Diagnostics,
+    Load,
+    Signal,
+    Source,
+    Turning,
+)
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.encoding import DIAGNOSTICS_EVERY, TEMPERATURE_EVERY, block_diagnostic
+from beardyn_core.record.reading import MessageSource
+from beardyn_core.scene.load import WRENCH_AXES
+
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+
+Number = TypeVar("Number", bound=np.generic)
+
+_NOTHING = np.zeros(0, np.int64)
+
+
+def source_of_blocks(blocks: Sequence[Block], description: RunDescription | None) -> Source:
+    """Give the source of a run that consists of blocks; without any it has no samples."""
+    return BlockSource(blocks, description) if blocks else MessageSource({}, description)
+
+
+class BlockSource:
+    """The arrays of a run, put together from its blocks.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+        In the order of time.
+    description : RunDescription or None
+    """
+
+    def __init__(self, blocks: Sequence[Block], description: RunDescription | None) -> None:
+        self._blocks = blocks
+        self._description = description
+
+    def _joined(self, part: Callable[[Block], NDArray[np.generic]]) -> Float:
+        """Join an array of all blocks along the time."""
+        return np.concatenate([np.asarray(part(block)) for block in self._blocks])
+
+    def _times(self, part: Callable[[Block], Int]) -> Int:
+        return np.asarray(self._joined(part), np.int64)
+
+    def force(self) -> Signal:
+        """Give `Run.force`."""
+        return self._trend(lambda block: block.force, WRENCH_AXES, "N, N m")
+
+    def force_waveform(self) -> Signal:
+        """Give `Run.force_waveform`."""
+        times = self._times(lambda block: block.waveform_time_ns)
+        values = self._joined(lambda block: block.force_waveform)
+        sample = self._times(lambda block: block.waveform_sample + np.arange(len(block.waveform_time_ns)))
+        return Signal(times, values, WRENCH_AXES, "N, N m", sample)
+
+    def sensors(self) -> dict[str, Signal]:
+        """Give `Run.sensors`."""
+        count = len(self._blocks[0].vibration) if self._blocks else 0
+        names = (
+            tuple(f"accelerometer_{k}" for k in range(count))
+            if self._description is None
+            else self._description.sensor_names
+        )
+        return {name: self._sensor(number) for number, name in enumerate(names[:count])}
+
+    def _sensor(self, number: int) -> Signal:
+        times = self._times(lambda block: block.vibration[number].time_ns)
+        values = self._joined(lambda block: block.vibration[number].acceleration)
+        sample = self._times(
+            lambda block: block.vibration[number].sample + np.arange(len(block.vibration[number].time_ns))
+        )
+        return Signal(times, values, ACCELERATION_AXES, "m/s^2", sample)
+
+    def specific_force(self) -> Signal:
+        """Give `Run.specific_force`."""
+        return self._trend(lambda block: block.specific_force, ACCELERATION_AXES, "m/s^2")
+
+    def _trend(self, part: Callable[[Block], Float], components: tuple[str, ...], unit: str) -> Signal:
+        times = self._times(lambda block: block.trend_time_ns)
+        return Signal(times, self._joined(part), components, unit, _NOTHING)
+
+    def shaft(self) -> Turning:
+        """Give `Run.shaft`."""
+        return Turning(
+            self._times(lambda block: block.trend_time_ns),
+            self._joined(lambda block: block.shaft_angle),
+            self._joined(lambda block: block.shaft_speed),
+        )
+
+    def torque(self) -> Signal:
+        """Give `Run.torque`."""
+        return Signal(
+            self._orbit_times(),
+            self._joined(lambda block: _every(block, block.shaft_torque)),
+            (),
+            "N m",
+            _NOTHING,
+        )
+
+    def cages(self) -> Turning:
+        """Give `Run.cages`."""
+        return Turning(
+            self._orbit_times(),
+            self._joined(lambda block: _every(block, block.cage_angle)),
+            self._joined(lambda block: _every(block, block.cage_speed)),
+        )
+
+    def rollers(self) -> Turning:
+        """Give `Run.rollers`."""
+        return Turning(
+            self._orbit_times(),
+            self._joined(lambda block: _every(block, block.roller_angle)),
+            self._joined(lambda block: _every(block, block.roller_speed)),
+        )
+
+    def _orbit_times(self) -> Int:
+        return self._times(lambda block: _every(block, block.trend_time_ns))
+
+    def bodies(self) -> Bodies:
+        """Give `Run.bodies`."""
+        pose = self._joined(lambda block: block.body_pose)
+        return Bodies(
+            self._times(lambda block: block.snapshot_time_ns),
+            body_names((pose.shape[1] - 4) // 2)
+            if self._description is None
+            else self._description.body_names,
+            pose,
+            self._joined(lambda block: block.body_twist),
+            self._times(lambda block: block.snapshot_sample + np.arange(len(block.snapshot_time_ns))),
+        )
+
+    def contacts(self) -> Contacts:
+        """Give `Run.contacts`."""
+        numbers = self._joined(lambda block: block.contacts)
+        force = numbers[..., 3:6]
+        gone = ~np.any(force != 0.0, axis=-1)
+        numbers[gone] = np.nan
+        force[gone] = 0.0
+        times = self._times(lambda block: block.snapshot_time_ns)
+        return Contacts(times, numbers[..., :3], force, numbers[..., 6], numbers[..., 7])
+
+    def load(self) -> Load:
+        """Give `Run.load`: what went in up to the end, or without a history the load at 400 Hz."""
+        history = None if self._description is None else self._description.load
+        if history is None:
+            times = self._times(lambda block: block.trend_time_ns)
+            wrench = self._joined(lambda block: block.load)
+            speed = self._joined(lambda block: block.shaft_speed)
+            return Load(times, wrench, speed, np.zeros((len(times), 3)), np.arange(len(times)))
+        used = history.until(self._blocks[-1].end_ns)
+        return Load(used.time_ns, used.wrench, used.shaft_speed, used.bogie, np.arange(len(used)))
+
+    def temperature(self) -> Signal:
+        """Give `Run.temperature`."""
+        found = [
+            (block.end_ns, block.temperature)
+            for block in self._blocks
+            if block.temperature is not None and block.index % TEMPERATURE_EVERY == 0
+        ]
+        values = np.array([values for _, values in found], np.float64).reshape(-1, len(NODES))
+        return Signal(np.array([stamp for stamp, _ in found], np.int64), values, NODES, "K", _NOTHING)
+
+    def diagnostics(self) -> Diagnostics:
+        """Give `Run.diagnostics`."""
+        return tuple(
+            (block.end_ns, (block_diagnostic(block),))
+            for block in self._blocks
+            if block.index % DIAGNOSTICS_EVERY == 0 or block.status != 0
+        )
+
+    def results(self) -> Diagnostics:
+        """Give `Run.results`: none, for no monitor ran beside."""
+        return ()
+
+    def duration(self) -> float:
+        """Give `Run.duration`."""
+        return (self._blocks[-1].end_ns - self._blocks[0].start_ns) * 1e-9
+
+
+def _every(block: Block, values: NDArray[Number]) -> NDArray[Number]:
+    """Take every second trend sample of a block, counted over the run: 200 Hz of 400."""
+    return values[block.trend_sample % 2 :: 2]

@@ -1,0 +1,190 @@
+"""Signals of a run to files of other programs: Parquet, CSV, NPZ, HDF5, WAV."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.tables import (
+    SIGNALS,
+    VIBRATION,
+    columns_of,
+    labels_of,
+    library,
+    parts_of,
+    signal_names,
+    signal_of,
+)
+
+if TYPE_CHECKING:
+    from beardyn_core.record.run import Run
+
+# Formats of one table a file get a file for each signal; the others hold all signals.
+_TABLES = ("parquet", "csv", "wav")
+KINDS = ("parquet", "csv", "npz", "h5", "wav")
+_BESIDE = ("csv", "wav")  # they cannot carry the truth: it goes to a JSON file beside them
+
+
+def export(
+    run: Run,
+    path: Path | str,
+    *,
+    kind: str | None = None,
+    signals: Sequence[str] = (),
+    force: bool = False,
+) -> list[Path]:
+    """Write signals of a run to a file.
+
+    Parameters
+    ----------
+    run : Run
+    path : Path
+        With several signals in Parquet, CSV or WAV, which hold one table, each goes to
+        ``<name>_<signal>.<ending>``.
+    kind : str, optional
+        One of `KINDS`; by default the ending of the path.
+    signals : sequence of str
+        Of `tables.signal_names`; by default the vibration of every accelerometer for Parquet, CSV and WAV,
+        all for NPZ and HDF5.
+    force : bool
+        Replace files that exist.
+
+    Returns
+    -------
+    list of Path
+        The files written. CSV and WAV have the truth in a JSON file beside them; the others carry it.
+
+    Raises
+    ------
+    InputError
+        The format or a signal is not known, a file exists, a library is missing, or the disk refused; all
+        mistakes at once and nothing written but in the last case.
+    """
+    path = Path(path)
+    kind = kind or path.suffix.lower().removeprefix(".").replace("hdf5", "h5")
+    names = tuple(dict.fromkeys(signals)) or _usual(run, kind)
+    problems = [
+        f"signal {name!r} is not one of the run; allowed are {', '.join(signal_names(run))}"
+        for name in names
+        if name not in signal_names(run)
+    ]
+    if kind not in KINDS:
+        endings = ", ".join(f".{each}" for each in KINDS)
+        problems.append(f"{path}: the format is not known by its ending; allowed are {endings}")
+    elif kind == "wav":
+        problems += [_not_sound(run, name) for name in names if not name.startswith(VIBRATION)]
+    if problems:
+        raise InputError([problem for problem in problems if problem])
+    targets = dict.fromkeys(names, path)
+    if kind in _TABLES and len(names) > 1:
+        targets = {name: path.with_name(f"{path.stem}_{name}{path.suffix}") for name in names}
+    beside = [path.with_suffix(".json")] if kind in _BESIDE else []
+    files = [*dict.fromkeys(targets.values()), *beside]
+    refuse_to_write(files, force=force, inputs=[] if run.path is None else [run.path])
+    try:
+        if kind == "npz":
+            _write_npz(run, path, names)
+        elif kind == "h5":
+            _write_hdf5(run, path, names)
+        else:
+            for name, target in targets.items():
+                {"parquet": _write_parquet, "csv": _write_csv, "wav": _write_wav}[kind](run, target, name)
+        for target in beside:
+            target.write_text(json.dumps(run.truth, indent=1) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
+    return files
+
+
+def _usual(run: Run, kind: str) -> tuple[str, ...]:
+    known = signal_names(run)
+    names = known if kind not in _TABLES else tuple(name for name in known if name not in SIGNALS[1:])
+    return tuple(name for name in names if len(signal_of(run, name))) or (VIBRATION,)
+
+
+def _not_sound(run: Run, name: str) -> str:
+    if name not in signal_names(run):
+        return ""
+    return f"signal {name!r} cannot be a WAV file, only vibration can; choose .parquet, .csv, .npz or .h5"
+
+
+def refuse_to_write(files: Sequence[Path], *, force: bool, inputs: Sequence[Path] = ()) -> None:
+    """Raise `InputError` for files that exist, or that are an input, which `force` does not change."""
+    problems = []
+    for file in files:
+        if not file.parent.is_dir():
+            problems.append(f"{file}: the folder {file.parent} does not exist; create it or choose another")
+        elif any(file.exists() and each.exists() and file.samefile(each) for each in inputs):
+            problems.append(f"{file}: is what is read; an input is never replaced: give another name")
+        elif file.is_dir():
+            problems.append(f"{file}: is a folder; give the name of a file")
+        elif file.exists() and not force:
+            problems.append(f"{file}: exists; give --force (force=True in Python) to replace it")
+    if problems:
+        raise InputError(problems)
+
+
+def _write_parquet(run: Run, path: Path, name: str) -> None:
+    pyarrow = library("pyarrow", "Parquet")
+    parquet = library("pyarrow.parquet", "Parquet")
+    table = pyarrow.table(columns_of(run, name))
+    found = {"beardyn": json.dumps({"signal": name, "truth": run.truth}), **_texts(labels_of(run))}
+    parquet.write_table(table.replace_schema_metadata(found), path)
+
+
+def _texts(labels: dict[str, Any]) -> dict[str, str]:
+    return {key: str(value) for key, value in labels.items() if key != "truth"}
+
+
+def _write_csv(run: Run, path: Path, name: str) -> None:
+    columns = columns_of(run, name)
+    formats = ["%s" if values.dtype.kind in "US" else "%.12g" for values in columns.values()]
+    rows = np.empty(len(columns["time"]), [(key, values.dtype) for key, values in columns.items()])
+    for key, values in columns.items():
+        rows[key] = values
+    np.savetxt(path, rows, fmt=formats, delimiter=",", header=",".join(columns), comments="")
+
+
+def _write_npz(run: Run, path: Path, names: Sequence[str]) -> None:
+    arrays: dict[str, Any] = {"truth": json.dumps(run.truth)}
+    for name in names:
+        arrays[f"{name}.time"] = signal_of(run, name).time
+        arrays |= {f"{name}.{part}": array.values for part, array in parts_of(run, name).items()}
+    with path.open("wb") as file:  # NumPy would add an ending of its own
+        np.savez_compressed(file, **arrays)
+
+
+def _write_hdf5(run: Run, path: Path, names: Sequence[str]) -> None:
+    h5py = library("h5py", "HDF5")
+    with h5py.File(path, "w") as file:
+        for key, value in labels_of(run).items():
+            file.attrs[key] = value
+        for name in names:
+            signal: Any = signal_of(run, name)
+            group = file.create_group(name)
+            group.create_dataset("time", data=signal.time).attrs["unit"] = "s"
+            group.attrs["rate_Hz"] = signal.rate
+            for part, array in parts_of(run, name).items():
+                stored = group.create_dataset(part, data=array.values, compression="gzip", shuffle=True)
+                stored.attrs["unit"] = array.unit
+                stored.attrs["axes"] = ",".join(("time", *array.dims))
+
+
+def _write_wav(run: Run, path: Path, name: str) -> None:
+    """Write three channels x, y, z of 32-bit floats in m/s^2, not scaled."""
+    from scipy.io import wavfile
+
+    signal: Any = signal_of(run, name)
+    if not len(signal):
+        raise InputError(f"{run.label}: has no {name}")
+    missing = int((np.diff(signal.sample) != 1).sum())
+    if missing:
+        raise InputError(
+            f"{run.label}: {name} has {missing} gaps, which WAV cannot say; choose another format"
+        )
+    wavfile.write(path, round(signal.rate), signal.values.astype(np.float32))

@@ -1,0 +1,327 @@
+"""A run as named arrays: the same names and shapes from memory, from a file and from live messages."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from beardyn_core.errors import InputError
+from beardyn_core.observe.labels import flat_labels, load_labels
+from beardyn_core.observe.monitoring import MonitorInput
+from beardyn_core.record.arrays import (
+    ACCELERATION_AXES,
+    Bodies,
+    Contacts,
+    Diagnostics,
+    Load,
+    Signal,
+    Source,
+    Turning,
+    damage_told,
+    no_signal,
+)
+from beardyn_core.record.topics import vibration_topic
+
+if TYPE_CHECKING:
+    from beardyn_core.observe.block import Block
+    from beardyn_core.observe.summary import RunSummary
+    from beardyn_core.record.description import RunDescription
+
+Part = TypeVar("Part")
+
+MONITOR_PART = 512  # vibration samples that a monitor gets at a time
+_NONE = np.zeros(0)
+_SILENCE = no_signal(ACCELERATION_AXES, "m/s^2")
+
+
+class Run:
+    """One run of a bearing: named arrays, SI, the same from memory, from a file or from live blocks.
+
+    The axes are x forward, y left along the axle, z up. Arrays that nobody asks for are not made. What a
+    recording lacks is there with no samples.
+
+    Parameters
+    ----------
+    source : Source
+    description : RunDescription or None
+    path : Path, optional
+        Of the recording; ``None`` for a run in memory.
+    complete : bool
+        Whether a file was closed properly.
+    problem : str
+        Where and why reading stopped; empty when complete.
+    status : str or None
+        How the run ended: ``complete`` as asked, else a sentence; ``None`` when the file does not say.
+    scene_text : str
+        Resolved YAML of the scene.
+    summary : callable, optional
+        Gives the summary of the simulation; otherwise it is made from the arrays.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        description: RunDescription | None,
+        *,
+        path: Path | None = None,
+        complete: bool = True,
+        problem: str = "",
+        status: str | None = None,
+        scene_text: str = "",
+        summary: Callable[[], RunSummary] | None = None,
+    ) -> None:
+        self._source = source
+        self.description = description
+        self.path = path
+        self.complete = complete
+        self.problem = problem
+        self.status = status
+        self.scene_text = scene_text
+        self._summary = summary
+
+    @classmethod
+    def of_blocks(
+        cls,
+        blocks: Iterable[Block],
+        description: RunDescription | None = None,
+        status: str | None = None,
+        summary: Callable[[], RunSummary] | None = None,
+    ) -> Run:
+        """Make a run of blocks, such as `beardyn_core.blocks` or a live twin gives.
+
+        Parameters
+        ----------
+        blocks : iterable of Block
+            In the order of time.
+        description : RunDescription, optional
+            Gives names of sensors and bodies, truth, and the load if it is known.
+        status : str, optional
+            How the run ended.
+        summary : callable, optional
+            Gives the summary of the simulation.
+        """
+        from beardyn_core.record.collecting import source_of_blocks
+
+        source = source_of_blocks(tuple(blocks), description)
+        text = "" if description is None else description.scene_text
+        return cls(source, description, status=status, scene_text=text, summary=summary)
+
+    @cached_property
+    def force(self) -> Signal:
+        """Force and moment of the rollers on the cup at 400 Hz, values [sample, 6], [N, N m]."""
+        return self._take(self._source.force)
+
+    @cached_property
+    def force_waveform(self) -> Signal:
+        """Force and moment of the rollers on the cup at 25.6 kHz, values [sample, 6], [N, N m]."""
+        return self._take(self._source.force_waveform)
+
+    @cached_property
+    def sensors(self) -> dict[str, Signal]:
+        """Specific force that each accelerometer reads, by its name, values [sample, 3], [m/s^2]."""
+        return self._take(self._source.sensors)
+
+    @property
+    def vibration(self) -> Signal:
+        """Specific force that the first accelerometer reads, values [sample, 3], [m/s^2]; +g on z at rest."""
+        names = tuple(self.sensors) if self.description is None else self.description.sensor_names
+        return self.sensors.get(names[0], _SILENCE) if names else _SILENCE
+
+    @property
+    def sensor_topics(self) -> dict[str, Signal]:
+        """`sensors` by the topic that each is recorded on."""
+        names = tuple(self.sensors) if self.description is None else self.description.sensor_names
+        return {vibration_topic(names.index(name), names): signal for name, signal in self.sensors.items()}
+
+    @cached_property
+    def specific_force(self) -> Signal:
+        """What the first accelerometer reads, decimated to 400 Hz, values [sample, 3], [m/s^2]."""
+        return self._take(self._source.specific_force)
+
+    @cached_property
+    def shaft(self) -> Turning:
+        """Angle and speed of the shaft at 400 Hz, each [sample]."""
+        return self._take(self._source.shaft)
+
+    @cached_property
+    def torque(self) -> Signal:
+        """Torque of the bearing on the shaft at 200 Hz, values [sample], [N m]."""
+        return self._take(self._source.torque)
+
+    @cached_property
+    def cages(self) -> Turning:
+        """Orbit angle and speed of both cages at 200 Hz, each [sample, row]."""
+        return self._take(self._source.cages)
+
+    @cached_property
+    def rollers(self) -> Turning:
+        """Orbit angle and speed of all rollers at 200 Hz, each [sample, row, roller]."""
+        return self._take(self._source.rollers)
+
+    @cached_property
+    def bodies(self) -> Bodies:
+        """Pose and motion of every body at 200 Hz."""
+        return self._take(self._source.bodies)
+
+    @cached_property
+    def contacts(self) -> Contacts:
+        """Contacts of every roller at 200 Hz."""
+        return self._take(self._source.contacts)
+
+    @cached_property
+    def load(self) -> Load:
+        """Load on the journal and shaft speed that went into the run."""
+        return self._take(self._source.load)
+
+    @cached_property
+    def temperature(self) -> Signal:
+        """Temperature of each part every 0.2 s, values [sample, part], [K]; empty without the effect."""
+        return self._take(self._source.temperature)
+
+    @cached_property
+    def diagnostics(self) -> Diagnostics:
+        """Stamp [ns] and statuses that the twin gave of itself every 0.2 s."""
+        return self._take(self._source.diagnostics)
+
+    @cached_property
+    def results(self) -> Diagnostics:
+        """Stamp [ns] and statuses of the monitor that ran beside."""
+        return self._take(self._source.results)
+
+    @cached_property
+    def truth(self) -> Mapping[str, Any]:
+        """What is known of the run that a train could not know, with labels of load and speed.
+
+        Empty when a file has none. The keys are explained in docs/python.md.
+        """
+        if self.description is None:
+            return {}
+        truth, load = json.loads(json.dumps(dict(self.description.truth))), self.load
+        with damage_told(self.label):
+            return {**truth, **load_labels(load.time_ns, load.wrench, load.shaft_speed, truth)}
+
+    def _take(self, part: Callable[[], Part]) -> Part:
+        """Decode an array; of a damaged file that is a sentence."""
+        with damage_told(self.label):
+            return part()
+
+    @property
+    def labels(self) -> dict[str, Any]:
+        """Numbers and names of `truth` in one level, a row of a table: for learners."""
+        return flat_labels(self.truth)
+
+    @cached_property
+    def summary(self) -> RunSummary:
+        """Means over the last whole cage revolutions, losses, rating life: what ``beardyn simulate`` prints.
+
+        Of a run that was not simulated here it is made from the arrays: torque and cage speed are then
+        those at 200 Hz, and the wall time comes from the diagnostics.
+
+        Raises
+        ------
+        InputError
+            The recording does not say which scene it is of.
+        """
+        from beardyn_core.record.run_summary import summary_of
+
+        return summary_of(self) if self._summary is None else self._summary()
+
+    @cached_property
+    def duration(self) -> float:
+        """Simulated time from the first block to the last, [s]."""
+        return self._take(self._source.duration)
+
+    def described(self) -> RunDescription:
+        """Give the description.
+
+        Raises
+        ------
+        InputError
+            The file has none.
+        """
+        if self.description is None:
+            raise InputError(
+                f"{self.label}: the recording does not say which bearing it is of (no run.json and no topic "
+                "truth); record the topic truth too"
+            )
+        return self.description
+
+    @property
+    def label(self) -> str:
+        """Name for messages: the path, or that the run is in memory."""
+        return "run in memory" if self.path is None else str(self.path)
+
+    def monitor_inputs(self) -> Iterator[MonitorInput]:
+        """Give what a monitor may read, in parts in the order of time, as it would come live."""
+        vibration, shaft, load, temperature = self.vibration, self.shaft, self.load, self.temperature
+        box = temperature.components.index("axlebox") if len(temperature) else 0
+        used = [0, 0, 0]
+        for begin in range(0, len(vibration), MONITOR_PART):
+            part = slice(begin, begin + MONITOR_PART)
+            last = vibration.time_ns[part][-1]
+            until = [
+                int(np.searchsorted(each.time_ns, last, side="right")) for each in (shaft, load, temperature)
+            ]
+            turned, carried, warmed = (slice(*pair) for pair in zip(used, until, strict=True))
+            used = until
+            yield MonitorInput(
+                vibration.time_ns[part], vibration.values[part],
+                shaft.time_ns[turned], shaft.angle[turned],
+                load.time_ns[carried], load.wrench[carried, 2],
+                temperature.time_ns[warmed], temperature.values[warmed, box] if len(temperature) else _NONE,
+            )  # fmt: skip
+
+    def __repr__(self) -> str:
+        """Scene, length and how it ended, in two lines."""
+        what = "a recording without truth" if self.description is None else self._said()
+        sensors = ", ".join(f"{name} {signal.rate / 1e3:g} kHz" for name, signal in self.sensors.items())
+        return f"Run of {what}\n  {self.duration:.2f} s, sensors: {sensors or 'none'}; {self.status}"
+
+    def _said(self) -> str:
+        truth = self.truth
+        return (
+            f"{truth.get('scene')}: bearing {truth.get('bearing')}, tier {truth.get('tier')}, "
+            f"condition {truth.get('condition')}"
+        )
+
+    def to_xarray(self) -> Any:
+        """Give all signals as an ``xarray.Dataset``: see `record.tables.to_xarray`."""
+        from beardyn_core.record.tables import to_xarray
+
+        return to_xarray(self)
+
+    def to_pandas(self, signal: str = "vibration") -> Any:
+        """Give one signal as a ``pandas.DataFrame``, a row a sample: see `record.tables.to_pandas`."""
+        from beardyn_core.record.tables import to_pandas
+
+        return to_pandas(self, signal)
+
+    def to_parquet(self, path: Path | str, signals: Iterable[str] = (), force: bool = False) -> list[Path]:
+        """Write signals to Parquet: see `record.exporting.export`, whose arguments these are."""
+        return self._export(path, "parquet", signals, force)
+
+    def to_csv(self, path: Path | str, signals: Iterable[str] = (), force: bool = False) -> list[Path]:
+        """Write signals to CSV: see `record.exporting.export`, whose arguments these are."""
+        return self._export(path, "csv", signals, force)
+
+    def to_npz(self, path: Path | str, signals: Iterable[str] = (), force: bool = False) -> list[Path]:
+        """Write signals to a NumPy archive: see `record.exporting.export`, whose arguments these are."""
+        return self._export(path, "npz", signals, force)
+
+    def to_hdf5(self, path: Path | str, signals: Iterable[str] = (), force: bool = False) -> list[Path]:
+        """Write signals to HDF5: see `record.exporting.export`, whose arguments these are."""
+        return self._export(path, "h5", signals, force)
+
+    def to_wav(self, path: Path | str, signals: Iterable[str] = (), force: bool = False) -> list[Path]:
+        """Write vibration to WAV: see `record.exporting.export`, whose arguments these are."""
+        return self._export(path, "wav", signals, force)
+
+    def _export(self, path: Path | str, kind: str, signals: Iterable[str], force: bool) -> list[Path]:
+        from beardyn_core.record.exporting import export
+
+        return export(self, path, kind=kind, signals=tuple(signals), force=force)

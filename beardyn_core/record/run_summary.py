@@ -1,0 +1,116 @@
+"""The summary of a recorded run, made from its arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.integrate.rating_life import RatingLife, scene_life
+from beardyn_core.model.layout import LOSS_NAMES
+from beardyn_core.observe.summary import COMPLETE, SETTLING_S, RunSummary, TrendMeans, trend_means
+from beardyn_core.observe.torque_budget import NUMERICAL, TorqueBudget, torque_budget
+from beardyn_core.record.encoding import loss_key
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.waviness import Waviness
+
+if TYPE_CHECKING:
+    from beardyn_core.record.run import Run
+
+Float = NDArray[np.float64]
+
+
+def summary_of(run: Run) -> RunSummary:
+    """Summarise a run as ``beardyn simulate`` does, as far as its arrays know.
+
+    Parameters
+    ----------
+    run : Run
+
+    Raises
+    ------
+    InputError
+        The recording does not say which scene it is of.
+    """
+    description, truth = run.described(), run.truth
+    means = _means(run)
+    factors = diagnosed(run, "real_time_factor")
+    residuals = diagnosed(run, "energy_residual")
+    waves = [Waviness(**each) for each in truth.get("waviness", ())]
+    warm = run.temperature
+    return RunSummary(
+        scene=description.scene,
+        tier=str(truth.get("tier", "")),
+        effects=tuple(truth.get("effects", ())),
+        not_in_tier=tuple(truth.get("not_in_this_tier", {}).get("effects", ())),
+        duration=round(run.duration, 9),
+        wall_time=run.duration / float(np.mean(factors)) if factors else 0.0,
+        status=run.status or (COMPLETE if run.complete else run.problem),
+        mean_force=means.force,
+        shaft_torque=means.torque,
+        cage_speed_ratio=means.cage_speed_ratio(
+            description.shape.fault_frequencies["FTF"], int(truth.get("rows", 2))
+        ),
+        energy_residual=residuals[-1] if residuals else None,
+        budget=recorded_budget(run),
+        averaged=means.averaged,
+        cage_revolutions=means.revolutions,
+        life=_life(run),
+        faults=tuple(each.described() for each in (*description.defects, *waves)),
+        temperatures=tuple(zip(warm.components, warm.values[-1].tolist(), strict=True)) if len(warm) else (),
+    )
+
+
+def _means(run: Run) -> TrendMeans:
+    time, slow = run.force.time, run.torque.time
+    if not len(time) or not len(slow) or not len(run.shaft):
+        return TrendMeans()
+    cages = np.stack([np.interp(time, slow, row) for row in run.cages.speed.T], axis=1)
+    return trend_means(
+        time,
+        run.force.values[:, :3],
+        np.interp(time, slow, run.torque.values),
+        np.interp(time, run.shaft.time, run.shaft.speed),
+        cages,
+    )
+
+
+def _life(run: Run) -> RatingLife | None:
+    """Rate the bearing under the recorded load; ``None`` when the scene or the load is not known."""
+    from beardyn_core.choice import scene_from_text
+
+    load = run.load
+    if not run.scene_text or not len(load):
+        return None
+    try:
+        scene = scene_from_text(run.scene_text, run.label)
+        history = LoadHistory(load.time_ns, load.wrench, load.shaft_speed, load.bogie)
+        return None if scene.rows != 2 or scene.missing_rollers else scene_life(scene, history)
+    except (InputError, ValidityError):
+        return None
+
+
+def diagnosed(run: Run, key: str) -> list[float]:
+    """Collect a number that the diagnostics of the twin carry."""
+    values = (status.value(key) for _, statuses in run.diagnostics for status in statuses)
+    return [float(value) for value in values if value is not None]
+
+
+def recorded_budget(run: Run) -> TorqueBudget | None:
+    """Make the torque budget of the energies in the diagnostics, without the first part of the run."""
+    wanted = [loss_key(source) for source in (*LOSS_NAMES, NUMERICAL)]
+    rows = [
+        (stamp * 1e-9, *(float(status.value(key) or 0.0) for key in wanted))
+        for stamp, statuses in run.diagnostics
+        for status in statuses
+        if not set(wanted).isdisjoint(key for key, _ in status.values)
+    ]
+    if len(rows) < 2:
+        return None
+    lost = np.array(rows)
+    lost = lost[lost[:, 0] >= lost[0, 0] + min(SETTLING_S, 0.5 * (lost[-1, 0] - lost[0, 0]))]
+    within = (run.shaft.time >= lost[0, 0]) & (run.shaft.time <= lost[-1, 0])
+    speed = float(np.abs(run.shaft.speed[within]).mean()) if within.any() else float("nan")
+    return torque_budget(lost[:, 0].tolist(), lost[:, 1:], speed)

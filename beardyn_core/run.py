@@ -1,0 +1,100 @@
+"""The one loop of a run: load made, kernels compiled, equilibrium solved, blocks to the end."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from beardyn_core.observe.block import Block
+from beardyn_core.rail.build import load_history
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """A scene at t = 0, ready to advance.
+
+    Parameters
+    ----------
+    twin : Twin
+        Its kernels are compiled and its equilibrium is solved.
+    load : LoadHistory
+        Load on the journal over the whole run; the twin has it.
+    block_count : int
+        Blocks of 20 ms to the end.
+    """
+
+    twin: Twin
+    load: LoadHistory
+    block_count: int
+
+    def blocks(self, at_once: int = 1) -> Iterator[Block]:
+        """Advance to the end, block by block.
+
+        Parameters
+        ----------
+        at_once : int
+            Blocks of 20 ms in one, up to ``twin.blocks_at_once``: the same bits in less time.
+
+        Yields
+        ------
+        Block
+
+        Raises
+        ------
+        ValidityError
+            The model left its range of validity; the last block is in the error's ``block``.
+        """
+        for first in range(0, self.block_count, at_once):
+            yield self.twin.advance(min(at_once, self.block_count - first))
+
+
+def start(scene: Scene, duration: float | None = None) -> Simulation:
+    """Make the load of a scene, compile its kernels and solve its equilibrium.
+
+    Parameters
+    ----------
+    scene : Scene
+    duration : float, optional
+        Simulated time in place of the scene's own; rounded up to whole blocks, [s].
+
+    Raises
+    ------
+    InputError
+        The load cannot be made.
+    ValidityError
+        There is no equilibrium under it.
+    """
+    twin = Twin(scene)
+    seconds = scene.duration if duration is None else duration
+    count = max(1, math.ceil(seconds * 1e9 / twin.block_ns - 1e-6))
+    load = load_history(scene.operation, scene.mounting, count * twin.block_ns * 1e-9, scene.seed)
+    twin.warm()
+    twin.start(load)
+    return Simulation(twin, load, count)
+
+
+def blocks(scene: Scene, duration: float | None = None, at_once: int = 1) -> Iterator[Block]:
+    """Simulate a scene and give its blocks of 20 ms one after the other.
+
+    Parameters
+    ----------
+    scene : Scene
+    duration : float, optional
+        In place of the scene's own, [s].
+    at_once : int
+        See `Simulation.blocks`.
+
+    Yields
+    ------
+    Block
+
+    Raises
+    ------
+    InputError, ValidityError
+        See `start` and `Simulation.blocks`.
+    """
+    yield from start(scene, duration).blocks(at_once)

@@ -1,0 +1,188 @@
+"""`import beardyn_core as bd`: what is there, how light it is, and that it does what it says."""
+
+from __future__ import annotations
+
+import inspect
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import beardyn_core as bd
+from beardyn_core import run as run_module
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.config import shipped_names
+from beardyn_core.config.load import bearing_from_mapping
+from beardyn_core.edge import written
+from beardyn_core.effects import EffectSet
+from beardyn_core.record.sinks import MemorySink
+from beardyn_core.study import desk_run
+from test.face.test_one_run import spalled
+from test.study.test_desk_run import SENTENCE, PureRolling
+
+HEAVY = ("numba", "rerun", "matplotlib", "rclpy", "pydantic", "scipy", "numpy", "yaml", "xarray", "pandas")
+
+
+def fresh(code: str) -> str:
+    """Output of a new interpreter."""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return done.stdout.strip()
+
+
+def test_importing_is_light_and_quick() -> None:
+    code = "import sys, time; t = time.perf_counter(); import beardyn_core; t = time.perf_counter() - t; "
+    loaded = fresh(code + f"print(sorted(set({HEAVY}) & set(sys.modules)))")
+    assert loaded == "[]"
+    assert min(float(fresh(code + "print(t)")) for _ in range(3)) < 0.2
+
+
+def test_every_name_is_there_documented_and_offered_for_completion() -> None:
+    assert sorted(bd.__all__) == list(bd.__all__)
+    for name in bd.__all__:
+        assert name in dir(bd)
+        found = getattr(bd, name)
+        assert inspect.getdoc(found), name
+        assert callable(found)
+    with pytest.raises(AttributeError, match="no attribute 'simulat'"):
+        _ = bd.simulat  # type: ignore[attr-defined]
+
+
+def test_errors_come_without_the_rest() -> None:
+    code = "import sys, beardyn_core as bd; bd.InputError, bd.ValidityError; "
+    assert fresh(code + f"print(sorted(set({HEAVY}) & set(sys.modules)))") == "[]"
+
+
+def test_the_rooms_of_the_same_name_still_are_rooms() -> None:
+    code = "import beardyn_core.scene.scene as room, beardyn_core as bd; "
+    assert fresh(code + "print(room.Scene is bd.Scene, bd.scene.scene is room)") == "True True"
+    assert "faults" in inspect.signature(bd.scene).parameters
+    assert "rollers" in inspect.signature(bd.bearing).parameters
+
+
+def test_simulate_gives_the_run_of_a_desk_run(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    run = bd.simulate("cup_spall", tier="quasistatic", duration=0.5, record=path)
+    memory = MemorySink()
+    summary = desk_run.run(spalled(), [memory])
+    np.testing.assert_array_equal(run.vibration.values, memory.to_run().vibration.values)
+    assert run.status == "complete"
+    for name in ("mean_force", "shaft_torque", "cage_speed_ratio", "life", "faults"):
+        assert getattr(run.summary, name) == getattr(summary, name), name
+    back = bd.read(path)
+    np.testing.assert_array_equal(back.force.values, run.force.values)
+    assert back.truth == run.truth
+    with pytest.raises(bd.InputError, match="exists"):
+        bd.simulate("cup_spall", tier="quasistatic", duration=0.5, record=path)
+
+
+def test_a_run_that_leaves_its_validity_warns_and_keeps_its_arrays(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run_module, "Twin", type("Twin", (PureRolling,), {"invalid_at": 3}))
+    with pytest.warns(RuntimeWarning, match=SENTENCE):
+        run = bd.simulate("static_80kN", duration=0.5)
+    assert run.status == SENTENCE
+    assert not run.summary.complete
+    assert run.duration == pytest.approx(0.08)
+    assert len(run.vibration) == 4 * 512
+
+
+def test_a_mapping_a_name_and_a_scene_are_the_same_to_simulate() -> None:
+    mapping = {
+        "scene": "mine",
+        "bearing": "HS130x230",
+        "lubricant": "L055",
+        "operation": {"kind": "constant", "force_kN": [0, 0, 80], "speed_rpm": 1000},
+        "tier": "lumped",
+        "duration_s": 0.1,
+    }
+    one = bd.simulate(mapping)
+    two = bd.simulate(bd.scene(tier="lumped", duration=0.1))
+    np.testing.assert_array_equal(one.force.values, two.force.values)
+    assert one.truth["condition"] == "healthy"
+    shorter = bd.simulate(bd.scene(mapping), duration=0.06)
+    assert shorter.duration == pytest.approx(0.06)
+
+
+def test_a_scene_is_made_of_a_handful_of_arguments() -> None:
+    bearing = bd.bearing(
+        rollers=20, pitch_diameter_mm=180, roller_diameter_mm=24, roller_length_mm=45, contact_angle_deg=10
+    )
+    scene = bd.scene(
+        bearing=bearing, load_kN=60, speed_rpm=800, faults=[{"on": "cone", "width_mm": 5}], tier="lumped",
+        end_play_mm=0.05, temperature_C=40.0, duration=0.1, seed=7,
+    )  # fmt: skip
+    assert scene.bearing == bearing
+    assert scene.end_play == pytest.approx(5e-5)
+    assert (scene.seed, scene.tier, scene.temperature) == (7, "lumped", 313.15)
+    assert scene.faults[0].on == "cone"
+    truth = bd.simulate(scene).truth
+    assert truth["load"]["fz_N"]["mean"] == pytest.approx(60e3)
+    assert truth["speed"]["rpm"]["mean"] == pytest.approx(800.0)
+    assert truth["geometry"]["roller_count"] == 20
+    faster = bd.scene("cup_spall", speed_kmh=80, faults=[], duration=0.1)
+    assert not faster.faults
+    assert bd.scene(scene, tier="quasistatic").tier == "quasistatic"
+    assert bd.scene(effects=EffectSet(gravity=None)).effects.gravity is None
+
+
+def test_what_a_bearing_in_code_assumes_stands_beside_it() -> None:
+    made = bd.bearing(
+        rollers=17, pitch_diameter_mm=185, roller_diameter_mm=26.7, roller_length_mm=52,
+        contact_angle_deg=10.5, end_play_mm=0.1,
+    )  # fmt: skip
+    known = bd.bearing("HS130x230")
+    for name in ("roller_count", "pitch_diameter", "roller_diameter", "contact_angle", "effective_length"):
+        assert getattr(made, name) == getattr(known, name), name
+    for name in ("bore", "outer_diameter", "width", "row_spacing", "cup_mass", "roller_mass"):
+        assert getattr(made, name) == pytest.approx(getattr(known, name), rel=0.06), name
+    assert made.cone_mass == pytest.approx(known.cone_mass, rel=0.2)
+    assert fault_frequencies(made) == fault_frequencies(known)
+    assert made.end_play == 1e-4
+    sources = dict(made.sources)
+    assert sources["bore"].startswith("derived")
+    assert sources["rib_contact_height"].startswith("assumed")
+    with pytest.raises(bd.InputError, match="contact_angle_deg not given"):
+        bd.bearing(rollers=17, pitch_diameter_mm=185, roller_diameter_mm=26.7, roller_length_mm=52)
+    with pytest.raises(bd.InputError, match="roller_diameter_mm is -1"):
+        bd.bearing(
+            rollers=17, pitch_diameter_mm=185, roller_diameter_mm=-1, roller_length_mm=52, contact_angle_deg=9
+        )
+
+
+@pytest.mark.parametrize("name", shipped_names("bearings"))
+def test_a_bearing_goes_to_its_keys_and_back(name: str) -> None:
+    bearing = bd.bearing(name)
+    assert bearing_from_mapping(written(bearing), "keys") == bearing
+
+
+def test_contradictions_of_a_scene_in_code_are_sentences() -> None:
+    for wrong, said in (
+        ({"speed_kmh": 100}, "does not run on a track"),
+        ({"load_kN": 50, "speed_kmh": 100}, "speed_rpm"),
+        ({"tier": "medium"}, "lumped"),
+        ({"faults": [{"on": "cup", "widht_mm": 3}]}, "width_mm"),
+    ):
+        with pytest.raises(bd.InputError, match=said):
+            bd.scene(**wrong)
+
+
+def test_representations_are_short() -> None:
+    scene = bd.scene("cup_spall")
+    block = next(bd.blocks(bd.scene("static_80kN", tier="lumped"), duration=0.02))
+    for thing in (scene, scene.bearing, scene.effects, bd.EffectSet(), block):
+        assert len(repr(thing)) < 400
+        assert len(repr(thing).splitlines()) <= 2
+    assert "HS130x230" in repr(scene)
+    assert "spall on the cup" in repr(scene)
+
+
+def test_simulating_again_does_not_load_again() -> None:
+    """A second run of a process costs the simulation and its load, not imports and kernels."""
+    scene = bd.scene("static_80kN", tier="lumped", duration=0.1)
+    bd.simulate(scene)
+    began = time.perf_counter()
+    for _ in range(3):
+        bd.simulate(scene)
+    assert (time.perf_counter() - began) / 3 < 2.0

@@ -1,0 +1,79 @@
+"""Questions that need no run, three lines each, and the same answers as of the functions below them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import beardyn_core as bd
+from beardyn_core.integrate.static import solve
+
+BEARING = "HS130x230"
+
+
+def test_stiffness_grows_with_preload() -> None:
+    found = bd.stiffness(BEARING, 20, end_play_mm=[-0.1, 0.0, 0.1])
+    assert found.shape == (3, 3, 3)
+    vertical = found[:, 2, 2]
+    assert vertical[0] > vertical[1] > vertical[2] > 0.0
+    single = bd.stiffness(BEARING, 20, end_play_mm=0.1)
+    np.testing.assert_array_equal(single, found[2])
+    bearing = bd.bearing(BEARING)
+    direct = solve(bearing, (0.0, 0.0, 2e4), end_play=1e-4)
+    np.testing.assert_allclose(single, direct.stiffness_tilt_held, rtol=1e-9)
+    free = bd.stiffness(BEARING, 20, end_play_mm=0.1, tilt="free")
+    np.testing.assert_allclose(free, direct.stiffness_tilt_free, rtol=1e-6, atol=1.0)
+
+
+def test_the_load_distribution_carries_the_load() -> None:
+    loads = bd.load_distribution(BEARING, [0, 0, 80], end_play_mm=0.1)
+    assert loads.shape == (2, 17)
+    bearing = bd.bearing(BEARING)
+    azimuth = 2 * np.pi * np.arange(17) / 17
+    radial = (loads * np.cos(azimuth)).sum() * np.cos(bearing.cup_angle)
+    assert radial == pytest.approx(80e3, rel=1e-3)
+    np.testing.assert_array_equal(loads, bd.equilibrium(BEARING, 80, end_play_mm=0.1).cup_load)
+
+
+def test_torque_rises_with_speed_and_load() -> None:
+    found = bd.torque(BEARING, [200, 600, 1200])
+    assert found.shape == (3,)
+    assert (np.diff(found) > 0.0).all()
+    assert bd.torque(BEARING, 600, 120) > found[1] == bd.torque(bd.bearing(BEARING), 600)
+    assert bd.torque(BEARING, 600, rib_friction=0.0) < found[1]
+
+
+def test_life_falls_with_load_by_the_exponent_of_the_standard() -> None:
+    light, heavy = bd.life(BEARING, 40), bd.life(BEARING, 80)
+    assert light.basic / heavy.basic == pytest.approx(2.0 ** (10 / 3))
+    assert heavy.modified < bd.life(BEARING, 80, contamination=1.0).modified
+    with pytest.raises(bd.InputError, match="shaft that turns"):
+        bd.life(BEARING, 80, 0.0)
+
+
+def test_film_grows_with_speed_and_is_thinner_when_hot() -> None:
+    slow, fast, hot = (
+        bd.film(BEARING, rpm, temperature_C=celsius) for rpm, celsius in ((300, 70), (1200, 70), (300, 100))
+    )
+    loaded = np.isfinite(slow["cone"])
+    assert loaded.any()
+    assert (fast["cone"][loaded] > slow["cone"][loaded]).all()
+    assert (hot["cone"][loaded] < slow["cone"][loaded]).all()
+    assert 1e-8 < np.nanmin(slow["cone"]) < np.nanmin(slow["cup"]) < 1e-5
+
+
+def test_fault_frequencies_are_per_revolution_or_in_hertz() -> None:
+    per_rev, hertz = bd.fault_frequencies(BEARING), bd.fault_frequencies(BEARING, 600)
+    assert set(per_rev) == {"FTF", "BPFO", "BPFI", "BSF"}
+    assert per_rev["BPFO"] + per_rev["BPFI"] == pytest.approx(17.0)
+    assert hertz["BPFO"] == pytest.approx(10.0 * per_rev["BPFO"])
+    assert bd.bearing(BEARING).frequencies.bpfo == per_rev["BPFO"]
+
+
+def test_questions_that_make_no_sense_are_refused() -> None:
+    with pytest.raises(bd.InputError, match="give one number, upwards"):
+        bd.stiffness(BEARING, [1, 2])
+    with pytest.raises(bd.InputError, match="-60 to 200"):
+        bd.film(BEARING, 100, temperature_C=343)
+    with pytest.raises(bd.InputError, match="tilt"):
+        bd.stiffness(BEARING, tilt="loose")
