@@ -51,7 +51,7 @@ def file_problems(
     Parameters
     ----------
     option : str
-        As on the command line.
+        As on the command line; empty in Python.
     path : Path or None
         As given; ``None``: not given.
     inputs : iterable of Path
@@ -61,7 +61,7 @@ def file_problems(
     """
     if path is None:
         return []
-    where, folder = f"{option} {path}", path.parent
+    where, folder = f"{option} {path}".strip(), path.parent
     if path.is_dir():
         return [f"{where}: is a folder; give the name of a file in it"]
     if not folder.is_dir():
@@ -78,7 +78,7 @@ def file_problems(
     if path.is_file() and is_being_written(path):
         return [f"{where}: another process is writing this file; wait for its end or give another name"]
     if path.is_file() and not force:
-        return [f"{where}: the file exists; --force replaces it, or give another name"]
+        return [f"{where}: the file exists; --force (in Python force=True) replaces it, or give another name"]
     return []
 
 

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import argparse
-import json
+
+from beardyn_core.cli.json_output import json_text
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = subparsers.add_parser(
         "export",
-        help="signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV",
+        help="write signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV",
         description="Write signals of a recording to a file of another format, SI units. Parquet, NPZ "
         "and HDF5 carry the truth of the run; CSV and WAV get a JSON file with it beside them. Parquet, CSV "
         "and WAV hold one table: with several signals each goes to NAME_SIGNAL.ENDING.",
     )
-    parser.add_argument("recording", metavar="run.mcap")
+    parser.add_argument("recording", metavar="run.mcap", help="recording to read")
     parser.add_argument(
         "-o",
         "--output",
@@ -48,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
     names = [name.strip() for name in args.signals.split(",") if name.strip()]
     written = export(recording, args.output, signals=names, force=args.force)
     if args.json:
-        print(json.dumps({"files": [str(path) for path in written]}))
+        print(json_text("export", {"recording": args.recording, "files": written}))
         return 0
     for path in written:
         print(f"{path}: {path.stat().st_size / 1e6:.2f} MB")

@@ -24,7 +24,7 @@ DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
 COMMANDS = {
     "start here": ("demo", "scenes", "new"),
     "simulate": ("simulate", "explain", "ladder", "warmup"),
-    "recordings": ("view", "report", "monitor"),
+    "recordings": ("view", "report", "monitor", "export"),
     "bearings and monitors": ("bearing", "trial", "contacts"),
     "files": ("schema",),
 }

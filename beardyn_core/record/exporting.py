@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import file_problems
 from beardyn_core.record.tables import (
     SIGNALS,
     VIBRATION,
@@ -115,16 +116,7 @@ def _not_sound(run: Run, name: str) -> str:
 
 def refuse_to_write(files: Sequence[Path], *, force: bool, inputs: Sequence[Path] = ()) -> None:
     """Raise `InputError` for files that exist, or that are an input, which `force` does not change."""
-    problems = []
-    for file in files:
-        if not file.parent.is_dir():
-            problems.append(f"{file}: the folder {file.parent} does not exist; create it or choose another")
-        elif any(file.exists() and each.exists() and file.samefile(each) for each in inputs):
-            problems.append(f"{file}: is what is read; an input is never replaced: give another name")
-        elif file.is_dir():
-            problems.append(f"{file}: is a folder; give the name of a file")
-        elif file.exists() and not force:
-            problems.append(f"{file}: exists; give --force (force=True in Python) to replace it")
+    problems = [each for file in files for each in file_problems("", file, inputs=inputs, force=force)]
     if problems:
         raise InputError(problems)
 
