@@ -229,8 +229,7 @@ class MissingRoller:
         return f"roller {self.roller}, row {self.row}, missing"
 
 
-ListedDefect = Patch | RollerError | WornPocket  # under `defects` in a scene
-Defect = ListedDefect | MissingRoller
+Defect = Patch | RollerError | WornPocket | MissingRoller
 
 
 def defect_from(stored: Mapping[str, Any]) -> Defect:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 import sys
 from pathlib import Path
@@ -11,8 +12,7 @@ import pytest
 from beardyn_core.config import SCHEMA_KINDS, json_schema
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs"))
-import write_reference
-
+write_reference = importlib.import_module("write_reference")
 sys.path.pop(0)
 
 
