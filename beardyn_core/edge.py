@@ -234,7 +234,7 @@ def _places(noun: Any) -> tuple[Place, ...]:
 
 
 def _defaults(noun: type) -> dict[str, Any]:
-    """Fields of a noun with their usual values."""
+    """List the fields of a noun with their usual values."""
     if not dataclasses.is_dataclass(noun):
         usual: dict[str, Any] = noun._field_defaults  # type: ignore[attr-defined]
         return {name: usual.get(name, dataclasses.MISSING) for name in noun._fields}  # type: ignore[attr-defined]

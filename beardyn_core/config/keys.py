@@ -120,7 +120,7 @@ def valid(hint: Any, data: Any) -> Any:
 
 
 def _field(place: Place, sourced: bool) -> tuple[Any, Any]:
-    """Type and usual value of a key."""
+    """Make the type and the usual value of a key."""
     at, default = place.at, place.default
     annotation = _annotation(place.hint, at, sourced)
     words = place.words or None
@@ -136,7 +136,7 @@ def _field(place: Place, sourced: bool) -> tuple[Any, Any]:
 
 
 def _usual(value: Any, scale: Unit | None, sourced: bool) -> Any:
-    """Usual value of a key from that of the field."""
+    """Convert the usual value of a field to that of its key."""
     if is_noun(type(value)):
         return keys_of(type(value), None, sourced)()
     if isinstance(value, tuple):
@@ -145,7 +145,7 @@ def _usual(value: Any, scale: Unit | None, sourced: bool) -> Any:
 
 
 def _annotation(hint: Any, at: At, sourced: bool) -> Any:
-    """Pydantic type of a key."""
+    """Make the pydantic type of a key."""
     hint, _ = plain_hint(hint)
     options = alternatives(hint)
     if options != (hint,):
@@ -187,7 +187,7 @@ def _list(entries: tuple[Any, ...], at: At, sourced: bool) -> Any:
 
 
 def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
-    """Mapping of one of several nouns, a name or a switch; tags stand in brackets so that no key is one."""
+    """Make the type of one of several nouns, a name or a switch; no key is a tag in brackets."""
     if len(options) > 1:
         options = tuple(each for each in options if not (is_noun(each) and has_no_key_for_its_kind(each)))
     if not all(is_noun(option) for option in options):
@@ -210,7 +210,7 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
         tagged.insert(0, Annotated[str, Tag("<name>")])
 
     def tag(value: Any) -> str | None:
-        """Tag of a value: what it is, or the kind that it says or usually has."""
+        """Tell what a value is, or the kind that it says or usually has."""
         if at.switch and (value is None or isinstance(value, bool)):
             return "<switch>"
         if at.reference:
@@ -224,6 +224,6 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
 
 
 def _usual_kind(noun: type) -> str | None:
-    """Kind that a mapping of a noun has when it does not say one."""
+    """Find the kind that a mapping of a noun has when it does not say one."""
     field = next((place for place in places(noun) if place.key == "kind"), None)
     return None if field is None or field.at.required else field.default

@@ -57,5 +57,5 @@ class EffectSet:
             yield "thermal needs the audit, which tells what each source loses: set audit to true"
 
     def names(self) -> tuple[str, ...]:
-        """Names of the effects that are present, in the order of the catalogue."""
+        """List the names of the effects that are present, in the order of the catalogue."""
         return tuple(field.name for field in fields(self) if getattr(self, field.name) is not None)
