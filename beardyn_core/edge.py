@@ -208,9 +208,13 @@ class Place(NamedTuple):
     default: Any  # `dataclasses.MISSING` where there is none
 
 
-@cache
 def places(noun: Any) -> tuple[Place, ...]:
     """List the fields of a noun (a dataclass or a named tuple) that a file can give, in their order."""
+    return _places(noun)
+
+
+@cache
+def _places(noun: Any) -> tuple[Place, ...]:
     hints = get_type_hints(noun, include_extras=True)
     found = []
     for name, default in _defaults(noun).items():
@@ -230,7 +234,7 @@ def places(noun: Any) -> tuple[Place, ...]:
 
 
 def _defaults(noun: type) -> dict[str, Any]:
-    """Fields of a noun with their usual values."""
+    """List the fields of a noun with their usual values."""
     if not dataclasses.is_dataclass(noun):
         usual: dict[str, Any] = noun._field_defaults  # type: ignore[attr-defined]
         return {name: usual.get(name, dataclasses.MISSING) for name in noun._fields}  # type: ignore[attr-defined]
@@ -266,6 +270,11 @@ def alternatives(hint: Any) -> tuple[Any, ...]:
 def may_be_none(hint: Any) -> bool:
     """Tell whether a union has ``None`` in it."""
     return NoneType in get_args(hint)
+
+
+def has_no_key_for_its_kind(noun: type) -> bool:
+    """Tell whether the kind of a noun is nothing that a file can say: it stands under a key of its own."""
+    return "kind" in _defaults(noun) and all(place.field != "kind" for place in places(noun))
 
 
 def kinds_of(noun: type) -> tuple[str, ...]:

@@ -32,7 +32,7 @@ def take_auto(data: dict[str, Any]) -> Free:
     if numerics == AUTO:
         numerics = dict.fromkeys(("laminae", "steps_per_sample"), AUTO)
     if not isinstance(numerics, dict):
-        return replace(NOTHING, tier=free_tier, effects=free_effects)  # a mistake that is told later
+        return replace(NOTHING, tier=free_tier, effects=free_effects)  # a mistake, reported later
     # a step that nobody gave goes with the tier
     usual = {"steps_per_sample": AUTO} if free_tier else {}
     if all_free:

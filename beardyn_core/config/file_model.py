@@ -115,7 +115,7 @@ class FileModel(BaseModel):
 
     @classmethod
     def _meant(cls, key: str, given: set[str]) -> str | None:
-        """Known key that an unknown key was probably meant to be, rather one that is not given yet."""
+        """Find the known key that an unknown one was probably meant to be, rather one not given yet."""
         free = [known for known in cls.model_fields if known not in given]
         for known in (*free, *cls.model_fields):
             if stem_of(known) == stem_of(key):
@@ -146,7 +146,7 @@ def _in_si(value: Any, scale: Unit) -> Any:
 
 
 def _again(found: Any) -> InitErrorDetails:
-    """An error as it was found, to be raised once more with others."""
+    """Take an error as it was found, to raise it once more with others."""
     context = found.get("ctx", {})
     if found["type"] in ("unknown_key", "problem", "value_error"):
         message = found["msg"].replace("{", "(").replace("}", ")")
@@ -160,7 +160,7 @@ def _again(found: Any) -> InitErrorDetails:
 
 
 def problem(sentence: str) -> PydanticCustomError:
-    """A mistake found by a validator: what is wrong and what is allowed, without file and key."""
+    """Make a mistake of a sentence: what is wrong and what is allowed, without file and key."""
     return PydanticCustomError("problem", "{advice}", {"advice": sentence})
 
 
@@ -212,7 +212,7 @@ class SourcedModel(SourcedPart):
 
 
 def _without_sources(data: dict[str, Any], owner: str) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Mapping with each ``{value, source}`` replaced by its value, and the sources by dotted name."""
+    """Replace each ``{value, source}`` by its value; return the mapping and the sources by dotted name."""
     plain: dict[str, Any] = {}
     sources: dict[str, Any] = {}
     for key, value in data.items():

@@ -27,7 +27,7 @@ def _candidates() -> Iterator[Path]:
 
 
 def config_folder() -> Path:
-    """Folder of the shipped configuration.
+    """Find the folder of the shipped configuration.
 
     It is ``$BEARDYN_CONFIG`` when that is set; else the checkout's own, else ``share/beardyn/config`` of the
     environment, of the user's packages or of a sourced ROS 2 workspace, whichever is there first.
@@ -49,20 +49,20 @@ def config_folder() -> Path:
 
 
 def shipped_names(kind: str) -> tuple[str, ...]:
-    """Names of the shipped bearings, lubricants, vehicles, effects or scenes, sorted."""
+    """List the names of the shipped bearings, lubricants, vehicles, effects or scenes, sorted."""
     folder = config_folder() / kind
     return tuple(sorted(path.stem for path in folder.glob("*") if path.suffix in _SUFFIXES))
 
 
 def closest(word: str, words: Iterable[str]) -> str | None:
-    """The one of ``words`` that ``word`` was probably meant to be."""
+    """Find the one of ``words`` that ``word`` was probably meant to be."""
     by_fold = {candidate.casefold(): candidate for candidate in words}
     found = difflib.get_close_matches(word.casefold(), by_fold, n=1, cutoff=0.6)
     return by_fold[found[0]] if found else None
 
 
 def find(kind: str, name: str, beside: Path | None = None) -> Path:
-    """File of a named thing.
+    """Find the file of a named thing.
 
     A name with a slash or a ``.yaml`` ending is a path, relative to ``beside`` first and to the working
     folder second; any other name is a shipped one.

@@ -17,6 +17,7 @@ from beardyn_core.edge import (
     Place,
     Unit,
     alternatives,
+    has_no_key_for_its_kind,
     is_kind,
     is_noun,
     kinds_of,
@@ -43,7 +44,6 @@ def reads(noun: type) -> Callable[[type[_Model]], type[_Model]]:
     return register
 
 
-@cache
 def keys_of(noun: Any, usual_kind: str | None = None, part_of_sourced: bool = False) -> type[FileModel]:
     """Make the model of the mapping that a noun is read from.
 
@@ -56,6 +56,11 @@ def keys_of(noun: Any, usual_kind: str | None = None, part_of_sourced: bool = Fa
     part_of_sourced : bool
         Whether the mapping is in a file whose numbers may say where they come from.
     """
+    return _keys_of(noun, usual_kind, part_of_sourced)
+
+
+@cache
+def _keys_of(noun: Any, usual_kind: str | None, part_of_sourced: bool) -> type[FileModel]:
     sourced = part_of_sourced or any(place.key == "sources" for place in places(noun))
     own = SourcedModel if sourced and not part_of_sourced else SourcedPart if sourced else FileModel
     base = _BASES.get(noun, own)
@@ -73,17 +78,24 @@ def keys_of(noun: Any, usual_kind: str | None = None, part_of_sourced: bool = Fa
             if change := base.schema_changes.get(place.key):
                 annotation, field = made[place.key]
                 made[place.key] = (Annotated[annotation, Field(json_schema_extra=change)], field)
-    model: Any = create_model(
-        f"{noun.__name__}Keys",
-        __base__=base,
-        __doc__=(noun.__doc__ or "").split("\n")[0],
-        __module__=__name__,
-        **made,
+    model = _for_noun(
+        noun,
+        create_model(
+            f"{noun.__name__}Keys",
+            __base__=base,
+            __doc__=(noun.__doc__ or "").split("\n")[0],
+            __module__=__name__,
+            **made,
+        ),
     )
-    model.noun_type, model.places = noun, places(noun)
     _MADE[model.__name__] = model
-    made_model: type[FileModel] = model
-    return made_model
+    return model
+
+
+def _for_noun(noun: Any, model: Any) -> type[FileModel]:
+    model.noun_type, model.places = noun, places(noun)
+    finished: type[FileModel] = model
+    return finished
 
 
 def in_order(name: str, keys: Iterable[str]) -> list[str]:
@@ -108,7 +120,7 @@ def valid(hint: Any, data: Any) -> Any:
 
 
 def _field(place: Place, sourced: bool) -> tuple[Any, Any]:
-    """Type and usual value of a key."""
+    """Make the type and the usual value of a key."""
     at, default = place.at, place.default
     annotation = _annotation(place.hint, at, sourced)
     words = place.words or None
@@ -124,7 +136,7 @@ def _field(place: Place, sourced: bool) -> tuple[Any, Any]:
 
 
 def _usual(value: Any, scale: Unit | None, sourced: bool) -> Any:
-    """Usual value of a key from that of the field."""
+    """Convert the usual value of a field to that of its key."""
     if is_noun(type(value)):
         return keys_of(type(value), None, sourced)()
     if isinstance(value, tuple):
@@ -133,7 +145,7 @@ def _usual(value: Any, scale: Unit | None, sourced: bool) -> Any:
 
 
 def _annotation(hint: Any, at: At, sourced: bool) -> Any:
-    """Pydantic type of a key."""
+    """Make the pydantic type of a key."""
     hint, _ = plain_hint(hint)
     options = alternatives(hint)
     if options != (hint,):
@@ -175,7 +187,9 @@ def _list(entries: tuple[Any, ...], at: At, sourced: bool) -> Any:
 
 
 def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
-    """Mapping of one of several nouns, a name or a switch; tags stand in brackets so that no key is one."""
+    """Make the type of one of several nouns, a name or a switch; no key is a tag in brackets."""
+    if len(options) > 1:
+        options = tuple(each for each in options if not (is_noun(each) and has_no_key_for_its_kind(each)))
     if not all(is_noun(option) for option in options):
         return reduce(or_, (_annotation(option, at, sourced) for option in options))
     tagged: list[Any] = []
@@ -196,7 +210,7 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
         tagged.insert(0, Annotated[str, Tag("<name>")])
 
     def tag(value: Any) -> str | None:
-        """Tag of a value: what it is, or the kind that it says or usually has."""
+        """Tell what a value is, or the kind that it says or usually has."""
         if at.switch and (value is None or isinstance(value, bool)):
             return "<switch>"
         if at.reference:
@@ -210,6 +224,6 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
 
 
 def _usual_kind(noun: type) -> str | None:
-    """Kind that a mapping of a noun has when it does not say one."""
+    """Find the kind that a mapping of a noun has when it does not say one."""
     field = next((place for place in places(noun) if place.key == "kind"), None)
     return None if field is None or field.at.required else field.default

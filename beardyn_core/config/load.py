@@ -29,7 +29,7 @@ from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
 from beardyn_core.rail.table import read_table
-from beardyn_core.scene.defect import ListedDefect
+from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.excitation import WheelDefect
 from beardyn_core.scene.free import Free
 from beardyn_core.scene.integrator import integrator_problems
@@ -270,7 +270,7 @@ class _Reading:
         problems = check(bearing)
         self.problems += [f"{label}: {_plain(problem)}" for problem in problems]
         self._check_forces(bearing)
-        faults: tuple[tuple[str, Any], ...] = (("defects", ListedDefect), ("waviness", Waviness))
+        faults: tuple[tuple[str, Any], ...] = (("defects", Defect), ("waviness", Waviness))
         for key, hint in faults:
             entries = self.data.get(key)
             for index, given in enumerate(entries if isinstance(entries, list) and not problems else []):

@@ -43,7 +43,7 @@ _LIMITS = {
 
 
 def key_path(place: Sequence[str | int]) -> str:
-    """Key path as it is written: ``defects[0].width_mm``."""
+    """Write a key path: ``defects[0].width_mm``."""
     path = ""
     for part in place:
         path += f"[{part}]" if isinstance(part, int) else f"{'.' if path else ''}{part}"
@@ -64,7 +64,7 @@ _INSTEAD_OF_KEYS = {"<inline>": "a name or ", "<options>": "true, false or "}
 
 
 def _expectation(found: Any, unit: str | None) -> str:
-    """What is allowed where a value was refused."""
+    """Say what is allowed where a value was refused."""
     kind, context = found["type"], found.get("ctx", {})
     in_unit = f" in {unit}" if unit else ""
     if kind in _LIMITS:
@@ -110,7 +110,7 @@ def _guess(value: Any, allowed: str) -> str:
 
 
 def _complaint(key: str, found: Any, unit: str | None) -> str:
-    """Key, value and what is allowed."""
+    """Say key, value and what is allowed."""
     kind, value, context = found["type"], found["input"], found.get("ctx", {})
     if kind == "unknown_key":
         return f"{key}: {context['advice']}"
@@ -134,7 +134,7 @@ def _complaint(key: str, found: Any, unit: str | None) -> str:
 
 
 def sentences(error: ValidationError, origins: Sequence[Origin]) -> list[str]:
-    """One sentence for each mistake.
+    """Write one sentence for each mistake.
 
     Parameters
     ----------
@@ -162,7 +162,7 @@ def sentences(error: ValidationError, origins: Sequence[Origin]) -> list[str]:
 
 
 def _only_lacks_refused_entries(mistake: Any) -> bool:
-    """Whether a list is called too short only because its refused entries, told apart, were not counted."""
+    """Tell whether a list is called too short only because its refused entries were not counted."""
     given = mistake["input"]
     return (
         mistake["type"] == "too_short"
@@ -172,7 +172,7 @@ def _only_lacks_refused_entries(mistake: Any) -> bool:
 
 
 def located(place: Place, origins: Sequence[Origin]) -> tuple[str, str]:
-    """File that a place came from, and its key path in that file."""
+    """Find the file that a place came from, and its key path in that file."""
     owners = [origin for origin in origins if place[: len(origin.place)] == origin.place]
     origin = max(owners, key=lambda owner: len(owner.place))
     return origin.label, key_path((*origin.keys, *place[len(origin.place) :]))

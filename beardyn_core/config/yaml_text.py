@@ -75,7 +75,7 @@ class _Dumper(yaml.SafeDumper):
 
 
 def read_mapping(text: str, label: str) -> dict[str, Any]:
-    """Mapping written in a YAML text.
+    """Read the mapping written in a YAML text.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def read_mapping(text: str, label: str) -> dict[str, Any]:
 
 
 def read_file(path: Path) -> dict[str, Any]:
-    """Mapping in a YAML file; see `read_mapping`."""
+    """Read the mapping in a YAML file; see `read_mapping`."""
     note_read(path)
     try:
         text = path.read_text(encoding="utf-8")
@@ -119,7 +119,7 @@ def read_file(path: Path) -> dict[str, Any]:
 
 
 def write_mapping(data: dict[str, Any]) -> str:
-    """YAML text of a mapping, keys in their order; `read_mapping` gives the mapping back."""
+    """Write a mapping as YAML, keys in their order; `read_mapping` gives the mapping back."""
     return yaml.dump(
         data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, default_flow_style=None, width=110
     )

@@ -29,7 +29,7 @@ class Entry:
 
 
 def catalogue() -> tuple[Entry, ...]:
-    """All effects in the order of `EffectSet`."""
+    """List all effects in the order of `EffectSet`."""
     hints = get_type_hints(EffectSet)
     return tuple(
         Entry(field.name, options, options.about)
@@ -39,5 +39,5 @@ def catalogue() -> tuple[Entry, ...]:
 
 
 def _choices(hint: Any) -> tuple[Any, ...]:
-    """The options classes of a union with ``None``."""
+    """List the options classes of a union with ``None``."""
     return tuple(choice for choice in get_args(hint) if choice is not NoneType)

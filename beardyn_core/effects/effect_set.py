@@ -61,5 +61,5 @@ class EffectSet:
         return f"EffectSet({', '.join(self.names()) or 'none'})"
 
     def names(self) -> tuple[str, ...]:
-        """Names of the effects that are present, in the order of the catalogue."""
+        """List the names of the effects that are present, in the order of the catalogue."""
         return tuple(field.name for field in fields(self) if getattr(self, field.name) is not None)

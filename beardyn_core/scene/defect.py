@@ -51,7 +51,7 @@ class Growth:
         return {**keys, "size": size[self.width, self.depth]}
 
     def factor(self, time: float) -> float:
-        """Share of the size at a time [s], [-]."""
+        """Find the share of the size at a time [s], [-]."""
         passed = min(max((time - self.start) / (self.end - self.start), 0.0), 1.0)
         return self.initial + (1.0 - self.initial) * passed
 
@@ -135,7 +135,7 @@ class Patch:
                 )
 
     def size_at(self, time: float) -> tuple[float, float, float]:
-        """Width, depth and rim height at a time [s], [m]."""
+        """Find width, depth and rim height at a time [s], [m]."""
         if self.growth is None:
             return self.width, self.depth, self.rim_height
         factor = self.growth.factor(time)
@@ -143,7 +143,7 @@ class Patch:
         return self.width * (factor if self.growth.width else 1.0), self.depth * deep, self.rim_height * deep
 
     def described(self) -> str:
-        """What it is, in a few words."""
+        """Say what it is, in a few words."""
         what = self.kind.replace("_", "-")
         where = (
             f"roller {self.roller}, row {self.row}" if self.on == "roller" else f"{self.on}, row {self.row}"
@@ -180,7 +180,7 @@ class RollerError:
         return "roller"
 
     def described(self) -> str:
-        """What it is, in a few words."""
+        """Say what it is, in a few words."""
         return f"roller {self.roller}, row {self.row}, {self.diameter * 1e6:+.1f} µm in diameter"
 
 
@@ -207,7 +207,7 @@ class WornPocket:
         return "cage"
 
     def described(self) -> str:
-        """What it is, in a few words."""
+        """Say what it is, in a few words."""
         return f"pocket {self.pocket} of the cage, row {self.row}, worn by {self.clearance * 1e3:.2f} mm"
 
 
@@ -229,12 +229,11 @@ class MissingRoller:
         return "roller"
 
     def described(self) -> str:
-        """What it is, in a few words."""
+        """Say what it is, in a few words."""
         return f"roller {self.roller}, row {self.row}, missing"
 
 
-ListedDefect = Patch | RollerError | WornPocket  # under `defects` in a scene
-Defect = ListedDefect | MissingRoller
+Defect = Patch | RollerError | WornPocket | MissingRoller
 
 
 def width_problem(width: float, on: str, bearing: Bearing) -> str:
@@ -294,7 +293,7 @@ def doubts_about(defects: Sequence[Defect], bearing: Bearing) -> list[str]:
 
 
 def defect_from(stored: Mapping[str, Any]) -> Defect:
-    """A defect from the mapping that `dataclasses.asdict` makes of it."""
+    """Make a defect of the mapping that `dataclasses.asdict` makes of it."""
     fields = dict(stored)
     kind = fields.get("kind", "spall")
     if kind == "diameter":
@@ -308,7 +307,7 @@ def defect_from(stored: Mapping[str, Any]) -> Defect:
 
 
 def truth_of(defect: Defect, time: float) -> dict[str, Any]:
-    """A defect as JSON-able truth; a growing one with its size at a time [s]."""
+    """Write a defect as JSON-able truth; a growing one with its size at a time [s]."""
     found = asdict(defect)
     if isinstance(defect, Patch) and defect.growth is not None:
         width, depth, rim = defect.size_at(time)

@@ -56,7 +56,7 @@ class WheelFlat:
     ] = 0.0
 
     def usual_depth(self, wheel_radius: float) -> float:
-        """Depth that belongs to the length, [m].
+        """Find the depth that belongs to the length, [m].
 
         Parameters
         ----------
@@ -66,11 +66,11 @@ class WheelFlat:
         return self.length**2 / ((8.0 if self.shape == "fresh" else 16.0) * wheel_radius)
 
     def depth_on(self, wheel_radius: float) -> float:
-        """Depth as given, or as the length has it, [m]."""
+        """Return the depth as given, or as the length has it, [m]."""
         return self.usual_depth(wheel_radius) if self.depth is None else self.depth
 
     def contradiction(self, wheel_radius: float) -> str | None:
-        """What is wrong between length, depth and wheel; ``None`` when they agree.
+        """Find what is wrong between length, depth and wheel; ``None`` when they agree.
 
         The depth of a fresh flat is that of its chord. Rolling round makes a flat longer, not deeper:
         at a given length no flat is deeper than the fresh one.
@@ -105,7 +105,7 @@ class WheelPolygon:
     azimuth: A[float, At("deg"), "of a crest, from +z towards +x at the start of the run"] = 0.0
 
     def contradiction(self, wheel_radius: float) -> str | None:
-        """What is wrong between order and wheel: a wave must be longer than the contact patch."""
+        """Find what is wrong between order and wheel: a wave must be longer than the contact patch."""
         highest = math.floor(2.0 * math.pi * wheel_radius / 0.02)
         if self.order <= highest:
             return None
@@ -137,7 +137,7 @@ class WheelOutOfRound:
     seed: A[int, SEED, "of the azimuths of the waves"] = 1
 
     def contradiction(self, wheel_radius: float) -> str | None:
-        """What is wrong between the highest order and the wheel."""
+        """Find what is wrong between the highest order and the wheel."""
         return WheelPolygon(len(self.amplitudes), 0.0).contradiction(wheel_radius)
 
     def contradictions(self, wheel_radius: float) -> Iterator[str]:

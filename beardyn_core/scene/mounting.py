@@ -79,7 +79,7 @@ class Mounting:
             )
 
     def about_bearing_centre(self, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Loads where they act on the journal, reduced to the bearing centre.
+        """Reduce loads where they act on the journal to the bearing centre.
 
         Parameters
         ----------

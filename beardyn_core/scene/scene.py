@@ -11,7 +11,7 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal_closure import Temperatures
 from beardyn_core.edge import INTERNAL, SEED, UNITS, At
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.defect import Defect, ListedDefect, MissingRoller
+from beardyn_core.scene.defect import Defect, MissingRoller
 from beardyn_core.scene.integrator import LARGEST_STEPS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Operation
@@ -86,7 +86,7 @@ class Scene:
     mounting: A[Mounting, "axlebox on its suspension, and the journal in it"] = Mounting()
     rows: A[Literal[1, 2], "2, or 1 for row 0 (inboard) alone"] = 2
     missing_rollers: A[tuple[MissingRoller, ...], "rollers that are not there"] = ()
-    defects: A[tuple[ListedDefect, ...], "patches, a roller of another diameter, worn pockets"] = ()
+    defects: A[tuple[Defect, ...], "patches, a roller of another diameter, worn pockets"] = ()
     waviness: A[tuple[Waviness, ...], "harmonics of raceways and rollers"] = ()
     sensors: A[tuple[Accelerometer, ...], At(size=(1, None)), "on the axlebox"] = (Accelerometer(),)
     numerics: A[Numerics, "discretisation of the run, or auto"] = Numerics()

@@ -60,7 +60,7 @@ class Accelerometer:
 
 
 def steps_do_not_fit(sensors: tuple[Accelerometer, ...], steps_per_sample: float) -> str | None:
-    """Why a time step cannot serve the sensors, with what is allowed; ``None`` when it can."""
+    """Say why a time step cannot serve the sensors, with what is allowed; ``None`` when it can."""
     resonant = [sensor.name for sensor in sensors if sensor.mounting_resonance is not None]
     if resonant and steps_per_sample < 1:
         return (

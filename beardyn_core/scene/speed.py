@@ -34,7 +34,7 @@ def not_ascending(key: str, times: list[float]) -> Iterator[str]:
 
 
 def speed_at(profile: Profile, time: Float) -> Float:
-    """Vehicle speed.
+    """Find the speed of the vehicle.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def speed_at(profile: Profile, time: Float) -> Float:
 
 
 def distance_at(profile: Profile, time: Float) -> Float:
-    """Distance travelled since time 0, exact for the piecewise linear speed.
+    """Find the distance travelled since time 0, exact for the piecewise linear speed.
 
     Parameters
     ----------

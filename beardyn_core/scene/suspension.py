@@ -26,6 +26,6 @@ class ProgressiveSuspension:
         refuse(self, "primary suspension")
 
     def compression(self, load: float) -> float:
-        """Of the springs under a load, [m]."""
+        """Find the compression of the springs under a load, [m]."""
         soft = min(load, self.meeting_load) / self.soft_stiffness
         return soft + max(load - self.meeting_load, 0.0) / self.stiff_stiffness

@@ -89,13 +89,13 @@ LONG_STEPS = tuple(sorted({steps for tier in TIERS.values() for steps in tier.lo
 
 
 def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
-    """Effects among `effects` that a tier does not represent, in the same order."""
+    """Find the effects among `effects` that a tier does not represent, in the same order."""
     represented = TIERS[tier].represented
     return () if represented is None else tuple(name for name in effects if name not in represented)
 
 
 def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1) -> list[str]:
-    """Why a tier cannot run a scene: values and what is allowed."""
+    """Say why a tier cannot run a scene: values and what is allowed."""
     noun, found = TIERS[tier], []
     if noun.needs_rib and not has_rib:
         found.append(

@@ -36,7 +36,7 @@ class Spall:
     deepest: A[float, At("um", gt=0.0, le=1000.0), "limit of the depth"] = 100.0e-6
 
     def depth(self, width: float) -> float:
-        """Of a spall of a width, [m]."""
+        """Find the depth of a spall of a width, [m]."""
         return min(self.depth_per_width * width, self.deepest)
 
 
@@ -83,7 +83,7 @@ class Cell:
         return f"{self.conditions}, {self.tier}"
 
     def seed(self, trial_seed: int) -> int:
-        """Of track, noise and place of the spall: the same in every tier and order of the matrix."""
+        """Make the seed of track, noise and place of the spall, the same in every tier and order."""
         return zlib.crc32(f"{self.conditions}, {trial_seed}".encode())
 
 
@@ -156,15 +156,15 @@ class Trial:
         return None if self.check is None else self.check.tier
 
     def wheel(self, name: str) -> TrialWheel:
-        """Wheel of a name."""
+        """Find the wheel of a name."""
         return next(wheel for wheel in self.wheels if wheel.name == name)
 
     def duration(self, speed: float, wheel_diameter: float) -> float:
-        """Of a run at a speed [m/s] on a wheel [m], [s]."""
+        """Find the duration of a run at a speed [m/s] on a wheel [m], [s]."""
         return self.revolutions * pi * wheel_diameter / speed
 
     def cells(self) -> tuple[Cell, ...]:
-        """All runs, those of the check last."""
+        """List all runs, those of the check last."""
         own = tuple(self._matrix())
         if self.check is None:
             return own

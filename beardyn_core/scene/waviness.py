@@ -87,17 +87,17 @@ class Waviness:
         return keys
 
     def phases(self, roller: int = 0) -> NDArray[np.float64]:
-        """Phase of each order; the rollers differ, shape [order], [rad]."""
+        """Draw the phase of each order; the rollers differ, shape [order], [rad]."""
         draw = np.random.default_rng([self.seed, _SURFACES.index(self.on), self.row, roller])
         return draw.uniform(0.0, 2.0 * math.pi, len(self.orders))
 
     def gap(self, azimuth: NDArray[np.float64], roller: int = 0) -> NDArray[np.float64]:
-        """Gap at azimuths [rad] of the body, [m]."""
+        """Find the gap at azimuths [rad] of the body, [m]."""
         angle = np.multiply.outer(azimuth, np.array(self.orders)) + self.phases(roller)
         return np.asarray(np.cos(angle) @ np.array(self.amplitudes))
 
     def described(self) -> str:
-        """What it is, in a few words."""
+        """Say what it is, in a few words."""
         rms = math.sqrt(0.5 * sum(a * a for a in self.amplitudes))
         first, last = min(self.orders), max(self.orders)
         span = f"order {first}" if first == last else f"orders {first} to {last}"
@@ -106,7 +106,7 @@ class Waviness:
 
 
 def band_amplitudes(first: int, last: int, rms: float, exponent: float = 1.0) -> tuple[float, ...]:
-    """Amplitudes of the orders of a band that fall as ``k^-exponent``, of a given rms sum [m].
+    """Find the amplitudes of the orders of a band that fall as ``k^-exponent``, of a given rms sum [m].
 
     References
     ----------

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 import sys
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from beardyn_core.config import SCHEMA_KINDS, json_schema
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs"))
-write_reference: Any = import_module("write_reference")
+write_reference = importlib.import_module("write_reference")
 sys.path.pop(0)
 
 

@@ -8,7 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.bearing.thermal_closure import PartTemperatures, end_play_change, end_play_per_kelvin
+from beardyn_core.bearing.thermal_closure import (
+    PartTemperatures,
+    Temperatures,
+    end_play_change,
+    end_play_per_kelvin,
+)
 from beardyn_core.bearing.thermal_network import ThermalNetwork
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import simulate
@@ -72,7 +77,7 @@ def test_scene_with_temperatures_runs_at_the_closed_end_play() -> None:
     expected = scene.end_play + 40.0 * rate.cup + 60.0 * rate.cone + 55.0 * rate.rollers
     assert hot.end_play == pytest.approx(expected, rel=1e-12)
     assert -2.5e-4 < hot.end_play - scene.end_play < -1.5e-4
-    assert hot.temperatures == pytest.approx(PartTemperatures(333.15, 353.15, 348.15))
+    assert hot.temperatures == Temperatures(333.15, 353.15, 348.15)
     assert scene_from_text(scene_text(hot)).end_play == hot.end_play
 
 
