@@ -58,7 +58,7 @@ def export(
     Returns
     -------
     list of Path
-        The files written. CSV and WAV have the truth in a JSON file beside them; the others carry it.
+        The files written. CSV and WAV have the truth in ``<path>.json`` beside them; the others carry it.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def export(
     targets = dict.fromkeys(names, path)
     if kind in _TABLES and len(names) > 1:
         targets = {name: path.with_name(f"{path.stem}_{name}{path.suffix}") for name in names}
-    beside = [path.with_suffix(".json")] if kind in _BESIDE else []
+    beside = [path.with_name(f"{path.name}.json")] if kind in _BESIDE else []
     files = [*dict.fromkeys(targets.values()), *beside]
     refuse_to_write(files, force=force, inputs=[] if run.path is None else [run.path])
     try:
