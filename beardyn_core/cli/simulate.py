@@ -128,7 +128,7 @@ def _number(value: float | None) -> float | None:
 
 
 def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
-    """What ``--json`` prints."""
+    """Give what ``--json`` prints."""
     from beardyn_core.study.life_text import life_object
 
     return {

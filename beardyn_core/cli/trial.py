@@ -107,7 +107,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def option_problems(args: argparse.Namespace) -> list[str]:
-    """What is wrong with the options; nothing is created."""
+    """List what is wrong with the options; nothing is created."""
     problems = []
     if args.jobs is not None and not 1 <= args.jobs <= _MOST_JOBS:
         problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")

@@ -183,7 +183,7 @@ class Recovery:
     seconds: float
 
     def sentence(self) -> str:
-        """The recovery in words."""
+        """Say what was recovered."""
         return (
             f"{self.path} was cut off: recovered {self.message_count} messages, {self.seconds:.3f} s, from "
             f"{self.usable_bytes} of {self.size_bytes} bytes into {self.target}"

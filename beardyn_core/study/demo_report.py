@@ -133,7 +133,7 @@ def findings_of(run: Run) -> list[Finding]:
 
 
 def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
-    """What was found, one line each."""
+    """Say what was found, one line each."""
     description = run.described()
     factor = f"{pace.real_time_factor:.2f}"
     if pace.overall is not None:
@@ -168,7 +168,7 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
 
 
 def truth_sentence(defects: tuple[Defect, ...], conclusion: Conclusion) -> str:
-    """What is really in the bearing, and whether the monitor is right."""
+    """Say what is really in the bearing, and whether the monitor is right."""
     there = " and ".join(defect.described() for defect in defects)
     right = conclusion.verdict in ({d.on for d in defects} or {HEALTHY})
     return f"{there or 'no defect'}: the monitor is {'right' if right else 'wrong'}"

@@ -139,7 +139,7 @@ def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialR
 
 
 def listen(scene: Scene, monitor: Monitor) -> tuple[list[MonitorResult], str]:
-    """What a monitor says over a scene, and how the scene ended.
+    """Run a scene with a monitor beside it: what the monitor says, and how the scene ended.
 
     Parameters
     ----------
