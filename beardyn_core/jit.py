@@ -140,7 +140,7 @@ class _Part(CPUDispatcher):
         self.overloads[tuple(compiled.signature.args)] = compiled
 
     def _compile_for_args(self, *_arguments: Any, **_named: Any) -> Any:
-        """What is called when Python calls it after all, in a test: a function of its own."""
+        """Compile it as a function of its own, when Python calls it after all, in a test."""
         return _whole(self.py_func)
 
 
@@ -204,13 +204,13 @@ class _CompilerWatch(event.Listener):
         self._say = say
 
     def on_start(self, event: Any) -> None:
-        """A function was not in the cache."""
+        """Note a function that was not in the cache."""
         self.begun.append(str(event.data["dispatcher"]))
         if len(self.begun) == 1:
             self._say()
 
     def on_end(self, event: Any) -> None:
-        """A function is ready."""
+        """Have a function ready."""
 
 
 @contextmanager

@@ -279,8 +279,9 @@ class _Keeper:
 
     def _write(self, line: str) -> None:
         assert self._file is not None
-        self._file.write(line.encode())
-        self._file.flush()
+        rest = line.encode()
+        while rest:  # a disk that is nearly full takes a part
+            rest = rest[self._file.write(rest) :]
 
     @contextmanager
     def _disk(self) -> Iterator[None]:

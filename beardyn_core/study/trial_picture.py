@@ -32,7 +32,7 @@ def trial_picture(result: TrialResult, path: Path) -> None:
 
 
 def trial_figure(result: TrialResult) -> Figure:
-    """The picture as a figure of two axes: rates, scores."""
+    """Draw a figure of two axes: rates, scores."""
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     rates, scores = figure.subplots(1, 2)

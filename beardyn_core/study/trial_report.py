@@ -14,7 +14,7 @@ Where = Callable[[Cell], bool]
 
 
 def table(result: TrialResult) -> str:
-    """The result for a terminal.
+    """Print the result for a terminal.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def smallest_text(smallest: Smallest) -> str:
 
 
 def expected_false_alarms(result: TrialResult) -> float:
-    """False alarms that the stated rate allows in the healthy analyses there were."""
+    """Count the false alarms that the stated rate allows in the healthy analyses there were."""
     return MonitorSettings().false_alarm_rate * result.false_analyses().total
 
 

@@ -116,7 +116,7 @@ class TrialResult:
 
     @classmethod
     def of(cls, trial: Trial, algorithm: str, runs: Sequence[TrialRun]) -> TrialResult:
-        """Result of the runs there are."""
+        """Judge the runs there are."""
         by_key = {run.key: run for run in runs}
         pairs = [(cell, by_key[cell.key]) for cell in trial.cells() if cell.key in by_key]
         return cls(
@@ -145,7 +145,7 @@ class TrialResult:
         return detection(_chosen(self.runs, where))
 
     def sizes(self) -> list[SizeRow]:
-        """A row for every part and size."""
+        """Make a row for every part and size."""
         return [
             _size_row(fault, size, [(c, r) for c, r in self.runs if (c.fault, c.size) == (fault, size)])
             for fault in self.trial.faults
@@ -158,7 +158,7 @@ class TrialResult:
         return [_smallest(fault, [row for row in rows if row.fault == fault]) for fault in self.trial.faults]
 
     def agreement(self) -> Rate:
-        """Checked runs with the same verdict in both tiers."""
+        """Count the checked runs with the same verdict in both tiers."""
         pairs = self.pairs()
         return Rate.of(sum(own.verdict == other.verdict for _, own, other in pairs), len(pairs))
 

@@ -123,7 +123,7 @@ def check(stopped: Command, took: float, *words: str) -> None:
     ],
     ids=lambda value: value[0] if isinstance(value, list) else "",
 )
-@pytest.mark.parametrize("later", [0.0, 4.0])
+@pytest.mark.parametrize("later", [pytest.param(0.0, marks=pytest.mark.slow), 4.0])
 def test_a_command_stops_while_it_compiles(words: list[str], kept: str, later: float, tmp_path: Path) -> None:
     """At once and some seconds later, when the time is spent in one call of the compiler."""
     with running(words, tmp_path, tmp_path / "cache") as started:
@@ -141,6 +141,7 @@ def test_a_first_static_solution_stops_while_it_compiles(tmp_path: Path) -> None
         check(started, took)
 
 
+@pytest.mark.slow
 def test_an_interrupted_compilation_leaves_a_cache_that_works(tmp_path: Path) -> None:
     words = ["contacts", "--quick"]
     for later in (1.5, 5.0):
@@ -225,3 +226,12 @@ def _group_lives(pid: int) -> bool:
     except ProcessLookupError:
         return False
     return True
+
+
+@pytest.mark.parametrize("moment", [0.5, 1.5, 2.5, 3.5])
+def test_ctrl_c_at_any_moment_of_a_start_is_clean(moment: float, tmp_path: Path) -> None:
+    """While modules are imported, files are read and kernels are loaded from the cache."""
+    with running(["simulate", "static_5kN", "--duration", "600"], tmp_path) as started:
+        time.sleep(moment)
+        took = started.interrupt()
+        check(started, took)

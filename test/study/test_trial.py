@@ -256,6 +256,15 @@ def test_runs_of_changed_code_are_counted_and_stay_until_they_have_been_run_agai
     assert not plan_of(small, "", tmp_path).missing
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+def test_a_full_disk_is_a_sentence_that_says_how_many_runs_are_kept(
+    small: Trial, tmp_path: Path, conducted: list[str]
+) -> None:
+    (tmp_path / RUNS_FILE).symlink_to("/dev/full")
+    with pytest.raises(InputError, match="No space left on device; the 0 runs before are kept"):
+        conduct(plan_of(small, "", tmp_path), tmp_path, 1, no_progress)
+
+
 def test_two_trials_cannot_write_one_folder(small: Trial, tmp_path: Path, conducted: list[str]) -> None:
     conduct(plan_of(small, "", tmp_path), tmp_path, 1, no_progress)
     with (
