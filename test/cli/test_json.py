@@ -101,6 +101,7 @@ def test_simulate() -> None:
         cage_revolutions=5,
         life=life,
         temperatures=tuple((part, 300.0) for part in NODES),
+        clipped=(("axlebox_top", 3, 512),),
         stages=(StageTime("sinks", 0.1), StageTime("rest", 0.1)),
     )
     found = read(json_text("simulate", simulate.json_object(summary, Path("run.mcap"))))
@@ -143,7 +144,7 @@ def test_trial() -> None:
     quick = load_trial("quick")
     runs = [run_of(cell, "cup" if cell.checks else "healthy") for cell in quick.cells()]
     runs[0] = replace(runs[0], status="a number became NaN")
-    found = read(json_text("trial", trial_object(TrialResult.of(quick, "", runs))))
+    found = read(json_text("trial", {**trial_object(TrialResult.of(quick, "", runs)), "complete": True}))
     assert [row["width_m"] for row in found["sizes"]][:3] == [0.002, 0.006, 0.012]
     check("trial", found)
 

@@ -207,7 +207,7 @@ HEAVY = ("numba", "llvmlite", "scipy", "matplotlib", "rerun", "mcap", "beardyn_c
         "import beardyn_core.config",
         "from beardyn_core.config import load_bearing; load_bearing('HS130x230')",
         "from beardyn_core.config import read_scene; read_scene('cup_spall')",
-        "from beardyn_core.choice import load_scene; load_scene('ancestor_step')",
+        "from beardyn_core.choice import load_scene; load_scene('santos_step')",
     ],
 )
 def test_reading_files_brings_no_compiler_along(statement: str) -> None:
