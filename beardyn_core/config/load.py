@@ -19,7 +19,7 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of, valid
 from beardyn_core.config.missing import missing_problems
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
-from beardyn_core.config.scene_file import SceneKeys, with_length
+from beardyn_core.config.scene_file import with_length
 from beardyn_core.config.yaml_text import read_file, read_mapping
 from beardyn_core.edge import UNITS, stem_of
 from beardyn_core.effects import EffectSet
@@ -163,7 +163,7 @@ class _Reading:
             self._locate_files(operation)
         scene: Scene | None = None
         try:
-            scene = SceneKeys.model_validate(self.data).noun()
+            scene = keys_of(Scene).model_validate(self.data).noun()
         except ValidationError as error:
             self.problems += sentences(error, self.origins)
         self._check_contradictions(free)
