@@ -62,9 +62,11 @@ class Profile:
     """
 
     kind: A[str, At(one_of=PROFILE_KINDS), "law of the drop along the generator"] = "straight"
-    drop: A[float | None, At("um", ge=0.0), "crowned, fujiwara: drop at the ends of the effective length"] = (
-        None
-    )
+    drop: A[
+        float | None,
+        At("um", ge=0.0, lt=1000.0),
+        "crowned, fujiwara: drop at the ends of the effective length",
+    ] = None
     design_pressure: A[
         float | None,
         At("MPa", gt=0.0, le=10000.0),

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from beardyn_core.study.desk_run import RunSummary
 
 DONE, INVALID = 0, 3
-_ZERO_CELSIUS = 273.15  # config.units is heavy to import
+_ZERO_CELSIUS = 273.15  # [K]
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

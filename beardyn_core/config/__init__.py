@@ -19,22 +19,30 @@ schema       JSON schema for editors
 ============ ==================================================================
 
 `beardyn_core.choice` closes what a scene leaves open: `load_scene` is there.
+
+Importing this room brings neither pydantic nor numpy along: a function does that when it is asked for.
 """
 
-from beardyn_core.config.folders import config_folder, shipped_names
-from beardyn_core.config.load import (
-    OpenScene,
-    load_bearing,
-    load_effects,
-    load_lubricant,
-    load_vehicle,
-    read_scene,
-    read_scene_mapping,
-    read_scene_text,
-)
-from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
-from beardyn_core.config.text import scene_text
-from beardyn_core.config.trial_file import read_trial
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from beardyn_core.config.folders import config_folder, shipped_names
+    from beardyn_core.config.load import (
+        OpenScene,
+        load_bearing,
+        load_effects,
+        load_lubricant,
+        load_vehicle,
+        read_scene,
+        read_scene_mapping,
+        read_scene_text,
+    )
+    from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
+    from beardyn_core.config.text import scene_text
+    from beardyn_core.config.trial_file import read_trial
 
 __all__ = [
     "SCHEMA_KINDS",
@@ -52,3 +60,19 @@ __all__ = [
     "scene_text",
     "shipped_names",
 ]
+
+_MODULES = {
+    "SCHEMA_KINDS": "schema",
+    "config_folder": "folders",
+    "json_schema": "schema",
+    "read_trial": "trial_file",
+    "scene_text": "text",
+    "shipped_names": "folders",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is asked for from the module that has it, most of it from `load`."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_MODULES.get(name, 'load')}"), name)

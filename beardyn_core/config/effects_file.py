@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import Field
 
 from beardyn_core.config.file_model import FileModel
-from beardyn_core.config.keys import Name, Text, keys_of, reads
+from beardyn_core.config.keys import Name, Text, reads
 from beardyn_core.effects import EffectSet
 
 
@@ -40,6 +40,3 @@ def overlay(preset: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
         else:
             merged[key] = change
     return merged
-
-
-EffectsKeys = keys_of(EffectSet)

@@ -74,7 +74,7 @@ class FileModel(BaseModel):
         excused = {cls._meant(str(key), set(data)) for key in unknown}
         try:
             made = handler(known)
-            details += made._mistakes()
+            details += [] if unknown else made._mistakes()
         except ValidationError as error:
             details += [
                 _again(found)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,9 +19,9 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of, valid
 from beardyn_core.config.missing import missing_problems
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
-from beardyn_core.config.scene_file import SceneKeys, with_length
+from beardyn_core.config.scene_file import with_length
 from beardyn_core.config.yaml_text import read_file, read_mapping
-from beardyn_core.edge import UNITS, stem_of
+from beardyn_core.edge import places, stem_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.rail.irregularity import RAIL_LAYOUT
@@ -169,7 +168,7 @@ class _Reading:
             self._locate_files(operation)
         scene: Scene | None = None
         try:
-            scene = SceneKeys.model_validate(self.data).noun()
+            scene = keys_of(Scene).model_validate(self.data).noun()
         except ValidationError as error:
             self.problems += sentences(error, self.origins)
         self._check_contradictions(free)
@@ -303,16 +302,16 @@ class _Reading:
         operation = self.data.get("operation")
         if not isinstance(operation, dict):
             return
-        usual = UNITS["mm"].to_edge(QuarterVehicleOperation.wheel_diameter)
-        given = operation.get("wheel_diameter_mm", usual)
-        if not _is_number(given):
+        place = next(each for each in places(QuarterVehicleOperation) if each.field == "wheel_diameter")
+        given = operation.get(place.key, place.at.scale.to_edge(place.default))
+        if not isinstance(given, int | float) or not place.at.limits["ge"] <= given <= place.at.limits["le"]:
             return
         entries = operation.get("wheel_defects")
         for index, written in enumerate(entries if isinstance(entries, list) else []):
             if defect := valid(WheelDefect, written):
-                for problem in defect.contradictions(0.5 * UNITS["mm"].to_si(float(given))):
-                    place = key_path(("operation", "wheel_defects", index))
-                    self.problems.append(f"{self.origins[0].label}: {place}.{problem}")
+                for problem in defect.contradictions(0.5 * place.at.scale.to_si(float(given))):
+                    where = key_path(("operation", "wheel_defects", index))
+                    self.problems.append(f"{self.origins[0].label}: {where}.{problem}")
 
     def _check_tier(self, free: Free) -> None:
         tier = self.data.get("tier", "full")

@@ -31,7 +31,7 @@ def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[P
     if rows not in (1, 2):
         return []
     problems: list[tuple[Place, str]] = []
-    missing: set[tuple[int, int]] = set()
+    missing: list[tuple[int, int]] = []
     for place, given in _entries(scene, "missing_rollers"):
         found = valid(MissingRoller, given)
         if found is None:
@@ -43,7 +43,7 @@ def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[P
             wrong.append(f"roller {found.roller} of row {found.row} is given twice; name each roller once")
         problems += [(place, text) for text in wrong]
         if not wrong:
-            missing.add((found.row, found.roller))
+            missing.append((found.row, found.roller))
     for row in range(rows):
         if sum(each == row for each, _ in missing) >= bearing.roller_count:
             name = _ROW_NAMES[row]

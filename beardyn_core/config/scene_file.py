@@ -298,6 +298,3 @@ class SceneFile(FileModel):
 def with_length(defect: Any, effective_length: float) -> Any:
     """Give a patch without a length that of the contact, [m]."""
     return replace(defect, length=effective_length) if getattr(defect, "length", 0.0) is None else defect
-
-
-SceneKeys = keys_of(Scene)

@@ -64,8 +64,8 @@ class Mounting:
 
     def rules(self) -> Iterator[str]:
         """Find a box lighter about the bearing than at its centre, and an offset that turns nothing."""
-        squares = [c * c for c in self.box_centre]
-        least = tuple(self.box_mass * (sum(squares) - squares[axis]) for axis in range(3))
+        x, y, z = (c * c for c in self.box_centre)
+        least = (self.box_mass * (y + z), self.box_mass * (x + z), self.box_mass * (x + y))
         if any(have <= need for have, need in zip(self.box_inertia, least, strict=True) if need):
             yield (
                 f"box_inertia_kg_m2 is {list(self.box_inertia)}; about the bearing centre it must be "

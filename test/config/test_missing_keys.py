@@ -55,6 +55,11 @@ ALL_OF_ROW_1 = ", ".join(f"{{row: 1, roller: {k}}}" for k in range(17))
         ("rows: 3", ["rows is 3; allowed are 1, 2"]),
         ("missing_rollers: [{row: 0, roller: 17}]", ["missing_rollers[0]: roller is 17;", "0 to 16"]),
         ("missing_rollers: [{row: 2, roller: 1}]", ["missing_rollers[0].row is 2"]),
+        (
+            "missing_rollers: [{row: 0, roller: 1}]\n"
+            "defects: [{kind: diameter, row: 0, roller: [1], diameter_um: 5}]",
+            ["defects[0].roller is [1]; it must be a whole number"],
+        ),
         ("missing_rollers: [{row: 0, rollers: 1}]", ["unknown key; did you mean `roller`?"]),
         (
             "missing_rollers: [{row: 0, roller: 1}, {row: 0, roller: 1}]",

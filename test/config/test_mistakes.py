@@ -361,3 +361,8 @@ def test_lubricant_without_pressure_viscosity_has_that_of_its_base_oil(write: Wr
 def test_a_mistake_in_a_switch_says_what_it_takes(write: Write, effects: str, end: str) -> None:
     (sentence,) = problems_of(write(GOOD + f"effects: {{{effects}}}\n"))
     assert sentence.endswith(end)
+
+
+def test_an_unknown_key_is_the_only_complaint_about_its_mapping(write: Write) -> None:
+    (sentence,) = problems_of(write(GOOD + "effects: {thermal: true, audits: true}\n"))
+    assert "effects.audits: unknown key; did you mean `audit`?" in sentence

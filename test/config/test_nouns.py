@@ -201,6 +201,14 @@ def test_what_is_shipped_keeps_the_limits(name: str) -> None:
 HEAVY = ("numba", "llvmlite", "scipy", "matplotlib", "rerun", "mcap", "beardyn_core.kernels")
 
 
+def test_the_room_itself_is_light() -> None:
+    code = (
+        "import beardyn_core.config, sys; print({'numpy', 'pydantic', 'yaml'} & set(sys.modules) or 'none')"
+    )
+    found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert found.stdout.strip() == "none"
+
+
 @pytest.mark.parametrize(
     "statement",
     [
