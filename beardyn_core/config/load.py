@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +22,7 @@ from beardyn_core.config.missing import missing_problems
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
 from beardyn_core.config.scene_file import with_length
 from beardyn_core.config.yaml_text import read_file, read_mapping
-from beardyn_core.edge import places, stem_of
+from beardyn_core.edge import UNITS, places, stem_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.rail.irregularity import RAIL_LAYOUT
