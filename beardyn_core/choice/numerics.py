@@ -16,7 +16,7 @@ from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.choice.rule import Influence, percent
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, StepChoice, choose_steps
-from beardyn_core.model.fault_params import lamina_cover
+from beardyn_core.model.faults import lamina_cover
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 

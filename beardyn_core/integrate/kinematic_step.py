@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, LOAD_SPEED
@@ -28,15 +28,29 @@ from beardyn_core.model.layout import (
 TRENDS_PER_BLOCK = 8  # instants at 400 Hz in 20 ms
 
 
+class Drive(NamedTuple):
+    """What drives the rings over a step.
+
+    Massless rollers pass on what they get: the cone feels the opposite of their wrench on the cup, and the
+    weight of what rolls.
+    """
+
+    wrench: Any  # 6, of the rollers on the cup [N, N m]
+    rib_load: float  # sum over all rollers [N]
+    losses: Any  # 2, from `held_losses`
+    load_before: Any  # [10], load row at the beginning of the step
+    load: Any  # [10], at its end
+
+
 @inline
 def begin_advance(rollers: Any) -> None:
-    """The largest penetration starts anew."""
+    """Start the largest penetration anew."""
     rollers[:, PENETRATION] = 0.0
 
 
 @inline
 def cage_direction(bodies: Any) -> Any:
-    """Direction of the cages, as cosine and sine."""
+    """Take the direction of the cages, as cosine and sine."""
     return math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN])
 
 
@@ -66,44 +80,24 @@ def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
 
 
 @inline
-def finish_step(
-    bodies: Any,
-    wrench: Any,
-    rib_load: Any,
-    losses: Any,
-    wrenches: Any,
-    box: Any,
-    load_before: Any,
-    load: Any,
-    signal: Any,
-    energy: Any,
-    p: Any,
-) -> None:
+def finish_step(state: Any, work: Any, drive: Any, signal: Any, p: Any) -> None:
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
     Parameters
     ----------
-    wrench : tuple of 6 floats
-        Of the rollers on the cup. Massless rollers pass on what they get: the cone feels the opposite of
-        it, and the weight of what rolls.
-    rib_load : float
-        Sum over all rollers, [N].
-    losses : tuple of 2 floats
-        From `held_losses`.
-    wrenches, box : float64 arrays, shape [4, 6] and [12]
-        Work space.
-    load_before, load : float64 array, shape [10]
-        Load row at the beginning and at the end of the step.
+    state : State
+        Bodies changed. These tiers keep no energy; a coupled box adds to it.
+    work : WorkSpace
+    drive : Drive
     signal : float64 array, shape [SIGNAL_CHANNELS]
         Written.
-    energy : float64 array, shape [ENERGY_TERMS]
-        Not kept by these tiers; a coupled box adds to it.
+    p : LumpedParameters or QuasistaticParameters
     """
-    base, k = p.base, p.kinematic
-    signal[SIGNAL_TORQUE] = -(losses[0] + losses[1] * rib_load)
+    base, k, bodies, wrench, load = p.base, p.kinematic, state.bodies, drive.wrench, drive.load
+    signal[SIGNAL_TORQUE] = -(drive.losses[0] + drive.losses[1] * drive.rib_load)
     for i in range(6):
         signal[SIGNAL_FORCE + i] = wrench[i]
-    _kick_box(bodies, wrenches, box, load_before, load, signal, energy, base.mounting.coupling, p)
+    _kick_box(state, work, drive, signal, base.mounting.coupling, p)
     _kick_journal(bodies, wrench, load, k.rolling_weight, p.step, p.motion)
     _prop_journal(bodies, p.step, p.motion, base.mounting)
     bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
@@ -112,25 +106,17 @@ def finish_step(
 
 
 @inline
-def _kick_box(
-    bodies: Any,
-    wrenches: Any,
-    box: Any,
-    load_before: Any,
-    load: Any,
-    signal: Any,
-    energy: Any,
-    coupling: Any,
-    p: Any,
-) -> None:
+def _kick_box(state: Any, work: Any, drive: Any, signal: Any, coupling: Any, p: Any) -> None:
     """Accelerate the axlebox under the wrench in the signals, and write its acceleration there."""
+    bodies, wrenches, box = state.bodies, work.wrenches, work.box
+    load_before, load = drive.load_before, drive.load
     if coupling is None:
         _kick_free_box(bodies, load_before, load, signal, p.step, p.base.mounting, p.motion)
         return
     for i in range(6):
         wrenches[CUP_BODY, i] = signal[SIGNAL_FORCE + i]
     kick_box(
-        bodies, wrenches[CUP_BODY], load, load_before, energy, box, p.step, p.base.mounting,
+        bodies, wrenches[CUP_BODY], load, load_before, state.energy, box, p.step, p.base.mounting,
         p.base.effects.gravity, coupling,
     )  # fmt: skip
     for i in range(6):
@@ -169,7 +155,7 @@ def _kick_journal(bodies: Any, wrench: Any, load: Any, weight: Any, step: Any, m
 
 @inline
 def _prop_journal(bodies: Any, step: Any, motion: Any, mounting: Any) -> None:
-    """Push of the axial prop on the journal, see `prop_journal` of the full tier."""
+    """Push the journal by its axial prop, as `kernels.bodies.kick_cone` does."""
     speed = bodies[CONE_BODY, LINEAR + 1]
     push = mounting.prop_stiffness * bodies[CONE_BODY, POSITION + 1] + mounting.prop_damping * speed
     bodies[CONE_BODY, LINEAR + 1] = speed - step * motion.journal_push * push

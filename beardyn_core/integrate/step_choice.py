@@ -95,7 +95,7 @@ def choose_steps(
     mounting: Mounting | None = None,
     band: float = AUDIBLE_BAND,
 ) -> StepChoice:
-    """Coarsest step of the full tier that is converged over a range of loads and speeds.
+    """Choose the coarsest step of the full tier that is converged over a range of loads and speeds.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def _vibration(band: float) -> StepChoice:
 
 
 def bounce_frequency(bearing: Bearing, static: StaticSolution, laminae: int) -> float:
-    """Highest frequency at which a roller bounces between its raceways, [Hz]."""
+    """Work out the highest frequency at which a roller bounces between its raceways, [Hz]."""
     factor = line_contact_factor(bearing.material, bearing.effective_length) / laminae
     stiffness = np.zeros(static.cup_load.shape)
     for load in (static.cup_lamina_load, static.cone_lamina_load):
@@ -178,7 +178,7 @@ def _bounce(bearing: Bearing, static: StaticSolution, laminae: int, damped: bool
 
 
 def usual_steps(effects: EffectSet, laminae: int) -> int:
-    """Steps per sample of a full run that names none: the tier's, or more where friction is steep.
+    """Choose steps per sample of a full run that names none: the tier's, more where friction is steep.
 
     Friction whose slope depends on the speed (load sharing without a film) is taken at an entrainment of
     5 m/s; `choose_steps` knows the slowest speed.
@@ -195,7 +195,7 @@ def usual_steps(effects: EffectSet, laminae: int) -> int:
 
 
 def _fixed_slope(effects: EffectSet) -> float:
-    """Rise of the coefficient of friction with the slip speed where the speed does not matter, [s/m]."""
+    """Take the rise of the friction coefficient with slip speed where the speed does not matter, [s/m]."""
     traction = effects.traction
     if isinstance(traction, CoulombTraction):
         return traction.friction / traction.regularisation_speed
@@ -205,12 +205,12 @@ def _fixed_slope(effects: EffectSet) -> float:
 
 
 def _shared_slope(traction: LoadSharingTraction, entrainment: float) -> float:
-    """Of load sharing without a film, [s/m]."""
+    """Take the slope of load sharing without a film, [s/m]."""
     return 2.0 / math.pi * traction.boundary_friction * traction.boundary_slope / max(entrainment, _CREEP)
 
 
 def dry_slope(bearing: Bearing, effects: EffectSet, speed: float) -> float:
-    """Steepest rise of the coefficient of friction with the slip speed, [s/m]."""
+    """Work out the steepest rise of the coefficient of friction with the slip speed, [s/m]."""
     traction = effects.traction
     if isinstance(traction, LoadSharingTraction) and effects.film is None:
         return _shared_slope(traction, 0.25 * bearing.pitch_diameter * speed)
@@ -237,7 +237,7 @@ def _friction(bearing: Bearing, effects: EffectSet, slowest: float, laminae: int
 def _explicit(
     bearing: Bearing, static: StaticSolution, effects: EffectSet, mounting: Mounting
 ) -> Iterator[StepChoice]:
-    """Couplings that the step treats explicitly: a fraction of a radian a step keeps them accurate."""
+    """Check couplings that the step treats explicitly: a fraction of a radian a step keeps them accurate."""
     contacts = float(np.linalg.eigvalsh(static.stiffness_tilt_held).max())
     inverse_mass = 1.0 / (mounting.journal_mass + bearing.cone_mass)
     if mounting.cup == "suspended":

@@ -1,19 +1,25 @@
 """From nouns to numbers: what the kernels are given.
 
-=============== ===========================================================
-module          responsibility, in the order of the data
-=============== ===========================================================
-parameters      named tuples of kernel parameters; an absent effect is None
-layout          where each number of the state stands
-arrangement     which roller sits in which lane
-lamina_table    what the laminae of a roller have of their own
-..._params      parameters of one effect
-film_factor     film thickness as factors for the kernel
-springs         tables of laminae as springs
-box_coupling    axlebox whose centre of mass or springs stand off the bearing
-patch_path      path of a roller over a patch
-heat            nodes of the thermal network and where losses go
-build           a scene to parameters
-tier_parameters parameters of the tiers without roller dynamics
-=============== ===========================================================
+================ ===========================================================
+module           responsibility, in the order of the data
+================ ===========================================================
+layout           where each number of the state and the tables stands
+stages           stages of a time step, and the counters of what they take
+arrangement      which roller sits in which lane; arrays on cache lines
+parameters       named tuples of kernel parameters; an absent effect is None
+laminae          table of the laminae, and their coupling
+film             film of the raceway contacts
+traction         friction of the raceway contacts
+losses           rolling resistance, drag and seals
+ribs             ribs at both roller ends
+cage             pockets, lands and cheaper cages
+ring_flexibility bending of the cup
+patch_path       path of a roller over a patch
+faults           patches, waviness, wear and size errors
+mounting         rings and suspension
+spring_share     how much of a spring's change a step takes in
+heat             nodes of the thermal network and where losses go
+build            a scene to parameters
+tier_parameters  parameters of the tiers without roller dynamics
+================ ===========================================================
 """
