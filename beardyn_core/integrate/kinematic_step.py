@@ -29,7 +29,7 @@ TRENDS_PER_BLOCK = 8  # instants at 400 Hz in 20 ms
 
 
 class Drive(NamedTuple):
-    """What drives the rings over a step.
+    """What the rollers do to the rings over a step.
 
     Massless rollers pass on what they get: the cone feels the opposite of their wrench on the cup, and the
     weight of what rolls.
@@ -38,8 +38,6 @@ class Drive(NamedTuple):
     wrench: Any  # 6, of the rollers on the cup [N, N m]
     rib_load: float  # sum over all rollers [N]
     losses: Any  # 2, from `held_losses`
-    load_before: Any  # [10], load row at the beginning of the step
-    load: Any  # [10], at its end
 
 
 @inline
@@ -80,24 +78,43 @@ def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
 
 
 @inline
-def finish_step(state: Any, work: Any, drive: Any, signal: Any, p: Any) -> None:
+def finish_step(
+    bodies: Any,
+    drive: Any,
+    wrenches: Any,
+    box: Any,
+    load_before: Any,
+    load: Any,
+    signal: Any,
+    energy: Any,
+    p: Any,
+) -> None:
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
     Parameters
     ----------
-    state : State
-        Bodies changed. These tiers keep no energy; a coupled box adds to it.
-    work : WorkSpace
+    bodies : float64 array, shape [2 + row, BODY_STATES]
+        Changed.
     drive : Drive
+    wrenches, box : float64 arrays, shape [2 + row, 6] and [12]
+        Work space.
+    load_before, load : float64 array, shape [10]
+        Load row at the beginning and at the end of the step.
     signal : float64 array, shape [SIGNAL_CHANNELS]
         Written.
+    energy : float64 array, shape [ENERGY_TERMS]
+        Not kept by these tiers; a coupled box adds to it.
     p : LumpedParameters or QuasistaticParameters
+
+    Notes
+    -----
+    Arrays come one by one: the references to those of a tuple would be counted in every step.
     """
-    base, k, bodies, wrench, load = p.base, p.kinematic, state.bodies, drive.wrench, drive.load
+    base, k, wrench = p.base, p.kinematic, drive.wrench
     signal[SIGNAL_TORQUE] = -(drive.losses[0] + drive.losses[1] * drive.rib_load)
     for i in range(6):
         signal[SIGNAL_FORCE + i] = wrench[i]
-    _kick_box(state, work, drive, signal, base.mounting.coupling, p)
+    _kick_box(bodies, wrenches, box, load_before, load, signal, energy, base.mounting.coupling, p)
     _kick_journal(bodies, wrench, load, k.rolling_weight, p.step, p.motion)
     _prop_journal(bodies, p.step, p.motion, base.mounting)
     bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
@@ -106,17 +123,25 @@ def finish_step(state: Any, work: Any, drive: Any, signal: Any, p: Any) -> None:
 
 
 @inline
-def _kick_box(state: Any, work: Any, drive: Any, signal: Any, coupling: Any, p: Any) -> None:
+def _kick_box(
+    bodies: Any,
+    wrenches: Any,
+    box: Any,
+    load_before: Any,
+    load: Any,
+    signal: Any,
+    energy: Any,
+    coupling: Any,
+    p: Any,
+) -> None:
     """Accelerate the axlebox under the wrench in the signals, and write its acceleration there."""
-    bodies, wrenches, box = state.bodies, work.wrenches, work.box
-    load_before, load = drive.load_before, drive.load
     if coupling is None:
         _kick_free_box(bodies, load_before, load, signal, p.step, p.base.mounting, p.motion)
         return
     for i in range(6):
         wrenches[CUP_BODY, i] = signal[SIGNAL_FORCE + i]
     kick_box(
-        bodies, wrenches[CUP_BODY], load, load_before, state.energy, box, p.step, p.base.mounting,
+        bodies, wrenches[CUP_BODY], load, load_before, energy, box, p.step, p.base.mounting,
         p.base.effects.gravity, coupling,
     )  # fmt: skip
     for i in range(6):

@@ -37,9 +37,11 @@ def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p
         which `show_lumped` makes the rollers. The energy balance is not kept.
     p : LumpedParameters
     """
-    rollers, bodies, sums, signals = state.rollers, state.bodies, work.sums, output.signals
+    rollers, bodies, energy = state.rollers, state.bodies, state.energy
+    sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
+    roller_trend, body_trend = output.rollers, output.bodies
     steps = signals.shape[0]
-    stride = steps // output.rollers.shape[0]
+    stride = steps // roller_trend.shape[0]
     begin_advance(rollers)
     direction = cage_direction(bodies)
     losses = (0.0, 0.0)
@@ -49,7 +51,7 @@ def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
         due, shown = step % stride == 0, (step + 1) % stride == 0
-        trend = output.rollers[step // stride]
+        trend = roller_trend[step // stride]
         motion = relative_cone(bodies)
         load_rollers(lanes, rollers, sums[0], motion, direction, turns, speeds, trend, p)
         totals, rib = sum_rollers(sums, speeds, p)
@@ -59,14 +61,16 @@ def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p
             losses = held_losses(sums, speeds, rib, p)
             hold_response(sums, direction, response, p)
         before = journal_velocity(bodies)
-        drive = Drive(wrench, rib, losses, loads[step], loads[step + 1])
-        finish_step(state, work, drive, signals[step], p)
+        finish_step(
+            bodies, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
+            energy, p,
+        )  # fmt: skip
         add_response(bodies, before, signals[step], response, p)
         if shown:
             for i, value in enumerate((turns[0], speeds[0], speeds[1])):
                 trend[rollers.shape[0] + i] = value
-            output.bodies[step // stride] = bodies
-    show_springs(lanes, rollers, output.rollers[output.rollers.shape[0] - 1], p)
+            body_trend[step // stride] = bodies
+    show_springs(lanes, rollers, roller_trend[roller_trend.shape[0] - 1], p)
 
 
 @entry

@@ -186,9 +186,11 @@ def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: A
         Written; the energy balance is not kept.
     p : QuasistaticParameters
     """
-    rollers, bodies, sums, signals = state.rollers, state.bodies, work.sums, output.signals
+    rollers, bodies, energy = state.rollers, state.bodies, state.energy
+    sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
+    roller_trend, body_trend = output.rollers, output.bodies
     steps = signals.shape[0]
-    stride = steps // output.rollers.shape[0]
+    stride = steps // roller_trend.shape[0]
     begin_advance(rollers)
     direction = cage_direction(bodies)
     losses = (0.0, 0.0)
@@ -214,9 +216,11 @@ def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: A
         if due:
             losses = held_losses(sums, speeds, rib, p)
             hold_response(sums, direction, response, p)
-        drive = Drive(wrench, rib, losses, loads[step], loads[step + 1])
-        finish_step(state, work, drive, signals[step], p)
+        finish_step(
+            bodies, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
+            energy, p,
+        )  # fmt: skip
         add_response(bodies, before, signals[step], response, p)
         if shown:
-            output.rollers[(step + 1) // stride - 1] = rollers
-            output.bodies[(step + 1) // stride - 1] = bodies
+            roller_trend[(step + 1) // stride - 1] = rollers
+            body_trend[(step + 1) // stride - 1] = bodies
