@@ -31,14 +31,16 @@ OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": se
 
 _CORE = Path(__file__).resolve().parent
 _IMPORT = re.compile(rb"^ *(?:from|import) +beardyn_core([.\w]*)", re.MULTILINE)
+_TUPLE = re.compile(rb"^class \w+\(NamedTuple\):\n(?:(?: .*)?\n)*", re.MULTILINE)
 
 
 @cache
 def source_hash(source: Path) -> str:
-    """Hash of all that the compiled code of a file may come from, and of numba's version.
+    """Hash all that the compiled code of a file may come from, and numba's version.
 
-    That is the file itself, what it imports from this package, directly or not, and every file that
-    defines a named tuple, for kernels are compiled for the tuples they are called with.
+    That is the file itself, what it imports from this package, directly or not, and every named tuple of
+    the package, for kernels are compiled for the tuples they are called with. Of other files that define
+    tuples only these definitions count, so that an edit of what fills them keeps the compiled kernels.
 
     Parameters
     ----------
@@ -49,7 +51,7 @@ def source_hash(source: Path) -> str:
     -------
     str
     """
-    waiting = [source.resolve(), *(path for path in _sources() if b"NamedTuple" in _text(path))]
+    waiting = [source.resolve()]
     reached: set[Path] = set()
     while waiting:
         path = waiting.pop()
@@ -60,6 +62,10 @@ def source_hash(source: Path) -> str:
     for path in sorted(reached):
         digest.update(path.name.encode())
         digest.update(_text(path))
+    for path in _sources():
+        for definition in _TUPLE.findall(_text(path)):
+            digest.update(path.relative_to(_CORE).as_posix().encode())
+            digest.update(definition)
     return digest.hexdigest()[:16]
 
 
@@ -75,7 +81,7 @@ def _text(path: Path) -> bytes:
 
 @cache
 def _imported(source: Path) -> tuple[Path, ...]:
-    """Files of this package that a file imports; all files of a room when it imports from the room."""
+    """List the files of this package that a file imports; all of a room when it imports from the room."""
     found: list[Path] = []
     for match in _IMPORT.finditer(_text(source)):
         place = _CORE.joinpath(*match.group(1).decode().split(".")[1:])
@@ -84,7 +90,7 @@ def _imported(source: Path) -> tuple[Path, ...]:
 
 
 def cache_folder(source: Path) -> Path:
-    """Folder of the compiled kernels of a file: in ``$BEARDYN_CACHE_DIR`` or the user's cache folder."""
+    """Name the folder of compiled kernels of a file: in ``$BEARDYN_CACHE_DIR`` or the user's cache."""
     root = os.environ.get("BEARDYN_CACHE_DIR")
     if root is None:
         root = os.path.join(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache")), "beardyn")
@@ -95,22 +101,22 @@ class _PartLibrary(JITCodeLibrary):
     """Code that exists only to be linked into the code of others: no machine code is made of it."""
 
     def _finalize_specific(self) -> None:
-        """Leave it to the entry point."""
+        """Leave the machine code to the entry point."""
 
     def get_pointer_to_function(self, _name: str) -> int:
-        """Nowhere."""
+        """Return no address: there is no machine code."""
         return 0
 
     @property
     def codegen(self) -> Any:
-        """Takes the environment of a function, which only code that runs has use for."""
+        """Give a code generator that drops the environment of a function, which only running code uses."""
         return _NoEnvironment
 
 
 class _NoEnvironment:
     @staticmethod
     def set_env(_name: str, _environment: Any) -> None:
-        """Nothing to set."""
+        """Set nothing."""
 
 
 class _PartCompiler(Compiler):

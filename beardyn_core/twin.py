@@ -14,7 +14,8 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.restraint import tilt_restraint
 from beardyn_core.integrate.snapshot import Snapshot
-from beardyn_core.integrate.state import State, initial_state, work_space
+from beardyn_core.integrate.start import initial_state
+from beardyn_core.integrate.state import Output, State, work_space
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
@@ -23,7 +24,7 @@ from beardyn_core.jit import when_compiling
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
-from beardyn_core.model.fault_params import grow, roller_oversize
+from beardyn_core.model.faults import grow, roller_oversize
 from beardyn_core.model.layout import (
     ENERGY_TERMS,
     SIGNAL_CHANNELS,
@@ -301,12 +302,8 @@ class Twin:
         tier = self._tier
         rollers = np.empty((blocks * TRENDS_PER_BLOCK, *tier.trend_shape(state.rollers.shape)))
         bodies = np.empty((blocks * TRENDS_PER_BLOCK, *state.bodies.shape))
-        work = self._work
-        tier.advance(
-            self._lanes, state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches,
-            work.box, loads, signals, rollers, bodies, state.energy, self._audit,
-            self._kernel_parameters,
-        )  # fmt: skip
+        output = Output(signals, rollers, bodies, self._audit)
+        tier.advance(self._lanes, state, self._work, loads, output, self._kernel_parameters)
         return self._complete(tier.shown(self._lanes, rollers, self._kernel_parameters), bodies)
 
     def _complete(self, rollers: Any, bodies: Float) -> tuple[Any, Float]:

@@ -22,7 +22,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.torque import entrainment_speeds, running_torque
-from beardyn_core.model.lamina_table import equivalent_radius
+from beardyn_core.model.laminae import equivalent_radius
 
 Float = NDArray[np.float64]
 Load = float | Sequence[float]

@@ -9,8 +9,8 @@ import numpy as np
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import static_rating
 from beardyn_core.integrate.friction_steps import StepChoice
-from beardyn_core.model.box_coupling import box_coupling
 from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.model.mounting import box_coupling
 from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation

@@ -27,8 +27,8 @@ from beardyn_core.effects import (
 )
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.integrate.torque import entrainment_speeds, raceway_radius, running_torque
-from beardyn_core.model.lamina_table import equivalent_radius
-from beardyn_core.model.loss_params import SEALS, drag_params
+from beardyn_core.model.laminae import equivalent_radius
+from beardyn_core.model.losses import SEALS, drag_params
 from beardyn_core.scene.scene import Scene
 
 Float = NDArray[np.float64]
@@ -320,7 +320,7 @@ class Losses:
 
         References
         ----------
-        Aihara (1987), as in `kernels.film_traction`; the other laws end near the limiting shear.
+        Aihara (1987), as in `kernels.traction`; the other laws end near the limiting shear.
         """
         scene, speed = self.scene, self._entrainment[1]
         radius = float(equivalent_radius(scene.bearing, np.zeros(1), "cone")[0])

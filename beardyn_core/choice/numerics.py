@@ -18,7 +18,7 @@ from beardyn_core.choice.usual_step import served
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
-from beardyn_core.model.fault_params import lamina_cover
+from beardyn_core.model.faults import lamina_cover
 from beardyn_core.scene.defect import Patch
 
 _FINE = 400

@@ -12,9 +12,9 @@ from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.box_coupling import moved
-from beardyn_core.model.fault_params import roller_oversize
-from beardyn_core.model.flexibility_params import flexibility_params
+from beardyn_core.model.faults import roller_oversize
+from beardyn_core.model.mounting import moved
+from beardyn_core.model.ring_flexibility import flexibility_params
 from beardyn_core.scene.scene import Scene
 
 USUAL_LAMINAE = 6

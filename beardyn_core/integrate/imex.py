@@ -47,7 +47,7 @@ from beardyn_core.model.stages import CAGE, LOSS, RINGS
 
 @inline
 def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
-    """Kinetic energy of rollers, cages, axlebox and journal without its prescribed spin, [J]."""
+    """Sum the kinetic energy of rollers, cages, axlebox and journal without its prescribed spin, [J]."""
     roller = p.roller
     total = 0.0
     for block in range(rollers.shape[0]):
@@ -73,7 +73,7 @@ def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
 
 @inline
 def cage_place(p: Any) -> Any:
-    """Axial place of the cages' centres from the middle plane, 0 without cages, [m]."""
+    """Take the axial place of the cages' centres from the middle plane, 0 without cages, [m]."""
     return _cage_place(p.effects.cage)
 
 
@@ -108,66 +108,39 @@ def copy_sums(source: Any, target: Any) -> None:
 
 
 @inline
-def keep_trend(rollers: Any, bodies: Any, roller_trend: Any, body_trend: Any, index: Any) -> None:
+def keep_trend(rollers: Any, bodies: Any, output: Any, index: Any) -> None:
     """Copy the state of rollers and bodies into the trends."""
     for i in range(rollers.shape[0]):
         for j in range(rollers.shape[1]):
             for k in range(rollers.shape[2]):
-                roller_trend[index, i, j, k] = rollers[i, j, k]
+                output.rollers[index, i, j, k] = rollers[i, j, k]
     for i in range(bodies.shape[0]):
         for j in range(bodies.shape[1]):
-            body_trend[index, i, j] = bodies[i, j]
+            output.bodies[index, i, j] = bodies[i, j]
 
 
 @entry
-def advance(
-    lanes: Any,
-    rollers: Any,
-    bodies: Any,
-    flex: Any,
-    rings: Any,
-    sums: Any,
-    wrenches: Any,
-    box: Any,
-    loads: Any,
-    signals: Any,
-    roller_trend: Any,
-    body_trend: Any,
-    energy: Any,
-    audit: Any,
-    p: Any,
-) -> None:
+def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) -> None:
     """Advance the full tier over one block of steps.
 
     Parameters
     ----------
     lanes : Lanes
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        State of the rollers, changed in place.
-    bodies : float64 array, shape [2 + row, BODY_STATES]
-        Cup, cone, cages; changed in place.
-    flex : float64 array, shape [mode, 2, 2]
-        Bending of the cup, no modes without it; changed in place.
-    rings : float64 array, shape [group, 3, RING_FIELDS, lane]
-    sums : float64 array, shape [group, 1, SUM_FIELDS + 2 x mode, lane]
-    wrenches : float64 array, shape [2 + row, 6]
-    box : float64 array, shape [12]
-        Work space.
+    state : State
+        Changed in place.
+    work : WorkSpace
     loads : float64 array, shape [step + 1, 10]
         Load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step boundaries.
-    signals : float64 array, shape [step, SIGNAL_CHANNELS]
-        Written: what happens at the end of each step.
-    roller_trend, body_trend : float64 arrays, shape [trend, ...]
-        Written: copies of `rollers` and `bodies` at even spacing, the last at the end of the block.
-    energy : float64 array, shape [ENERGY_TERMS]
-        Works since the start of the run, added to.
-    audit : float64 array, shape [ENERGY_TERMS]
-        Written: works up to, and energy stored at, the middle of the first step.
+    output : Output
+        Written.
     p : Parameters
     """
+    rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
+    rings, sums, wrenches, box = work.rings, work.sums, work.wrenches, work.box
+    signals, audit = output.signals, output.audit
     align_stack(lanes)
     steps = signals.shape[0]
-    stride = steps // roller_trend.shape[0]
+    stride = steps // output.rollers.shape[0]
     groups = rings.shape[0]
     blocks_per_group = rollers.shape[0] // groups
     clear_block_sums(rollers)
@@ -227,4 +200,4 @@ def advance(
                 + flex_energy(flex, p.effects.ring_flexibility)
             )
         if (step + 1) % stride == 0:
-            keep_trend(rollers, bodies, roller_trend, body_trend, (step + 1) // stride - 1)
+            keep_trend(rollers, bodies, output, (step + 1) // stride - 1)

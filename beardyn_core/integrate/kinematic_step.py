@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, LOAD_SPEED
@@ -28,15 +28,27 @@ from beardyn_core.model.layout import (
 TRENDS_PER_BLOCK = 8  # instants at 400 Hz in 20 ms
 
 
+class Drive(NamedTuple):
+    """What the rollers do to the rings over a step.
+
+    Massless rollers pass on what they get: the cone feels the opposite of their wrench on the cup, and the
+    weight of what rolls.
+    """
+
+    wrench: Any  # 6, of the rollers on the cup [N, N m]
+    rib_load: float  # sum over all rollers [N]
+    losses: Any  # 2, from `held_losses`
+
+
 @inline
 def begin_advance(rollers: Any) -> None:
-    """The largest penetration starts anew."""
+    """Start the largest penetration anew."""
     rollers[:, PENETRATION] = 0.0
 
 
 @inline
 def cage_direction(bodies: Any) -> Any:
-    """Direction of the cages, as cosine and sine."""
+    """Take the direction of the cages, as cosine and sine."""
     return math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN])
 
 
@@ -68,9 +80,7 @@ def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
 @inline
 def finish_step(
     bodies: Any,
-    wrench: Any,
-    rib_load: Any,
-    losses: Any,
+    drive: Any,
     wrenches: Any,
     box: Any,
     load_before: Any,
@@ -83,14 +93,10 @@ def finish_step(
 
     Parameters
     ----------
-    wrench : tuple of 6 floats
-        Of the rollers on the cup. Massless rollers pass on what they get: the cone feels the opposite of
-        it, and the weight of what rolls.
-    rib_load : float
-        Sum over all rollers, [N].
-    losses : tuple of 2 floats
-        From `held_losses`.
-    wrenches, box : float64 arrays, shape [4, 6] and [12]
+    bodies : float64 array, shape [2 + row, BODY_STATES]
+        Changed.
+    drive : Drive
+    wrenches, box : float64 arrays, shape [2 + row, 6] and [12]
         Work space.
     load_before, load : float64 array, shape [10]
         Load row at the beginning and at the end of the step.
@@ -98,9 +104,14 @@ def finish_step(
         Written.
     energy : float64 array, shape [ENERGY_TERMS]
         Not kept by these tiers; a coupled box adds to it.
+    p : LumpedParameters or QuasistaticParameters
+
+    Notes
+    -----
+    Arrays come one by one: the references to those of a tuple would be counted in every step.
     """
-    base, k = p.base, p.kinematic
-    signal[SIGNAL_TORQUE] = -(losses[0] + losses[1] * rib_load)
+    base, k, wrench = p.base, p.kinematic, drive.wrench
+    signal[SIGNAL_TORQUE] = -(drive.losses[0] + drive.losses[1] * drive.rib_load)
     for i in range(6):
         signal[SIGNAL_FORCE + i] = wrench[i]
     _kick_box(bodies, wrenches, box, load_before, load, signal, energy, base.mounting.coupling, p)
@@ -169,7 +180,7 @@ def _kick_journal(bodies: Any, wrench: Any, load: Any, weight: Any, step: Any, m
 
 @inline
 def _prop_journal(bodies: Any, step: Any, motion: Any, mounting: Any) -> None:
-    """Push of the axial prop on the journal, see `prop_journal` of the full tier."""
+    """Push the journal by its axial prop, as `kernels.bodies.kick_cone` does."""
     speed = bodies[CONE_BODY, LINEAR + 1]
     push = mounting.prop_stiffness * bodies[CONE_BODY, POSITION + 1] + mounting.prop_damping * speed
     bodies[CONE_BODY, LINEAR + 1] = speed - step * motion.journal_push * push

@@ -12,7 +12,7 @@ from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.model.lamina_table import equivalent_radius, lamina_places
+from beardyn_core.model.laminae import equivalent_radius, lamina_places
 
 Float = NDArray[np.float64]
 
@@ -43,7 +43,7 @@ class LineLoad:
 
 
 def lamina_pressure(bearing: Bearing, lamina_load: Float, ring: str) -> Float:
-    """Hertz pressure of the laminae of raceway contacts with ``cup`` or ``cone``.
+    """Work out the Hertz pressure of the laminae of raceway contacts with ``cup`` or ``cone``.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def line_load(
     laminae: int = 30,
     coupling: LaminaCoupling | None = None,
 ) -> LineLoad:
-    """Distribution of a load along a roller that is tilted against a raceway.
+    """Distribute a load along a roller that is tilted against a raceway.
 
     Parameters
     ----------

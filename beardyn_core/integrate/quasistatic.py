@@ -6,6 +6,7 @@ from typing import Any
 
 from beardyn_core.integrate.kinematic_step import (
     TRENDS_PER_BLOCK,
+    Drive,
     begin_advance,
     begin_step,
     cage_direction,
@@ -40,50 +41,23 @@ from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
-    OVERSIZE,
-    PENETRATION,
-    POCKET_ANGLE,
-    RADIUS,
-)
-from beardyn_core.model.parameters import Parameters
-from beardyn_core.model.tier_parameters import (
     COUNTED,
     COUNTED_COSINE,
     COUNTED_SINE,
+    OVERSIZE,
+    PENETRATION,
+    POCKET_ANGLE,
     POCKET_COSINE,
     POCKET_SINE,
-    QuasistaticParameters,
-    kinematic_params,
-    lever_of_cup,
-    pocket_directions,
-    ring_motion_params,
-    ring_response_params,
-    roller_tangent,
-    row_sides,
+    RADIUS,
 )
-from beardyn_core.scene.scene import Scene
 
 _SMALLEST_LOAD = 1e-3
 
 
-def quasistatic_parameters(scene: Scene, base: Parameters) -> QuasistaticParameters:
-    """Kernel parameters of the quasistatic tier."""
-    motion = ring_motion_params(base)
-    return QuasistaticParameters(
-        step=base.step,
-        base=base,
-        kinematic=kinematic_params(scene),
-        motion=motion,
-        response=ring_response_params(base, motion, lever_of_cup(scene.bearing)),
-        tangent=roller_tangent(scene.bearing),
-        pockets=pocket_directions(base),
-        sides=row_sides(base, scene.rows),
-    )
-
-
 @inline
 def pressed_tangent(load: Any, tangent: Any) -> Any:
-    """Stiffness of rollers that press on the cone with a load; 0 where they do not, [N/m]."""
+    """Work out the stiffness of rollers that press on the cone with a load; 0 where they do not, [N/m]."""
     stiffness = tangent * exp2(0.1 * log2(at_least(load, _SMALLEST_LOAD)))
     return where_greater(load, _SMALLEST_LOAD, stiffness, 0.0 * load)
 
@@ -196,39 +170,31 @@ def balance_rollers(
 
 
 @entry
-def advance_quasistatic(
-    lanes: Any,
-    rollers: Any,
-    bodies: Any,
-    flex: Any,
-    rings: Any,
-    sums: Any,
-    wrenches: Any,
-    box: Any,
-    loads: Any,
-    signals: Any,
-    roller_trend: Any,
-    body_trend: Any,
-    energy: Any,
-    audit: Any,
-    p: Any,
-) -> None:
-    """Advance the quasistatic tier over whole blocks of steps; arguments as of the full tier's `advance`.
+def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) -> None:
+    """Advance the quasistatic tier over whole blocks of steps.
 
     Parameters
     ----------
-    rings : float64 array, shape [1, 3, 13, lane]
-        Work space of `kernels.kinematic_rings`.
-    audit : float64 array
-        Not used: no energy balance is kept.
+    lanes : Lanes
+    state : State
+        Changed in place, but for the bending of the cup: rings are rigid.
+    work : WorkSpace
+        The first page of the rings is the work space of `kernels.kinematic_rings`.
+    loads : float64 array, shape [step + 1, 10]
+        As of the full tier's `advance`.
+    output : Output
+        Written; the energy balance is not kept.
     p : QuasistaticParameters
     """
+    rollers, bodies, energy = state.rollers, state.bodies, state.energy
+    sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
+    roller_trend, body_trend = output.rollers, output.bodies
     steps = signals.shape[0]
     stride = steps // roller_trend.shape[0]
     begin_advance(rollers)
     direction = cage_direction(bodies)
     losses = (0.0, 0.0)
-    work = rings[0]
+    response = work.rings[0]
     for step in range(steps):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
@@ -249,11 +215,12 @@ def advance_quasistatic(
         rib = lane_total(sums, RIB_SUM)
         if due:
             losses = held_losses(sums, speeds, rib, p)
-            hold_response(sums, direction, work, p)
+            hold_response(sums, direction, response, p)
         finish_step(
-            bodies, wrench, rib, losses, wrenches, box, loads[step], loads[step + 1], signals[step], energy, p
-        )
-        add_response(bodies, before, signals[step], work, p)
+            bodies, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
+            energy, p,
+        )  # fmt: skip
+        add_response(bodies, before, signals[step], response, p)
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers
             body_trend[(step + 1) // stride - 1] = bodies

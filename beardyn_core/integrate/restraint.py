@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.model.parameters import MountingParams
+from beardyn_core.model.mounting import MountingParams
 from beardyn_core.scene.mounting import Mounting
 
 
 def tilt_restraint(mounting: Mounting, parameters: MountingParams) -> NDArray[np.float64]:
-    """Stiffness of the suspension against the tilt of the bearing about x and z, [N m/rad].
+    """Work out the stiffness of the suspension against the tilt of the bearing about x and z, [N m/rad].
 
     A journal free to tilt leans the whole moment on the box, whatever holds that.
 

@@ -84,7 +84,7 @@ class ContactModel:
 
     @property
     def apex_axial(self) -> float:
-        """Axial coordinate of the apex of a row, outwards from the bearing centre, [m]."""
+        """Work out the axial coordinate of the apex of a row, outwards from the bearing centre, [m]."""
         bearing = self.bearing
         return 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
 
@@ -146,7 +146,7 @@ def contact_model(
     rows: int = ROW_COUNT,
     missing: Sequence[tuple[int, int]] = (),
 ) -> ContactModel:
-    """Constants of the contacts.
+    """Gather the constants of the contacts.
 
     Parameters
     ----------
@@ -203,14 +203,14 @@ def contact_model(
 
 
 def _bending_shapes(azimuth: Float, modes: int, rows: int) -> Float:
-    """Cosine and sine of 2, 3, ... times the azimuth, the same for all rows."""
+    """Work out the cosine and sine of 2, 3, ... times the azimuth, the same for all rows."""
     angle = (np.arange(modes) + 2) * azimuth[:, None]
     shapes = np.stack([np.cos(angle), np.sin(angle)], axis=-1).reshape(azimuth.size, 2 * modes)
     return np.stack([shapes] * rows)
 
 
 def _inertia_load(bearing: Bearing, speed: float) -> Float:
-    """Centrifugal force and gyroscopic moment of a roller at epicyclic speed, about mid-length.
+    """Work out centrifugal force and gyroscopic moment of a roller at epicyclic speed, about mid-length.
 
     With the cage at w_c and the roller spinning w_r against it, the rate of change of the angular momentum
     needs the moment w_c sin(am) [Jx w_r - (Jx - Jy) w_c cos(am)] that pushes the large end inwards; the
@@ -226,7 +226,7 @@ def _inertia_load(bearing: Bearing, speed: float) -> Float:
 
 
 def power_law(approach: Float, factor: float, exponent: float) -> tuple[Float, Float, Float]:
-    """Force, tangent stiffness and energy of Q = K delta^p, zero when apart."""
+    """Work out force, tangent stiffness and energy of Q = K delta^p, zero when apart."""
     pressed = np.maximum(approach, 0.0)
     force = factor * pressed**exponent
     stiffness = (
@@ -236,7 +236,7 @@ def power_law(approach: Float, factor: float, exponent: float) -> tuple[Float, F
 
 
 def line_law(model: ContactModel, approach: Float) -> tuple[Float, Float, Float]:
-    """Force, tangent stiffness and energy of the laminae of raceway contacts, see `ContactSet`."""
+    """Work out force, tangent stiffness and energy of the laminae of raceway contacts, see `ContactSet`."""
     if model.coupling is None:
         return power_law(approach, model.lamina_factor, LINE_EXPONENT)
     force, stiffness, energy = coupled_law(approach, model.lamina_factor, model.coupling)
@@ -244,7 +244,7 @@ def line_law(model: ContactModel, approach: Float) -> tuple[Float, Float, Float]
 
 
 def stiffened(stiffness: Float, direction: Float) -> Float:
-    """Stiffness of a `ContactSet` times changes of the approaches, shape [row, roller, lamina, n]."""
+    """Multiply the stiffness of a `ContactSet` by changes of the approaches, [row, roller, lamina, n]."""
     if stiffness.ndim == direction.ndim:
         product: Float = stiffness @ direction
         return product
@@ -252,7 +252,7 @@ def stiffened(stiffness: Float, direction: Float) -> Float:
 
 
 def cup_contacts(model: ContactModel, roller: Float, pose: ConePose | None = None) -> ContactSet:
-    """Lamina contacts with the cup; `roller` is radial, axial, tilt, shape [row, roller, 3].
+    """Work out the lamina contacts with the cup; `roller` is radial, axial, tilt, shape [row, roller, 3].
 
     The pose matters for the bending of the cup only.
     """
@@ -277,7 +277,7 @@ def cup_contacts(model: ContactModel, roller: Float, pose: ConePose | None = Non
 
 
 def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactSet:
-    """Lamina contacts with the cone; `roller` is radial, axial, tilt, shape [row, roller, 3].
+    """Work out the lamina contacts with the cone; `roller` is radial, axial, tilt, shape [row, roller, 3].
 
     Notes
     -----
@@ -301,7 +301,7 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> Contact
 
 
 def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactSet:
-    """Contacts of the spherical large ends with the conical rib; one "lamina" per roller.
+    """Work out contacts of the spherical large ends with the conical rib; one "lamina" per roller.
 
     The nearest point of the rib lies on its face between undercut and corner; the edges are sharp.
     """
@@ -352,7 +352,7 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactS
 
 
 def _roller_line(model: ContactModel, roller: Float, pose: ConePose) -> tuple[Float, Float]:
-    """Mid-length point and axis of the rollers in cone axes, shape [row, roller, 3]."""
+    """Work out the mid-length point and axis of the rollers in cone axes, shape [row, roller, 3]."""
     centre = model.centre + roller[..., 0:1] * model.radial + roller[..., 1:2] * model.axial
     angle = model.bearing.contact_angle + roller[..., 2:3]
     axis = np.cos(angle) * model.axial + np.sin(angle) * model.radial
@@ -360,7 +360,7 @@ def _roller_line(model: ContactModel, roller: Float, pose: ConePose) -> tuple[Fl
 
 
 def _cone_normal(point: Float, outwards: Float, sine: float, cosine: float) -> Float:
-    """Unit normal of the cone raceway at `point`, into the cone, in cone axes."""
+    """Work out the unit normal of the cone raceway at `point`, into the cone, in cone axes."""
     distance = np.hypot(point[..., 0], point[..., 2])
     normal = np.empty_like(point)
     normal[..., 0] = -cosine * point[..., 0] / distance
@@ -380,7 +380,7 @@ def _assembled(
     point: Float,
     normal: Float,
 ) -> ContactSet:
-    """Contact set with its derivatives; `centre`, `point`, `normal` are in cone axes."""
+    """Assemble a contact set with its derivatives; `centre`, `point`, `normal` are in cone axes."""
     lever = (point - centre[:, :, None, :]) @ pose.rotation.T
     about_centre = _cross(point, normal) @ pose.rotation.T
     normal = normal @ pose.rotation.T
@@ -395,7 +395,7 @@ def _assembled(
 
 
 def _cross(first: Float, second: Float) -> Float:
-    """Vector product along the last axis; several times faster than numpy's on small arrays."""
+    """Multiply vectors along the last axis; several times faster than numpy's product on small arrays."""
     product = np.empty_like(first)
     product[..., 0] = first[..., 1] * second[..., 2] - first[..., 2] * second[..., 1]
     product[..., 1] = first[..., 2] * second[..., 0] - first[..., 0] * second[..., 2]

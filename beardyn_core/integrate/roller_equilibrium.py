@@ -69,7 +69,7 @@ class RollerState:
 
 
 def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> RollerState:
-    """Equilibrium of all rollers.
+    """Find the equilibrium of all rollers.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ class _Rollers:
         )
 
     def at(self, position: Float) -> _Trial:
-        """Energy and its derivatives, tilt measured as lever times angle."""
+        """Work out energy and its derivatives, tilt measured as lever times angle."""
         contacts = self.contacts(position)
         energy = -np.sum(self.model.inertia_load * position, axis=-1)
         force = np.broadcast_to(self.model.inertia_load / self.scale, position.shape).copy()
@@ -144,7 +144,7 @@ class _Rollers:
         return _Trial(position, energy, force, stiffness, load)
 
     def state(self, position: Float, free: NDArray[np.bool_]) -> RollerState:
-        """Everything the ring equilibrium needs, rollers that are free left out."""
+        """Work out everything the ring equilibrium needs, rollers that are free left out."""
         trial = self.at(position)
         held = ~free
         contacts = tuple(_without(contact, free) for contact in self.contacts(position))
@@ -177,7 +177,7 @@ class _Rollers:
 
 
 def _newton(solver: _Rollers, start: _Trial, free: NDArray[np.bool_]) -> _Trial:
-    """Damped Newton on all rollers at once; each keeps its own damping."""
+    """Take damped Newton steps on all rollers at once; each keeps its own damping."""
     best = start
     damping = np.full(free.shape, 1.0e-9)
     stalled = np.zeros(free.shape, dtype=np.int64)
@@ -204,14 +204,14 @@ def _newton(solver: _Rollers, start: _Trial, free: NDArray[np.bool_]) -> _Trial:
 
 
 def _regular(stiffness: Float, damping: Float | float) -> Float:
-    """Stiffness with `damping` of its own size added, invertible also where a direction is slack."""
+    """Add `damping` of its own size to a stiffness, invertible also where a direction is slack."""
     size = np.trace(stiffness, axis1=-2, axis2=-1)
     added = np.maximum(np.asarray(damping) * size, 1.0)
     return stiffness + added[..., None, None] * np.eye(stiffness.shape[-1])
 
 
 def _chosen(mask: NDArray[np.bool_], one: _Trial, other: _Trial) -> _Trial:
-    """Trial with the rollers of `one` where `mask` holds and of `other` elsewhere."""
+    """Choose the rollers of `one` where `mask` holds and of `other` elsewhere."""
     return _Trial(
         position=np.where(mask[..., None], one.position, other.position),
         energy=np.where(mask, one.energy, other.energy),
@@ -222,7 +222,7 @@ def _chosen(mask: NDArray[np.bool_], one: _Trial, other: _Trial) -> _Trial:
 
 
 def _without(contact: ContactSet, free: NDArray[np.bool_]) -> ContactSet:
-    """Contacts with force, stiffness and energy of the free rollers set to zero."""
+    """Set force, stiffness and energy of the contacts of free rollers to zero."""
     held = ~free[..., None]
     return ContactSet(
         approach=contact.approach,
@@ -235,7 +235,7 @@ def _without(contact: ContactSet, free: NDArray[np.bool_]) -> ContactSet:
 
 
 def _on_cup_and_rib(model: ContactModel, pose: ConePose) -> Float:
-    """Positions without tilt at which cup and rib alone carry the inertia load, or just touch."""
+    """Place the rollers without tilt where cup and rib alone carry the inertia load, or just touch."""
     bearing = model.bearing
     centrifugal = float(model.inertia_load[0])
     cup_load = centrifugal_cup_load(centrifugal, bearing.cup_angle, bearing.rib_angle)

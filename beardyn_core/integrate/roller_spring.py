@@ -21,7 +21,7 @@ _SMALLEST_APPROACH, _LARGEST_APPROACH = 2.0e-7, 4.0e-4
 
 @cache
 def load_of_approach(bearing: Bearing, laminae: int) -> tuple[Float, Float]:
-    """Cup load of a roller over the approach of cone and cup along the cup's normal.
+    """Work out the cup load of a roller over the approach of cone and cup along the cup's normal.
 
     Both cones are pressed axially against one row, so that every roller of it has the same approach.
 
@@ -42,7 +42,7 @@ def load_of_approach(bearing: Bearing, laminae: int) -> tuple[Float, Float]:
 
 @cache
 def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
-    """Spring of one roller, a least-squares fit in the ninth root of the approach.
+    """Fit the spring of one roller by least squares in the ninth root of the approach.
 
     Notes
     -----

@@ -17,7 +17,7 @@ _ORBIT_FIELDS = VELOCITY + 2
 
 
 def trend_shape(rollers: tuple[int, ...]) -> tuple[int, ...]:
-    """Of what `advance_lumped` writes at an instant, from the shape of the rollers' state."""
+    """Shape what `advance_lumped` writes at an instant, from the shape of the rollers' state."""
     block, _fields, lane = rollers
     return block + TREND_EXTRAS, 1, lane
 
@@ -44,13 +44,13 @@ class SpringTrend:
         return np.zeros((times, blocks - TREND_EXTRAS, fields, lane))
 
     def whole(self) -> Float:
-        """State as the full tier has it, shape [time, block, ROLLER_FIELDS, lane]."""
+        """Make the state as the full tier has it, shape [time, block, ROLLER_FIELDS, lane]."""
         rollers = self._empty(ROLLER_FIELDS)
         show_lumped(self._lanes, np.ascontiguousarray(self._trends), rollers, self._parameters)
         return rollers
 
     def orbits(self) -> Float:
-        """Angle, and speed as if at the radius 1: the first fields, shape [time, block, field, lane]."""
+        """Make angle, and speed as if at the radius 1: the first fields, shape [time, block, field, lane]."""
         rollers = self._empty(_ORBIT_FIELDS)
         _orbits(self._trends, self._parameters.base.rollers, rollers)
         return rollers

@@ -86,12 +86,12 @@ class StaticSolution:
 
     @property
     def loaded_roller_count(self) -> tuple[int, ...]:
-        """Rollers of each row that the cone presses."""
+        """Count the rollers of each row that the cone presses."""
         return tuple(np.count_nonzero(self.cone_load > 0.0, axis=1).tolist())
 
     @property
     def largest_roller_load(self) -> float:
-        """Largest load between a roller and the cup, [N]."""
+        """Find the largest load between a roller and the cup, [N]."""
         return float(self.cup_load.max())
 
 
@@ -113,7 +113,7 @@ def solve(
     rows: int = ROW_COUNT,
     missing: Sequence[tuple[int, int]] = (),
 ) -> StaticSolution:
-    """Static equilibrium under a load on the cone.
+    """Find the static equilibrium under a load on the cone.
 
     Parameters
     ----------
@@ -221,7 +221,7 @@ class _Cone:
         return np.asarray((left / self.scale)[self.active])
 
     def step(self, unknowns: Float, state: RollerState, damping: float) -> Float:
-        """Damped Newton step of the unknowns, no longer than the longest step."""
+        """Take a damped Newton step of the unknowns, no longer than the longest step."""
         active = self.active
         scaled = (state.cone_stiffness + np.diag(self.springs)) / np.outer(self.scale, self.scale)
         matrix = scaled[np.ix_(active, active)] + damping * _REFERENCE_STIFFNESS * np.eye(active.size)
@@ -235,7 +235,7 @@ class _Cone:
 
 
 def _equilibrium(cone: _Cone) -> tuple[RollerState, Float, int]:
-    """Pose of the cone at which the load is balanced."""
+    """Find the pose of the cone at which the load is balanced."""
     unknowns = np.zeros(cone.scale.size)
     state = cone.at(unknowns, None)
     energy = cone.energy(unknowns, state)
@@ -272,7 +272,7 @@ def _equilibrium(cone: _Cone) -> tuple[RollerState, Float, int]:
 
 
 def _rotation(about_x: float, about_z: float) -> Float:
-    """Rotation by the vector (about_x, 0, about_z), [rad]."""
+    """Make the rotation by the vector (about_x, 0, about_z), [rad]."""
     angle = math.hypot(about_x, about_z)
     cross = np.array([[0.0, -about_z, 0.0], [about_z, 0.0, -about_x], [0.0, about_x, 0.0]])
     first = float(np.sinc(angle / math.pi))
@@ -281,7 +281,7 @@ def _rotation(about_x: float, about_z: float) -> Float:
 
 
 def _bending_follows(stiffness: Float) -> Float:
-    """Stiffness of the cone pose with the bending of the cup following, shape [5, 5]."""
+    """Reduce the stiffness to the cone pose with the bending of the cup following, shape [5, 5]."""
     pose, coupling, bending = stiffness[:5, :5], stiffness[:5, 5:], stiffness[5:, 5:]
     if bending.size == 0:
         return pose
@@ -289,7 +289,7 @@ def _bending_follows(stiffness: Float) -> Float:
 
 
 def _stiffness(stiffness: Float) -> tuple[Float, Float]:
-    """Displacement stiffness with tilt held and with tilt following."""
+    """Reduce the stiffness to displacement, with tilt held and with tilt following."""
     held = stiffness[:3, :3]
     coupling, tilting = stiffness[:3, 3:], stiffness[3:, 3:]
     free = held - coupling @ np.linalg.pinv(tilting, hermitian=True) @ coupling.T

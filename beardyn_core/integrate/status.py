@@ -13,7 +13,6 @@ from beardyn_core.integrate.friction_steps import LARGEST_CHATTER_INDEX
 from beardyn_core.integrate.state import State
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.vectors import cross, dot
-from beardyn_core.model.guide_parameters import RibParams
 from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
@@ -33,6 +32,7 @@ from beardyn_core.model.layout import (
     RIB,
     ROLLER_STATES,
 )
+from beardyn_core.model.ribs import RibParams
 
 LARGEST_PENETRATION = 2.0e-4
 CHATTER_LOAD_FLOOR = 5.0
@@ -85,19 +85,19 @@ SENTENCES = {
 
 
 def describe(status: int) -> str:
-    """Sentences of all bits that are set; ``fine`` for none."""
+    """Write the sentences of all bits that are set; ``fine`` for none."""
     flags = Status(status)
     return "; ".join(text for flag, text in SENTENCES.items() if flag in flags) or "fine"
 
 
 def is_fatal(status: int) -> bool:
-    """Whether the run has to end."""
+    """Tell whether the run has to end."""
     fatal = Status.NOT_FINITE | Status.PENETRATION | Status.OFF_RIB
     return bool(Status(status) & fatal)
 
 
 def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
-    """Chatter index of the last block for each raceway contact, shape [raceway, block, lane].
+    """Work out the chatter index of the last block for each raceway contact, shape [raceway, block, lane].
 
     The rms of what flips in the friction force (`kernels.exchange.watch_chatter`) over the rms of the
     friction capacity. Full friction that flips every step has the index 2, every second step 0.7; smooth
@@ -113,7 +113,7 @@ def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
 
 
 def assess(state: State, step_count: int, large_end_radius: float, rib: RibParams | None = None) -> Status:
-    """Status after a block.
+    """Judge the status after a block.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def assess(state: State, step_count: int, large_end_radius: float, rib: RibParam
 
 @entry
 def _judge(rollers, bodies, step_count, large_end_radius, face):
-    """Bits of the status; rollers [block, ROLLER_FIELDS, lane]."""
+    """Set the bits of the status; rollers [block, ROLLER_FIELDS, lane]."""
     flags = 0
     for block in range(rollers.shape[0]):
         for field in range(ROLLER_STATES):
@@ -169,7 +169,7 @@ def _judge(rollers, bodies, step_count, large_end_radius, face):
 
 @inline
 def _chatters(rollers: Any, block: Any, lane: Any, step_count: Any) -> Any:
-    """Whether the chatter index of a roller is too large on cup or cone; see `chatter_index`."""
+    """Tell whether the chatter index of a roller is too large on cup or cone; see `chatter_index`."""
     found = False
     for ring in range(2):
         first = CHATTER + ring * CHATTER_FIELDS
@@ -188,7 +188,7 @@ def _contact_load(rollers: Any, block: Any, kind: Any, lane: Any) -> Any:
 
 @inline
 def _from_axis(rollers: Any, block: Any, lane: Any) -> Any:
-    """Distance of the rib contact from the roller's axis, [m]."""
+    """Work out the distance of the rib contact from the roller's axis, [m]."""
     first = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_ARM
     arm = (rollers[block, first, lane], rollers[block, first + 1, lane], rollers[block, first + 2, lane])
     axis = (rollers[block, AXIS, lane], rollers[block, AXIS + 1, lane], rollers[block, AXIS + 2, lane])
@@ -198,7 +198,7 @@ def _from_axis(rollers: Any, block: Any, lane: Any) -> Any:
 
 @inline
 def _beyond_face(rollers: Any, block: Any, lane: Any, face: Any) -> Any:
-    """How far the rib contact is beyond the edges of the rib's face, the cone's place neglected, [m]."""
+    """Tell how far the rib contact is beyond the edges of its face, the cone's place neglected, [m]."""
     sphere_place, normal_radial, normal_axial, low, high = face
     along = sphere_place * rollers[block, AXIS, lane]
     around = sphere_place * rollers[block, AXIS + 1, lane]

@@ -69,7 +69,7 @@ def choose_steps(
     mounting: Mounting | None = None,
     band: float = AUDIBLE_BAND,
 ) -> StepChoice:
-    """Coarsest step of the full tier that is converged over a range of loads and speeds.
+    """Choose the coarsest step of the full tier that is converged over a range of loads and speeds.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def _vibration(band: float) -> StepChoice:
 
 
 def bounce_frequency(bearing: Bearing, static: StaticSolution, laminae: int) -> float:
-    """Highest frequency at which a roller bounces between its raceways, [Hz]."""
+    """Work out the highest frequency at which a roller bounces between its raceways, [Hz]."""
     factor = line_contact_factor(bearing.material, bearing.effective_length) / laminae
     stiffness = np.zeros(static.cup_load.shape)
     for load in (static.cup_lamina_load, static.cone_lamina_load):
@@ -152,7 +152,7 @@ def _bounce(bearing: Bearing, static: StaticSolution, laminae: int, damped: bool
 
 
 def dry_slope(bearing: Bearing, effects: EffectSet, speed: float) -> float:
-    """Steepest rise of the coefficient of friction with the slip speed, [s/m]."""
+    """Work out the steepest rise of the coefficient of friction with the slip speed, [s/m]."""
     traction = effects.traction
     if isinstance(traction, LoadSharingTraction) and effects.film is None:
         return shared_slope(traction, 0.25 * bearing.pitch_diameter * speed)
@@ -173,7 +173,7 @@ def _friction(bearing: Bearing, effects: EffectSet, slowest: float, laminae: int
 def _explicit(
     bearing: Bearing, static: StaticSolution, effects: EffectSet, mounting: Mounting
 ) -> Iterator[StepChoice]:
-    """Couplings that the step treats explicitly: a fraction of a radian a step keeps them accurate."""
+    """Check couplings that the step treats explicitly: a fraction of a radian a step keeps them accurate."""
     contacts = float(np.linalg.eigvalsh(static.stiffness_tilt_held).max())
     inverse_mass = 1.0 / (mounting.journal_mass + bearing.cone_mass)
     if mounting.cup == "suspended":

@@ -10,15 +10,29 @@ import numpy as np
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.integrate.imex import advance
-from beardyn_core.integrate.lumped import advance_lumped, lumped_parameters, settle_lumped
-from beardyn_core.integrate.quasistatic import advance_quasistatic, quasistatic_parameters
+from beardyn_core.integrate.lumped import advance_lumped
+from beardyn_core.integrate.quasistatic import advance_quasistatic
 from beardyn_core.integrate.roller_contacts import Float
+from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.integrate.spring_trend import SpringTrend, trend_shape
-from beardyn_core.integrate.state import State, initial_state
+from beardyn_core.integrate.start import initial_state, settle_lumped
+from beardyn_core.integrate.state import State
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import CONE_BODY, POSITION, TILT
 from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.tier_parameters import (
+    LumpedParameters,
+    QuasistaticParameters,
+    faults_or_none,
+    kinematic_params,
+    lever_of_cup,
+    pocket_directions,
+    ring_motion_params,
+    ring_response_params,
+    roller_tangent,
+    row_sides,
+)
 from beardyn_core.scene.scene import Scene
 
 
@@ -49,6 +63,37 @@ class Tier:
     start: Callable[[Scene, Arrangement, Any, StaticSolution, Float], State]
     trend_shape: Callable[[tuple[int, ...]], tuple[int, ...]] = lambda shape: shape
     shown: Callable[[Any, Float, Any], Any] = lambda _lanes, trend, _parameters: trend
+
+
+def lumped_parameters(scene: Scene, base: Parameters) -> LumpedParameters:
+    """Build the kernel parameters of the lumped tier."""
+    motion, spring = ring_motion_params(base), spring_params(scene.bearing, scene.numerics.laminae)
+    return LumpedParameters(
+        step=base.step,
+        base=base,
+        kinematic=kinematic_params(scene),
+        motion=motion,
+        response=ring_response_params(base, motion, spring.lever),
+        spring=spring,
+        pockets=pocket_directions(base),
+        sides=row_sides(base, scene.rows),
+        faults=faults_or_none(base),
+    )
+
+
+def quasistatic_parameters(scene: Scene, base: Parameters) -> QuasistaticParameters:
+    """Build the kernel parameters of the quasistatic tier."""
+    motion = ring_motion_params(base)
+    return QuasistaticParameters(
+        step=base.step,
+        base=base,
+        kinematic=kinematic_params(scene),
+        motion=motion,
+        response=ring_response_params(base, motion, lever_of_cup(scene.bearing)),
+        tangent=roller_tangent(scene.bearing),
+        pockets=pocket_directions(base),
+        sides=row_sides(base, scene.rows),
+    )
 
 
 def _start_full(

@@ -27,7 +27,7 @@ from beardyn_core.bearing.rolling_resistance import (
 from beardyn_core.errors import InputError
 from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.model.lamina_table import equivalent_radius
+from beardyn_core.model.laminae import equivalent_radius
 
 LINE_FORMS = {
     "aihara": aihara_line,
@@ -55,18 +55,18 @@ class RunningTorque:
 
     @property
     def total(self) -> float:
-        """[N m]."""
+        """Add up the torque on the shaft, [N m]."""
         return self.rolling + self.rib
 
 
 def raceway_radius(bearing: Bearing, ring: str) -> float:
-    """Radius of a raceway at the mid-length of its rollers, [m]."""
+    """Work out the radius of a raceway at the mid-length of its rollers, [m]."""
     angle = bearing.cup_angle if ring == "cup" else bearing.cone_angle
     return bearing.apex_distance / math.cos(bearing.half_angle) * math.sin(angle)
 
 
 def entrainment_speeds(bearing: Bearing, speed: float) -> tuple[float, float]:
-    """Entrainment speed on cup and cone in pure rolling, contact-fixed frame, [m/s]."""
+    """Work out entrainment speeds on cup and cone in pure rolling, contact-fixed frame, [m/s]."""
     orbit = cage_speed(bearing, abs(speed))
     return orbit * raceway_radius(bearing, "cup"), (abs(speed) - orbit) * raceway_radius(bearing, "cone")
 
@@ -83,7 +83,7 @@ def running_torque(
     hysteresis: float = 0.0,
     rib_friction: float = 0.0,
 ) -> RunningTorque:
-    """Running torque in pure rolling under the loads of a static equilibrium.
+    """Work out the running torque in pure rolling under the loads of a static equilibrium.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def running_torque(
 
 
 def _rib_torque(bearing: Bearing, static: StaticSolution, friction: float) -> float:
-    """Torque of the sliding of all large ends on their ribs, [N m]."""
+    """Work out the torque of the sliding of all large ends on their ribs, [N m]."""
     if friction == 0.0:
         return 0.0
     contact, height = rib_contact(bearing), bearing.rib_contact_height

@@ -41,12 +41,12 @@ class Warmth:
 
 
 def film_temperature(temperature: Float) -> float:
-    """Of the film: the mean of the surfaces that carry it into the contacts, [K]."""
+    """Take the film's temperature, the mean of the surfaces that carry it into the contacts, [K]."""
     return float(0.5 * temperature[ROLLER_NODE] + 0.25 * (temperature[CUP_NODE] + temperature[CONE_NODE]))
 
 
 def cold_start(scene: Scene) -> Warmth:
-    """Every part at the scene's temperature, or at its own when the scene gives them."""
+    """Set every part to the scene's temperature, or to its own when the scene gives them."""
     temperature = np.full(len(NODES), scene.temperature)
     if scene.temperatures is not None:
         parts = scene.temperatures
@@ -57,7 +57,7 @@ def cold_start(scene: Scene) -> Warmth:
 def warmed(
     scene: Scene, thermal: Thermal, now: Warmth, energy: Float, shaft_speed: float, block: float
 ) -> Warmth:
-    """Temperatures after a block.
+    """Advance the temperatures over a block.
 
     Parameters
     ----------
@@ -99,5 +99,5 @@ def warmed(
 
 
 def scene_at(scene: Scene, warmth: Warmth) -> Scene:
-    """The scene with film temperature and end play as they are now."""
+    """Give the scene film temperature and end play as they are now."""
     return replace(scene, temperature=warmth.film_temperature, end_play=warmth.end_play)

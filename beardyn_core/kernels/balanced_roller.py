@@ -30,7 +30,7 @@ _LONGEST_MOVE = 2.0e-5
 
 @inline
 def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
-    """Contact line on the cup of a roller without skew: exact and affine in the abscissa.
+    """Work out the contact line on the cup of a roller without skew: exact and affine in the abscissa.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
 @inline
 def short_direction(across: Any) -> Any:
-    """Unit vector of a vector that is nearly radial, and one over its length.
+    """Work out the unit vector of a vector that is nearly radial, and one over its length.
 
     A series in the squared lean q from the radial direction; the error is 0.3 q^3, below 1e-12 for
     displacements of a hundredth of the radius.
@@ -79,7 +79,7 @@ def short_direction(across: Any) -> Any:
 
 @inline
 def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any, roller: Any) -> Any:
-    """Contact line on the cone: `kernels.raceway.generator_line` for a roller without skew of its own.
+    """Work out the contact line on the cone: see `generator_line`, for a roller without skew of its own.
 
     One pass of the closed form, and series in place of roots: the direction of the force is good to first
     order in the displacement of the cone, the gap to second order, 0.1 nm at 0.1 mm.
@@ -118,7 +118,7 @@ def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any,
 
 @inline
 def damped(springs: Any, rate: Any, damping: Any) -> Any:
-    """Force sums with what the damper adds at an affine approach rate."""
+    """Add to the force sums what the damper adds at an affine approach rate."""
     if damping is None:
         return springs[0]
     force, stiffness = springs
@@ -130,7 +130,7 @@ def damped(springs: Any, rate: Any, damping: Any) -> Any:
 
 @inline
 def cone_rate(line: Any, centre: Any, motion: Any) -> Any:
-    """Approach rate of a raceway or rib that moves, the roller at rest in its orbit frame; affine."""
+    """Take the affine approach rate of a raceway or rib that moves, the roller at rest in its orbit frame."""
     arm, slope, normal = line[0], line[1], line[2]
     velocity, omega = motion
     at_middle = add(velocity, cross(omega, add(centre, arm)))
@@ -145,7 +145,7 @@ def tilt_arm(arm: Any, normal: Any) -> Any:
 
 @inline
 def rib_spring(centre: Any, axis: Any, ring_axis: Any, motion: Any, rib: Any) -> Any:
-    """Rib contact of a roller: force, tangent stiffness, change with place and tilt, approach rate.
+    """Work out the rib contact: force, tangent stiffness, change with place and tilt, approach rate.
 
     References
     ----------
@@ -190,7 +190,7 @@ def add_raceway(system: Any, force: Any, stiffness: Any, normal: Any, by_tilt: A
 
 @inline
 def solve_three(system: Any) -> Any:
-    """Solution of a symmetric positive definite system of three."""
+    """Solve a symmetric positive definite system of three."""
     m, r = system
     d0 = 1.0 / m[0]
     l1, l2 = m[1] * d0, m[2] * d0
@@ -207,7 +207,7 @@ def solve_three(system: Any) -> Any:
 
 @inline
 def settled(force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any, move: Any, reach: Any) -> Any:
-    """Force sums with x^0 and x^1 of a raceway after a move, pressing and within the roller."""
+    """Work out the force sums of a raceway with x^0 and x^1 after a move, pressing and within the roller."""
     deeper = normal[0] * move[0] + normal[1] * move[1] + by_tilt[0] * move[2]
     steeper = by_tilt[1] * move[2]
     load = at_least(force[0] + factor * (stiffness[0] * deeper + stiffness[1] * steeper), 0.0)
@@ -219,7 +219,7 @@ def settled(force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any, 
 def balance(
     lanes: Any, block: Any, place: Any, axis: Any, views: Any, azimuths: Any, loads: Any, p: Any
 ) -> Any:
-    """One Newton step of a block of rollers towards balance.
+    """Take one Newton step of a block of rollers towards balance.
 
     Parameters
     ----------
@@ -304,7 +304,7 @@ def balance(
 
 @inline
 def damper_force(stiffness: Any, rate: Any, damping: Any) -> Any:
-    """Force of a point contact's damper, [N]."""
+    """Work out the force of a point contact's damper, [N]."""
     if damping is None:
         return 0.0
     return damping.time_constant * stiffness * rate
@@ -312,7 +312,7 @@ def damper_force(stiffness: Any, rate: Any, damping: Any) -> Any:
 
 @inline
 def turned_axis(axis: Any, tilt: Any) -> Any:
-    """Roller axis (radial, axial) after a small tilt."""
+    """Turn the roller axis (radial, axial) by a small tilt."""
     square = tilt * tilt
     cosine, sine = 1.0 - 0.5 * square, tilt * (1.0 - square * (1.0 / 6.0))
     radial = axis[0] * cosine + axis[1] * sine
@@ -323,7 +323,7 @@ def turned_axis(axis: Any, tilt: Any) -> Any:
 
 @inline
 def cone_view(lanes: Any, motion: Any, cosine: Any, sine: Any, orbit_rate: Any, side: Any) -> Any:
-    """Cone in the orbit frames: origin, axis, and how both move against these turning frames.
+    """Turn the cone into the orbit frames: origin, axis, and how both move against these turning frames.
 
     Parameters
     ----------

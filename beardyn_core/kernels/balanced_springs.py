@@ -6,17 +6,17 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
-from beardyn_core.kernels.lamina_spring import SMALLEST_APPROACH, contact_spring
+from beardyn_core.kernels.laminae import SMALLEST_APPROACH, contact_spring
 from beardyn_core.kernels.lane_math import at_least, magnitude, quick_ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.model.contact_parameters import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
+from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 
 @inline
 def lamina_springs(
     lanes: Any, block: Any, approach: Any, bend: Any, azimuths: Any, laminae: Any, reach: Any, patches: Any
 ) -> Any:
-    """Elastic force with x^0 and x^1, and tangent stiffness with x^0, x^1 and x^2, over the laminae.
+    """Sum elastic force with x^0, x^1 and tangent stiffness with x^0, x^1, x^2 over the laminae.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: An
 
 @inline
 def _bend(bend: Any, x: Any) -> Any:
-    """Part of the approach that is not affine in the abscissa, [m]."""
+    """Work out the part of the approach that is not affine in the abscissa, [m]."""
     if bend is None:
         return 0.0
     return (x * x) * (bend[0] + x * bend[1])

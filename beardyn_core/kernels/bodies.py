@@ -15,7 +15,6 @@ from beardyn_core.model.layout import (
     CAGE_BODY,
     CONE_BODY,
     CUP_BODY,
-    ELASTIC,
     ENERGY_EXTERNAL,
     ENERGY_LOST,
     ENERGY_NUMERICAL,
@@ -49,7 +48,7 @@ LOAD_SPEED, LOAD_BOGIE = 6, 7  # after the six components of the load
 
 @inline
 def row_of(group: Any, lane: Any, width: Any, rows: Any) -> Any:
-    """Row whose rollers a lane of a group holds."""
+    """Tell which row's rollers a lane of a group holds."""
     if width == 1:
         return group
     return rows * lane // width
@@ -67,7 +66,7 @@ def drift_bodies(bodies: Any, step: Any) -> None:
 
 @inline
 def ring_direction(bodies: Any, body: Any) -> Any:
-    """Unit axis of a body that stands along +y without tilt, to second order in the tilt."""
+    """Work out the unit axis of a body that stands along +y without tilt, to second order in the tilt."""
     a, b, c = bodies[body, TILT + X], bodies[body, TILT + Y], bodies[body, TILT + Z]
     x = -c + 0.5 * a * b
     y = 1.0 - 0.5 * (a * a + c * c)
@@ -162,7 +161,7 @@ def collect_reactions(sums: Any, wrenches: Any) -> None:
 
 @inline
 def fall(gravity: Any) -> Any:
-    """Acceleration of free fall, 0 without gravity, [m/s^2]."""
+    """Work out the acceleration of free fall, 0 without gravity, [m/s^2]."""
     if gravity is None:
         return 0.0
     return gravity.acceleration
@@ -292,16 +291,6 @@ def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
             / cage.transverse_inertia
         )
         bodies[body, RATE] += step * about_axis / cage.polar_inertia
-
-
-@inline
-def elastic_energy(sums: Any) -> Any:
-    """Elastic energy of all contacts at the beginning of the step, [J]."""
-    total = 0.0
-    for group in range(sums.shape[0]):
-        for lane in range(sums.shape[3]):
-            total += sums[group, 0, ELASTIC, lane]
-    return total
 
 
 @inline

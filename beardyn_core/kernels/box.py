@@ -83,7 +83,7 @@ def kick_box(
 
 @inline
 def box_energy(bodies: Any, mounting: Any, coupling: Any) -> Any:
-    """Kinetic energy of the axlebox with the cup, [J]."""
+    """Sum the kinetic energy of the axlebox with the cup, [J]."""
     total = 0.0
     if coupling is None:
         for i in range(3):

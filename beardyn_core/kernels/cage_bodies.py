@@ -23,7 +23,7 @@ X, Y, Z = 0, 1, 2
 
 @inline
 def cage_energy(bodies: Any, cage: Any) -> Any:
-    """Kinetic energy of both cages, without a prescribed spin, [J]."""
+    """Sum the kinetic energy of both cages, without a prescribed spin, [J]."""
     if cage is None:
         return 0.0
     return _energy(bodies, cage, cage.rotating, cage.kinematic)

@@ -11,7 +11,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.model.fault_parameters import (
+from beardyn_core.model.layout import (
     PATCH_POINTS,
     PLACE_ARC_RADIUS,
     PLACE_AZIMUTH,
@@ -32,21 +32,21 @@ _SPRINGS = 0  # the work space has one page
 
 @inline
 def patch_arc(azimuth: Any, patch: Any, surface: Any) -> Any:
-    """Arc from the nearest centre of a patch, [m]."""
+    """Work out the arc from the nearest centre of a patch, [m]."""
     turn = surface.places[patch, PLACE_REPEATS] * (azimuth - surface.places[patch, PLACE_AZIMUTH])
     return wrap(turn) * surface.places[patch, PLACE_ARC_RADIUS]
 
 
 @inline
 def patch_nearness(lanes: Any, block: Any, azimuth: Any, patch: Any, surface: Any) -> Any:
-    """How far a roller is inside of the reach of a patch; not positive where it does not feel it, [m]."""
+    """Tell how far a roller is inside the reach of a patch; not positive where it does not feel it, [m]."""
     inside = surface.places[patch, PLACE_REACH] - magnitude(patch_arc(azimuth, patch, surface))
     return lanes.load(surface.present, block, patch) * inside
 
 
 @inline
 def any_near(lanes: Any, block: Any, azimuth: Any, surface: Any) -> Any:
-    """Whether any lane is within the reach of any patch of a surface."""
+    """Tell whether any lane is within the reach of any patch of a surface."""
     if surface is None:
         return False
     nearest = lanes.constant(0.0)
@@ -57,7 +57,7 @@ def any_near(lanes: Any, block: Any, azimuth: Any, surface: Any) -> Any:
 
 @inline
 def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any, damage: Any) -> Any:
-    """Whether a contact is near a patch; then the gaps of its springs are worked out.
+    """Tell whether a contact is near a patch, and then work out the gaps of its springs.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def _increase(lanes: Any, springs: Any, field: Any, value: Any) -> None:
 
 @inline
 def spring_table(laminae: Any, damage: Any) -> Any:
-    """Lamina table with a column for every spring."""
+    """Take the lamina table with a column for every spring."""
     if damage is None:
         return laminae
     return damage.laminae
@@ -151,7 +151,7 @@ def spring_table(laminae: Any, damage: Any) -> Any:
 
 @inline
 def spring_count(laminae: Any, damage: Any, coupling: Any) -> Any:
-    """Springs of a contact, two of each lamina near a patch; coupled laminae are not divided."""
+    """Count the springs of a contact, two of each lamina near a patch; coupled laminae are not divided."""
     if damage is None:
         return laminae.shape[1]
     if coupling is None:
@@ -173,7 +173,7 @@ def spring_damage(lanes: Any, spring: Any, damage: Any) -> Any:
 
 @inline
 def gap_moments(lanes: Any, near: Any, lamina: Any, count: Any, damage: Any) -> Any:
-    """Mean gap [m] and mean squared gap [m^2] along one lamina."""
+    """Work out the mean gap [m] and mean squared gap [m^2] along one lamina."""
     zero = lanes.constant(0.0)
     if damage is None:
         return zero, zero
@@ -187,7 +187,7 @@ def gap_moments(lanes: Any, near: Any, lamina: Any, count: Any, damage: Any) -> 
 
 @inline
 def spring_slopes(lanes: Any, spring: Any, damage: Any) -> Any:
-    """Slope of the gap of a spring near a patch over the ring's and the roller's azimuth, [m/rad]."""
+    """Take the slope of a spring's gap near a patch over the ring's and the roller's azimuth, [m/rad]."""
     field = SPRING_FIELDS * spring
     return (
         lanes.load(damage.springs, _SPRINGS, field + SPRING_RING_SLOPE),
@@ -197,7 +197,7 @@ def spring_slopes(lanes: Any, spring: Any, damage: Any) -> Any:
 
 @inline
 def pocket_wear(lanes: Any, block: Any, pockets: Any) -> Any:
-    """Half of the added clearance of each roller's pocket, [m]."""
+    """Work out the half of the added clearance of each roller's pocket, [m]."""
     if pockets is None:
         return 0.0
     return lanes.load(pockets, block, 0)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least
-from beardyn_core.kernels.vectors import add, cross, scale, turn_out
+from beardyn_core.kernels.vectors import Vector, add, cross, scale, turn_out
 from beardyn_core.model.layout import (
     CHATTER,
     CHATTER_BEFORE,
@@ -28,9 +28,30 @@ from beardyn_core.model.layout import (
 )
 
 
+class Here(NamedTuple):
+    """The block of rollers that a step is working on, and where its results go."""
+
+    lanes: Any
+    block: int
+    rollers: Any  # [block, ROLLER_FIELDS, lane], state and outputs
+    sums: Any  # [1, SUM_FIELDS + 2 x mode, lane], added to
+    mask: Any  # 1 for a roller, 0 for a lane that shadows one
+    cosine: Any  # of the orbit azimuth
+    sine: Any
+
+
+class ContactOutput(NamedTuple):
+    """What an output says of one contact of a roller, in its orbit frame."""
+
+    force: Vector  # on the roller [N]
+    arm: Vector  # from the centre of mass to the contact [m]
+    slip: Any  # [m/s]
+    film: Any  # thickness [m]
+
+
 @inline
 def load_vector(lanes: Any, array: Any, block: Any, field: Any) -> Any:
-    """Three lane values stored one after the other."""
+    """Load three lane values stored one after the other."""
     return (
         lanes.load(array, block, field),
         lanes.load(array, block, field + 1),
@@ -47,76 +68,115 @@ def store_vector(lanes: Any, array: Any, block: Any, field: Any, vector: Any) ->
 
 
 @inline
-def accumulate(lanes: Any, sums: Any, field: Any, value: Any) -> None:
+def accumulate(here: Any, field: Any, value: Any) -> None:
     """Add a lane value to a sum over the blocks."""
-    lanes.store(sums, 0, field, lanes.load(sums, 0, field) + value)
+    here.lanes.store(here.sums, 0, field, here.lanes.load(here.sums, 0, field) + value)
 
 
 @inline
-def accumulate_vector(lanes: Any, sums: Any, field: Any, vector: Any) -> None:
+def accumulate_vector(here: Any, field: Any, vector: Any) -> None:
     """Add three lane values to sums stored one after the other."""
-    accumulate(lanes, sums, field, vector[0])
-    accumulate(lanes, sums, field + 1, vector[1])
-    accumulate(lanes, sums, field + 2, vector[2])
+    accumulate(here, field, vector[0])
+    accumulate(here, field + 1, vector[1])
+    accumulate(here, field + 2, vector[2])
 
 
 @inline
-def react(
-    lanes: Any, sums: Any, ring: Any, mask: Any, centre: Any, force: Any, moment: Any, cosine: Any, sine: Any
-) -> None:
-    """Add the reaction of one contact to its ring: force and moment about the ring's origin."""
-    about_origin = add(moment, cross(centre, force))
-    push = turn_out(scale(-mask, force), cosine, sine)
-    turn = turn_out(scale(-mask, about_origin), cosine, sine)
+def react(ring: Any, centre: Any, wrench: Any, here: Any) -> None:
+    """Add the reaction of one contact to its ring: force and moment about the ring's origin.
+
+    Parameters
+    ----------
+    ring : int
+        ``CUP``, ``CONE`` or, for the cage, ``CAGE_BODY``.
+    centre : vector
+        Centre of mass of the roller from the ring's origin, [m].
+    wrench : Wrench
+        On the roller, about its centre of mass.
+    here : Here
+
+    Notes
+    -----
+    The compiler ranks what it adds by the order of the arguments, and by that decides which product of a sum
+    is fused with it: another order gives other last bits. So `here` comes after the wrench, here and in the
+    functions that settle a contact.
+    """
+    about_origin = add(wrench.moment, cross(centre, wrench.force))
+    push = turn_out(scale(-here.mask, wrench.force), here.cosine, here.sine)
+    turn = turn_out(scale(-here.mask, about_origin), here.cosine, here.sine)
     first = REACTION + 6 * ring
-    accumulate_vector(lanes, sums, first, push)
-    accumulate_vector(lanes, sums, first + 3, turn)
+    accumulate_vector(here, first, push)
+    accumulate_vector(here, first + 3, turn)
 
 
 @inline
-def account(lanes: Any, sums: Any, mask: Any, numerical: Any, elastic: Any, audit: Any) -> None:
-    """Add what a contact lost to the time step and what it stores to the audit."""
+def react_couple(ring: Any, couple: Any, here: Any) -> None:
+    """Add the reaction of a couple on the roller to its ring."""
+    turn = turn_out(scale(-here.mask, couple), here.cosine, here.sine)
+    accumulate_vector(here, REACTION + 6 * ring + 3, turn)
+
+
+@inline
+def account(here: Any, numerical: Any, elastic: Any, audit: Any) -> None:
+    """Add what a contact lost to the time step and what it stores to the audit, [J]."""
     if audit is None:
         return
-    accumulate(lanes, sums, WORK_NUMERICAL, mask * numerical)
-    accumulate(lanes, sums, ELASTIC, mask * elastic)
+    accumulate(here, WORK_NUMERICAL, here.mask * numerical)
+    accumulate(here, ELASTIC, here.mask * elastic)
 
 
 @inline
-def account_loss(lanes: Any, sums: Any, mask: Any, source: Any, lost: Any, audit: Any) -> None:
-    """Add what a contact dissipated over the step to the audit, under its source (``LOSS_...``)."""
+def account_loss(here: Any, source: Any, lost: Any, audit: Any) -> None:
+    """Add what a contact dissipated over the step to the audit, under its source (``LOSS_...``), [J]."""
     if audit is None:
         return
-    accumulate(lanes, sums, WORK_LOST + source, mask * lost)
+    accumulate(here, WORK_LOST + source, here.mask * lost)
 
 
 @inline
-def account_gravity(lanes: Any, sums: Any, mask: Any, work: Any, audit: Any) -> None:
-    """Add the work of gravity to the audit."""
+def account_gravity(here: Any, work: Any, audit: Any) -> None:
+    """Add the work of gravity to the audit, [J]."""
     if audit is None:
         return
-    accumulate(lanes, sums, WORK_GRAVITY, mask * work)
+    accumulate(here, WORK_GRAVITY, here.mask * work)
 
 
 @inline
-def output_contact(
-    lanes: Any, rollers: Any, block: Any, kind: Any, force: Any, arm: Any, slip: Any, film: Any
-) -> None:
-    """Keep what the last step says of one contact."""
+def output_contact(lanes: Any, rollers: Any, block: Any, kind: Any, output: Any) -> None:
+    """Write what the last step says of one contact of a block of rollers.
+
+    Parameters
+    ----------
+    lanes : Lanes
+    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
+        Written.
+    block : int
+    kind : int
+        ``CUP``, ``CONE``, ``RIB`` or ``POCKET``.
+    output : ContactOutput
+    """
     first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS
-    store_vector(lanes, rollers, block, first + OUTPUT_FORCE, force)
-    store_vector(lanes, rollers, block, first + OUTPUT_ARM, arm)
-    lanes.store(rollers, block, first + OUTPUT_SLIP, slip)
-    lanes.store(rollers, block, first + OUTPUT_FILM, film)
+    store_vector(lanes, rollers, block, first + OUTPUT_FORCE, output.force)
+    store_vector(lanes, rollers, block, first + OUTPUT_ARM, output.arm)
+    lanes.store(rollers, block, first + OUTPUT_SLIP, output.slip)
+    lanes.store(rollers, block, first + OUTPUT_FILM, output.film)
 
 
 @inline
-def watch_chatter(lanes: Any, rollers: Any, block: Any, ring: Any, friction: Any, capacity: Any) -> None:
+def watch_chatter(here: Any, ring: Any, friction: Any, capacity: Any) -> None:
     """Sum the squares of what flips in the friction force, and of its capacity.
 
     What flips is its second difference, less half of what it has moved over both steps: a strike that the
     steps resolve moves more than it bends.
+
+    Parameters
+    ----------
+    here : Here
+    ring : int
+    friction, capacity : lane value
+        Friction of the step, and at full slip in the dry limit, [N].
     """
+    lanes, rollers, block = here.lanes, here.rollers, here.block
     first = CHATTER + ring * CHATTER_FIELDS
     last = lanes.load(rollers, block, first + CHATTER_LAST)
     before = lanes.load(rollers, block, first + CHATTER_BEFORE)
@@ -134,13 +194,13 @@ def watch_chatter(lanes: Any, rollers: Any, block: Any, ring: Any, friction: Any
 
 @inline
 def implicit_time(spring_time: Any, damping: Any) -> Any:
-    """Time that makes tangent stiffness an implicit resistance: the damper acts in mid-step, [s]."""
+    """Work out the time that makes tangent stiffness an implicit resistance: dampers act in mid-step, [s]."""
     return spring_time + 0.5 * damper_time(damping)
 
 
 @inline
 def damper_time(damping: Any) -> Any:
-    """Damping of a contact over its tangent stiffness, [s]."""
+    """Take the damping of a contact over its tangent stiffness, 0 without damping, [s]."""
     if damping is None:
         return 0.0
     return damping.time_constant

@@ -6,7 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude
-from beardyn_core.model.contact_parameters import LAMINA_FILM
+from beardyn_core.model.layout import LAMINA_FILM
 
 _LOG2_LIGHTEST = -9.965784284662087  # 1 mN
 _LOG2_THICKEST_RIGID_FILM = -13.287712379549449  # 0.1 mm, where an unloaded roller has no contact any more
@@ -14,7 +14,7 @@ _LOG2_THICKEST_RIGID_FILM = -13.287712379549449  # 0.1 mm, where an unloaded rol
 
 @inline
 def log2_entrainment(speed: Any, film: Any) -> Any:
-    """What the film has of the entrainment speed, once per contact.
+    """Work out what the film needs of the entrainment speed, once per contact.
 
     Returns
     -------
@@ -31,7 +31,7 @@ def log2_entrainment(speed: Any, film: Any) -> Any:
 
 @inline
 def log2_thermal_factor(log2_rolling: Any, thermal: Any) -> Any:
-    """Binary logarithm of the film reduction by inlet heating, 1 / (1 + c L^n), L = eta beta u^2 / k."""
+    """Take log2 of the film reduction by inlet heating, 1 / (1 + c L^n), L = eta beta u^2 / k."""
     if thermal is None:
         return 0.0
     log2_loading = thermal.log2_loading + 2.0 * log2_rolling
@@ -41,7 +41,7 @@ def log2_thermal_factor(log2_rolling: Any, thermal: Any) -> Any:
 
 @inline
 def log2_load(load: Any) -> Any:
-    """Binary logarithm of the load of a lamina, not below that of 1e-12 N, [log2 N]."""
+    """Work out the binary logarithm of the load of a lamina, not below that of 1e-12 N, [log2 N]."""
     return log2(at_least(load, 1e-12))
 
 
@@ -49,7 +49,7 @@ def log2_load(load: Any) -> Any:
 def log2_film_thickness(
     log2_force: Any, log2_speed: Any, lamina: Any, ring: Any, laminae: Any, film: Any
 ) -> Any:
-    """Binary logarithm of the film thickness of one lamina, [log2 m].
+    """Work out the binary logarithm of the film thickness of one lamina, [log2 m].
 
     Power law in speed and load, the rest of the formula is in the lamina table; with the guard of rigid
     surfaces the thicker of both films. Neglects the drag of starving oil beyond the starvation factor;
@@ -68,7 +68,7 @@ def log2_film_thickness(
 
 @inline
 def thicker_film(elastic: Any, load_log2: Any, log2_rolling: Any, lamina: Any, ring: Any, rigid: Any) -> Any:
-    """The elastohydrodynamic film, or that of rigid surfaces where it is thicker, [log2 m].
+    """Take the elastohydrodynamic film, or that of rigid surfaces where it is thicker, [log2 m].
 
     References
     ----------
@@ -82,7 +82,7 @@ def thicker_film(elastic: Any, load_log2: Any, log2_rolling: Any, lamina: Any, r
 
 @inline
 def film_output(load: Any, log2_speed: Any, ring: Any, laminae: Any, film: Any) -> Any:
-    """Film thickness of the middle lamina under the mean lamina load, [m]; 0 without a film."""
+    """Work out the film thickness of the middle lamina under the mean lamina load, [m]; 0 without a film."""
     if film is None:
         return 0.0
     middle = laminae.shape[1] // 2

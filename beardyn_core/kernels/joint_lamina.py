@@ -17,7 +17,7 @@ from beardyn_core.kernels.lane_math import (
     ninth_root,
     where_greater,
 )
-from beardyn_core.model.fault_parameters import (
+from beardyn_core.model.layout import (
     SPRING_FIELDS,
     SPRING_GAP,
     SPRING_RING_SLOPE,
@@ -34,7 +34,7 @@ _SMALLEST_LOOSE = 1e-12
 
 @inline
 def joint_depth(lanes: Any, depth: Any, lamina: Any, count: Any, damage: Any, exponent: Any) -> Any:
-    """Depth at which a lamina joins the others, [m].
+    """Work out the depth at which a lamina joins the others, [m].
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def joint_depth(lanes: Any, depth: Any, lamina: Any, count: Any, damage: Any, ex
 
 @inline
 def joint_share(lanes: Any, lamina: Any, damage: Any) -> Any:
-    """Part of its load that a lamina presses with: slope of its joint depth, [-]."""
+    """Work out the part of its load that a lamina presses with: slope of its joint depth, [-]."""
     if damage is None:
         return 1.0
     return lanes.load(damage.springs, _SPRINGS, SPRING_FIELDS * lamina + SPRING_SHARE)
@@ -88,7 +88,7 @@ def joint_share(lanes: Any, lamina: Any, damage: Any) -> Any:
 
 @inline
 def joint_slopes(lanes: Any, lamina: Any, count: Any, damage: Any) -> Any:
-    """By how much a lamina gives way with the ring's and the roller's azimuth, [m/rad]."""
+    """Work out by how much a lamina gives way with the ring's and the roller's azimuth, [m/rad]."""
     field = SPRING_FIELDS * (count + lamina)
     share = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE)
     return (

@@ -58,7 +58,7 @@ def store_stiffness(lanes: Any, sums: Any, stiff: Any) -> None:
 
 @inline
 def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
-    """Tangent stiffness of all rollers against displacement and tilt of the cone, world axes.
+    """Work out the tangent stiffness of all rollers against displacement and tilt of the cone, world axes.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
 
 @inline
 def hold_response(sums: Any, direction: Any, work: Any, p: Any) -> None:
-    """What a relative acceleration of the rings adds to the rollers' wrench, kept until it is due again.
+    """Work out what a relative acceleration of the rings adds to the rollers' wrench, and keep it until due.
 
     Notes
     -----
@@ -144,7 +144,7 @@ def hold_response(sums: Any, direction: Any, work: Any, p: Any) -> None:
 
 @inline
 def journal_velocity(bodies: Any) -> Any:
-    """Velocity and tilt rate of the journal, 5 floats."""
+    """Take the velocity and tilt rate of the journal, 5 floats."""
     return (
         bodies[CONE_BODY, LINEAR],
         bodies[CONE_BODY, LINEAR + 1],

@@ -10,7 +10,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import X, Y, Z
-from beardyn_core.kernels.exchange import output_contact, store_vector
+from beardyn_core.kernels.exchange import ContactOutput, output_contact, store_vector
 from beardyn_core.kernels.film import film_output, log2_entrainment
 from beardyn_core.model.layout import (
     ANGLE,
@@ -39,7 +39,7 @@ TORQUE_ROLLING, TORQUE_RIB = REACTION + 6, REACTION + 7
 
 @inline
 def relative_motion(bodies: Any, i: Any, place: Any, speed: Any) -> Any:
-    """Cone against cup along or about one world axis: displacement and velocity."""
+    """Take the motion of the cone against the cup on one world axis: displacement and velocity."""
     return (
         bodies[CONE_BODY, place + i] - bodies[CUP_BODY, place + i],
         bodies[CONE_BODY, speed + i] - bodies[CUP_BODY, speed + i],
@@ -48,7 +48,7 @@ def relative_motion(bodies: Any, i: Any, place: Any, speed: Any) -> Any:
 
 @inline
 def relative_cone(bodies: Any) -> Any:
-    """Displacement, velocity, tilt and tilt rate of the cone against the cup; tilts to first order."""
+    """Take displacement, velocity, tilt and tilt rate of the cone against the cup; tilts to first order."""
     return (
         relative_motion(bodies, X, POSITION, LINEAR),
         relative_motion(bodies, Y, POSITION, LINEAR),
@@ -60,7 +60,7 @@ def relative_cone(bodies: Any) -> Any:
 
 @inline
 def turned(direction: Any, angle: Any) -> Any:
-    """Direction (cosine, sine) turned by an angle of a few hundredths; the error is below 1e-15 there."""
+    """Turn a direction (cosine, sine) by an angle of a few hundredths; the error is below 1e-15 there."""
     square = angle * angle
     cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
     sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)))
@@ -87,7 +87,7 @@ def row_totals(sums: Any, field: Any) -> Any:
 
 @inline
 def cup_wrench(totals: Any, direction: Any, cosine: Any, sine: Any) -> Any:
-    """World force and moment of the rollers on the cup; no moment about the axis.
+    """Work out world force and moment of the rollers on the cup; no moment about the axis.
 
     Parameters
     ----------
@@ -171,18 +171,20 @@ def show_contacts(
     cone_speed = log2_entrainment((speeds[0] - speeds[1]) * k.cone_radius, film)
     for_cup = roller.radius + roller.taper * centres[0]
     for_cone = -(roller.radius + roller.taper * centres[1])
-    output_contact(
-        lanes, rollers, block, CUP,
-        (-cup.cosine * loads[0], zero, cup.sine * loads[0]),
-        (centres[0] * axis[0] + for_cup * axis[1], zero, centres[0] * axis[1] - for_cup * axis[0]),
-        zero, film_output(loads[0], cup_speed, CUP, laminae, film) + zero,
-    )  # fmt: skip
-    output_contact(
-        lanes, rollers, block, CONE,
-        (cone.cosine * loads[1], zero, -cone.sine * loads[1]),
-        (centres[1] * axis[0] + for_cone * axis[1], zero, centres[1] * axis[1] - for_cone * axis[0]),
-        zero, film_output(loads[1], cone_speed, CONE, laminae, film) + zero,
-    )  # fmt: skip
+    on_cup = ContactOutput(
+        force=(-cup.cosine * loads[0], zero, cup.sine * loads[0]),
+        arm=(centres[0] * axis[0] + for_cup * axis[1], zero, centres[0] * axis[1] - for_cup * axis[0]),
+        slip=zero,
+        film=film_output(loads[0], cup_speed, CUP, laminae, film) + zero,
+    )
+    on_cone = ContactOutput(
+        force=(cone.cosine * loads[1], zero, -cone.sine * loads[1]),
+        arm=(centres[1] * axis[0] + for_cone * axis[1], zero, centres[1] * axis[1] - for_cone * axis[0]),
+        slip=zero,
+        film=film_output(loads[1], cone_speed, CONE, laminae, film) + zero,
+    )
+    output_contact(lanes, rollers, block, CUP, on_cup)
+    output_contact(lanes, rollers, block, CONE, on_cone)
     show_rib(lanes, rollers, block, axis, loads[2], k.rib_slip * speeds[0], p.base.effects.rib)
 
 
@@ -198,4 +200,4 @@ def show_rib(lanes: Any, rollers: Any, block: Any, axis: Any, load: Any, slip: A
         rib.sphere_place * axis[1] + rib.sphere_radius * rib.normal_axial + zero,
     )
     force = (-rib.normal_radial * load, zero, -rib.normal_axial * load)
-    output_contact(lanes, rollers, block, RIB, force, arm, math.fabs(slip) + zero, zero)
+    output_contact(lanes, rollers, block, RIB, ContactOutput(force, arm, math.fabs(slip) + zero, zero))

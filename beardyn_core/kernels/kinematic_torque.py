@@ -14,7 +14,7 @@ from beardyn_core.jit import inline
 from beardyn_core.kernels.drag import churning_rate
 from beardyn_core.kernels.kinematic_rollers import TORQUE_RIB, TORQUE_ROLLING, lane_total
 from beardyn_core.kernels.lane_math import at_least, exp2, log2
-from beardyn_core.kernels.rib_friction import rib_friction, rib_log2_film, spin_reach, with_spin
+from beardyn_core.kernels.rib import rib_friction, rib_log2_film, spin_reach, with_spin
 from beardyn_core.kernels.rolling import rolling_couple
 from beardyn_core.model.layout import CONE, CUP
 
@@ -23,7 +23,7 @@ _SMALLEST_LOAD = 1e-3
 
 @inline
 def rolling_torque(loads: Any, speeds: Any, k: Any, rolling: Any) -> Any:
-    """Of the rolling resistance of a block of rollers on cup and cone, along the shaft's rotation, [N m].
+    """Work out the rolling resistance's torque of a block of rollers, along the shaft's rotation, [N m].
 
     Parameters
     ----------
@@ -48,14 +48,14 @@ def rolling_torque(loads: Any, speeds: Any, k: Any, rolling: Any) -> Any:
 
 @inline
 def smooth_lever(lever: Any, speed: Any, floor: Any) -> Any:
-    """Lever of a couple against a rotation at `lever` times the shaft's speed, smooth through standstill."""
+    """Smooth the lever of a couple against a rotation at `lever` times the shaft's speed at standstill."""
     rate = lever * speed
     return lever * rate / math.sqrt(rate * rate + floor * floor)
 
 
 @inline
 def sliding_torque(load: Any, speeds: Any, p: Any, rib: Any) -> Any:
-    """Of a block of large ends that slide on their ribs in pure rolling, along the shaft's rotation, [N m].
+    """Work out the torque of large ends that slide on their ribs, along the shaft's rotation, [N m].
 
     The contact is taken in the roller's meridian plane at its nominal height.
     """
@@ -77,13 +77,13 @@ def sliding_torque(load: Any, speeds: Any, p: Any, rib: Any) -> Any:
 
 @inline
 def squared_over(squared: Any, speed: Any) -> Any:
-    """Squared slip over the shaft speed; zero at rest."""
+    """Divide squared slip by the shaft speed; zero at rest."""
     return squared * (speed / (speed * speed + 1e-12))
 
 
 @inline
 def drag_torque(speeds: Any, k: Any, drag: Any) -> Any:
-    """Of the drag on all rollers, along the shaft's rotation, [N m]."""
+    """Work out the torque of the drag on all rollers, along the shaft's rotation, [N m]."""
     if drag is None:
         return 0.0
     flow, spin = speeds[1] * k.radius, speeds[1] * (k.spin_ratio + k.axis_axial)
@@ -93,7 +93,7 @@ def drag_torque(speeds: Any, k: Any, drag: Any) -> Any:
 
 @inline
 def seal_torque(speed: Any, seal: Any) -> Any:
-    """Of both seals, along the shaft's rotation, [N m]."""
+    """Work out the torque of both seals, along the shaft's rotation, [N m]."""
     if seal is None:
         return 0.0
     dry = seal.torque / math.sqrt(speed * speed + seal.regularisation * seal.regularisation)
@@ -102,7 +102,7 @@ def seal_torque(speed: Any, seal: Any) -> Any:
 
 @inline
 def held_losses(sums: Any, speeds: Any, rib_load: Any, p: Any) -> Any:
-    """Torque of everything but the ribs [N m], and that of the ribs over the sum of their loads [m]."""
+    """Work out the torque of all but the ribs [N m], and that of the ribs over the sum of their loads [m]."""
     effects, k = p.base.effects, p.kinematic
     steady = drag_torque(speeds, k, effects.drag) + seal_torque(speeds[0], effects.seal)
     rib = lane_total(sums, TORQUE_RIB) / max(rib_load, _SMALLEST_LOAD)

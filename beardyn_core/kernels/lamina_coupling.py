@@ -11,7 +11,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.model.contact_parameters import COUPLING_ROWS, LAMINA_STIFFNESS
+from beardyn_core.model.layout import COUPLING_ROWS, LAMINA_STIFFNESS
 
 # rows of the work space
 DEPTH, SURFACE, SPRING, FORCE, SHARE = range(COUPLING_ROWS)
@@ -70,14 +70,14 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
 
 @inline
 def _moved(lanes: Any, work: Any, lamina: Any, balance: Any) -> Any:
-    """By how much the others move the surface at a lamina, [m]."""
+    """Work out by how much the others move the surface at a lamina, [m]."""
     surface = at_least(lanes.load(work, DEPTH, lamina), balance)
     return magnitude(surface - lanes.load(work, SURFACE, lamina))
 
 
 @inline
 def _tangent(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
-    """Ten ninths of the load of a lamina over its penetration, [N/m]."""
+    """Take ten ninths of the load of a lamina over its penetration, [N/m]."""
     depth = lanes.load(coupling.work, DEPTH, lamina)
     left_behind = at_least(lanes.load(coupling.work, SURFACE, lamina) - depth, 0.0)
     load = at_least(load - _own_tangent(lanes, coupling, lamina) * left_behind, 0.0)
@@ -87,7 +87,7 @@ def _tangent(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
 
 @inline
 def _sweep(lanes: Any, count: Any, coupling: Any) -> None:
-    """The two sweeps: a lamina that moves tells those that come after it, so that none waits for a sum.
+    """Sweep forth and back: a lamina that moves changes those after it at once, so that none waits for a sum.
 
     BALANCE holds on entry what the pressed surfaces ask of every lamina. On the way back it holds what the
     laminae before have become and those behind were at first.
@@ -113,7 +113,7 @@ def _sweep(lanes: Any, count: Any, coupling: Any) -> None:
 
 @inline
 def _free_laminae(lanes: Any, count: Any, coupling: Any) -> None:
-    """The step of the free laminae under the true law."""
+    """Take the step of the free laminae under the true law."""
     work = coupling.work
     for j in range(0, count, 2):
         other = min(j + 1, count - 1)
@@ -125,7 +125,7 @@ def _free_laminae(lanes: Any, count: Any, coupling: Any) -> None:
 
 @inline
 def _freed(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
-    """Surface at a lamina after its step, [m]."""
+    """Work out the surface at a lamina after its step, [m]."""
     surface = lanes.load(coupling.work, SURFACE, lamina)
     depth = lanes.load(coupling.work, DEPTH, lamina)
     rise = load / _own_tangent(lanes, coupling, lamina)
@@ -134,7 +134,7 @@ def _freed(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
 
 @inline
 def _products(lanes: Any, matrix: Any, row: Any, other: Any, work: Any, field: Any) -> Any:
-    """Two rows of a matrix times a row of the work space; four sums need not wait on each other."""
+    """Multiply two rows of a matrix by a row of the work space; four sums need not wait on each other."""
     count = matrix.shape[1]
     first, second = lanes.constant(0.0), lanes.constant(0.0)
     third, fourth = lanes.constant(0.0), lanes.constant(0.0)
@@ -172,6 +172,6 @@ def _load_spring(lanes: Any, laminae: Any, coupling: Any, lamina: Any, depth: An
 
 @inline
 def _own_tangent(lanes: Any, coupling: Any, lamina: Any) -> Any:
-    """Tangent stiffness of one lamina with the others held, [N/m]."""
+    """Work out the tangent stiffness of one lamina with the others held, [N/m]."""
     own = (10.0 / 9.0) * coupling.own_stiffness[lamina]
     return own * lanes.load(coupling.work, SPRING, lamina)

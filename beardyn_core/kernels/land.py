@@ -18,7 +18,7 @@ _SMALLEST = 1e-30
 
 @inline
 def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, land: Any) -> Any:
-    """Film force on the inner or outer body of a short journal bearing against its eccentricity.
+    """Work out the film force on the inner or outer body of a short journal bearing against its eccentricity.
 
     Half-Sommerfeld film: seen from a frame that turns at half the sum of the two speeds it is a pure damper,
     so it never makes energy but lets a cage whirl. The thickness in the formulas is bounded
@@ -75,7 +75,7 @@ def _three(bodies: Any, body: Any, field: Any) -> Any:
 
 @inline
 def land_twist(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
-    """Velocity of a cage against its guiding ring at the cage's origin, and angular velocity."""
+    """Work out the velocity of a cage against its guiding ring at the cage's origin, and angular velocity."""
     ring = int(land.body)
     cage_omega = add_scaled(_three(bodies, body, ANGULAR), bodies[body, RATE], ring_direction(bodies, body))
     ring_omega = add_scaled(_three(bodies, ring, ANGULAR), bodies[ring, RATE], ring_direction(bodies, ring))
@@ -87,7 +87,7 @@ def land_twist(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
 
 @inline
 def land_contact(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
-    """Wrench of the guiding ring on one cage about the cage's origin.
+    """Work out the wrench of the guiding ring on one cage about the cage's origin.
 
     Parameters
     ----------
@@ -198,7 +198,7 @@ def _push_lands(bodies: Any, wrenches: Any, cage: Any, land: Any) -> Any:
 
 @inline
 def settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any) -> Any:
-    """Book what the lands lost at the middle of the step; returns their elastic energy, [J]."""
+    """Account for what the lands lost at the middle of the step, and return their elastic energy, [J]."""
     if cage is None:
         return 0.0
     return _settle_lands(bodies, pushed, energy, step, cage, cage.land)

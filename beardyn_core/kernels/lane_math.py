@@ -17,37 +17,37 @@ Value = Any  # a float, an LLVM vector, or (without the compiler) a NumPy array
 
 @primitive(lambda builder, a: library_call(builder, "sqrt", a))
 def sqrt(a: Value) -> Value:
-    """Square root."""
+    """Take the square root."""
     return np.sqrt(a)
 
 
 @primitive(lambda builder, a: library_call(builder, "fabs", a))
 def magnitude(a: Value) -> Value:
-    """Absolute value."""
+    """Take the absolute value."""
     return np.abs(a)
 
 
 @primitive(lambda builder, a: library_call(builder, "floor", a))
 def floor(a: Value) -> Value:
-    """Largest whole number not above ``a``."""
+    """Round down to the largest whole number not above ``a``."""
     return np.floor(a)
 
 
 @primitive(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), b, a))
 def at_least(a: Value, b: Value) -> Value:
-    """Larger of ``a`` and the bound ``b``; a NaN in ``a`` stays."""
+    """Take the larger of ``a`` and the bound ``b``; a NaN in ``a`` stays."""
     return np.asarray(np.where(np.less(a, b), b, a))[()]
 
 
 @primitive(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), b, a))
 def at_most(a: Value, b: Value) -> Value:
-    """Smaller of ``a`` and the bound ``b``; a NaN in ``a`` stays."""
+    """Take the smaller of ``a`` and the bound ``b``; a NaN in ``a`` stays."""
     return np.asarray(np.where(np.greater(a, b), b, a))[()]
 
 
 @primitive(lambda builder, a, b, c, d: builder.select(builder.fcmp_ordered(">", a, b), c, d))
 def where_greater(a: Value, b: Value, c: Value, d: Value) -> Value:
-    """``c`` where ``a > b``, else ``d``."""
+    """Take ``c`` in the lanes where ``a > b``, else ``d``."""
     return np.asarray(np.where(np.greater(a, b), c, d))[()]
 
 
@@ -71,7 +71,7 @@ def _seed_minus_ninth(a: Value) -> Value:
 
 @inline
 def ninth_root(a: Value) -> Value:
-    """``a ** (1/9)`` for ``a > 0``; relative error below 1e-14, without a division.
+    """Take the ninth root ``a ** (1/9)`` for ``a > 0``; relative error below 1e-14, without a division.
 
     Notes
     -----
@@ -93,7 +93,7 @@ def ninth_root(a: Value) -> Value:
 
 @inline
 def quick_ninth_root(a: Value) -> Value:
-    """``a ** (1/9)`` for ``a > 0``; relative error below 2e-7 (one fitted series of the remainder)."""
+    """Take the ninth root for ``a > 0``; relative error below 2e-7 (one fitted series of the remainder)."""
     z = _seed_minus_ninth(a)
     z2 = z * z
     z4 = z2 * z2
@@ -129,7 +129,7 @@ def _mantissa(a: Value) -> Value:
 
 @inline
 def log2(a: Value) -> Value:
-    """Binary logarithm for ``a > 0``; absolute error below 1e-11 (odd polynomial, minimax of degree 9)."""
+    """Take the binary logarithm for ``a > 0``; absolute error below 1e-11 (odd minimax of degree 9)."""
     m = _mantissa(a)
     t = (m - 1.4142135623730951) / (m + 1.4142135623730951)
     t2 = t * t
@@ -155,7 +155,7 @@ def _power_of_two_rounded(a: Value) -> Value:
 
 @inline
 def exp2(a: Value) -> Value:
-    """``2 ** a`` for ``-1000 < a < 1000``; relative error below 1e-10, none for whole numbers.
+    """Raise two to a power from -1000 to 1000; relative error below 1e-10, none for whole numbers.
 
     Minimax polynomial of degree 7 over half a unit on either side of a whole number.
     """
@@ -171,13 +171,13 @@ def exp2(a: Value) -> Value:
 
 @inline
 def wrap(angle: Value) -> Value:
-    """Angle in [-pi, pi), [rad]."""
+    """Turn an angle by whole turns into [-pi, pi), [rad]."""
     return angle - 6.283185307179586 * floor(angle * 0.15915494309189535 + 0.5)
 
 
 @inline
 def cos_sin(angle: Value) -> Value:
-    """Cosine and sine of an angle of a few turns, [rad]; absolute error below 2e-15."""
+    """Take cosine and sine of an angle of a few turns, [rad]; absolute error below 2e-15."""
     x = 0.25 * wrap(angle)
     x2 = x * x
     s = x * (
@@ -217,3 +217,55 @@ def cos_sin(angle: Value) -> Value:
     s_half = 2.0 * s * c
     c_half = 1.0 - 2.0 * s * s
     return 1.0 - 2.0 * s_half * s_half, 2.0 * s_half * c_half
+
+
+# Functions that saturate, divided by their argument: friction is used as force over slip speed, and f(x) / x
+# is finite at zero slip where f(x) and x both vanish.
+LOG2_E = 1.4426950408889634
+_LN_2 = 0.6931471805599453
+_HALF_PI = 1.5707963267948966
+# below this the functions are taken from their series, whose error is then smaller than that of exp2 and log2
+_SERIES_BELOW = 0.03
+
+
+@inline
+def decay_over(x: Any) -> Any:
+    """Work out (1 - exp(-x)) / x for x >= 0; relative error below 1e-7."""
+    series = 1.0 - x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120))))
+    decayed = (1.0 - exp2(-LOG2_E * x)) / at_least(x, _SERIES_BELOW)
+    return where_greater(x, _SERIES_BELOW, decayed, series)
+
+
+@inline
+def decay_rate(per_slip: Any, slip: Any, inverse_slip: Any) -> Any:
+    """Work out (1 - exp(-per_slip slip)) / slip where 1 / slip is known; errors as of `decay_over`."""
+    x = per_slip * slip
+    series = per_slip * (1.0 - x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120)))))
+    return where_greater(x, _SERIES_BELOW, (1.0 - exp2(-LOG2_E * x)) * inverse_slip, series)
+
+
+@inline
+def asinh_over(x: Any) -> Any:
+    """Work out asinh(x) / x for 0 <= x < 1e100; relative error below 1e-8."""
+    x2 = x * x
+    series = 1.0 - x2 * (1 / 6 - x2 * (3 / 40 - x2 * (15 / 336)))
+    found = _LN_2 * log2(x + sqrt(x2 + 1.0)) / at_least(x, _SERIES_BELOW)
+    return where_greater(x, _SERIES_BELOW, found, series)
+
+
+@inline
+def arctangent_over(x: Any) -> Any:
+    """Work out atan(x) / x for x >= 0; relative error below 1e-9."""
+    return arctangent_with(x, 1.0 / at_least(x, 1e-30))
+
+
+@inline
+def arctangent_with(x: Any, inverse: Any) -> Any:
+    """Work out atan(x) / x where 1 / x is known: a minimax polynomial in the square of min(x, 1/x)."""
+    folded = at_most(x, inverse)
+    s = folded * folded
+    tail = 0.02253987213401459 + s * (-0.0073179591294139906 + s * 0.0011137893081054834)
+    tail = -0.08811091477881007 + s * (0.06741597453598872 + s * (-0.04468994705394946 + s * tail))
+    tail = 0.19999671122813323 + s * (-0.142798330523907 + s * (0.1105822369876473 + s * tail))
+    series = 1.0 + s * (-0.33333326899541654 + s * tail)
+    return where_greater(x, 1.0, (_HALF_PI - folded * series) * inverse, series)

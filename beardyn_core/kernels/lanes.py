@@ -51,11 +51,11 @@ class VectorType(types.Type):
         super().__init__(name=f"LaneVector({width})")
 
     def unify(self, _context: Any, other: types.Type) -> types.Type | None:
-        """A number and a vector make a vector, so that ``total = 0.0; total += vector`` types."""
+        """Make a vector of a number and a vector, so that ``total = 0.0; total += vector`` types."""
         return self if isinstance(other, types.Number) else None
 
     def can_convert_from(self, _context: Any, other: types.Type) -> Any:
-        """Numbers are broadcast to all lanes."""
+        """Allow numbers, which are broadcast to all lanes."""
         return Conversion.safe if isinstance(other, types.Number) else None
 
 
@@ -74,7 +74,7 @@ class LanesType(types.Type):
 
     @property
     def value(self) -> types.Type:
-        """Type of one lane value."""
+        """Name the type of one lane value."""
         return types.float64 if self.width == 1 else VectorType(self.width)
 
 
@@ -94,7 +94,7 @@ class Lanes:
         self.width = width
 
     def load(self, array: Any, block: int, field: int) -> Any:
-        """Lane value stored at ``array[block, field]``."""
+        """Load the lane value stored at ``array[block, field]``."""
         return array[block, field, 0] if self.width == 1 else array[block, field].copy()
 
     def store(self, array: Any, block: int, field: int, value: Any) -> None:
@@ -102,11 +102,11 @@ class Lanes:
         array[block, field] = value
 
     def constant(self, number: float) -> Any:
-        """Lane value with the same number in every lane."""
+        """Make a lane value with the same number in every lane."""
         return float(number) if self.width == 1 else np.full(self.width, float(number))
 
     def gather(self, table: Any, index: Any) -> Any:
-        """Lane value of ``table[index]``, the index of each lane kept within the table."""
+        """Look up the lane value of ``table[index]``, the index of each lane kept within the table."""
         inside = np.minimum(np.where(np.greater(index, 0.0), index, 0.0), len(table) - 1.0)
         return table[np.asarray(inside, dtype=np.int64)]
 
@@ -272,7 +272,7 @@ def _is_lane_value(candidate: types.Type) -> bool:
 
 
 def _instruction(emit: Callable[..., Any], arity: int) -> Any:
-    """Intrinsic that applies ``emit(builder, *values)`` to numbers and vectors, broadcasting numbers."""
+    """Make an intrinsic that applies ``emit(builder, *values)`` to vectors and broadcast numbers."""
 
     def signature_and_code(*arguments: types.Type) -> Any:
         vector = next((each for each in arguments if isinstance(each, VectorType)), types.float64)
@@ -370,7 +370,7 @@ def _any_positive(_typing: Any, a: Any) -> Any:
 
 
 def any_positive(a: Any) -> Any:
-    """Whether any lane is above zero: the one way to branch on lane values."""
+    """Tell whether any lane is above zero: the one way to branch on lane values."""
     return bool(np.any(np.greater(a, 0.0)))
 
 
@@ -380,12 +380,12 @@ def _overload_any_positive(a):
 
 
 def integer_type(value: ir.Type) -> ir.Type:
-    """LLVM integer type of the same shape as a lane value's type."""
+    """Name the LLVM integer type of the same shape as a lane value's type."""
     return ir.VectorType(_INT64, value.count) if isinstance(value, ir.VectorType) else _INT64
 
 
 def splat(shape: ir.Type, number: float) -> ir.Constant:
-    """LLVM constant with the same number in every lane."""
+    """Make an LLVM constant with the same number in every lane."""
     return ir.Constant(shape, [number] * shape.count if isinstance(shape, ir.VectorType) else number)
 
 

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import load_vector
 from beardyn_core.kernels.lane_math import cos_sin, sqrt
-from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
+from beardyn_core.kernels.vectors import (
+    Vector,
+    add,
+    add_scaled,
+    cross,
+    dot,
+    scale,
+    subtract,
+    turn_in,
+)
 from beardyn_core.model.layout import (
     ANGLE,
     AXIAL,
@@ -23,9 +32,44 @@ from beardyn_core.model.layout import (
 )
 
 
+class Orbit(NamedTuple):
+    """A block of rollers after its drift; vectors but the axis in the frame half way through the turn."""
+
+    radius: Any  # radial place of the centre of mass [m]
+    azimuth: Any  # [rad]
+    axial: Any  # [m]
+    velocity: Vector  # [m/s]
+    momentum: Vector  # angular, about the centre of mass [N m s]
+    axis: Vector  # in the frame at the end of the turn
+    half_cosine: Any  # of half the turn
+    half_sine: Any
+    rate: Any  # turn over the step [rad/s]
+    cosine: Any  # of the azimuth
+    sine: Any
+
+
+class Body(NamedTuple):
+    """A roller as its contacts see it, in its orbit frame."""
+
+    place: Vector  # of the centre of mass from the cup's origin [m]
+    axis: Vector
+    velocity: Vector  # of the centre of mass [m/s]
+    omega: Vector  # [rad/s]
+    orbit_rate: Any  # [rad/s]
+
+
+class View(NamedTuple):
+    """A ring or cage as a roller sees it, in the roller's orbit frame."""
+
+    origin: Vector  # from the cup's origin [m]
+    axis: Vector  # a cage shows its small rotation without the spin here, [rad]
+    velocity: Vector  # of the origin [m/s]
+    omega: Vector  # [rad/s]
+
+
 @inline
 def angular_velocity(momentum: Any, axis: Any, roller: Any) -> Any:
-    """Angular velocity of a body of revolution from its angular momentum, [rad/s]."""
+    """Work out the angular velocity of a body of revolution from its angular momentum, [rad/s]."""
     extra = dot(momentum, axis) * (1.0 / roller.axial_inertia - 1.0 / roller.transverse_inertia)
     return add_scaled(scale(1.0 / roller.transverse_inertia, momentum), extra, axis)
 
@@ -34,20 +78,23 @@ def angular_velocity(momentum: Any, axis: Any, roller: Any) -> Any:
 def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: Any, roller: Any) -> Any:
     """Move one block of rollers along its velocities and turn the orbit frames with it.
 
+    Parameters
+    ----------
+    lanes : Lanes
+    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
+        Read; the rotation about the own axis is written.
+    block : int
+    reference_velocity : vector
+        Of the cup's origin, in its ring frame, [m/s].
+    step : float
+        [s].
+    roller : RollerParams
+
     Returns
     -------
-    place : tuple of 3 lane values
-        Radius [m], azimuth [rad], axial place [m].
-    velocity, momentum : vector
-        In the frame half way through the turn, where a steady orbit has no radial velocity.
-    axis : vector
-        In the frame at the end of the turn.
-    half_turn : tuple of 2 lane values
-        Cosine and sine of half the turn.
-    orbit_rate : lane value
-        Turn over the step, [rad/s].
-    direction : tuple of 2 lane values
-        Cosine and sine of the azimuth.
+    Orbit
+        Velocity and momentum stand in the frame half way through the turn, where a steady orbit has no
+        radial velocity.
     """
     radius = lanes.load(rollers, block, RADIUS)
     azimuth = lanes.load(rollers, block, ANGLE)
@@ -77,20 +124,24 @@ def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: A
     axis = turn_in(turn_in(axis, half_cosine, half_sine), half_cosine, half_sine)
 
     axial = lanes.load(rollers, block, AXIAL) + step * relative[2]
-    place = (new_radius, azimuth + turn, axial)
+    # the order of the sums decides which products are fused: another one has other last bits
+    new_azimuth = azimuth + turn
     velocity = turn_in(velocity, half_cosine, half_sine)
     momentum = turn_in(momentum, half_cosine, half_sine)
     azimuth_cosine = cosine * half_cosine - sine * half_sine
     azimuth_sine = sine * half_cosine + cosine * half_sine
     cosine = azimuth_cosine * half_cosine - azimuth_sine * half_sine
     sine = azimuth_sine * half_cosine + azimuth_cosine * half_sine
-    return place, velocity, momentum, axis, (half_cosine, half_sine), turn / step, (cosine, sine)
+    return Orbit(
+        new_radius, new_azimuth, axial, velocity, momentum, axis, half_cosine, half_sine, turn / step,
+        cosine, sine,
+    )  # fmt: skip
 
 
 @inline
 def ring_view(lanes: Any, rings: Any, ring: Any, cosine: Any, sine: Any) -> Any:
-    """Origin, axis, velocity and angular velocity of a ring in the orbit frames."""
-    return (
+    """Turn a ring into the orbit frames of a block of rollers: a `View`."""
+    return View(
         turn_in(load_vector(lanes, rings, ring, RING_ORIGIN), cosine, sine),
         turn_in(load_vector(lanes, rings, ring, RING_AXIS), cosine, sine),
         turn_in(load_vector(lanes, rings, ring, RING_VELOCITY), cosine, sine),
@@ -99,21 +150,31 @@ def ring_view(lanes: Any, rings: Any, ring: Any, cosine: Any, sine: Any) -> Any:
 
 
 @inline
-def entrainment_speed(
-    line: Any, centre: Any, velocity: Any, omega: Any, ring_velocity: Any, ring_omega: Any, orbit_rate: Any
-) -> Any:
-    """Mean surface speed of roller and ring against their contact point, around the ring, [m/s]."""
-    arm, around = line[0], line[3]
+def entrainment_speed(line: Any, centre: Any, body: Any, view: Any) -> Any:
+    """Work out the mean surface speed of roller and ring against their contact point, [m/s].
+
+    Around the ring, at mid-length; the contact point orbits with the roller.
+
+    Parameters
+    ----------
+    line : Line
+    centre : vector
+        Centre of mass of the roller from the ring's origin, [m].
+    body : Body
+    view : View
+        Of the ring.
+    """
+    arm, around = line.arm, line.around
     point = add(centre, arm)
-    ring_surface = dot(add(ring_velocity, cross(ring_omega, point)), around)
-    roller_surface = dot(add(velocity, cross(omega, arm)), around)
-    contact = dot(ring_velocity, around) + orbit_rate * point[0]
+    ring_surface = dot(add(view.velocity, cross(view.omega, point)), around)
+    roller_surface = dot(add(body.velocity, cross(body.omega, arm)), around)
+    contact = dot(view.velocity, around) + body.orbit_rate * point[0]
     return 0.5 * (ring_surface + roller_surface) - contact
 
 
 @inline
 def weight(cosine: Any, sine: Any, mass: Any, gravity: Any) -> Any:
-    """Weight of a roller in its orbit frame, [N]."""
+    """Turn the weight of a roller into its orbit frame, [N]."""
     if gravity is None:
         return 0.0 * cosine, 0.0 * cosine, 0.0 * cosine
     return -mass * gravity.acceleration * cosine, mass * gravity.acceleration * sine, 0.0 * cosine

@@ -1,31 +1,162 @@
-"""Contact of a roller with its cage pocket: the bars in front and behind, and both ends."""
+"""Contact of a roller with its cage pocket, which is soft and explicit: prepare, push, settle.
+
+A pocket has two bars and two ends. The full cage has disc against plane at two abscissae of both bars and end
+against plane at both ends; the cheaper cages have two touches along the pitch circle only. Only sums over the
+walls are kept until the step is settled: five walls with all they have would take more of the cache than all
+else that a roller keeps.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.lane_math import at_least, cos_sin, magnitude, sqrt, where_greater
+from beardyn_core.kernels.defect import pocket_wear
+from beardyn_core.kernels.exchange import ContactOutput, account, account_loss, output_contact, react
+from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, magnitude, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.kernels.pocket_film import pocket_loads
-from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
+from beardyn_core.kernels.orbit import ring_view
+from beardyn_core.kernels.vectors import (
+    Vector,
+    Wrench,
+    add,
+    add_scaled,
+    add_wrenches,
+    cross,
+    dot,
+    scale,
+    subtract,
+)
+from beardyn_core.model.layout import CAGE_BODY, LOSS_POCKET, POCKET, POCKET_ANGLE, RING_TURN
+
+
+class Walls(NamedTuple):
+    """Sums over the walls of a pocket."""
+
+    force: Vector  # on the roller [N]
+    moment: Vector  # about its centre of mass [N m]
+    energy: Any  # elastic [J]
+    power: Any  # lost at the present slip [W]
+    lost_force: Vector  # lost part of the force, negated [N]
+    lost_moment: Vector  # its moment [N m]
+
+
+class PocketContact(NamedTuple):
+    """A pocket contact before the solve."""
+
+    centre: Vector  # of mass of the roller from the cage's origin [m]
+    walls: Walls
+    slip_squared: Any  # at the bar that presses more [m^2/s^2]
+    bar: Vector  # contact with the nearer bar from the centre of mass [m]
+
+
+class Motion(NamedTuple):
+    """How a roller and its cage move, in the orbit frame."""
+
+    velocity: Vector  # of the roller's centre of mass [m/s]
+    omega: Vector  # [rad/s]
+    cage_velocity: Vector  # of the cage's origin [m/s]
+    cage_omega: Vector  # [rad/s]
+
+
+class Pocket(NamedTuple):
+    """Where a roller is in its pocket.
+
+    The order of the members decides the last bits, see `exchange.react`.
+    """
+
+    centre: Vector  # of mass of the roller from the cage's origin [m]
+    axis: Vector  # of the roller
+    motion: Motion
+    advance: Any  # azimuth of the roller less that of its pocket [rad]
+    tilt: Vector  # small rotation of the cage without its spin [rad]
+    wear: Any  # half of the clearance that wear has added [m]
+
+
+class Wall(NamedTuple):
+    """A wall of a pocket that a roller may touch."""
+
+    centre: Vector  # of mass of the roller from the cage's origin [m]
+    arm: Vector  # where the roller touches it, from the centre of mass [m]
+    direction: Vector  # normal of the wall, towards it
+    depth: Any  # approach beyond touching, negative for a gap [m]
 
 
 @inline
-def pocket_contact(
-    centre: Any,
-    axis: Any,
-    velocity: Any,
-    omega: Any,
-    advance: Any,
-    tilt: Any,
-    ring_velocity: Any,
-    ring_omega: Any,
-    wear: Any,
-    roller: Any,
-    cage: Any,
+def prepare_pocket(
+    lanes: Any, rings: Any, block: Any, body: Any, orbit: Any, pockets: Any, p: Any, cage: Any
 ) -> Any:
-    """Force of the cage on the roller, and what it loses.
+    """Work out the pocket contact of one block before the solve; zeros without a cage.
+
+    Parameters
+    ----------
+    lanes : Lanes
+    rings : float64 array, shape [ring, RING_FIELDS, lane]
+    block : int
+    body : Body
+    orbit : Orbit
+    pockets : float64 array or None, shape [block, 1, lane]
+        Half of the added clearance of worn pockets, [m].
+    p : Parameters
+    cage : CageParams or None
+
+    Returns
+    -------
+    PocketContact
+    """
+    if cage is None:
+        zero = lanes.constant(0.0)
+        nothing = (zero, zero, zero)
+        return PocketContact(nothing, _untouched(zero), zero, nothing)
+    view = ring_view(lanes, rings, CAGE_BODY, orbit.cosine, orbit.sine)
+    place = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(p.rollers, block, POCKET_ANGLE)
+    wear = pocket_wear(lanes, block, pockets)
+    centre = subtract(body.place, view.origin)
+    motion = Motion(body.velocity, body.omega, view.velocity, view.omega)
+    pocket = Pocket(centre, body.axis, motion, orbit.azimuth - place, view.axis, wear)
+    return _touch(pocket, p.roller, cage, cage.rotating, cage.kinematic)
+
+
+@inline
+def _touch(pocket: Any, roller: Any, cage: Any, rotating: Any, kinematic: Any) -> Any:
+    if kinematic is not None:
+        return kinematic_pocket(pocket, cage, kinematic)
+    if rotating is not None:
+        return rotating_pocket(pocket, roller, cage)
+    return free_pocket(pocket, roller, cage)
+
+
+@inline
+def push_pocket(total: Any, contact: Any, cage: Any) -> Any:
+    """Add the pocket's wrench to that of the roller."""
+    if cage is None:
+        return total
+    return add_wrenches(total, Wrench(contact.walls.force, contact.walls.moment))
+
+
+@inline
+def settle_pocket(contact: Any, change: Any, here: Any, cage: Any, p: Any) -> None:
+    """Write reaction, output and audit of the pocket contact, which is explicit.
+
+    The loss is taken at the middle of a step that changes the roller's velocities.
+    """
+    if cage is None:
+        return
+    walls, zero = contact.walls, here.lanes.constant(0.0)
+    react(CAGE_BODY, contact.centre, Wrench(walls.force, walls.moment), here)
+    output = ContactOutput(walls.force, contact.bar, sqrt(contact.slip_squared), zero)
+    output_contact(here.lanes, here.rollers, here.block, POCKET, output)
+    lost = walls.power + 0.5 * (dot(walls.lost_force, change.velocity) + dot(walls.lost_moment, change.omega))
+    account_loss(here, LOSS_POCKET, p.step * lost, p.effects.audit)
+    account(here, zero, walls.energy, p.effects.audit)
+
+
+# --- the three kinds of pockets
+
+
+@inline
+def free_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
+    """Work out the force of a free cage on the roller, and what it loses.
 
     Disc against plane at two abscissae of both bars, and end against plane at both pocket ends: linear
     springs with damping that never pull, and regularised Coulomb friction; at the bars a lubricant film if
@@ -34,33 +165,16 @@ def pocket_contact(
 
     Parameters
     ----------
-    centre : vector
-        Centre of mass of the roller from the cage's origin, [m].
-    axis, velocity, omega : vector
-        Of the roller.
-    advance : lane value
-        Azimuth of the roller less that of its pocket, [rad].
-    tilt : vector
-        Small rotation of the cage without its spin, [rad].
-    ring_velocity, ring_omega : vector
-        Of the cage at its origin.
-    wear : lane value
-        Half of the clearance that wear has added, [m].
+    pocket : Pocket
     roller : RollerParams
     cage : CageParams
 
     Returns
     -------
-    touches : tuple
-        Sums over front and back bar at the small and large end and the pocket end: force on the roller and
-        moment about its centre of mass, elastic energy, power lost at the present slip, lost part of the
-        force negated, its moment.
-    slip_squared : lane value
-        At the bar that presses more, [m^2/s^2].
-    bar : vector
-        Contact with the nearer bar from the centre of mass, [m].
+    PocketContact
     """
-    cosine, sine = cos_sin(advance)
+    centre, axis, tilt, motion = pocket.centre, pocket.axis, pocket.tilt, pocket.motion
+    cosine, sine = cos_sin(pocket.advance)
     still = 0.0 * sine
     ahead = (sine, cosine, still)
     ahead = add(ahead, cross(tilt, ahead))
@@ -75,35 +189,34 @@ def pocket_contact(
     lift = cage.bar_sine * (dot(outward, axis) - cage.axis_radial)
     front = add_scaled(scale(cage.bar_cosine, ahead), cage.bar_sine, outward)
     behind = add_scaled(scale(-cage.bar_cosine, ahead), cage.bar_sine, outward)
-    clearance = cage.bar_cosine * (cage.half_clearance + wear)
-    motion = (velocity, omega, ring_velocity, ring_omega)
+    clearance = cage.bar_cosine * (cage.half_clearance + pocket.wear)
     small, large = -cage.bar_place, cage.bar_place
     small_radius = roller.radius - cage.bar_place * roller.taper
     large_radius = roller.radius + cage.bar_place * roller.taper
     small_arm, large_arm = scale(small, axis), scale(large, axis)
     small_front = add_scaled(small_arm, small_radius, front)
     small_behind = add_scaled(small_arm, small_radius, behind)
-    zero = 0.0 * still
-    nothing = (zero, zero, zero)
-    touches = (nothing, nothing, zero, zero, nothing, nothing)
-    touches = touch_wall(
-        touches, centre, small_front, front,
-        height + offset + small * (lift + skew) - clearance, motion, cage, (axis, small_radius), cage.film,
-    )  # fmt: skip
-    touches = touch_wall(
-        touches, centre, add_scaled(large_arm, large_radius, front), front,
-        height + offset + large * (lift + skew) - clearance, motion, cage, (axis, large_radius), cage.film,
-    )  # fmt: skip
-    pushed_back = touches[0]
-    touches = touch_wall(
-        touches, centre, small_behind, behind,
-        height - offset + small * (lift - skew) - clearance, motion, cage, (axis, small_radius), cage.film,
-    )  # fmt: skip
-    touches = touch_wall(
-        touches, centre, add_scaled(large_arm, large_radius, behind), behind,
-        height - offset + large * (lift - skew) - clearance, motion, cage, (axis, large_radius), cage.film,
-    )  # fmt: skip
-    pushed_on = subtract(touches[0], pushed_back)
+    walls = _untouched(0.0 * still)
+    depth = height + offset + small * (lift + skew) - clearance
+    walls = _touch_wall(
+        walls, Wall(centre, small_front, front, depth), motion, cage, (axis, small_radius), cage.film
+    )
+    large_front = add_scaled(large_arm, large_radius, front)
+    depth = height + offset + large * (lift + skew) - clearance
+    walls = _touch_wall(
+        walls, Wall(centre, large_front, front, depth), motion, cage, (axis, large_radius), cage.film
+    )
+    pushed_back = walls.force
+    depth = height - offset + small * (lift - skew) - clearance
+    walls = _touch_wall(
+        walls, Wall(centre, small_behind, behind, depth), motion, cage, (axis, small_radius), cage.film
+    )
+    large_behind = add_scaled(large_arm, large_radius, behind)
+    depth = height - offset + large * (lift - skew) - clearance
+    walls = _touch_wall(
+        walls, Wall(centre, large_behind, behind, depth), motion, cage, (axis, large_radius), cage.film
+    )
+    pushed_on = subtract(walls.force, pushed_back)
     slip_squared = where_greater(
         dot(pushed_on, pushed_on),
         dot(pushed_back, pushed_back),
@@ -113,80 +226,140 @@ def pocket_contact(
     slide = dot(pocket_axis, centre) - cage.roller_place
     side = where_greater(slide, 0.0, 1.0 + still, -1.0 + still)
     shorter = roller.half_length * (1.0 - dot(pocket_axis, axis))
-    touches = touch_wall(
-        touches, centre, scale(side * roller.half_length, axis), scale(side, pocket_axis),
-        magnitude(slide) - shorter - cage.half_end_clearance, motion, cage, (axis, roller.radius), None,
-    )  # fmt: skip
+    arm, direction = scale(side * roller.half_length, axis), scale(side, pocket_axis)
+    end = Wall(centre, arm, direction, magnitude(slide) - shorter - cage.half_end_clearance)
+    walls = _touch_wall(walls, end, motion, cage, (axis, roller.radius), None)
     bar = scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)
-    return touches, slip_squared, bar
+    return PocketContact(centre, walls, slip_squared, bar)
 
 
 @inline
-def add_touch(touches: Any, arm: Any, slip: Any, force: Any, lost: Any, energy: Any) -> Any:
-    """Add one wall to the sums over the walls of a pocket.
+def rotating_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
+    """Work out the contact with the nearer bar at both ends of the roller; as `free_pocket`.
 
-    Only sums are kept until the step is settled: five walls with all they have would take more of the
-    cache than all else that a roller keeps.
+    Without play there is no nearer bar; the side a roller is on then pushes it back, as both bars would.
+    Neglects the lean of the bars, the lubricant, and the pocket ends.
     """
-    return (
-        add(touches[0], force),
-        add(touches[1], cross(arm, force)),
-        touches[2] + energy,
-        touches[3] + dot(lost, slip),
-        add(touches[4], lost),
-        add(touches[5], cross(arm, lost)),
+    centre, axis, motion = pocket.centre, pocket.axis, pocket.motion
+    ahead, offset, skew = _along_pitch_circle(pocket)
+    clearance = cage.half_clearance + pocket.wear
+    small_place, large_place = -cage.bar_place, cage.bar_place
+    small_offset = offset + small_place * skew
+    large_offset = offset + large_place * skew
+    small_side = where_greater(small_offset, 0.0, 1.0 + 0.0 * offset, -1.0 + 0.0 * offset)
+    large_side = where_greater(large_offset, 0.0, 1.0 + 0.0 * offset, -1.0 + 0.0 * offset)
+    small_radius = roller.radius + small_place * roller.taper
+    large_radius = roller.radius + large_place * roller.taper
+    small_normal, large_normal = scale(small_side, ahead), scale(large_side, ahead)
+    small_arm = add_scaled(scale(small_place, axis), small_radius, small_normal)
+    nothing = _untouched(0.0 * offset)
+    wall = Wall(centre, small_arm, small_normal, magnitude(small_offset) - clearance)
+    small = _touch_wall(nothing, wall, motion, cage, (axis, small_radius), None)
+    large_arm = add_scaled(scale(large_place, axis), large_radius, large_normal)
+    wall = Wall(centre, large_arm, large_normal, magnitude(large_offset) - clearance)
+    both = _touch_wall(small, wall, motion, cage, (axis, large_radius), None)
+    slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small.force, both.force)
+    bar = scale(
+        where_greater(offset, 0.0, roller.radius + 0.0 * offset, -roller.radius + 0.0 * offset), ahead
     )
+    return PocketContact(centre, both, slip_squared, bar)
 
 
 @inline
-def touch_loss(touches: Any, change: Any) -> Any:
-    """Power lost in a pocket at the middle of a step that changes the roller's velocities, [W]."""
-    return touches[3] + 0.5 * (dot(touches[4], change[0]) + dot(touches[5], change[1]))
+def kinematic_pocket(pocket: Any, cage: Any, kinematic: Any) -> Any:
+    """Hold the roller's axis at its pocket's place by two weak springs with dampers, without play.
+
+    They hold the skew too. Parameters and returns as of `free_pocket`; kinematic : KinematicCageParams.
+    """
+    centre, axis, motion = pocket.centre, pocket.axis, pocket.motion
+    ahead, offset, skew = _along_pitch_circle(pocket)
+    small_arm, large_arm = scale(-cage.bar_place, axis), scale(cage.bar_place, axis)
+    nothing = _untouched(0.0 * offset)
+    small = _hold(nothing, centre, small_arm, ahead, offset - cage.bar_place * skew, motion, kinematic)
+    both = _hold(small, centre, large_arm, ahead, offset + cage.bar_place * skew, motion, kinematic)
+    slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small.force, both.force)
+    return PocketContact(centre, both, slip_squared, scale(0.0, ahead))
+
+
+@inline
+def _along_pitch_circle(pocket: Any) -> Any:
+    """Take the direction of growing azimuth at the pocket; offset [m] and skew of the roller along it."""
+    cosine, sine = cos_sin(pocket.advance)
+    ahead = (sine, cosine, 0.0 * sine)
+    ahead = add(ahead, cross(pocket.tilt, ahead))
+    return ahead, dot(ahead, pocket.centre), dot(ahead, pocket.axis)
+
+
+@inline
+def _pair_slip_squared(
+    centre: Any, small_arm: Any, large_arm: Any, motion: Any, small_force: Any, both_force: Any
+) -> Any:
+    """Square the slip at the large end where more than half of the force is there, else at the small end."""
+    large_force = subtract(both_force, small_force)
+    small_slip, large_slip = _wall_slip(centre, small_arm, motion), _wall_slip(centre, large_arm, motion)
+    return where_greater(
+        4.0 * dot(large_force, large_force),
+        dot(both_force, both_force),
+        dot(large_slip, large_slip),
+        dot(small_slip, small_slip),
+    )
 
 
 @inline
 def _slip_squared(centre: Any, arm: Any, motion: Any) -> Any:
-    slip = wall_slip(centre, arm, motion)
+    slip = _wall_slip(centre, arm, motion)
     return dot(slip, slip)
 
 
 @inline
-def wall_slip(centre: Any, arm: Any, motion: Any) -> Any:
-    """Velocity of the roller against the cage at a point, [m/s]."""
-    velocity, omega, ring_velocity, ring_omega = motion
+def _wall_slip(centre: Any, arm: Any, motion: Any) -> Any:
+    """Work out the velocity of the roller against the cage at a point, [m/s]."""
+    velocity, omega, cage_velocity, cage_omega = motion
     return subtract(
-        subtract(add(velocity, cross(omega, arm)), ring_velocity), cross(ring_omega, add(centre, arm))
+        subtract(add(velocity, cross(omega, arm)), cage_velocity), cross(cage_omega, add(centre, arm))
+    )
+
+
+# --- walls
+
+
+@inline
+def _untouched(zero: Any) -> Any:
+    """Make sums over no walls from a zero, or a NaN, which stays one."""
+    nothing = (zero, zero, zero)
+    return Walls(nothing, nothing, zero, zero, nothing, nothing)
+
+
+@inline
+def _add_touch(walls: Any, arm: Any, slip: Any, force: Any, lost: Any, energy: Any) -> Any:
+    """Add one wall to the sums over the walls of a pocket."""
+    return Walls(
+        add(walls.force, force),
+        add(walls.moment, cross(arm, force)),
+        walls.energy + energy,
+        walls.power + dot(lost, slip),
+        add(walls.lost_force, lost),
+        add(walls.lost_moment, cross(arm, lost)),
     )
 
 
 @inline
-def touch_wall(
-    touches: Any,
-    centre: Any,
-    arm: Any,
-    direction: Any,
-    depth: Any,
-    motion: Any,
-    cage: Any,
-    shape: Any,
-    film: Any,
-) -> Any:
-    """Add one wall to the sums: a spring-damper with friction.
+def _touch_wall(walls: Any, wall: Any, motion: Any, cage: Any, shape: Any, film: Any) -> Any:
+    """Add one wall to the sums: a spring-damper with friction; one that no roller reaches costs nothing.
 
-    ``shape`` is the roller's axis and its radius at the wall, for the film if there is one. A wall that no
-    roller of the block reaches costs nothing.
+    ``shape`` is the roller's axis and its radius at the wall, for the film if there is one.
     """
-    if _is_reached(depth, film):
-        slip = wall_slip(centre, arm, motion)
-        return _press_wall(touches, arm, slip, direction, depth, cage, shape, film)
-    force = touches[0]
-    force = (force[0] + 0.0 * depth, force[1], force[2])  # a NaN stays one
-    return force, touches[1], touches[2], touches[3], touches[4], touches[5]
+    if _is_reached(wall.depth, film):
+        slip = _wall_slip(wall.centre, wall.arm, motion)
+        return _press_wall(walls, wall.arm, slip, wall.direction, wall.depth, cage, shape, film)
+    force = walls.force
+    force = (force[0] + 0.0 * wall.depth, force[1], force[2])  # a NaN stays one
+    return Walls(force, walls.moment, walls.energy, walls.power, walls.lost_force, walls.lost_moment)
 
 
 @inline
 def _is_reached(depth: Any, film: Any) -> Any:
-    """Whether the wall acts on any lane; a film acts within the thickness of its layer."""
+    """Tell whether the wall acts on any lane; a film acts within the thickness of its layer."""
     if film is None:
         return any_positive(depth)
     return any_positive(1.0 + film.inverse_layer * depth)
@@ -194,7 +367,7 @@ def _is_reached(depth: Any, film: Any) -> Any:
 
 @inline
 def _press_wall(
-    touches: Any, arm: Any, slip: Any, direction: Any, depth: Any, cage: Any, shape: Any, film: Any
+    walls: Any, arm: Any, slip: Any, direction: Any, depth: Any, cage: Any, shape: Any, film: Any
 ) -> Any:
     inside = at_least(depth, 0.0)
     rate = dot(slip, direction)
@@ -206,4 +379,72 @@ def _press_wall(
     friction = cage.friction * solid / speed + shear
     force = add_scaled(scale(-load, direction), -friction, tangential)
     lost = add_scaled(scale(load - spring, direction), friction, tangential)
-    return add_touch(touches, arm, slip, force, lost, 0.5 * spring * inside)
+    return _add_touch(walls, arm, slip, force, lost, 0.5 * spring * inside)
+
+
+@inline
+def pocket_loads(
+    depth: Any, pressed: Any, rate: Any, slip: Any, direction: Any, shape: Any, film: Any
+) -> Any:
+    """Split the load of a wall into that of its film, that which rubs solid on solid, and viscous friction.
+
+    An isoviscous film between rigid faces carries the bar until the gap has closed to `film.thinnest`, where
+    roughness keeps it; what is pressed further is carried by spring and damper on top of the film. Squeezing
+    adds to the load and opening takes from it, down to zero: the film cavitates instead of pulling. A gap
+    wider than the lubricant's layer is not bridged. Neglects side leakage and the heating of the film.
+
+    Parameters
+    ----------
+    depth : lane value
+        Approach beyond touching, negative for a gap, [m].
+    pressed : lane value
+        Spring and damper of the dry wall, [N].
+    rate : lane value
+        Speed of approach, [m/s].
+    slip : vector
+        Of the roller's surface against the bar, [m/s].
+    direction : vector
+        Normal of the wall, towards it.
+    shape : tuple of vector and lane value
+        Axis of the roller, and its radius here, [m].
+    film : PocketFilmParams or None
+
+    Returns
+    -------
+    load, solid : lane value
+        [N].
+    shear : lane value
+        Friction force of the film over slip, [N s/m].
+
+    References
+    ----------
+    Martin, H. M. (1916): w = 4.9 eta u R l / h with the mean surface speed u, half of the roller's here.
+    Squeezing from Reynolds' equation with h + x^2 / 2R: h^3 p' = 12 eta h' x gives p = -6 eta R h' / h^2 and
+    w = -3 sqrt(2) pi eta l h' (R / h)^1.5; shearing: eta u l times the integral of dx / h over all x, which
+    is sqrt(2) pi eta u l (R / h)^0.5.
+    """
+    if film is None:
+        load = at_least(pressed, 0.0)
+        return load, load, 0.0
+    axis, radius = shape
+    gap = at_least(-depth, film.thinnest)
+    bridged = at_least(1.0 - film.inverse_layer * gap, 0.0)
+    ratio = radius / gap
+    root = sqrt(ratio)
+    rolling = magnitude(dot(slip, cross(axis, direction)))
+    squeeze = film.squeeze * bridged * ratio * root
+    # the cage is explicit: a pocket may not resist more than its share of the cage can follow within a step
+    squeeze = squeeze / (1.0 + film.share * squeeze)
+    load = at_least(pressed + film.wedge * bridged * ratio * rolling + squeeze * rate, 0.0)
+    solid = at_most(at_least(pressed, 0.0), load)
+    return load, solid, film.shear * bridged * root
+
+
+@inline
+def _hold(walls: Any, centre: Any, arm: Any, direction: Any, offset: Any, motion: Any, kinematic: Any) -> Any:
+    """Add one spring-damper that pulls as well as it pushes."""
+    slip = _wall_slip(centre, arm, motion)
+    damper = kinematic.damping * dot(slip, direction)
+    spring = kinematic.stiffness * offset
+    force, lost = scale(-spring - damper, direction), scale(damper, direction)
+    return _add_touch(walls, arm, slip, force, lost, 0.5 * spring * offset)

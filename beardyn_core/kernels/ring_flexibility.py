@@ -17,6 +17,8 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import sum_lanes
 from beardyn_core.kernels.exchange import accumulate
+from beardyn_core.kernels.orbit import View
+from beardyn_core.kernels.raceway import RacewayContact
 from beardyn_core.kernels.vectors import add
 from beardyn_core.model.layout import ENERGY_LOST, LOSS_RING_BENDING, SUM_FIELDS
 
@@ -25,20 +27,21 @@ PLACE, SPEED = 0, 1
 
 @inline
 def bent_cup(lanes: Any, flex: Any, view: Any, cosine: Any, sine: Any, flexibility: Any) -> Any:
-    """The cup as each roller sees it, bent.
+    """Bend the cup as each roller sees it.
 
     Parameters
     ----------
+    lanes : Lanes
     flex : float64 array, shape [mode, 2, 2]
-    view : tuple of 4 vectors
-        Origin, axis, velocity and angular velocity of the rigid cup in the orbit frames.
+    view : View
+        Of the rigid cup.
     cosine, sine : lane values
         Of the orbit azimuth.
     flexibility : FlexibilityParams or None
 
     Returns
     -------
-    view : tuple of 4 vectors
+    view : View
         With the origin and the velocity of the piece of raceway at the roller.
     shift : vector
         By how much the origin moved, [m].
@@ -65,39 +68,41 @@ def bent_cup(lanes: Any, flex: Any, view: Any, cosine: Any, sine: Any, flexibili
         cosine_before, sine_before = cosine_n, sine_n
         cosine_n, sine_n = cosine_next, sine_next
     shift = (deflection, slope, zero)
-    return (add(view[0], shift), view[1], add(view[2], (speed, speed_around, zero)), view[3]), shift
+    moving = add(view.velocity, (speed, speed_around, zero))
+    return View(add(view.origin, shift), view.axis, moving, view.omega), shift
 
 
 @inline
 def about_rigid_cup(contact: Any, shift: Any, flexibility: Any) -> Any:
-    """The contact with its place from the origin of the rigid cup, about which reactions are summed."""
+    """Place a contact from the origin of the rigid cup, about which reactions are summed."""
     if flexibility is None:
         return contact
-    line, slip, sums, log2_speed, centre, touching, deepest = contact
-    return line, slip, sums, log2_speed, add(centre, shift), touching, deepest
+    c = contact
+    return RacewayContact(c.line, c.slip, c.sums, c.lean, c.log2_speed, add(c.centre, shift))
 
 
 @inline
-def bend_cup(
-    lanes: Any, sums: Any, force: Any, mask: Any, cosine: Any, sine: Any, modes: Any, flexibility: Any
-) -> None:
+def bend_cup(force: Any, here: Any, modes: Any, flexibility: Any) -> None:
     """Add the work that the rollers' reaction does on a unit of each amplitude to the sums.
 
     Parameters
     ----------
     force : vector
         Of the cup on the roller, [N].
+    here : Here
     modes : int
+    flexibility : FlexibilityParams or None
     """
     if flexibility is None:
         return
+    mask, cosine, sine = here.mask, here.cosine, here.sine
     cosine_before, sine_before = cosine, sine
     cosine_n = 2.0 * cosine * cosine - 1.0
     sine_n = 2.0 * cosine * sine
     for k in range(modes):
         along = (1.0 / (k + 2.0)) * force[1]
-        accumulate(lanes, sums, SUM_FIELDS + 2 * k, mask * (along * sine_n - force[0] * cosine_n))
-        accumulate(lanes, sums, SUM_FIELDS + 2 * k + 1, mask * (0.0 - force[0] * sine_n - along * cosine_n))
+        accumulate(here, SUM_FIELDS + 2 * k, mask * (along * sine_n - force[0] * cosine_n))
+        accumulate(here, SUM_FIELDS + 2 * k + 1, mask * (0.0 - force[0] * sine_n - along * cosine_n))
         cosine_next = 2.0 * cosine * cosine_n - cosine_before
         sine_next = 2.0 * cosine * sine_n - sine_before
         cosine_before, sine_before = cosine_n, sine_n
@@ -106,7 +111,7 @@ def bend_cup(
 
 @inline
 def drift_flex(flex: Any, step: Any, flexibility: Any) -> None:
-    """Move all amplitudes along their velocities."""
+    """Move all amplitudes of the bending along their velocities."""
     if flexibility is None:
         return
     for k in range(flex.shape[0]):
@@ -116,7 +121,7 @@ def drift_flex(flex: Any, step: Any, flexibility: Any) -> None:
 
 @inline
 def kick_flex(flex: Any, sums: Any, energy: Any, step: Any, flexibility: Any) -> Any:
-    """Accelerate the amplitudes under the rollers; returns the bending energy, [J].
+    """Accelerate the amplitudes under the rollers and return the bending energy, [J].
 
     Spring and damper are implicit like those of the contacts, so a mode may be as stiff as one likes.
     """
@@ -139,7 +144,7 @@ def kick_flex(flex: Any, sums: Any, energy: Any, step: Any, flexibility: Any) ->
 
 @inline
 def flex_energy(flex: Any, flexibility: Any) -> Any:
-    """Kinetic energy of the modes, [J]."""
+    """Sum the kinetic energy of the modes, [J]."""
     if flexibility is None:
         return 0.0
     total = 0.0

@@ -14,18 +14,31 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.drag import add_drag, drag_before, drag_matrix, finish_drag
-from beardyn_core.kernels.exchange import account_gravity, load_vector, store_vector
-from beardyn_core.kernels.orbit import angular_velocity, drift, ring_view, weight
-from beardyn_core.kernels.pocket_step import add_cage, cage_before, finish_cage
-from beardyn_core.kernels.raceway_step import finish_raceway, raceway_contact, raceway_matrix, raceway_wrench
-from beardyn_core.kernels.rib_step import add_rib, finish_rib, rib_before, rib_matrix
+from beardyn_core.kernels.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
+from beardyn_core.kernels.exchange import Here, account_gravity, load_vector, store_vector
+from beardyn_core.kernels.orbit import Body, angular_velocity, drift, ring_view, weight
+from beardyn_core.kernels.pocket import prepare_pocket, push_pocket, settle_pocket
+from beardyn_core.kernels.raceway import (
+    Ring,
+    faults_of_cone,
+    faults_of_cup,
+    prepare_raceway,
+    push_raceway,
+    settle_raceway,
+    stiffen_raceway,
+)
+from beardyn_core.kernels.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
 from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, bent_cup
-from beardyn_core.kernels.rolling import add_rolling, finish_rolling, rolling_before, rolling_matrix
-from beardyn_core.kernels.small_rib import add_small_rib, finish_small_rib, small_rib_before, small_rib_matrix
+from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_rolling, stiffen_rolling
+from beardyn_core.kernels.small_rib import (
+    prepare_small_rib,
+    push_small_rib,
+    settle_small_rib,
+    stiffen_small_rib,
+)
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.stage_timer import mark
-from beardyn_core.kernels.vectors import add, add_scaled, dot, turn_in
+from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, turn_in
 from beardyn_core.model.layout import (
     ANGLE,
     AXIAL,
@@ -48,7 +61,7 @@ _PI = 3.141592653589793
 
 @inline
 def velocity_change(matrix: Any, right: Any, zero: Any, explicit: Any) -> Any:
-    """Change of velocity and angular velocity that the contacts are settled with.
+    """Solve for the change of velocity and angular velocity that the contacts are settled with.
 
     With the explicit step it is zero: every contact keeps the force it has at the beginning of the step, on
     roller and ring alike, and the compiler drops the matrix. Losses are taken at the beginning as well, so
@@ -56,7 +69,7 @@ def velocity_change(matrix: Any, right: Any, zero: Any, explicit: Any) -> Any:
     """
     if explicit is not None:
         still = (zero, zero, zero)
-        return still, still
+        return Twist(still, still)
     return solve(matrix, right)
 
 
@@ -79,75 +92,66 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
     p : Parameters
     """
     step, effects, roller = p.step, p.effects, p.roller
-    reference_velocity = load_vector(lanes, rings, CUP, RING_VELOCITY)
-    polar, velocity, momentum, axis, half_turn, orbit_rate, direction = drift(
-        lanes, rollers, block, reference_velocity, step, roller
-    )
-    radius, azimuth, axial = polar
-    cosine, sine = direction
+    orbit = drift(lanes, rollers, block, load_vector(lanes, rings, CUP, RING_VELOCITY), step, roller)
+    cosine, sine, azimuth, momentum = orbit.cosine, orbit.sine, orbit.azimuth, orbit.momentum
     mask = lanes.load(p.rollers, block, MASK)
+    here = Here(lanes, block, rollers, sums, mask, cosine, sine)
     oversize = lanes.load(p.rollers, block, OVERSIZE)
-    omega = angular_velocity(momentum, axis, roller)
+    omega = angular_velocity(momentum, orbit.axis, roller)
     zero = lanes.constant(0.0)
-    body = ((radius, zero, axial), axis, velocity, omega, orbit_rate)
+    body = Body((orbit.radius, zero, orbit.axial), orbit.axis, orbit.velocity, omega, orbit.rate)
     cup_view = ring_view(lanes, rings, CUP, cosine, sine)
     bent_view, shift = bent_cup(lanes, flex, cup_view, cosine, sine, effects.ring_flexibility)
     cone_view = ring_view(lanes, rings, CONE, cosine, sine)
     spin = lanes.load(rollers, block, SPIN)
-    faults, timers = effects.faults, effects.timers
+    timers = effects.timers
     mark(timers, MOTION)
 
-    cup = raceway_contact(
-        lanes, block, CUP, bent_view, body, oversize,
-        (azimuth - lanes.load(rings, CUP, RING_TURN), -spin), p.cup,
-        (faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves), p,
-    )  # fmt: skip
+    azimuths = (azimuth - lanes.load(rings, CUP, RING_TURN), -spin)
+    ring = Ring(CUP, p.cup, faults_of_cup(effects.faults), bent_view)
+    cup = prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
     cup = about_rigid_cup(cup, shift, effects.ring_flexibility)
-    cone = raceway_contact(
-        lanes, block, CONE, cone_view, body, oversize,
-        (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin), p.cone,
-        (faults.cone, faults.roller, faults.cone_damage, faults.cone_waves, faults.roller_waves), p,
-    )  # fmt: skip
+    azimuths = (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin)
+    ring = Ring(CONE, p.cone, faults_of_cone(effects.faults), cone_view)
+    cone = prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
     mark(timers, CONTACT)
-    cup_rolling = rolling_before(cup, CUP, cup_view, body, effects.rolling)
-    cone_rolling = rolling_before(cone, CONE, cone_view, body, effects.rolling)
-    drag = drag_before(body, cup_view, effects.drag)
+    cup_rolling = prepare_rolling(cup, CUP, cup_view, body, effects.rolling)
+    cone_rolling = prepare_rolling(cone, CONE, cone_view, body, effects.rolling)
+    drag = prepare_drag(body, cup_view, effects.drag)
     mark(timers, LOSS)
-    rib = rib_before(body, cone_view, zero, effects.rib, effects.damping)
-    small_rib = small_rib_before(body, cone_view, zero, effects.small_rib)
+    rib = prepare_rib(body, cone_view, zero, effects.rib, effects.damping)
+    small_rib = prepare_small_rib(body, cone_view, zero, effects.small_rib)
     mark(timers, RIB)
-    cage = cage_before(
-        lanes, rings, p.rollers, block, body, azimuth, cosine, sine, roller, faults.pockets, effects.cage
-    )
+    pocket = prepare_pocket(lanes, rings, block, body, orbit, effects.faults.pockets, p, effects.cage)
 
     mark(timers, CAGE)
-    matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, axis, zero)
-    matrix = raceway_matrix(matrix, cup, p)
-    matrix = raceway_matrix(matrix, cone, p)
-    matrix = rolling_matrix(matrix, cup_rolling, step, effects.rolling)
-    matrix = rolling_matrix(matrix, cone_rolling, step, effects.rolling)
-    matrix = drag_matrix(matrix, drag, step, effects.drag)
-    matrix = rib_matrix(matrix, rib, effects.rib, p)
-    matrix = small_rib_matrix(matrix, small_rib, effects.small_rib, p)
+    matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, orbit.axis, zero)
+    matrix = stiffen_raceway(matrix, cup, p)
+    matrix = stiffen_raceway(matrix, cone, p)
+    matrix = stiffen_rolling(matrix, cup_rolling, step, effects.rolling)
+    matrix = stiffen_rolling(matrix, cone_rolling, step, effects.rolling)
+    matrix = stiffen_drag(matrix, drag, step, effects.drag)
+    matrix = stiffen_rib(matrix, rib, effects.rib, p)
+    matrix = stiffen_small_rib(matrix, small_rib, effects.small_rib, p)
 
-    cup_force, cup_moment = raceway_wrench(cup, effects.damping)
-    cone_force, cone_moment = raceway_wrench(cone, effects.damping)
+    on_cup, on_cone = push_raceway(cup, effects.damping), push_raceway(cone, effects.damping)
     gravity = weight(cosine, sine, roller.mass, effects.gravity)
-    force = add(add(cup_force, cone_force), gravity)
-    moment = add(cup_moment, cone_moment)
-    moment = add_rolling(add_rolling(moment, cup_rolling, effects.rolling), cone_rolling, effects.rolling)
-    force, moment = add_drag(force, moment, drag, effects.drag)
-    force, moment = add_rib(force, moment, rib, effects.rib)
-    force, moment = add_small_rib(force, moment, small_rib, effects.small_rib)
-    force, moment = add_cage(force, moment, cage, effects.cage)
+    force, moment = add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment)
+    moment = push_rolling(push_rolling(moment, cup_rolling, effects.rolling), cone_rolling, effects.rolling)
+    total = Wrench(force, moment)
+    total = push_drag(total, drag, effects.drag)
+    total = push_rib(total, rib, effects.rib)
+    total = push_small_rib(total, small_rib, effects.small_rib)
+    total = push_pocket(total, pocket, effects.cage)
+    force, moment = total.force, total.moment
     turning_force = (
-        force[0] + roller.mass * orbit_rate * velocity[1],
-        force[1] - roller.mass * orbit_rate * velocity[0],
+        force[0] + roller.mass * orbit.rate * orbit.velocity[1],
+        force[1] - roller.mass * orbit.rate * orbit.velocity[0],
         force[2],
     )
     turning_moment = (
-        moment[0] + orbit_rate * momentum[1],
-        moment[1] - orbit_rate * momentum[0],
+        moment[0] + orbit.rate * momentum[1],
+        moment[1] - orbit.rate * momentum[0],
         moment[2],
     )
     right = (
@@ -157,41 +161,30 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
     change = velocity_change(matrix, right, zero, p.explicit)
     mark(timers, SOLVE)
 
-    force, moment = finish_raceway(lanes, rollers, sums, block, CUP, cup, change, mask, cosine, sine, p)
-    bend_cup(lanes, sums, force, mask, cosine, sine, flex.shape[0], effects.ring_flexibility)
-    cone_force, cone_moment = finish_raceway(
-        lanes, rollers, sums, block, CONE, cone, change, mask, cosine, sine, p
-    )
-    force = add(add(force, cone_force), gravity)
-    moment = add(moment, cone_moment)
+    on_cup = settle_raceway(CUP, cup, change, here, p)
+    bend_cup(on_cup.force, here, flex.shape[0], effects.ring_flexibility)
+    on_cone = settle_raceway(CONE, cone, change, here, p)
+    total = Wrench(add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment))
     mark(timers, SETTLE)
-    moment = finish_rolling(
-        lanes, sums, CUP, cup_rolling, change, moment, mask, cosine, sine, effects.rolling, p
-    )
-    moment = finish_rolling(
-        lanes, sums, CONE, cone_rolling, change, moment, mask, cosine, sine, effects.rolling, p
-    )
-    force, moment = finish_drag(lanes, sums, drag, change, force, moment, mask, cosine, sine, effects.drag, p)
+    total = settle_rolling(CUP, cup_rolling, change, total, here, effects.rolling, p)
+    total = settle_rolling(CONE, cone_rolling, change, total, here, effects.rolling, p)
+    total = settle_drag(drag, change, total, here, effects.drag, p)
     mark(timers, LOSS)
-    force, moment = finish_rib(
-        lanes, rollers, sums, block, rib, change, force, moment, mask, cosine, sine, effects.rib, p
-    )
-    force, moment = finish_small_rib(
-        lanes, sums, small_rib, change, force, moment, mask, cosine, sine, effects.small_rib, p
-    )
+    total = settle_rib(rib, change, total, here, effects.rib, p)
+    total = settle_small_rib(small_rib, change, total, here, effects.small_rib, p)
     mark(timers, RIB)
-    finish_cage(lanes, rollers, sums, block, cage, change, mask, cosine, sine, effects.cage, p)
-    force, moment = add_cage(force, moment, cage, effects.cage)
+    settle_pocket(pocket, change, here, effects.cage, p)
+    total = push_pocket(total, pocket, effects.cage)
     mark(timers, CAGE)
-    work = step * dot(gravity, add_scaled(velocity, 0.5, change[0]))
-    account_gravity(lanes, sums, mask, work, effects.audit)
+    work = step * dot(gravity, add_scaled(orbit.velocity, 0.5, change.velocity))
+    account_gravity(here, work, effects.audit)
 
-    velocity = turn_in(velocity, half_turn[0], half_turn[1])
-    momentum = turn_in(momentum, half_turn[0], half_turn[1])
-    lanes.store(rollers, block, RADIUS, radius)
+    velocity = turn_in(orbit.velocity, orbit.half_cosine, orbit.half_sine)
+    momentum = turn_in(momentum, orbit.half_cosine, orbit.half_sine)
+    lanes.store(rollers, block, RADIUS, orbit.radius)
     lanes.store(rollers, block, ANGLE, azimuth)
-    lanes.store(rollers, block, AXIAL, axial)
-    store_vector(lanes, rollers, block, AXIS, axis)
-    store_vector(lanes, rollers, block, VELOCITY, add_scaled(velocity, step / roller.mass, force))
-    store_vector(lanes, rollers, block, MOMENTUM, add_scaled(momentum, step, moment))
+    lanes.store(rollers, block, AXIAL, orbit.axial)
+    store_vector(lanes, rollers, block, AXIS, orbit.axis)
+    store_vector(lanes, rollers, block, VELOCITY, add_scaled(velocity, step / roller.mass, total.force))
+    store_vector(lanes, rollers, block, MOMENTUM, add_scaled(momentum, step, total.moment))
     mark(timers, MOTION)

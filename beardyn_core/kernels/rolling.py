@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.exchange import account, account_loss, accumulate_vector
+from beardyn_core.kernels.exchange import account, account_loss, react_couple
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, sqrt
 from beardyn_core.kernels.orbit import entrainment_speed
 from beardyn_core.kernels.solve import add_couple
-from beardyn_core.kernels.vectors import add, dot, scale, subtract, turn_out
-from beardyn_core.model.layout import LOSS_ROLLING, REACTION
+from beardyn_core.kernels.vectors import Vector, Wrench, add, dot, scale, subtract
+from beardyn_core.model.layout import LOSS_ROLLING
 
 _THERMAL_FACTOR, _THERMAL_EXPONENT = 0.29, 0.78
 _SMALLEST_SPEED = 1e-3
 _LIGHT_LOAD = 1.0
 
 
+class RollingContact(NamedTuple):
+    """Rolling resistance of one raceway contact before the solve."""
+
+    rate: Any  # couple over relative speed [N m s]
+    relative: Any  # speed about the generator [rad/s]
+    along: Vector  # direction of the generator
+
+
 @inline
 def rolling_couple(load: Any, speed: Any, ring: Any, rolling: Any) -> Any:
-    """Couple of one raceway contact against rolling, [N m].
+    """Work out the couple of one raceway contact against rolling, [N m].
 
     Hydrodynamic couple of the inlet, reduced by its heating and by its supply, plus elastic hysteresis. The
     load is spread evenly along the roller. Speeds below 1 mm/s are treated as 1 mm/s; below 1 N the
@@ -80,72 +88,62 @@ def _hysteresis(load: Any, ring: Any, hysteresis: Any) -> Any:
 
 
 @inline
-def rolling_before(contact: Any, ring: Any, view: Any, body: Any, rolling: Any) -> Any:
-    """Couple over relative speed, relative speed about the generator, generator direction.
+def prepare_rolling(contact: Any, ring: Any, view: Any, body: Any, rolling: Any) -> Any:
+    """Work out the couple of one raceway contact; without the effect zeros, which nothing uses.
 
-    Without the effect zeros of the same type, which nothing uses.
+    Parameters
+    ----------
+    contact : RacewayContact
+    ring : int
+        ``CUP`` or ``CONE``.
+    view : View
+        Of the ring.
+    body : Body
+    rolling : RollingParams or None
+
+    Returns
+    -------
+    RollingContact
     """
-    line, load, centre = contact[0], contact[2][0][0], contact[4]
-    along = line[4]
+    line, load = contact.line, contact.sums.force[0]
     if rolling is None:
-        return 0.0 * load, 0.0 * load, along
-    if not contact[5]:
-        return 0.0 * load, 0.0 * load, along
-    _place, _axis, velocity, omega, orbit_rate = body
-    speed = entrainment_speed(line, centre, velocity, omega, view[2], view[3], orbit_rate)
-    relative = dot(subtract(omega, view[3]), along)
+        return RollingContact(0.0 * load, 0.0 * load, line.along)
+    if not contact.sums.touches:
+        return RollingContact(0.0 * load, 0.0 * load, line.along)
+    speed = entrainment_speed(line, contact.centre, body, view)
+    relative = dot(subtract(body.omega, view.omega), line.along)
     floor = rolling.regularisation[ring]
     couple = rolling_couple(load, speed, ring, rolling)
-    return couple / sqrt(relative * relative + floor * floor), relative, along
+    return RollingContact(couple / sqrt(relative * relative + floor * floor), relative, line.along)
 
 
 @inline
-def rolling_matrix(matrix: Any, contact: Any, step: Any, rolling: Any) -> Any:
-    """Add the implicit part of the rolling resistance."""
+def stiffen_rolling(matrix: Any, contact: Any, step: Any, rolling: Any) -> Any:
+    """Add the implicit part of the rolling resistance to the roller's matrix."""
     if rolling is None:
         return matrix
-    return add_couple(matrix, contact[2], step * contact[0])
+    return add_couple(matrix, contact.along, step * contact.rate)
 
 
 @inline
-def add_rolling(moment: Any, contact: Any, rolling: Any) -> Any:
+def push_rolling(moment: Any, contact: Any, rolling: Any) -> Any:
     """Add the couple at the beginning of the step to a moment."""
     if rolling is None:
         return moment
-    rate, relative, along = contact
-    return add(moment, scale(-rate * relative, along))
+    return add(moment, scale(-contact.rate * contact.relative, contact.along))
 
 
 @inline
-def finish_rolling(
-    lanes: Any,
-    sums: Any,
-    ring: Any,
-    contact: Any,
-    change: Any,
-    moment: Any,
-    mask: Any,
-    cosine: Any,
-    sine: Any,
-    rolling: Any,
-    p: Any,
-) -> Any:
+def settle_rolling(ring: Any, contact: Any, change: Any, total: Any, here: Any, rolling: Any, p: Any) -> Any:
     """Settle the couple after the solve: on roller and ring alike, with its loss."""
     if rolling is None:
-        return moment
-    rate, relative, along = contact
-    gained = dot(change[1], along)
+        return total
+    rate, relative, along = contact.rate, contact.relative, contact.along
+    gained = dot(change.omega, along)
     middle = relative + 0.5 * gained
     couple = scale(-rate * (relative + gained), along)
-    react_couple(lanes, sums, ring, mask, couple, cosine, sine)
+    react_couple(ring, couple, here)
     audit = p.effects.audit
-    account_loss(lanes, sums, mask, LOSS_ROLLING, p.step * rate * middle * middle, audit)
-    account(lanes, sums, mask, 0.5 * p.step * rate * gained * middle, 0.0 * rate, audit)
-    return add(moment, couple)
-
-
-@inline
-def react_couple(lanes: Any, sums: Any, ring: Any, mask: Any, couple: Any, cosine: Any, sine: Any) -> None:
-    """Add the reaction of a couple to its ring."""
-    turn = turn_out(scale(-mask, couple), cosine, sine)
-    accumulate_vector(lanes, sums, REACTION + 6 * ring + 3, turn)
+    account_loss(here, LOSS_ROLLING, p.step * rate * middle * middle, audit)
+    account(here, 0.5 * p.step * rate * gained * middle, 0.0 * rate, audit)
+    return Wrench(total.force, add(total.moment, couple))

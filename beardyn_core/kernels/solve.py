@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.vectors import cross
+from beardyn_core.kernels.vectors import Twist, cross
 
 
 @inline
 def inertia_matrix(mass: Any, axial: Any, transverse: Any, axis: Any, zero: Any) -> Any:
-    """Mass and inertia of a body of revolution with unit axis `axis`."""
+    """Fill the matrix with mass and inertia of a body of revolution with unit axis `axis`."""
     d = axial - transverse
     x, y, z = axis
     m = mass + zero
@@ -139,30 +139,11 @@ def _add_blocks(m: Any, d: Any, force: Any, b: Any, p: Any, c: Any, r: Any) -> A
 
 @inline
 def solve(matrix: Any, right: Any) -> Any:
-    """Solution of the symmetric positive definite 6x6 system by L D L^T."""
+    """Solve the symmetric positive definite 6x6 system by L D L^T: the `Twist` that changes the motion."""
     (
-        a00,
-        a10,
-        a11,
-        a20,
-        a21,
-        a22,
-        a30,
-        a31,
-        a32,
-        a33,
-        a40,
-        a41,
-        a42,
-        a43,
-        a44,
-        a50,
-        a51,
-        a52,
-        a53,
-        a54,
-        a55,
-    ) = matrix
+        a00, a10, a11, a20, a21, a22, a30, a31, a32, a33, a40,
+        a41, a42, a43, a44, a50, a51, a52, a53, a54, a55,
+    ) = matrix  # fmt: skip
     f0, f1, f2, f3, f4, f5 = right
     i0 = 1.0 / a00
     l10, l20, l30, l40, l50 = a10 * i0, a20 * i0, a30 * i0, a40 * i0, a50 * i0
@@ -210,4 +191,4 @@ def solve(matrix: Any, right: Any) -> Any:
     x2 = f2 * i2 - l32 * x3 - l42 * x4 - l52 * x5
     x1 = f1 * i1 - l21 * x2 - l31 * x3 - l41 * x4 - l51 * x5
     x0 = f0 * i0 - l10 * x1 - l20 * x2 - l30 * x3 - l40 * x4 - l50 * x5
-    return (x0, x1, x2), (x3, x4, x5)
+    return Twist((x0, x1, x2), (x3, x4, x5))

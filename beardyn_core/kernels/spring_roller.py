@@ -21,11 +21,13 @@ from beardyn_core.kernels.kinematic_torque import rolling_torque, sliding_torque
 from beardyn_core.kernels.lane_math import at_least, quick_ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.waviness import wave_gap
-from beardyn_core.model.layout import OVERSIZE, PENETRATION, POCKET_ANGLE
-from beardyn_core.model.tier_parameters import (
+from beardyn_core.model.layout import (
     COUNTED,
     COUNTED_COSINE,
     COUNTED_SINE,
+    OVERSIZE,
+    PENETRATION,
+    POCKET_ANGLE,
     POCKET_COSINE,
     POCKET_SINE,
 )
@@ -38,7 +40,7 @@ _PI = 3.141592653589793
 
 @inline
 def spring_load(approach: Any, rate: Any, spring: Any, damping: Any) -> Any:
-    """Cup load of a roller that is pressed by cup and cone, never pulling, [N].
+    """Work out the cup load of a roller that is pressed by cup and cone, never pulling, [N].
 
     Parameters
     ----------
@@ -75,7 +77,7 @@ def _series(root: Any, series: Any) -> Any:
 
 @inline
 def _push(pressed: Any, rate: Any, damping: Any) -> Any:
-    """Approach that stands for spring and damper of a 10/9 law, [m]."""
+    """Take the approach that stands for spring and damper of a 10/9 law, [m]."""
     if damping is None:
         return pressed
     return pressed + (10.0 / 9.0 * damping.time_constant) * rate
@@ -85,7 +87,7 @@ def _push(pressed: Any, rate: Any, damping: Any) -> Any:
 def faulted_load(
     lanes: Any, block: Any, approach: Any, rate: Any, angle: Any, turns: Any, faults: Any, p: Any
 ) -> Any:
-    """Cup load with the gaps of faults; without faults `spring_load`.
+    """Work out the cup load with the gaps of faults; without faults as `spring_load`.
 
     The laminae of a roller see different gaps. They are taken as two parts of it, one with the gap g and
     the share f, one without: f g and f g^2 are the means of gap and squared gap over the laminae. Exact
@@ -129,7 +131,7 @@ def faulted_load(
 
 @inline
 def approach_waves(lanes: Any, motion: Any, direction: Any, p: Any) -> Any:
-    """Approach and approach rate of the rows as affine functions of cosine and sine of the pocket angle.
+    """Write approach and rate of the rows as affine functions of cosine and sine of the pocket angle.
 
     Parameters
     ----------
@@ -173,7 +175,7 @@ def load_rollers(
     trend: Any,
     p: Any,
 ) -> None:
-    """Loads of all rollers and their sums by row.
+    """Load all rollers and sum their loads by row.
 
     Parameters
     ----------
@@ -231,7 +233,7 @@ def load_rollers(
 def torque_and_stiffness(
     lanes: Any, blocks: Any, sums: Any, motion: Any, direction: Any, speeds: Any, trend: Any, p: Any
 ) -> None:
-    """Sums by row of what is held for a while, after `load_rollers`, with the same arguments.
+    """Sum by row what is held for a while, after `load_rollers`, with the same arguments.
 
     Parameters
     ----------
@@ -265,7 +267,7 @@ def torque_and_stiffness(
 
 @inline
 def cup_cone_rib(load: Any, speeds: Any, p: Any) -> Any:
-    """Cup, cone and rib load of rollers from the cup load, [N]."""
+    """Work out cup, cone and rib load of rollers from the cup load, [N]."""
     spring = p.spring
     cone = spring.cone_share * (load - idle_load(speeds[1], p))
     rib = spring.rib_share * load + spring.rib_centrifugal * centrifugal_force(speeds[1], p)
@@ -274,19 +276,19 @@ def cup_cone_rib(load: Any, speeds: Any, p: Any) -> Any:
 
 @inline
 def centrifugal_force(cage_speed: Any, p: Any) -> Any:
-    """Of a roller, [N]."""
+    """Work out the centrifugal force of a roller, [N]."""
     return p.kinematic.centrifugal * cage_speed * cage_speed
 
 
 @inline
 def idle_load(cage_speed: Any, p: Any) -> Any:
-    """Cup load of a roller that the cone does not press, [N]."""
+    """Work out the cup load of a roller that the cone does not press, [N]."""
     return p.spring.idle * centrifugal_force(cage_speed, p)
 
 
 @inline
 def sum_rollers(sums: Any, speeds: Any, p: Any) -> Any:
-    """Totals as `cup_wrench` takes them, and the sum of the rib loads, from what `load_rollers` stored."""
+    """Sum the loads as `cup_wrench` takes them, and the rib loads, from what `load_rollers` stored."""
     spring = p.spring
     cosine, sine = row_totals(sums, LOAD_COSINE), row_totals(sums, LOAD_SINE)
     load = row_totals(sums, RIB_SUM)

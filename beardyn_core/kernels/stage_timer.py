@@ -42,7 +42,7 @@ def _add(builder: Any, address: Any, number: Any) -> None:
 
 
 def _read_counter(builder: Any) -> Any:
-    """The cycle counter once all earlier work is done, as a float64: exact for a month of cycles."""
+    """Read the cycle counter once all earlier work is done, as a float64: exact for a month of cycles."""
     nothing = ir.FunctionType(ir.VoidType(), [])
     wait = cgutils.get_or_insert_function(builder.module, nothing, "llvm.x86.sse2.lfence")
     number = ir.FunctionType(ir.IntType(64), [])
@@ -55,7 +55,7 @@ def _read_counter(builder: Any) -> Any:
 
 @_typed_intrinsic
 def _mark(_typing: Any, timers: Any, stage: Any, result: Any) -> Any:
-    """`mark_result`; its branch is told to be unlikely, which keeps the registers for the other side."""
+    """Emit `mark_result` with an unlikely branch, which keeps the registers for the other side."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         if not _HAS_COUNTER:
@@ -79,7 +79,7 @@ def _mark(_typing: Any, timers: Any, stage: Any, result: Any) -> Any:
 
 
 def _mark_plainly(timers: Any, stage: int, _result: Any) -> None:
-    """`mark_result` in plain Python, in nanoseconds."""
+    """Mark a result in plain Python, in nanoseconds."""
     if timers[OWN, ROW] > 0.0:
         now = float(time.perf_counter_ns())
         timers.flat[int(timers[OWN, ROW]) + stage] += now - timers[OWN, LAST]
@@ -133,7 +133,7 @@ def mark(timers: Any, stage: Any) -> None:
 
 @inline
 def mark_result(timers: Any, stage: Any, result: Any) -> None:
-    """`mark` of a stage so short that the compiler would mix it with the next one.
+    """End a stage so short that the compiler would mix it with the next one; see `mark`.
 
     Parameters
     ----------

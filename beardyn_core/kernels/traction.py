@@ -1,41 +1,169 @@
-"""Traction of a lamina: friction force over slip speed."""
+"""Traction of a lamina: friction force over slip speed, dry, of a full film, and of both together.
+
+Every law acts against the slip, so it dissipates; none sticks: below its slip speed a contact creeps. Full
+films are isothermal: shear heating between the flats is neglected, so traction at large slip is an upper
+estimate. Pressure is that of Hertz, of one lamina; the area is load over mean pressure. A law that is not
+chosen is ``None`` and adds nothing.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.film_traction import (
-    aihara_rate,
-    bair_winer_rate,
-    eyring_rate,
-    inlet_rate,
-    limited_newton_rate,
+from beardyn_core.kernels.lane_math import (
+    LOG2_E,
+    arctangent_over,
+    arctangent_with,
+    asinh_over,
+    at_least,
+    at_most,
+    decay_over,
+    decay_rate,
+    exp2,
+    log2,
+    sqrt,
+    where_greater,
 )
-from beardyn_core.kernels.lane_math import at_least, at_most, exp2, sqrt
-from beardyn_core.kernels.saturation import arctangent_with
-from beardyn_core.kernels.slip_laws import slip_rate
+from beardyn_core.model.layout import LAMINA_PRESSURE
 
-_LOG2_E = 1.4426950408889634
 _TWO_OVER_PI = 0.6366197723675814
+_SLOWEST = 1e-12
+_SMALLEST_PRESSURE = 1e-3
+_LARGEST_LOG2_THICKENING = 30.0
+# Aihara's units: largest Hertz pressure in kgf/mm^2, speed in mm/s from m/s
+_LOG2_SPEED_UNIT = math.log2(1000.0)
+_LOG2_PRESSURE_BEND = math.log2(94.404)
+_LOG2_AT_HIGH_PRESSURE = math.log2(4.078e-2)
+_LOG2_STEEPNESS = math.log2(2.6)
+_LOG2_AT_LOW_PRESSURE = math.log2(1.008e-4)
+
+
+class LaminaContact(NamedTuple):
+    """A lamina that rubs."""
+
+    load: Any  # [N]
+    log2_load: Any  # [log2 N]
+    slip_squared: Any  # [m^2/s^2]
+    log2_film: Any  # film thickness [log2 m]
+    log2_rolling: Any  # entrainment speed [log2 m/s]
+    lamina: int
+    ring: int
+    laminae: Any  # lamina table [row of the table, lamina]
 
 
 @inline
-def coulomb_rate(load: Any, slip_squared: Any, coulomb: Any) -> Any:
-    """Dry friction over slip speed, mu N / u with its corner at zero slip rounded, [N s/m].
+def friction_rate(contact: Any, effects: Any) -> Any:
+    """Work out the friction of one lamina over its slip speed, 0 without traction, [N s/m].
+
+    Parameters
+    ----------
+    contact : LaminaContact
+    effects : EffectParams
+    """
+    return _rate(contact, effects.film, effects.coulomb, effects.mixed, effects.load_sharing)
+
+
+@inline
+def _rate(contact: Any, film: Any, coulomb: Any, mixed: Any, load_sharing: Any) -> Any:
+    if load_sharing is not None:
+        return load_sharing_rate(contact, film, load_sharing)
+    if mixed is not None:
+        return mixed_rate(contact, film, mixed)
+    return coulomb_rate(contact, coulomb)
+
+
+@inline
+def traction_capacity(load: Any, coulomb: Any, mixed: Any, load_sharing: Any) -> Any:
+    """Take the friction at full slip in the dry limit, the scale of the chatter index, [N]."""
+    if load_sharing is not None:
+        return load_sharing.friction * load
+    if mixed is not None:
+        return mixed.friction * load
+    if coulomb is not None:
+        return coulomb.friction * load
+    return load
+
+
+# --- dry friction and the laws by which its corner at zero slip is rounded
+
+
+@inline
+def coulomb_rate(contact: Any, coulomb: Any) -> Any:
+    """Work out dry friction over slip speed, mu N / u with its corner at zero slip rounded, [N s/m].
 
     Adds friction of constant coefficient; neglects stiction and any lubricant.
     """
     if coulomb is None:
         return 0.0
-    return slip_rate(coulomb.friction * load, slip_squared, coulomb.regularisation, coulomb.law)
+    force = coulomb.friction * contact.load
+    return slip_rate(force, contact.slip_squared, coulomb.regularisation, coulomb.law)
 
 
 @inline
-def mixed_rate(
-    load: Any, slip_squared: Any, log2_film: Any, lamina: Any, ring: Any, laminae: Any, film: Any, mixed: Any
-) -> Any:
-    """Blend of boundary and full-film friction over slip speed, [N s/m].
+def slip_rate(force: Any, slip_squared: Any, speed: Any, law: Any) -> Any:
+    """Divide friction of the size ``force`` at full slip by the slip speed, its corner rounded, [N s/m].
+
+    Without a named law the friction is u / sqrt(u^2 + speed^2) of the force: 71 % at that slip speed.
+    """
+    if law is None:
+        return force / sqrt(slip_squared + speed * speed)
+    slip = sqrt(slip_squared)
+    return (
+        threlfall_rate(force, slip, speed, law.threlfall)
+        + ambrosio_rate(force, slip, speed, law.ambrosio_start)
+        + arctangent_rate(force, slip, speed, law.arctangent)
+    )
+
+
+@inline
+def threlfall_rate(force: Any, slip: Any, speed: Any, steepness: Any) -> Any:
+    """Take 1 - exp(-3 u / speed) of the force below the speed, 0.95 of it beyond, for a steepness of 3.
+
+    References
+    ----------
+    Threlfall, D. C. (1978), The inclusion of Coulomb friction in mechanisms programs with particular
+    reference to DRAM, Mech. Mach. Theory 13, 475.
+    """
+    if steepness is None:
+        return 0.0
+    per_slip = steepness / speed
+    below = force * per_slip * decay_over(slip * per_slip)
+    return where_greater(slip, speed, 0.95 * force / at_least(slip, _SLOWEST), below)
+
+
+@inline
+def ambrosio_rate(force: Any, slip: Any, full: Any, start: Any) -> Any:
+    """Take none of the force up to the slip speed ``start``, all of it from ``full`` on, linear in between.
+
+    References
+    ----------
+    Ambrosio, J. (2003), Impact of rigid and flexible multibody systems: deformation description and contact
+    models, Virtual Nonlinear Multibody Systems, 57.
+    """
+    if start is None:
+        return 0.0
+    moving = at_least(slip, _SLOWEST)
+    ramp = at_most(at_least((moving - start) / (full - start), 0.0), 1.0)
+    return force * ramp / moving
+
+
+@inline
+def arctangent_rate(force: Any, slip: Any, speed: Any, steepness: Any) -> Any:
+    """Take 2/pi atan(u / speed) of the force: half of it at that slip speed for a steepness of 1."""
+    if steepness is None:
+        return 0.0
+    per_slip = steepness / speed
+    return _TWO_OVER_PI * force * per_slip * arctangent_over(slip * per_slip)
+
+
+# --- asperities and film together
+
+
+@inline
+def mixed_rate(contact: Any, film: Any, mixed: Any) -> Any:
+    """Blend boundary and full-film friction over slip speed, [N s/m].
 
     The blend weight is the sixth-power law of the mixed regime over the film parameter. Neglects heating
     of the film.
@@ -44,17 +172,15 @@ def mixed_rate(
     ----------
     Santos (2017), Eq. 8, after Harada and Sakaguchi (2005).
     """
-    dry = slip_rate(load, slip_squared, mixed.regularisation, mixed.law)
-    wet = film_rate(
-        load, slip_squared, dry, log2_film, lamina, ring, laminae, film, mixed, mixed.sheared_film
-    )
-    share = boundary_share(exp2(log2_film) / film.roughness, mixed)
+    dry = slip_rate(contact.load, contact.slip_squared, mixed.regularisation, mixed.law)
+    wet = _full_film_rate(contact, dry, film, mixed, mixed.sheared_film)
+    share = boundary_share(exp2(contact.log2_film) / film.roughness, mixed)
     return wet + (mixed.friction * dry - wet) * share
 
 
 @inline
 def boundary_share(film_parameter: Any, mixed: Any) -> Any:
-    """Weight of the boundary friction: 1 below the boundary film parameter, 0 above the full-film one."""
+    """Weigh the boundary friction: 1 below the boundary film parameter, 0 above the full-film one."""
     share = (mixed.full_film - film_parameter) / (mixed.full_film - mixed.boundary_film)
     share = at_most(at_least(share, 0.0), 1.0)
     share2 = share * share
@@ -62,38 +188,16 @@ def boundary_share(film_parameter: Any, mixed: Any) -> Any:
 
 
 @inline
-def film_rate(
-    load: Any,
-    slip_squared: Any,
-    dry: Any,
-    log2_film: Any,
-    lamina: Any,
-    ring: Any,
-    laminae: Any,
-    film: Any,
-    mixed: Any,
-    sheared_film: Any,
-) -> Any:
-    """Friction of the full film over slip speed, [N s/m]: a constant coefficient, or a film that shears."""
+def _full_film_rate(contact: Any, dry: Any, film: Any, mixed: Any, sheared_film: Any) -> Any:
+    """Take the full film's friction over slip speed, [N s/m]: constant coefficient, or a film that shears."""
     if sheared_film is None:
         return mixed.film_friction * dry
-    return limited_newton_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, sheared_film)
+    return limited_newton_rate(contact, film, sheared_film)
 
 
 @inline
-def load_sharing_rate(
-    load: Any,
-    log2_force: Any,
-    slip_squared: Any,
-    log2_film: Any,
-    log2_rolling: Any,
-    lamina: Any,
-    ring: Any,
-    laminae: Any,
-    film: Any,
-    sharing: Any,
-) -> Any:
-    """Asperities and film share the load, each with its own friction, over slip speed, [N s/m].
+def load_sharing_rate(contact: Any, film: Any, sharing: Any) -> Any:
+    """Share the load between asperities and film, each with its own friction over slip speed, [N s/m].
 
     The film carries 1 - exp(-1.8 Lambda^1.2); asperities have mu_0 2/pi atan(slope s), s slip over
     entrainment speed. The film never has more friction than dry asperities: the fits extrapolate to that
@@ -103,120 +207,150 @@ def load_sharing_rate(
     ----------
     Load share and asperity law as in the published source of D-BRAIN (NSK).
     """
-    slip = sqrt(slip_squared)
+    slip = sqrt(contact.slip_squared)
     inverse_slip = 1.0 / at_least(slip, 1e-12)  # one division for all laws
-    per_slip = sharing.slope * exp2(-log2_rolling)
+    per_slip = sharing.slope * exp2(-contact.log2_rolling)
     saturated = per_slip * arctangent_with(per_slip * slip, inverse_slip * (1.0 / per_slip))
-    asperities = sharing.friction * _TWO_OVER_PI * load * saturated
-    return _shared_rate(
-        load, log2_force, slip, inverse_slip, asperities, log2_film, log2_rolling, lamina, ring, laminae,
-        film, sharing,
-    )  # fmt: skip
+    asperities = sharing.friction * _TWO_OVER_PI * contact.load * saturated
+    return _shared_rate(contact, slip, inverse_slip, asperities, film, sharing)
 
 
 @inline
-def _shared_rate(
-    load: Any,
-    log2_force: Any,
-    slip: Any,
-    inverse_slip: Any,
-    asperities: Any,
-    log2_film: Any,
-    log2_rolling: Any,
-    lamina: Any,
-    ring: Any,
-    laminae: Any,
-    film: Any,
-    sharing: Any,
-) -> Any:
+def _shared_rate(contact: Any, slip: Any, inverse_slip: Any, asperities: Any, film: Any, sharing: Any) -> Any:
     if film is None:
         return asperities
     wet = (
-        aihara_rate(load, log2_force, slip, inverse_slip, log2_rolling, lamina, ring, sharing.aihara)
-        + eyring_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.eyring)
-        + bair_winer_rate(load, slip, log2_film, lamina, ring, laminae, film, sharing.bair_winer)
-        + inlet_rate(log2_film, lamina, ring, laminae, sharing.inlet)
+        aihara_rate(contact, slip, inverse_slip, sharing.aihara)
+        + eyring_rate(contact, slip, film, sharing.eyring)
+        + bair_winer_rate(contact, slip, film, sharing.bair_winer)
+        + inlet_rate(contact, sharing.inlet)
     )
-    wet = at_most(wet, sharing.friction * load * inverse_slip)
-    share = exp2(-1.8 * _LOG2_E * exp2(1.2 * (log2_film - sharing.log2_roughness)))
+    wet = at_most(wet, sharing.friction * contact.load * inverse_slip)
+    share = exp2(-1.8 * LOG2_E * exp2(1.2 * (contact.log2_film - sharing.log2_roughness)))
     return wet + (asperities - wet) * share
 
 
-@inline
-def friction_rate(
-    load: Any,
-    log2_force: Any,
-    slip_squared: Any,
-    log2_film: Any,
-    log2_speed: Any,
-    lamina: Any,
-    ring: Any,
-    laminae: Any,
-    effects: Any,
-) -> Any:
-    """Friction of one lamina over its slip speed, [N s/m]; 0 without traction."""
-    return _rate(
-        load, log2_force, slip_squared, log2_film, log2_speed, lamina, ring, laminae,
-        effects.film, effects.coulomb, effects.mixed, effects.load_sharing,
-    )  # fmt: skip
+# --- full films
 
 
 @inline
-def _rate(
-    load: Any,
-    log2_force: Any,
-    slip_squared: Any,
-    log2_film: Any,
-    log2_speed: Any,
-    lamina: Any,
-    ring: Any,
-    laminae: Any,
-    film: Any,
-    coulomb: Any,
-    mixed: Any,
-    load_sharing: Any,
-) -> Any:
-    if load_sharing is None:
-        return _blended_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, coulomb, mixed)
-    return load_sharing_rate(
-        load, log2_force, slip_squared, log2_film, log2_speed[1], lamina, ring, laminae, film, load_sharing
+def mean_pressure(contact: Any) -> Any:
+    """Work out the mean Hertz pressure of a lamina, [Pa]."""
+    return sqrt(contact.load * contact.laminae[LAMINA_PRESSURE + contact.ring, contact.lamina])
+
+
+@inline
+def log2_thickening(pressure: Any, film: Any) -> Any:
+    """Take the binary logarithm of the viscosity at a pressure over the ambient one, at most 30.
+
+    References
+    ----------
+    Barus (1893): exp(alpha p), or Roelands (1966) where the film has it.
+    """
+    return at_most(
+        _log2_thickening(pressure, film.pressure_viscosity, film.roelands), _LARGEST_LOG2_THICKENING
     )
 
 
 @inline
-def _blended_rate(
-    load: Any,
-    slip_squared: Any,
-    log2_film: Any,
-    lamina: Any,
-    ring: Any,
-    laminae: Any,
-    film: Any,
-    coulomb: Any,
-    mixed: Any,
-) -> Any:
-    if mixed is None:
-        return coulomb_rate(load, slip_squared, coulomb)
-    return mixed_rate(load, slip_squared, log2_film, lamina, ring, laminae, film, mixed)
+def _log2_thickening(pressure: Any, pressure_viscosity: Any, roelands: Any) -> Any:
+    if roelands is None:
+        return pressure * (pressure_viscosity * LOG2_E)
+    return roelands.log2_level * (exp2(roelands.exponent * log2(1.0 + 5.1e-9 * pressure)) - 1.0)
 
 
 @inline
-def traction_capacity(load: Any, coulomb: Any, mixed: Any, load_sharing: Any) -> Any:
-    """Friction at full slip in the dry limit, scale of the chatter index, [N]."""
-    if load_sharing is None:
-        return _blended_capacity(load, coulomb, mixed)
-    return load_sharing.friction * load
+def aihara_rate(contact: Any, slip: Any, inverse_slip: Any, aihara: Any) -> Any:
+    """Work out traction as fitted to tests of rolling contacts, [N s/m].
+
+    mu = mu_max (1 - exp(-2.6 s / s_max)), s slip over entrainment speed, with eta in cP, u in mm/s and the
+    largest Hertz pressure p in kgf/mm^2: s_max = 1.2448e7 eta^-1.5 u^-0.75 p^-1.5, mu_max = 4.078e-2 eta^0.1
+    u^-0.12 p^0.18 above 94.4 kgf/mm^2 and 1.008e-4 eta^0.1 u^-0.12 p^1.5 below. Where thin or light films
+    put s_max beyond the fit it is limited to the largest slide.
+
+    References
+    ----------
+    Aihara, S. (1987), A new running torque formula for tapered roller bearings under axial load, ASME J.
+    Tribol. 109, 471; coefficients as in the published source of D-BRAIN (NSK).
+    """
+    if aihara is None:
+        return 0.0
+    log2_pressure = 0.5 * contact.log2_load + aihara.log2_pressure[contact.ring, contact.lamina]
+    log2_speed = contact.log2_rolling + _LOG2_SPEED_UNIT
+    log2_slide = (aihara.log2_slide - 0.75 * log2_speed) - 1.5 * log2_pressure
+    log2_slide = at_most(log2_slide, aihara.log2_largest_slide)
+    log2_friction = where_greater(
+        log2_pressure,
+        _LOG2_PRESSURE_BEND,
+        _LOG2_AT_HIGH_PRESSURE + 0.18 * log2_pressure,
+        _LOG2_AT_LOW_PRESSURE + 1.5 * log2_pressure,
+    )
+    friction = exp2((aihara.log2_friction - 0.12 * log2_speed) + log2_friction)
+    per_slip = exp2((_LOG2_STEEPNESS - contact.log2_rolling) - log2_slide)
+    return contact.load * friction * decay_rate(per_slip, slip, inverse_slip)
 
 
 @inline
-def _blended_capacity(load: Any, coulomb: Any, mixed: Any) -> Any:
-    if mixed is None:
-        return _dry_capacity(load, coulomb)
-    return mixed.friction * load
+def eyring_rate(contact: Any, slip: Any, film: Any, eyring: Any) -> Any:
+    """Shear the Hertz area with the stress tau_0 asinh(eta u / (h tau_0)), over slip speed, [N s/m].
+
+    References
+    ----------
+    Eyring (1936), after Johnson, K. L. and Tevaarwerk, J. L. (1977), Proc. R. Soc. A 356, 215.
+    """
+    if eyring is None:
+        return 0.0
+    pressure = mean_pressure(contact)
+    area = contact.load / at_least(pressure, _SMALLEST_PRESSURE)
+    shear = film.viscosity * exp2(log2_thickening(pressure, film) - contact.log2_film)
+    return area * shear * asinh_over(shear * slip / eyring.stress)
 
 
 @inline
-def _dry_capacity(load: Any, coulomb: Any) -> Any:
-    if coulomb is None:
-        return load
-    return coulomb.friction * load
+def bair_winer_rate(contact: Any, slip: Any, film: Any, limit: Any) -> Any:
+    """Shear with tau_L (1 - exp(-eta u / (h tau_L))), tau_L a share of the mean pressure, [N s/m].
+
+    References
+    ----------
+    Bair, S. and Winer, W. O. (1979), A rheological model for elastohydrodynamic contacts based on primary
+    laboratory data, ASME J. Lubr. Technol. 101, 258.
+    """
+    if limit is None:
+        return 0.0
+    pressure = mean_pressure(contact)
+    bounded = at_least(pressure, _SMALLEST_PRESSURE)
+    shear = film.viscosity * exp2(log2_thickening(pressure, film) - contact.log2_film)
+    return contact.load / bounded * shear * decay_over(shear * slip / (limit.limiting_shear * bounded))
+
+
+@inline
+def inlet_rate(contact: Any, factor: Any) -> Any:
+    """Shear the oil at ambient viscosity in the parabolic gap around a contact, over slip speed, [N s/m].
+
+    eta l times the integral of dx/h from the far inlet to Reynolds' exit, h + x^2/2R: all the friction of
+    rigid surfaces, and small beside that of the flats where they are pressed.
+
+    References
+    ----------
+    Martin (1916), after Dowson, D. and Higginson, G. R. (1966), Elasto-Hydrodynamic Lubrication, ch. 4.
+    """
+    if factor is None:
+        return 0.0
+    curvature = contact.laminae[LAMINA_PRESSURE + contact.ring, contact.lamina]
+    return factor * sqrt(exp2(-contact.log2_film) / curvature)
+
+
+@inline
+def limited_newton_rate(contact: Any, film: Any, limit: Any) -> Any:
+    """Bend the Newtonian stress into the limiting one, tau_N tau_L / sqrt(tau_N^2 + tau_L^2), [N s/m].
+
+    References
+    ----------
+    Bair and Winer (1979) for the limiting shear stress.
+    """
+    pressure = mean_pressure(contact)
+    shear = film.viscosity * exp2(log2_thickening(pressure, film) - contact.log2_film)
+    highest = limit.limiting_shear * pressure
+    stress = sqrt(highest * highest + shear * shear * contact.slip_squared + 1e-30)
+    # load / pressure is the area; 1e-30 keeps an unloaded lamina at zero friction, not 0/0
+    return contact.load * limit.limiting_shear * shear / stress

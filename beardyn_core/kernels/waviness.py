@@ -5,16 +5,25 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.generator_line import Line
 from beardyn_core.kernels.lane_math import floor, magnitude
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.kernels.vectors import add, scale
+from beardyn_core.kernels.vectors import Wrench, add_wrenches, scale
 
 _PER_TURN = 0.15915494309189535
 
 
 @inline
 def wave_gap(lanes: Any, block: Any, azimuth: Any, waves: Any) -> Any:
-    """Gap of one surface's waviness [m] and its slope over the azimuth [m/rad].
+    """Look up the gap of one surface's waviness [m] and its slope over the azimuth [m/rad].
+
+    Parameters
+    ----------
+    lanes : Lanes
+    block : int
+    azimuth : lane value
+        Of the contact in the surface's frame, [rad].
+    waves : WaveParams or None
 
     Notes
     -----
@@ -33,26 +42,18 @@ def wave_gap(lanes: Any, block: Any, azimuth: Any, waves: Any) -> Any:
 
 
 @inline
-def wavy_line(line: Any, gap: Any) -> Any:
-    """Generator line with its approach less a gap."""
-    arm, arm_slope, normal, around, along, approach, bend = line
-    approach = (approach[0] - gap, approach[1], approach[2], approach[3])
-    return arm, arm_slope, normal, around, along, approach, bend
+def shift_line(line: Any, gap: Any) -> Any:
+    """Take a gap off the approach of a contact line."""
+    a = line.approach
+    approach = (a[0] - gap, a[1], a[2], a[3])
+    return Line(line.arm, line.arm_slope, line.normal, line.around, line.along, approach, line.bend)
 
 
 @inline
-def leaning_wrench(
-    lanes: Any,
-    place: Any,
-    axis: Any,
-    lean: Any,
-    force: Any,
-    climbs: Any,
-    damage: Any,
-    waves: Any,
-    roller_waves: Any,
+def lean_wrench(
+    lanes: Any, body: Any, sums: Any, climbs: Any, damage: Any, waves: Any, roller_waves: Any
 ) -> Any:
-    """Force and moment on the roller where the normal leans with a sloping gap.
+    """Work out the wrench on the roller where the normal leans with a sloping gap.
 
     The elastic energy depends on the gap and the gap on the azimuths of the roller's orbit and spin: the
     force normal to the sloping surface has a part along the orbit when the slope is the ring's, and a
@@ -60,32 +61,34 @@ def leaning_wrench(
 
     Parameters
     ----------
-    place, axis : vector
-        Of the roller.
-    lean : tuple of 2 lane values
-        Elastic force times slope of the gap of patches over the azimuth in ring and roller, [N m].
-    force : lane value
-        Elastic force, [N].
+    lanes : Lanes
+    body : Body
+    sums : LaminaSums
     climbs : tuple of 2 lane values
         Slope of the waviness of ring and roller over the azimuth, [m/rad].
     damage, waves, roller_waves : NamedTuple or None
         Without any of them the normal cannot lean.
+
+    Returns
+    -------
+    Wrench
     """
     zero = lanes.constant(0.0)
     level = (zero, zero, zero)
     if damage is None and waves is None and roller_waves is None:
-        return level, level
+        return Wrench(level, level)
     along, moment = level, level
+    force, lean, axis = sums.force[0], sums.lean, body.axis
     ring_lean = lean[0] + force * climbs[0]
     roller_lean = lean[1] + force * climbs[1]
     if any_positive(magnitude(ring_lean) + magnitude(roller_lean)):
         # the contact's azimuth in the roller falls with the spin
         moment = scale(-roller_lean, axis)
-        along = (zero, (ring_lean + roller_lean * axis[2]) / place[0], zero)
-    return along, moment
+        along = (zero, (ring_lean + roller_lean * axis[2]) / body.place[0], zero)
+    return Wrench(along, moment)
 
 
 @inline
-def add_leaning(force: Any, moment: Any, lean: Any) -> Any:
+def add_leaning(wrench: Any, lean: Any) -> Any:
     """Add the wrench of sloping gaps to that of a contact."""
-    return add(force, lean[0]), add(moment, lean[1])
+    return add_wrenches(wrench, lean)

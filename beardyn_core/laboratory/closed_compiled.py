@@ -1,7 +1,7 @@
 """Closed forms of the nine contacts compiled, with the kernels of the twin where it has the contact.
 
-Raceways: `kernels.raceway.generator_line`, one evaluation for all discs of a roller. Both ribs:
-`kernels.rib_gap`. The pocket lines of the text are no walls of the twin, and are worked out here.
+Raceways: `kernels.generator_line.generator_line`, one evaluation for all discs of a roller. Both ribs:
+`kernels.rib.rib_gap`. The pocket lines of the text are no walls of the twin, and are worked out here.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.jit import entry, inline
-from beardyn_core.kernels.raceway import generator_line
-from beardyn_core.kernels.rib_gap import rib_gap
+from beardyn_core.kernels.generator_line import generator_line
+from beardyn_core.kernels.rib import rib_gap
 from beardyn_core.kernels.vectors import add_scaled, dot, subtract
 from beardyn_core.laboratory.nine_contacts import (
     SEARCHES_PER_ROLLER,
@@ -27,8 +27,8 @@ from beardyn_core.laboratory.nine_contacts import (
     pocket_line,
     small_rib,
 )
-from beardyn_core.model.contact_parameters import RacewayParams, RollerParams
-from beardyn_core.model.guide_parameters import RibEndParams, RibParams
+from beardyn_core.model.parameters import RacewayParams, RollerParams
+from beardyn_core.model.ribs import RibEndParams, RibParams
 
 Float = NDArray[np.float64]
 _UP = (0.0, 0.0, 1.0)

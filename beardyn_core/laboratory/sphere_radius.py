@@ -18,11 +18,11 @@ from scipy.optimize import brentq
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.jit import entry
-from beardyn_core.kernels.rib_gap import rib_gap
+from beardyn_core.kernels.rib import rib_gap
 from beardyn_core.laboratory.closed_compiled import rib_face_params
 from beardyn_core.laboratory.nine_contacts import RibFace, RollerPose, end_sphere, large_rib, nominal_pose
 from beardyn_core.laboratory.search import SURFACES, Pair, condition_number, search
-from beardyn_core.model.guide_parameters import RibEndParams, RibWindowParams
+from beardyn_core.model.ribs import RibEndParams, RibWindowParams
 
 Float = NDArray[np.float64]
 SPHERE_RATIOS = (0.80, 0.85, 0.90, 0.95, 1.00, 1.05, 1.20)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,19 +38,19 @@ class Arrangement:
 
     @property
     def group_count(self) -> int:
-        """Groups of blocks that see the same rings: one, or one per row with a single lane."""
+        """Count the groups of blocks that see the same rings: one, or one per row with a single lane."""
         return self.rows if self.width == 1 else 1
 
     @property
     def block_count(self) -> int:
-        """Blocks of all groups."""
+        """Count the blocks of all groups."""
         if self.width == 1:
             return self.rows * self.roller_count
         return -(-self.roller_count // (self.width // self.rows))
 
     @property
     def row(self) -> NDArray[np.intp]:
-        """Row of each lane, shape [block, lane]."""
+        """Work out the row of each lane, shape [block, lane]."""
         rows = np.arange(self.rows)
         if self.width == 1:
             return np.repeat(rows, self.roller_count)[:, None]
@@ -58,7 +59,7 @@ class Arrangement:
 
     @property
     def unbounded_roller(self) -> NDArray[np.intp]:
-        """Roller index of each lane, fillers counting on beyond the last roller, shape [block, lane]."""
+        """Number the rollers of the lanes, fillers counting on beyond the last roller, [block, lane]."""
         if self.width == 1:
             return np.tile(np.arange(self.roller_count), self.rows)[:, None]
         share = self.width // self.rows
@@ -67,7 +68,7 @@ class Arrangement:
 
     @property
     def present(self) -> NDArray[np.bool_]:
-        """Whether a roller is there, shape [row, roller]."""
+        """Tell whether a roller is there, shape [row, roller]."""
         there = np.ones((self.rows, self.roller_count), dtype=bool)
         for row, roller in self.missing:
             there[row, roller] = False
@@ -75,7 +76,7 @@ class Arrangement:
 
     @property
     def stand_in(self) -> NDArray[np.intp]:
-        """Roller that a place shows: its own, or the last before it that is there, shape [row, roller]."""
+        """Find the roller that a place shows: its own, or the last before it that is there, [row, roller]."""
         before = np.where(self.present, np.arange(self.roller_count), -1)
         last = before.max(axis=1, keepdims=True)  # stands in for those before the first
         found = np.maximum.accumulate(before, axis=1)
@@ -83,12 +84,12 @@ class Arrangement:
 
     @property
     def roller(self) -> NDArray[np.intp]:
-        """Roller that each lane shows, shape [block, lane]."""
+        """Work out the roller that each lane shows, shape [block, lane]."""
         return self.stand_in[self.row, np.minimum(self.unbounded_roller, self.roller_count - 1)]
 
     @property
     def mask(self) -> NDArray[np.float64]:
-        """1 for a roller, 0 for a lane that shadows one, shape [block, lane]."""
+        """Mark each lane: 1 for a roller, 0 for one that shadows a roller, shape [block, lane]."""
         inside = self.unbounded_roller < self.roller_count
         there = self.present[self.row, np.minimum(self.unbounded_roller, self.roller_count - 1)]
         return (inside & there).astype(float)
@@ -107,3 +108,21 @@ class Arrangement:
         return np.stack(
             [lanes[..., rollers // share, rollers % share + row * share] for row in rows], axis=-2
         )
+
+
+_LINE = 64  # bytes of a cache line
+
+
+def aligned_zeros(*shape: int) -> NDArray[np.float64]:
+    """Make zeros whose first number lies on a cache line's beginning; NumPy aligns to 16 bytes only."""
+    size = math.prod(shape)
+    room = np.zeros(size + _LINE // 8)
+    first = -room.ctypes.data % _LINE // 8
+    return room[first : first + size].reshape(shape)
+
+
+def aligned_copy(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Copy an array so that it begins on a cache line."""
+    copy = aligned_zeros(*values.shape)
+    copy[...] = values
+    return copy

@@ -7,32 +7,29 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.model.aligned import aligned_zeros
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.box_coupling import box_coupling
-from beardyn_core.model.cage_params import cage_params
-from beardyn_core.model.contact_parameters import DampingParams, RacewayParams, RollerParams
-from beardyn_core.model.coupling_params import coupling_params
-from beardyn_core.model.fault_params import fault_params, roller_oversize
-from beardyn_core.model.flexibility_params import flexibility_params
-from beardyn_core.model.lamina_table import lamina_table
+from beardyn_core.model.arrangement import Arrangement, aligned_zeros
+from beardyn_core.model.cage import cage_params
+from beardyn_core.model.faults import fault_params, roller_oversize
+from beardyn_core.model.film import film_params
+from beardyn_core.model.laminae import coupling_params, lamina_table
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
-from beardyn_core.model.loss_params import drag_params, rolling_params, seal_params
+from beardyn_core.model.losses import drag_params, rolling_params, seal_params
+from beardyn_core.model.mounting import mounting_params
 from beardyn_core.model.parameters import (
     AuditParams,
+    DampingParams,
     EffectParams,
     ExplicitParams,
     GravityParams,
-    MountingParams,
     Parameters,
+    RacewayParams,
+    RollerParams,
 )
-from beardyn_core.model.rib_params import rib_params
-from beardyn_core.model.small_rib_params import small_rib_params
+from beardyn_core.model.ribs import rib_params, small_rib_params
+from beardyn_core.model.ring_flexibility import flexibility_params
 from beardyn_core.model.spring_share import spring_time
 from beardyn_core.model.stages import new_timers
-from beardyn_core.model.traction_params import raceway_film_params, traction_params
-from beardyn_core.scene.mounting import Mounting
+from beardyn_core.model.traction import traction_params
 from beardyn_core.scene.scene import Scene
 
 WAVEFORM_RATE = 25_600
@@ -40,26 +37,8 @@ BLOCK_NS = 20_000_000
 SAMPLES_PER_BLOCK = 512
 
 
-def mounting_params(bearing: Bearing, mounting: Mounting, preload: NDArray[np.float64]) -> MountingParams:
-    """Rings and suspension with the cup and cone masses added."""
-    return MountingParams(
-        cup_moves=float(mounting.cup == "suspended"),
-        journal_tilts=float(mounting.journal_tilt == "free"),
-        box_mass=mounting.box_mass + bearing.cup_mass,
-        box_inertia=np.array(mounting.box_inertia) + np.array(bearing.cup_inertia),
-        journal_mass=mounting.journal_mass + bearing.cone_mass,
-        journal_inertia=mounting.journal_inertia,
-        stiffness=np.array([*mounting.stiffness, *mounting.rotational_stiffness], dtype=float),
-        damping=np.array([*mounting.damping, *mounting.rotational_damping], dtype=float),
-        preload=np.array(preload, dtype=float),
-        coupling=box_coupling(bearing, mounting),
-        prop_stiffness=mounting.axial_prop_stiffness,
-        prop_damping=mounting.axial_prop_damping,
-    )
-
-
 def roller_constants(arrangement: Arrangement, oversize: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Constants of each roller, shape [block, ROLLER_CONSTANTS, lane]; `oversize` [row, roller]."""
+    """Collect constants of each roller, [block, ROLLER_CONSTANTS, lane]; `oversize` [row, roller]."""
     constants = aligned_zeros(arrangement.block_count, ROLLER_CONSTANTS, arrangement.width)
     constants[:, MASK] = arrangement.mask
     constants[:, POCKET_ANGLE] = 2.0 * math.pi * arrangement.roller / arrangement.roller_count
@@ -68,7 +47,7 @@ def roller_constants(arrangement: Arrangement, oversize: NDArray[np.float64]) ->
 
 
 def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np.float64]) -> Parameters:
-    """Kernel parameters of a scene.
+    """Build the kernel parameters of a scene.
 
     Parameters
     ----------
@@ -111,7 +90,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         mounting=mounting_params(bearing, scene.mounting, preload),
         effects=EffectParams(
             damping=DampingParams(effects.contact_damping.time_constant) if effects.contact_damping else None,
-            film=raceway_film_params(scene),
+            film=film_params(scene),
             coupling=coupling_params(bearing, effects.lamina_coupling, scene.numerics.laminae, arrangement),
             coulomb=coulomb,
             mixed=mixed,

@@ -54,7 +54,7 @@ def heat_shares() -> Float:
 
 
 def moving_air(speed: float, diameter: float) -> float:
-    """Heat transfer of an axlebox in the air stream, [W/(m^2 K)].
+    """Work out the heat transfer of an axlebox in the air stream, [W/(m^2 K)].
 
     References
     ----------
@@ -64,7 +64,7 @@ def moving_air(speed: float, diameter: float) -> float:
 
 
 def axle_fin(bearing: Bearing, heat_transfer: float) -> float:
-    """Conductance from the cones along a long axle into the air: a fin, sqrt(h P k A), [W/K]."""
+    """Work out the conductance from the cones along a long axle into the air: a fin, sqrt(h P k A), [W/K]."""
     around, section = math.pi * bearing.bore, 0.25 * math.pi * bearing.bore**2
     return math.sqrt(heat_transfer * around * _STEEL_CONDUCTIVITY * section)
 
@@ -77,7 +77,7 @@ def thermal_network(
     rollers: int | None = None,
     rows: int = 2,
 ) -> ThermalNetwork:
-    """Network of the bearing in its axlebox at one speed.
+    """Build the network of the bearing in its axlebox at one speed.
 
     Parameters
     ----------

@@ -111,3 +111,23 @@ ENERGY_EXTERNAL, ENERGY_NUMERICAL, ENERGY_LOST = range(3)  # ENERGY_LOST: by sou
 ENERGY_ELASTIC = ENERGY_LOST + LOSSES
 ENERGY_KINETIC = ENERGY_ELASTIC + 1
 ENERGY_TERMS = ENERGY_KINETIC + 1
+
+# --- lamina table [row, lamina]; film and pressure have one row each for cup and cone
+LAMINA_PLACE, LAMINA_DROP, LAMINA_STIFFNESS, LAMINA_RADIUS = range(4)
+LAMINA_FILM, LAMINA_PRESSURE = 4, 6
+LAMINA_ROWS = 8
+
+# --- work space of coupled laminae [row, lamina, lane]
+COUPLING_ROWS = 5
+
+# --- patches [patch, field]: centre [rad], repeats a turn, radius [m], that by repeats, reach, cells a metre
+PLACE_AZIMUTH, PLACE_REPEATS, PLACE_RADIUS, PLACE_ARC_RADIUS, PLACE_REACH, PLACE_SCALE = range(6)
+PATCH_FIELDS = 6
+PATCH_POINTS = 258  # of a path: 256 cells and one point beyond
+
+# --- springs near a patch (sound or damaged part of a lamina) [0, spring x field, lane]
+SPRING_SHARE, SPRING_GAP, SPRING_RING_SLOPE, SPRING_ROLLER_SLOPE = range(4)
+SPRING_FIELDS = 4
+
+# --- directions of the pockets [block, field, lane]; the mask of the rollers, alone and times these
+POCKET_COSINE, POCKET_SINE, COUNTED, COUNTED_COSINE, COUNTED_SINE = range(5)

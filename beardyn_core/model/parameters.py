@@ -6,44 +6,46 @@ Kernels are specialised by the types of these members, so ``None`` compiles to n
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from beardyn_core.model.contact_parameters import (
-    CoulombParams,
-    CouplingParams,
-    DampingParams,
-    DragParams,
-    FilmParams,
-    LoadSharingParams,
-    MixedParams,
-    RacewayParams,
-    RollerParams,
-    RollingParams,
-)
-from beardyn_core.model.fault_parameters import (
-    FaultParams,
-)
-from beardyn_core.model.guide_parameters import (
-    CageParams,
-    RibParams,
-    SmallRibParams,
-)
+if TYPE_CHECKING:  # each of them imports this module
+    from beardyn_core.model.cage import CageParams
+    from beardyn_core.model.faults import FaultParams
+    from beardyn_core.model.film import FilmParams
+    from beardyn_core.model.laminae import CouplingParams
+    from beardyn_core.model.losses import DragParams, RollingParams, SealParams
+    from beardyn_core.model.mounting import MountingParams
+    from beardyn_core.model.ribs import RibParams, SmallRibParams
+    from beardyn_core.model.ring_flexibility import FlexibilityParams
+    from beardyn_core.model.traction import CoulombParams, LoadSharingParams, MixedParams
 
 
-class SealParams(NamedTuple):
-    """Both seals on the shaft."""
+class RacewayParams(NamedTuple):
+    """One raceway: cone angle as sine and cosine, +1 for the cup and -1 for the cone, normal gap [m]."""
 
-    torque: float  # [N m]
-    speed_coefficient: float  # [N m s/rad]
-    regularisation: float  # [rad/s]
+    sine: float
+    cosine: float
+    side: float
+    gap: float
 
 
-class FlexibilityParams(NamedTuple):
-    """Bending modes of the cup, from two waves upwards, each in two directions."""
+class RollerParams(NamedTuple):
+    """Rigid roller: mass [kg], inertia about and across the axis [kg m^2], shape [m]."""
 
-    mass: Any  # [mode], [kg]
-    stiffness: Any  # [mode], [N/m]
-    damping: Any  # [mode], [N s/m]
+    mass: float
+    axial_inertia: float
+    transverse_inertia: float
+    radius: float  # of the cone at the centre of mass
+    taper: float  # tangent of the half angle
+    apex: float  # axial place of the raceway apex
+    half_length: float
+    mass_offset: float
+
+
+class DampingParams(NamedTuple):
+    """Contact damping."""
+
+    time_constant: float  # [s]
 
 
 class GravityParams(NamedTuple):
@@ -84,33 +86,6 @@ class EffectParams(NamedTuple):
     faults: FaultParams
     audit: AuditParams | None
     timers: Any  # [CYCLES + TIMED_STEPS, TIMER_SLOTS], see `model.stages`, None without
-
-
-class BoxCoupling(NamedTuple):
-    """Box whose centre of mass or whose springs are not at the bearing centre: full matrices about it."""
-
-    mass: Any  # [6, 6]
-    inverse_mass: Any  # [6, 6]
-    stiffness: Any  # [6, 6]
-    damping: Any  # [6, 6]
-    weight: Any  # [6], force and moment at 1 m/s^2 of gravity
-
-
-class MountingParams(NamedTuple):
-    """Rings and suspension, world axes."""
-
-    cup_moves: float
-    journal_tilts: float
-    box_mass: float  # with the cup [kg]
-    box_inertia: Any  # [3]
-    journal_mass: float  # with the cones [kg]
-    journal_inertia: float
-    stiffness: Any  # [6], force then moment
-    damping: Any  # [6]
-    preload: Any  # [6], suspension force at rest
-    coupling: BoxCoupling | None
-    prop_stiffness: float  # axial, of journal against ground [N/m]
-    prop_damping: float  # [N s/m]
 
 
 class Parameters(NamedTuple):

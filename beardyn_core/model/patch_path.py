@@ -15,7 +15,7 @@ PATH_CELLS = 256
 
 
 def floor_of(kind: str, arc: Float, half_width: float, depth: float) -> Float:
-    """Depth of the bare surface at arcs from the centre, 0 outside of the patch, [m]."""
+    """Work out the depth of the bare surface at arcs from the centre, 0 outside of the patch, [m]."""
     u = np.clip(np.abs(arc) / half_width, 0.0, 1.0)
     shape = {
         "spall": np.ones_like(u),
@@ -29,7 +29,7 @@ def floor_of(kind: str, arc: Float, half_width: float, depth: float) -> Float:
 
 
 def rim_of(arc: Float, half_width: float, height: float, width: float) -> Float:
-    """Height of the raised shoulder at arcs from the centre, [m]."""
+    """Work out the height of the raised shoulder at arcs from the centre, [m]."""
     if height == 0.0:
         return np.zeros_like(arc)
     along = (np.abs(arc) - half_width) / width
@@ -37,7 +37,7 @@ def rim_of(arc: Float, half_width: float, height: float, width: float) -> Float:
 
 
 def reach_of(half_width: float, rim_height: float, rim_width: float, radius: float) -> float:
-    """Arc from the centre beyond which a roller of a radius does not feel the patch, [m]."""
+    """Work out the arc from the centre beyond which a roller of a radius does not feel the patch, [m]."""
     if rim_height == 0.0:
         return half_width
     skirt = math.sqrt(2.0 * radius * rim_height)
@@ -45,7 +45,7 @@ def reach_of(half_width: float, rim_height: float, rim_width: float, radius: flo
 
 
 def roller_path(patch: Patch, size: tuple[float, float, float], radius: float, reach: float) -> Float:
-    """Gap under a roller at even arcs from 0 to `reach` off the centre, shape [PATH_CELLS + 1], [m].
+    """Take the gap under a roller at even arcs from 0 to `reach` off the centre, shape [PATH_CELLS + 1], [m].
 
     A rigid roller of radius r at arc s rests on the surface point t that holds it highest: its gap is the
     least of ``z(t) + r - sqrt(r^2 - (s - t)^2)``, z the depth of the surface. Over a flat floor with sharp

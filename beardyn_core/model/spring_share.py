@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.model.contact_parameters import LAMINA_STIFFNESS
+from beardyn_core.model.layout import LAMINA_STIFFNESS
 
 LEAST_SHARE, MOST_SHARE = 1.0 / 12.0, 0.25
 _PRESSURE = 4e9  # the static rating's limit of roller bearings, ISO 76 [Pa]
@@ -17,7 +17,7 @@ _MARGIN = 1.1  # on the frequency, for ribs and moving rings
 
 
 def highest_bounce(bearing: Bearing, stiffness: float) -> float:
-    """Rate at which a roller bounces between its raceways under the highest pressure, [rad/s].
+    """Work out the rate at which a roller bounces between its raceways under the highest pressure, [rad/s].
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def spring_time(bearing: Bearing, laminae: NDArray[np.float64], step: float, dam
 
 
 def implicit_spring_share(bounce: float, step: float) -> float:
-    """Newmark's beta: the least that is stable, and 1/12 where the step resolves the bounce.
+    """Choose Newmark's beta: the least that is stable, and 1/12 where the step resolves the bounce.
 
     Parameters
     ----------

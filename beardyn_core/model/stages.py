@@ -21,12 +21,12 @@ TIMED_STEPS = 8
 
 
 def new_timers() -> NDArray[np.float64]:
-    """Counters at zero, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS]."""
+    """Make counters at zero, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS]."""
     return np.zeros((CYCLES + TIMED_STEPS, TIMER_SLOTS))
 
 
 def stage_cycles(timers: NDArray[np.float64] | None) -> NDArray[np.float64]:
-    """Cycles that each of `KERNEL_STAGES` took in a step, shape [stage]; zeros when no step was timed.
+    """Count cycles that each of `KERNEL_STAGES` took in a step, shape [stage]; zeros if none was timed.
 
     Medians over the steps timed last, without what the marks themselves took. A step during which the
     processor did something else for a while is so left out.

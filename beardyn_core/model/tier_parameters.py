@@ -10,7 +10,7 @@ import numpy as np
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
-from beardyn_core.model.fault_parameters import FaultParams
+from beardyn_core.model.faults import FaultParams
 from beardyn_core.model.layout import MASK, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.scene.scene import Scene
@@ -98,7 +98,7 @@ class QuasistaticParameters(NamedTuple):
 
 
 def kinematic_params(scene: Scene) -> KinematicParams:
-    """Pure rolling of a scene's bearing."""
+    """Work out the pure rolling of a scene's bearing."""
     bearing, effects = scene.bearing, scene.effects
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     offset = bearing.roller_mass_offset
@@ -129,7 +129,7 @@ def kinematic_params(scene: Scene) -> KinematicParams:
 
 
 def ring_motion_params(base: Parameters) -> RingMotionParams:
-    """Motion of axlebox and journal.
+    """Work out the motion of axlebox and journal.
 
     The suspension damps with the velocity of the middle of the step, (m + h c/2) a = F; a box that hangs
     beside its centre keeps that of the beginning.
@@ -151,7 +151,7 @@ def ring_motion_params(base: Parameters) -> RingMotionParams:
 
 
 def ring_response_params(base: Parameters, motion: RingMotionParams, lever: float) -> RingResponseParams:
-    """Correction of the step to fourth order, and to second order in the damping."""
+    """Work out the correction of the step to fourth order, and to second order in the damping."""
     damping, coupling = base.effects.damping, base.mounting.coupling
     dampers = 0.0 if damping is None else 0.5 * base.step * damping.time_constant
     lag = base.step**2 / 12.0 + dampers
@@ -162,30 +162,26 @@ def ring_response_params(base: Parameters, motion: RingMotionParams, lever: floa
     return RingResponseParams(lag, dampers / lag, give, lever)
 
 
-# of `pocket_directions`
-POCKET_COSINE, POCKET_SINE, COUNTED, COUNTED_COSINE, COUNTED_SINE = range(5)
-
-
 def pocket_directions(base: Parameters) -> Any:
-    """Cosine and sine of the pocket angles; the mask of the rollers, alone and times these."""
+    """Take cosine and sine of the pocket angles, and the mask of the rollers, alone and times these."""
     angle, mask = base.rollers[:, POCKET_ANGLE], base.rollers[:, MASK]
     cosine, sine = np.cos(angle), np.sin(angle)
     return np.ascontiguousarray(np.stack([cosine, sine, mask, mask * cosine, mask * sine], axis=1))
 
 
 def row_sides(base: Parameters, rows: int) -> Any:
-    """Side of the row of each lane, shape [1, 1, lane]."""
+    """Take the side of the row of each lane, shape [1, 1, lane]."""
     width = base.rollers.shape[2]
     return np.repeat([-1.0, 1.0][:rows], width // rows)[None, None]
 
 
 def faults_or_none(base: Parameters) -> FaultParams | None:
-    """The faults of a bearing, ``None`` when it has none."""
+    """Take the faults of a bearing, ``None`` when it has none."""
     return base.effects.faults if any(each is not None for each in base.effects.faults) else None
 
 
 def roller_tangent(bearing: Bearing) -> float:
-    """Stiffness of a roller between cup and cone over the tenth root of its load, [N^0.9/m].
+    """Work out the stiffness of a roller between cup and cone over the tenth root of its load, [N^0.9/m].
 
     Two line contacts in series, for which 10/9 Q / D of Q = K D^(10/9) is 10/9 K^0.9 Q^0.1; profile and rib
     are left out.
@@ -195,7 +191,7 @@ def roller_tangent(bearing: Bearing) -> float:
 
 
 def lever_of_cup(bearing: Bearing) -> float:
-    """Arm of the cup's contact normal about the bearing centre, in a meridian plane, [m]."""
+    """Work out the arm of the cup's contact normal about the bearing centre, in a meridian plane, [m]."""
     angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
     apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
     axial, radial = apex + distance * math.cos(angle), distance * math.sin(angle)

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale
-from beardyn_core.model.contact_parameters import RollerParams
 from beardyn_core.model.layout import (
     ANGLE,
     ANGULAR,
@@ -35,6 +34,7 @@ from beardyn_core.model.layout import (
     TURN,
     VELOCITY,
 )
+from beardyn_core.model.parameters import RollerParams
 
 Float = NDArray[np.float64]
 

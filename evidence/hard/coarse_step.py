@@ -6,7 +6,8 @@ import numpy as np
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.integrate.imex import advance
-from beardyn_core.integrate.state import initial_state, work_space
+from beardyn_core.integrate.start import initial_state
+from beardyn_core.integrate.state import Output, work_space
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.status import assess, chatter_index
 from beardyn_core.kernels.lanes import Lanes
@@ -38,11 +39,9 @@ def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
     work = work_space(arrangement)
     signals = np.zeros((STEPS, SIGNAL_CHANNELS))
     load = np.array([*point.force, *point.moment, point.speed, 0.0, 0.0, 0.0])
-    advance(
-        Lanes(LANE_WIDTH), state.rollers, state.bodies, state.flex, work.rings, work.sums, work.wrenches,
-        work.box, np.repeat(load[None], STEPS + 1, axis=0), signals, np.empty((1, *state.rollers.shape)),
-        np.empty((1, *state.bodies.shape)), state.energy, np.zeros(ENERGY_TERMS), parameters,
-    )  # fmt: skip
+    trends = np.empty((1, *state.rollers.shape)), np.empty((1, *state.bodies.shape))
+    output = Output(signals, *trends, np.zeros(ENERGY_TERMS))
+    advance(Lanes(LANE_WIDTH), state, work, np.repeat(load[None], STEPS + 1, axis=0), output, parameters)
     status = assess(state, STEPS, bearing.large_end_radius, parameters.effects.rib)
     force = np.linalg.norm(signals[:, :3], axis=1)
     return Measures(

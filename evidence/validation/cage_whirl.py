@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.effects import Cage
-from beardyn_core.model.cage_params import cage_params
+from beardyn_core.model.cage import cage_params
 from beardyn_core.model.layout import CAGE_BODY, POSITION
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

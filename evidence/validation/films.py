@@ -29,9 +29,10 @@ from beardyn_core.effects.traction import Traction
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.contact_parameters import LAMINA_PRESSURE, FilmParams, LoadSharingParams
+from beardyn_core.model.film import FilmParams
+from beardyn_core.model.layout import LAMINA_PRESSURE
 from beardyn_core.model.parameters import Parameters
-from beardyn_core.model.traction_params import aihara_params
+from beardyn_core.model.traction import LoadSharingParams, aihara_params
 from evidence.validation.anchor import Anchor
 from test.kernels.casting import through
 from test.kernels.entries import frictions

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.contact_parameters import RollerParams
 from beardyn_core.model.layout import (
     ANGLE,
     ANGULAR,
@@ -30,6 +29,7 @@ from beardyn_core.model.layout import (
     TURN,
     VELOCITY,
 )
+from beardyn_core.model.parameters import RollerParams
 
 Float = NDArray[np.float64]
 SIDE = np.array([-1.0, 1.0])

@@ -11,7 +11,6 @@ import pytest
 from beardyn_core.integrate.static import solve
 from beardyn_core.kernels.bodies import drift_bodies
 from beardyn_core.kernels.box import box_energy, kick_box
-from beardyn_core.model.build import mounting_params
 from beardyn_core.model.layout import (
     ANGULAR,
     BODY_STATES,
@@ -25,7 +24,8 @@ from beardyn_core.model.layout import (
     POSITION,
     TILT,
 )
-from beardyn_core.model.parameters import BoxCoupling, GravityParams
+from beardyn_core.model.mounting import BoxCoupling, mounting_params
+from beardyn_core.model.parameters import GravityParams
 from beardyn_core.scene.mounting import Mounting
 from test.kernels.rig import Float, constant_load, scene_with, standard_scene, started
 

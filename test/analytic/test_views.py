@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.contact_parameters import RollerParams
 from beardyn_core.model.layout import (
     AXIS,
     BODY_STATES,
@@ -19,6 +18,7 @@ from beardyn_core.model.layout import (
     TILT,
     TURN,
 )
+from beardyn_core.model.parameters import RollerParams
 from beardyn_core.observe.kinematics import INSTANT_ROLLERS, Snapshots, write_instants
 from test.analytic import naive_views
 

@@ -19,7 +19,7 @@ from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.status import Status
 from beardyn_core.jit import OPTIONS
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.cage_params import cage_params
+from beardyn_core.model.cage import cage_params
 from beardyn_core.model.layout import (
     CAGE_BODY,
     CUP_BODY,

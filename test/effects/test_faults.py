@@ -14,7 +14,7 @@ import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.fault_params import surface_radius
+from beardyn_core.model.faults import surface_radius
 from beardyn_core.model.layout import (
     CONE,
     CONTACT_OUTPUT,

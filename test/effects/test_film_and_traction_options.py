@@ -13,7 +13,7 @@ from beardyn_core.effects import CoulombTraction, EffectSet, LineFilm, LoadShari
 from beardyn_core.integrate.status import chatter_index
 from beardyn_core.jit import OPTIONS
 from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.contact_parameters import RigidFilmParams, ThermalFilmParams
+from beardyn_core.model.film import RigidFilmParams, ThermalFilmParams
 from beardyn_core.model.parameters import Parameters
 from test.effects.test_absent_effects import instruction_count
 from test.kernels.entries import frictions

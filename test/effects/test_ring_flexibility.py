@@ -11,7 +11,6 @@ import pytest
 from beardyn_core.bearing.ring_bending import ThinRing, cup_ring, housing_ring, rectangular_ring
 from beardyn_core.effects import EffectSet, RingFlexibility
 from beardyn_core.integrate.static import solve
-from beardyn_core.model.flexibility_params import flexibility_params
 from beardyn_core.model.layout import (
     ANGLE,
     ANGULAR,
@@ -33,6 +32,7 @@ from beardyn_core.model.layout import (
     SUM_FIELDS,
     VELOCITY,
 )
+from beardyn_core.model.ring_flexibility import flexibility_params
 from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
 from test.kernels.rig import LOAD_80_KN, Float, Rig, constant_load, scene_with, standard_scene, started
 from test.kernels.test_step import shaken

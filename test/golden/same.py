@@ -134,8 +134,8 @@ def _simulated(name: str, tier: str, preset: str) -> Iterator[tuple[str, str]]:
         yield f"array {key}", digest(*(_bytes_of(block.arrays()[key]) for block in blocks))
     yield "audit and status", digest(repr([(block.audit, block.status) for block in blocks]).encode())
     state = twin.snapshot().state
-    for field in dataclasses.fields(state):
-        yield f"state {field.name}", digest(_bytes_of(getattr(state, field.name)))
+    for part, value in state._asdict().items():
+        yield f"state {part}", digest(_bytes_of(value))
     names = tuple(f"vibration_{k}" for k in range(len(scene.sensors)))
     encoder = BlockEncoder(scene.bearing.roller_count, names, "axlebox")
     messages: dict[str, list[bytes]] = {}

@@ -5,45 +5,25 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import entry
-from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.land import land_contact, short_bearing
-from beardyn_core.kernels.pocket_simple import kinematic_pocket, rotating_pocket
+from beardyn_core.kernels.pocket import kinematic_pocket, rotating_pocket
+from test.kernels.entries import pocket_of, store_walls
 
 
 @entry
 def rotating_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
     """As `entries.pockets`, of a rotating cage."""
     for case in range(states.shape[0]):
-        motion = (
-            load_vector(lanes, states, case, 9), load_vector(lanes, states, case, 12),
-            load_vector(lanes, states, case, 15), load_vector(lanes, states, case, 18),
-        )  # fmt: skip
-        touches, _slip, _bar = rotating_pocket(
-            load_vector(lanes, states, case, 0), load_vector(lanes, states, case, 3), motion,
-            lanes.load(states, case, 21), load_vector(lanes, states, case, 6), 0.0, roller, cage,
-        )  # fmt: skip
-        force, moment, energy = touches[0], touches[1], touches[2]
-        store_vector(lanes, out, case, 0, force)
-        store_vector(lanes, out, case, 3, moment)
-        lanes.store(out, case, 6, energy)
+        contact = rotating_pocket(pocket_of(lanes, states, case, 0.0), roller, cage)
+        store_walls(lanes, out, case, contact.walls)
 
 
 @entry
 def kinematic_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
     """As `entries.pockets`, of a kinematic cage."""
     for case in range(states.shape[0]):
-        motion = (
-            load_vector(lanes, states, case, 9), load_vector(lanes, states, case, 12),
-            load_vector(lanes, states, case, 15), load_vector(lanes, states, case, 18),
-        )  # fmt: skip
-        touches, _slip, _bar = kinematic_pocket(
-            load_vector(lanes, states, case, 0), load_vector(lanes, states, case, 3), motion,
-            lanes.load(states, case, 21), load_vector(lanes, states, case, 6), cage, cage.kinematic,
-        )  # fmt: skip
-        force, moment, energy = touches[0], touches[1], touches[2]
-        store_vector(lanes, out, case, 0, force)
-        store_vector(lanes, out, case, 3, moment)
-        lanes.store(out, case, 6, energy)
+        contact = kinematic_pocket(pocket_of(lanes, states, case, 0.0), cage, cage.kinematic)
+        store_walls(lanes, out, case, contact.walls)
 
 
 @entry

@@ -7,14 +7,19 @@ from __future__ import annotations
 
 from typing import Any
 
-from beardyn_core.jit import entry
+from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness, log2_load
+from beardyn_core.kernels.generator_line import generator_line, line_slip
 from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
+from beardyn_core.kernels.laminae import Raceway, lamina_sums
 from beardyn_core.kernels.lane_math import (
+    arctangent_over,
+    asinh_over,
     at_least,
     at_most,
     cos_sin,
+    decay_over,
     exp2,
     floor,
     log2,
@@ -25,14 +30,12 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
     wrap,
 )
-from beardyn_core.kernels.pocket import pocket_contact
-from beardyn_core.kernels.raceway import generator_line, lamina_sums, sliding
-from beardyn_core.kernels.raceway_step import raceway_wrench
-from beardyn_core.kernels.rib import rib_contact
-from beardyn_core.kernels.rib_gap import rib_gap
-from beardyn_core.kernels.rib_step import rib_wrench
-from beardyn_core.kernels.saturation import arctangent_over, asinh_over, decay_over
-from beardyn_core.kernels.small_rib import add_small_rib, small_rib_contact
+from beardyn_core.kernels.orbit import Body, View
+from beardyn_core.kernels.pocket import Motion, Pocket, free_pocket
+from beardyn_core.kernels.point_contact import push_point
+from beardyn_core.kernels.raceway import RacewayContact, push_raceway
+from beardyn_core.kernels.rib import rib_contact, rib_gap
+from beardyn_core.kernels.small_rib import push_small_rib, small_rib_contact
 from beardyn_core.kernels.solve import (
     add_line,
     add_line_everywhere,
@@ -40,8 +43,8 @@ from beardyn_core.kernels.solve import (
     add_point_everywhere,
     solve,
 )
-from beardyn_core.kernels.traction import friction_rate
-from beardyn_core.kernels.vectors import subtract
+from beardyn_core.kernels.traction import LaminaContact, friction_rate
+from beardyn_core.kernels.vectors import Wrench, subtract
 
 MATH_NAMES = (
     "ninth_root", "log2", "exp2", "wrap", "cos", "sin", "sqrt", "magnitude", "floor", "at_least", "at_most",
@@ -77,35 +80,63 @@ RACEWAY_INPUTS = 22  # centre, axis, ring axis, velocity, omega, ring velocity, 
 RACEWAY_OUTPUTS = 19  # force, moment, energy, approach (3), arm, arm slope, normal
 
 
+@inline
+def body_and_view(lanes: Any, states: Any, case: Any, orbit_rate: Any) -> Any:
+    """Roller and ring of a case, inputs as of `raceways`; the ring stands at the origin."""
+    body = Body(
+        load_vector(lanes, states, case, 0),
+        load_vector(lanes, states, case, 3),
+        load_vector(lanes, states, case, 9),
+        load_vector(lanes, states, case, 12),
+        orbit_rate,
+    )
+    zero = lanes.constant(0.0)
+    view = View(
+        (zero, zero, zero),
+        load_vector(lanes, states, case, 6),
+        load_vector(lanes, states, case, 15),
+        load_vector(lanes, states, case, 18),
+    )
+    return body, view
+
+
+@inline
+def pocket_of(lanes: Any, states: Any, case: Any, wear: Any) -> Any:
+    """Roller in its pocket of a case, inputs as of `raceways`, advance in the place of the oversize."""
+    body, view = body_and_view(lanes, states, case, lanes.constant(0.0))
+    motion = Motion(body.velocity, body.omega, view.velocity, view.omega)
+    return Pocket(body.place, body.axis, motion, lanes.load(states, case, 21), view.axis, wear)
+
+
+@inline
+def store_walls(lanes: Any, out: Any, case: Any, walls: Any) -> None:
+    """Force, moment and energy of a pocket."""
+    store_vector(lanes, out, case, 0, walls.force)
+    store_vector(lanes, out, case, 3, walls.moment)
+    lanes.store(out, case, 6, walls.energy)
+
+
 @entry
 def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: Any, p: Any) -> None:
     """Raceway contact of each case: wrench at the beginning of a step, energy and generator line."""
     for case in range(states.shape[0]):
-        centre = load_vector(lanes, states, case, 0)
-        axis = load_vector(lanes, states, case, 3)
-        ring_axis = load_vector(lanes, states, case, 6)
-        velocity = load_vector(lanes, states, case, 9)
-        omega = load_vector(lanes, states, case, 12)
-        ring_velocity = load_vector(lanes, states, case, 15)
-        ring_omega = load_vector(lanes, states, case, 18)
         zero = lanes.constant(0.0)
-        line = generator_line(centre, axis, ring_axis, lanes.load(states, case, 21), raceway, p.roller)
-        slip = sliding(line, centre, velocity, omega, ring_velocity, ring_omega)
+        body, view = body_and_view(lanes, states, case, zero)
+        centre, oversize = body.place, lanes.load(states, case, 21)
+        line = generator_line(centre, body.axis, view.axis, oversize, raceway, p.roller)
+        slip = line_slip(line, centre, body, view)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
-        sums = lamina_sums(
-            lanes, 0, line, slip, log2_speed, (zero, zero), ring, p.laminae, (None, None, None),
-            p.lamina_loads, 1.0, p.effects,
-        )  # fmt: skip
-        level = ((zero, zero, zero), (zero, zero, zero))
-        sums = (sums[0], sums[1], sums[2], sums[3], level)
-        force, moment = raceway_wrench((line, slip, sums, log2_speed, centre), p.effects.damping)
-        store_vector(lanes, out, case, 0, force)
-        store_vector(lanes, out, case, 3, moment)
-        lanes.store(out, case, 6, sums[3])
-        store_vector(lanes, out, case, 7, line[5])
-        store_vector(lanes, out, case, 10, line[0])
-        store_vector(lanes, out, case, 13, line[1])
-        store_vector(lanes, out, case, 16, line[2])
+        shared = Raceway(lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects)
+        sums = lamina_sums(shared, line, slip, log2_speed, False, None)
+        level = Wrench((zero, zero, zero), (zero, zero, zero))
+        wrench = push_raceway(RacewayContact(line, slip, sums, level, log2_speed, centre), p.effects.damping)
+        store_vector(lanes, out, case, 0, wrench.force)
+        store_vector(lanes, out, case, 3, wrench.moment)
+        lanes.store(out, case, 6, sums.energy)
+        store_vector(lanes, out, case, 7, line.approach)
+        store_vector(lanes, out, case, 10, line.arm)
+        store_vector(lanes, out, case, 13, line.arm_slope)
+        store_vector(lanes, out, case, 16, line.normal)
 
 
 @entry
@@ -126,23 +157,13 @@ def couplings(lanes: Any, depths: Any, out: Any, laminae: Any, coupling: Any) ->
 def ribs(lanes: Any, states: Any, out: Any, rib: Any, damping: Any) -> None:
     """Rib contact of each case (inputs as `raceways`, last the orbit rate): force, moment, energy, film."""
     for case in range(states.shape[0]):
-        contact = rib_contact(
-            load_vector(lanes, states, case, 0),
-            load_vector(lanes, states, case, 3),
-            load_vector(lanes, states, case, 9),
-            load_vector(lanes, states, case, 12),
-            load_vector(lanes, states, case, 6),
-            load_vector(lanes, states, case, 15),
-            load_vector(lanes, states, case, 18),
-            lanes.load(states, case, 21),
-            rib,
-            damping,
-        )
-        force, moment = rib_wrench((contact[0], contact), rib.drilling)
-        store_vector(lanes, out, case, 0, force)
-        store_vector(lanes, out, case, 3, moment)
-        lanes.store(out, case, 6, contact[6])
-        lanes.store(out, case, 7, contact[10])
+        body, view = body_and_view(lanes, states, case, lanes.load(states, case, 21))
+        contact = rib_contact(body.place, body, view, rib, damping)
+        wrench = push_point(contact, rib.drilling)
+        store_vector(lanes, out, case, 0, wrench.force)
+        store_vector(lanes, out, case, 3, wrench.moment)
+        lanes.store(out, case, 6, contact.energy)
+        lanes.store(out, case, 7, contact.film)
 
 
 @entry
@@ -166,45 +187,21 @@ def rib_gaps(lanes: Any, states: Any, out: Any, rib: Any) -> None:
 def small_ribs(lanes: Any, states: Any, out: Any, rib: Any) -> None:
     """Small-rib contact of each case (inputs as `raceways`): force, moment, energy."""
     for case in range(states.shape[0]):
-        contact = small_rib_contact(
-            load_vector(lanes, states, case, 0),
-            load_vector(lanes, states, case, 3),
-            load_vector(lanes, states, case, 9),
-            load_vector(lanes, states, case, 12),
-            load_vector(lanes, states, case, 6),
-            load_vector(lanes, states, case, 15),
-            load_vector(lanes, states, case, 18),
-            rib,
-        )
-        nothing = load_vector(lanes, states, case, 0)
-        nothing = subtract(nothing, nothing)
-        force, moment = add_small_rib(nothing, nothing, (nothing, contact), rib)
-        store_vector(lanes, out, case, 0, force)
-        store_vector(lanes, out, case, 3, moment)
-        lanes.store(out, case, 6, contact[6])
+        body, view = body_and_view(lanes, states, case, lanes.constant(0.0))
+        contact = small_rib_contact(body.place, body, view, rib)
+        nothing = subtract(body.place, body.place)
+        wrench = push_small_rib(Wrench(nothing, nothing), contact, rib)
+        store_vector(lanes, out, case, 0, wrench.force)
+        store_vector(lanes, out, case, 3, wrench.moment)
+        lanes.store(out, case, 6, contact.energy)
 
 
 @entry
 def pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
     """Pocket contact of each case (inputs as `raceways`, advance in the place of the oversize)."""
     for case in range(states.shape[0]):
-        touches, _slip, _bar = pocket_contact(
-            load_vector(lanes, states, case, 0),
-            load_vector(lanes, states, case, 3),
-            load_vector(lanes, states, case, 9),
-            load_vector(lanes, states, case, 12),
-            lanes.load(states, case, 21),
-            load_vector(lanes, states, case, 6),
-            load_vector(lanes, states, case, 15),
-            load_vector(lanes, states, case, 18),
-            lanes.constant(0.0),
-            roller,
-            cage,
-        )
-        force, moment, energy = touches[0], touches[1], touches[2]
-        store_vector(lanes, out, case, 0, force)
-        store_vector(lanes, out, case, 3, moment)
-        lanes.store(out, case, 6, energy)
+        pocket = pocket_of(lanes, states, case, lanes.constant(0.0))
+        store_walls(lanes, out, case, free_pocket(pocket, roller, cage).walls)
 
 
 @entry
@@ -224,9 +221,9 @@ def solves(lanes: Any, systems: Any, out: Any) -> None:
             lanes.load(systems, case, 21), lanes.load(systems, case, 22), lanes.load(systems, case, 23),
             lanes.load(systems, case, 24), lanes.load(systems, case, 25), lanes.load(systems, case, 26),
         )  # fmt: skip
-        first, second = solve(matrix, right)
-        store_vector(lanes, out, case, 0, first)
-        store_vector(lanes, out, case, 3, second)
+        change = solve(matrix, right)
+        store_vector(lanes, out, case, 0, change.velocity)
+        store_vector(lanes, out, case, 3, change.omega)
 
 
 @entry
@@ -265,9 +262,9 @@ def frictions(lanes: Any, cases: Any, out: Any, lamina: Any, ring: Any, p: Any) 
         log2_speed = log2_entrainment(lanes.load(cases, case, 2), p.effects.film)
         force = log2_load(load)
         thickness = log2_film_thickness(force, log2_speed, lamina, ring, p.laminae, p.effects.film)
-        rate = friction_rate(
-            load, force, lanes.load(cases, case, 1), thickness, log2_speed, lamina, ring, p.laminae, p.effects
-        )
+        square = lanes.load(cases, case, 1)
+        contact = LaminaContact(load, force, square, thickness, log2_speed[1], lamina, ring, p.laminae)
+        rate = friction_rate(contact, p.effects)
         lanes.store(out, case, 0, thickness + lanes.constant(0.0))
         lanes.store(out, case, 1, rate + lanes.constant(0.0))
 

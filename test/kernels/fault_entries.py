@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from beardyn_core.jit import entry
+from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.defect import find_damage, pocket_wear, spring_damage, spring_slopes
 from beardyn_core.kernels.exchange import load_vector, store_vector
-from beardyn_core.kernels.pocket import pocket_contact
-from beardyn_core.kernels.raceway_step import raceway_contact
+from beardyn_core.kernels.orbit import Body, View
+from beardyn_core.kernels.pocket import free_pocket
+from beardyn_core.kernels.raceway import Ring, faults_of_cup, prepare_raceway
 from beardyn_core.kernels.waviness import wave_gap
+from test.kernels.entries import pocket_of
 
 
 @entry
@@ -46,21 +48,22 @@ def worn_pockets(lanes: Any, states: Any, out: Any, block: Any, worn: Any, rolle
     """Pocket force of each case, inputs as `entries.pockets`, all cases in the pockets of one block."""
     for case in range(states.shape[0]):
         wear = pocket_wear(lanes, block, worn) + lanes.constant(0.0)
-        touches, _slip, _bar = pocket_contact(
-            load_vector(lanes, states, case, 0),
-            load_vector(lanes, states, case, 3),
-            load_vector(lanes, states, case, 9),
-            load_vector(lanes, states, case, 12),
-            lanes.load(states, case, 21),
-            load_vector(lanes, states, case, 6),
-            load_vector(lanes, states, case, 15),
-            load_vector(lanes, states, case, 18),
-            wear,
-            roller,
-            cage,
-        )
-        store_vector(lanes, out, case, 0, touches[0])
-        store_vector(lanes, out, case, 3, touches[1])
+        contact = free_pocket(pocket_of(lanes, states, case, wear), roller, cage)
+        store_vector(lanes, out, case, 0, contact.walls.force)
+        store_vector(lanes, out, case, 3, contact.walls.moment)
+
+
+@inline
+def cup_contact(lanes: Any, cases: Any, case: Any, velocity: Any, p: Any) -> Any:
+    """Cup contact of a case: inputs azimuth in ring and roller, place and axis of the roller."""
+    zero = lanes.constant(0.0)
+    nothing = (zero, zero, zero)
+    view = View(nothing, (zero, zero, zero + 1.0), nothing, nothing)
+    place, axis = load_vector(lanes, cases, case, 2), load_vector(lanes, cases, case, 5)
+    body = Body(place, axis, velocity, nothing, zero)
+    azimuths = (lanes.load(cases, case, 0), lanes.load(cases, case, 1))
+    ring = Ring(0, p.cup, faults_of_cup(p.effects.faults), view)
+    return prepare_raceway(lanes, 0, ring, body, zero, azimuths, p)
 
 
 @entry
@@ -71,39 +74,23 @@ def damaged_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
     """
     for case in range(cases.shape[0]):
         zero = lanes.constant(0.0)
-        nothing = (zero, zero, zero)
-        place = load_vector(lanes, cases, case, 2)
-        axis = load_vector(lanes, cases, case, 5)
-        view = (nothing, (zero, zero, zero + 1.0), nothing, nothing)
-        body = (place, axis, nothing, nothing, zero)
-        azimuths = (lanes.load(cases, case, 0), lanes.load(cases, case, 1))
-        faults = p.effects.faults
-        of_cup = (faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves)
-        contact = raceway_contact(lanes, 0, 0, view, body, zero, azimuths, p.cup, of_cup, p)
-        lanes.store(out, case, 0, contact[2][3])
-        store_vector(lanes, out, case, 1, contact[2][4][0])
-        store_vector(lanes, out, case, 4, contact[2][4][1])
+        contact = cup_contact(lanes, cases, case, (zero, zero, zero), p)
+        lanes.store(out, case, 0, contact.sums.energy)
+        store_vector(lanes, out, case, 1, contact.lean.force)
+        store_vector(lanes, out, case, 4, contact.lean.moment)
 
 
 @entry
 def moving_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
     """Inputs of `damaged_contacts` and the velocity.
 
-    Outputs: energy, power let go, stiffness, largest penetration, elastic force, its moment along the line.
+    Outputs: energy, power released, stiffness, largest penetration, elastic force, its moment along the line.
     """
     for case in range(cases.shape[0]):
-        zero = lanes.constant(0.0)
-        nothing = (zero, zero, zero)
-        view = (nothing, (zero, zero, zero + 1.0), nothing, nothing)
-        place, axis = load_vector(lanes, cases, case, 2), load_vector(lanes, cases, case, 5)
-        body = (place, axis, load_vector(lanes, cases, case, 8), nothing, zero)
-        azimuths = (lanes.load(cases, case, 0), lanes.load(cases, case, 1))
-        faults = p.effects.faults
-        of_cup = (faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves)
-        contact = raceway_contact(lanes, 0, 0, view, body, zero, azimuths, p.cup, of_cup, p)
-        lanes.store(out, case, 0, contact[2][3])
-        lanes.store(out, case, 1, contact[2][5])
-        lanes.store(out, case, 2, contact[2][1][0])
-        lanes.store(out, case, 3, contact[6])
-        lanes.store(out, case, 4, contact[2][0][0])
-        lanes.store(out, case, 5, contact[2][0][1])
+        contact = cup_contact(lanes, cases, case, load_vector(lanes, cases, case, 8), p)
+        lanes.store(out, case, 0, contact.sums.energy)
+        lanes.store(out, case, 1, contact.sums.released)
+        lanes.store(out, case, 2, contact.sums.stiffness[0])
+        lanes.store(out, case, 3, contact.sums.deepest)
+        lanes.store(out, case, 4, contact.sums.force[0])
+        lanes.store(out, case, 5, contact.sums.force[1])

@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import entry
-from beardyn_core.kernels.drag import add_drag, drag_before
+from beardyn_core.kernels.drag import prepare_drag, push_drag
 from beardyn_core.kernels.exchange import load_vector, store_vector
+from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.rolling import rolling_couple
 from beardyn_core.kernels.solve import add_couple
+from beardyn_core.kernels.vectors import Wrench
 
 
 @entry
@@ -27,23 +29,23 @@ def drags(lanes: Any, states: Any, out: Any, drag: Any) -> None:
     """
     for case in range(states.shape[0]):
         zero = lanes.constant(0.0)
-        body = (
+        body = Body(
             load_vector(lanes, states, case, 0),
             load_vector(lanes, states, case, 3),
             load_vector(lanes, states, case, 6),
             load_vector(lanes, states, case, 9),
             zero,
         )
-        view = (
+        view = View(
             load_vector(lanes, states, case, 12),
             load_vector(lanes, states, case, 15),
             load_vector(lanes, states, case, 18),
             load_vector(lanes, states, case, 21),
         )
         still = (zero, zero, zero)
-        force, moment = add_drag(still, still, drag_before(body, view, drag), drag)
-        store_vector(lanes, out, case, 0, force)
-        store_vector(lanes, out, case, 3, moment)
+        wrench = push_drag(Wrench(still, still), prepare_drag(body, view, drag), drag)
+        store_vector(lanes, out, case, 0, wrench.force)
+        store_vector(lanes, out, case, 3, wrench.moment)
 
 
 @entry

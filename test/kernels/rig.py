@@ -14,12 +14,13 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import EffectSet
 from beardyn_core.integrate.imex import advance
-from beardyn_core.integrate.state import State, WorkSpace, initial_state, work_space
+from beardyn_core.integrate.start import initial_state
+from beardyn_core.integrate.state import Output, State, WorkSpace, work_space
 from beardyn_core.integrate.static import solve
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.fault_params import roller_oversize
+from beardyn_core.model.faults import roller_oversize
 from beardyn_core.model.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.scene.defect import Defect
@@ -132,12 +133,8 @@ class Rig:
         rollers = np.zeros((trends, *self.state.rollers.shape))
         bodies = np.zeros((trends, *self.state.bodies.shape))
         loads = np.repeat(self.load[None], steps + 1, axis=0)
-        work = self.work
-        kernel(
-            Lanes(self.arrangement.width), self.state.rollers, self.state.bodies, self.state.flex, work.rings,
-            work.sums, work.wrenches, work.box, loads, signals, rollers, bodies, self.state.energy,
-            self.audit, self.parameters,
-        )  # fmt: skip
+        output = Output(signals, rollers, bodies, self.audit)
+        kernel(Lanes(self.arrangement.width), self.state, self.work, loads, output, self.parameters)
         return signals, rollers, bodies
 
     def fields(self) -> Float:

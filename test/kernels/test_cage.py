@@ -17,7 +17,7 @@ from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, P
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.guide_parameters import LandParams
+from beardyn_core.model.cage import LandParams
 from beardyn_core.model.layout import (
     ANGULAR,
     BODY_STATES,

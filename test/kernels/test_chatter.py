@@ -10,7 +10,7 @@ import pytest
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.status import chatter_index
 from beardyn_core.jit import entry
-from beardyn_core.kernels.exchange import watch_chatter
+from beardyn_core.kernels.exchange import Here, watch_chatter
 from beardyn_core.model.layout import BODY_STATES, ENERGY_TERMS, ROLLER_FIELDS
 
 STEPS, CAPACITY = 400, 50.0
@@ -20,8 +20,10 @@ TIME = np.arange(STEPS)
 @entry
 def watched(lanes: Any, friction: Any, rollers: Any, capacity: Any) -> None:
     """Feed the monitor of the cup contact of one block; friction [step, 1, lane], capacity alike."""
+    one = lanes.constant(1.0)
+    here = Here(lanes, 0, rollers, rollers, one, one, one)
     for step in range(friction.shape[0]):
-        watch_chatter(lanes, rollers, 0, 0, lanes.load(friction, step, 0), lanes.load(capacity, step, 0))
+        watch_chatter(here, 0, lanes.load(friction, step, 0), lanes.load(capacity, step, 0))
 
 
 def index(lanes: Any, friction: Any, capacity: Any = CAPACITY) -> float:

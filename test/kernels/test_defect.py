@@ -13,8 +13,7 @@ import pytest
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.fault_parameters import FaultParams
-from beardyn_core.model.fault_params import surface_radius
+from beardyn_core.model.faults import FaultParams, surface_radius
 from beardyn_core.scene.defect import PATCH_KINDS, Patch, WornPocket
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.kernels import naive

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.contact_parameters import CoulombParams, ShearedFilmParams
 from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.traction import CoulombParams, ShearedFilmParams
 from test.kernels import naive
 from test.kernels.casting import through
 from test.kernels.entries import frictions

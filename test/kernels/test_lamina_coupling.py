@@ -14,7 +14,7 @@ from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_la
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.contact_parameters import LAMINA_STIFFNESS
+from beardyn_core.model.layout import LAMINA_STIFFNESS
 from beardyn_core.model.parameters import Parameters
 from test.kernels import naive_coupling
 from test.kernels.casting import through

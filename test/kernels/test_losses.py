@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.effects import Drag, EffectSet, RollingResistance
-from beardyn_core.model.lamina_table import equivalent_radius
-from beardyn_core.model.loss_params import (
+from beardyn_core.model.laminae import equivalent_radius
+from beardyn_core.model.losses import (
     AIR_DENSITY,
     CYLINDER_EXPONENT,
     CYLINDER_FRICTION,

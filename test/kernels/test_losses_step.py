@@ -23,7 +23,7 @@ from beardyn_core.model.layout import (
     TILT,
     TURN,
 )
-from beardyn_core.model.loss_params import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION
+from beardyn_core.model.losses import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION
 from test.kernels import naive_step
 from test.kernels.naive import Motion, Wrench
 from test.kernels.naive_losses import drag_wrench, rolling_wrench

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.contact_parameters import CoulombParams
 from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.traction import CoulombParams
 from test.kernels import naive, naive_step
 from test.kernels.casting import through
 from test.kernels.entries import RACEWAY_OUTPUTS, raceways

@@ -18,7 +18,7 @@ from beardyn_core.effects import EffectSet, Rib, RibMixedFilm, RibShearedFilm, S
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.guide_parameters import RibParams, SmallRibParams
+from beardyn_core.model.ribs import RibParams, SmallRibParams
 from test.kernels import naive, naive_rib
 from test.kernels.casting import through
 from test.kernels.entries import rib_gaps, ribs, small_ribs

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,17 +12,64 @@ from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet
-from beardyn_core.model.contact_parameters import (
-    BibouletHoupertParams,
-    DragParams,
-    HysteresisParams,
-    PowerLawRollingParams,
-    RollingParams,
-    ThermalRollingParams,
-)
-from beardyn_core.model.lamina_table import equivalent_radius
-from beardyn_core.model.parameters import SealParams
+from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.scene.scene import Scene
+
+
+class PowerLawRollingParams(NamedTuple):
+    """Rolling couple as powers of speed and load."""
+
+    log2_couple: Any  # [ring], at 1 N and 1 m/s [log2 N m]
+    speed_exponent: float
+    load_exponent: float
+
+
+class BibouletHoupertParams(NamedTuple):
+    """Rolling couple between the rigid and the elastic regime."""
+
+    log2_rigid: Any  # [ring], at 1 N and 1 m/s [log2 N m]
+    log2_elastic: Any  # [ring], at 1 m/s [log2 N m]
+
+
+class ThermalRollingParams(NamedTuple):
+    """Heating of the inlet."""
+
+    log2_loading: float  # thermal loading parameter at 1 m/s
+
+
+class HysteresisParams(NamedTuple):
+    """Elastic hysteresis."""
+
+    couple: Any  # [ring], at 1 N [N m]
+
+
+class RollingParams(NamedTuple):
+    """Couple of the raceway contacts against rolling."""
+
+    power_law: PowerLawRollingParams | None
+    biboulet_houpert: BibouletHoupertParams | None
+    thermal: ThermalRollingParams | None
+    hysteresis: HysteresisParams | None
+    supply: float
+    regularisation: Any  # [ring] [rad/s]
+
+
+class DragParams(NamedTuple):
+    """Medium around the rollers."""
+
+    orbit: float  # force at 1 m/s [N]
+    cylinder: float  # couple at 1 rad/s [N m]
+    cylinder_exponent: float  # of the speed in couple over speed
+    disc: float  # couple at 1 rad/s, both ends [N m]
+
+
+class SealParams(NamedTuple):
+    """Both seals on the shaft."""
+
+    torque: float  # [N m]
+    speed_coefficient: float  # [N m s/rad]
+    regularisation: float  # [rad/s]
+
 
 AIR_DENSITY = 1.2
 RINGS = ("cup", "cone")
@@ -35,7 +82,7 @@ DISC_FRICTION, DISC_EXPONENT = 3.87, 0.5
 
 
 def rolling_params(scene: Scene) -> RollingParams | None:
-    """Couples of cup and cone contacts at 1 N and 1 m/s, at the mid-length of the roller."""
+    """Work out the couples of cup and cone contacts at 1 N and 1 m/s, at the mid-length of the roller."""
     effect = scene.effects.rolling_resistance
     if effect is None:
         return None
@@ -94,7 +141,7 @@ def _log2(values: Any) -> NDArray[np.float64]:
 
 
 def _biboulet_houpert_limits(units: list[laws.RollingContact]) -> tuple[list[float], list[float]]:
-    """Couples at 1 N and 1 m/s in the rigid and in the elastic regime; M^-10 = M_r^-10 + M_e^-10."""
+    """Work out couples at 1 N and 1 m/s in both regimes; M^-10 = M_r^-10 + M_e^-10."""
     rigid, elastic = [], []
     for unit in units:
         speed, load = 2.0 * unit.speed_parameter, unit.line_load_parameter
@@ -105,7 +152,7 @@ def _biboulet_houpert_limits(units: list[laws.RollingContact]) -> tuple[list[flo
 
 
 def drag_params(scene: Scene) -> DragParams | None:
-    """Drag of a roller at 1 m/s, and churning couples at 1 rad/s."""
+    """Work out drag of a roller at 1 m/s, and churning couples at 1 rad/s."""
     effect = scene.effects.drag
     if effect is None:
         return None
@@ -128,7 +175,7 @@ def _radius(bearing: Bearing) -> float:
 
 
 def seal_params(effects: EffectSet) -> SealParams | None:
-    """Both seals together."""
+    """Add up both seals."""
     if effects.seal is None:
         return None
     return SealParams(

@@ -1,21 +1,85 @@
-"""Cage pockets as kernel parameters."""
+"""Cages as kernel parameters: pockets, their films, and lands."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.effects import Cage, KinematicCage, RotatingCage
-from beardyn_core.model.guide_parameters import (
-    CageParams,
-    KinematicCageParams,
-    LandParams,
-    PocketFilmParams,
-    RotatingCageParams,
-)
 from beardyn_core.model.layout import CONE_BODY, CUP_BODY
 from beardyn_core.scene.scene import Scene
+
+
+class PocketFilmParams(NamedTuple):
+    """Lubricant between roller and bar at one of the two abscissae; see `kernels.pocket.pocket_loads`."""
+
+    wedge: float  # load over rolling speed and radius over gap [N s/m]
+    squeeze: float  # load over speed of approach and (radius over gap)^1.5 [N s/m]
+    shear: float  # friction over slip and (radius over gap)^0.5 [N s/m]
+    thinnest: float  # [m]
+    inverse_layer: float  # of the thickness of the lubricant's layer [1/m]
+    share: float  # over the squeeze resistance that the explicit cage can follow [m/(N s)]
+
+
+class LandParams(NamedTuple):
+    """Land of a cage in a cylinder of cup or cone; see `kernels.land`."""
+
+    body: float  # row of the ring in the array of bodies
+    outside: float  # +1 when the cage runs inside the ring, -1 around it
+    radius: float  # [m]
+    clearance: float  # radial [m]
+    half_width: float  # [m]
+    place: float  # outward from the cage's centre of mass [m]
+    film: float  # eta R L^3 / (2 C^2) [N s]
+    drag: float  # Petroff's torque over speed [N m s]
+    most_eccentric: float  # bound of the eccentricity ratio in the film's formulas
+    stiffness: float  # of an edge [N/m]
+    damping: float  # [N s/m]
+    friction: float
+    regularisation: float  # [m/s]
+
+
+class RotatingCageParams(NamedTuple):
+    """The cage follows the rings but for its spin."""
+
+    follows: float
+
+
+class KinematicCageParams(NamedTuple):
+    """The cage follows the rings, its spin is prescribed."""
+
+    speed_ratio: float  # over the shaft
+    stiffness: float  # of each of two springs [N/m]
+    damping: float  # [N s/m]
+
+
+class CageParams(NamedTuple):
+    """Pockets of a cage."""
+
+    stiffness: float  # [N/m]
+    damping: float  # [N s/m]
+    half_clearance: float  # along the pitch circle [m]
+    half_end_clearance: float  # along the roller [m]
+    bar_sine: float  # inclination of the bar faces
+    bar_cosine: float
+    bar_place: float  # contact points on the bars, from the centre of mass [m]
+    roller_height: float  # nominal roller centre from the cage axis [m]
+    roller_place: float  # nominal roller centre along the pocket axis, from the cage's centre of mass [m]
+    axis_radial: float
+    axis_axial: float
+    friction: float
+    regularisation: float  # [m/s]
+    place: float  # axial place of its centre of mass from the middle plane [m]
+    mass: float  # [kg]
+    polar_inertia: float  # [kg m^2]
+    transverse_inertia: float
+    film: PocketFilmParams | None = None
+    land: LandParams | None = None
+    rotating: RotatingCageParams | None = None  # six degrees of freedom without this and the next
+    kinematic: KinematicCageParams | None = None
+
 
 # Walls of a pocket that can resist at a time, two bars at two abscissae each.
 _WALLS = 4
@@ -25,7 +89,7 @@ _PAID = 39.0
 
 
 def cage_params(scene: Scene, step: float) -> CageParams | None:
-    """Cage pockets around the nominal rollers, for steps of `step` [s]."""
+    """Lay cage pockets around the nominal rollers, for steps of `step` [s]."""
     bearing, cage = scene.bearing, scene.effects.cage
     if cage is None:
         return None
@@ -68,12 +132,12 @@ def _kinematic(bearing: Bearing, cage: KinematicCage) -> KinematicCageParams:
 
 
 def _least_inertia(bearing: Bearing) -> float:
-    """Mass of a cage as its pockets feel it along the pitch circle, [kg]."""
+    """Work out the mass of a cage as its pockets feel it along the pitch circle, [kg]."""
     return min(bearing.cage.mass, bearing.cage.polar_inertia / (0.5 * bearing.pitch_diameter) ** 2)
 
 
 def _film(scene: Scene, step: float) -> PocketFilmParams | None:
-    """Film of half a bar; all pockets together resist by no more than the cage's inertia over the step."""
+    """Work out the film of half a bar; all pockets together resist no more than a cage's inertia allows."""
     if not isinstance(scene.effects.cage, Cage) or scene.effects.cage.lubrication is None:
         return None
     options, bearing = scene.effects.cage.lubrication, scene.bearing
@@ -127,7 +191,7 @@ def _land(scene: Scene, step: float) -> LandParams | None:
 
 
 def most_eccentric(film: float, largest: float) -> float:
-    """Eccentricity ratio up to which a land film resists less than `largest` [N s/m], at most 0.99."""
+    """Find the eccentricity ratio where a land film resists less than `largest` [N s/m], at most 0.99."""
     low, high = 0.0, 0.99
     for _ in range(60):
         ratio = 0.5 * (low + high)

@@ -1,8 +1,9 @@
-"""Traction as kernel parameters."""
+"""Traction of the raceway contacts as kernel parameters."""
 
 from __future__ import annotations
 
 import math
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,42 +16,79 @@ from beardyn_core.effects import (
     ShearedFilmTraction,
     Traction,
 )
-from beardyn_core.model.contact_parameters import (
-    LAMINA_PRESSURE,
-    AiharaParams,
-    CoulombParams,
-    EyringParams,
-    FilmParams,
-    LoadSharingParams,
-    MixedParams,
-    ShearedFilmParams,
-    SlipLawParams,
-)
-from beardyn_core.model.film_factor import film_params
-from beardyn_core.model.lamina_table import equivalent_radius, lamina_places, lamina_table
-from beardyn_core.model.springs import for_springs
+from beardyn_core.model.laminae import for_springs, lamina_table
+from beardyn_core.model.layout import LAMINA_PRESSURE
 from beardyn_core.scene.scene import Scene
 
+
+class SlipLawParams(NamedTuple):
+    """Which law rounds the corner of dry friction: the member that is not ``None``."""
+
+    threlfall: float | None  # steepness, 3
+    ambrosio_start: float | None  # [m/s]
+    arctangent: float | None  # steepness, 1
+
+
+class CoulombParams(NamedTuple):
+    """Dry friction."""
+
+    friction: float
+    regularisation: float  # [m/s]
+    law: SlipLawParams | None = None
+
+
+class ShearedFilmParams(NamedTuple):
+    """Film that shears up to a limit."""
+
+    limiting_shear: float
+
+
+class MixedParams(NamedTuple):
+    """Boundary and full-film friction blended over the film parameter."""
+
+    friction: float
+    regularisation: float  # [m/s]
+    film_friction: float
+    boundary_film: float
+    full_film: float
+    sheared_film: ShearedFilmParams | None
+    law: SlipLawParams | None = None
+
+
+class AiharaParams(NamedTuple):
+    """Aihara's traction: parts of its logarithms that only the oil decides."""
+
+    log2_slide: float
+    log2_friction: float
+    log2_largest_slide: float
+    log2_pressure: Any  # largest Hertz pressure at 1 N on the lamina, [ring, spring], [log2 kgf/mm^2]
+
+
+class EyringParams(NamedTuple):
+    """Film with Eyring's sinh law."""
+
+    stress: float  # [Pa]
+
+
+class LoadSharingParams(NamedTuple):
+    """Asperities and film share the load; the film has the law of the member that is not ``None``."""
+
+    friction: float
+    slope: float
+    log2_roughness: float  # [log2 m]
+    aihara: AiharaParams | None
+    eyring: EyringParams | None
+    bair_winer: ShearedFilmParams | None
+    inlet: float | None  # shear of the gap around the contact [N s/m Pa^0.5/N^0.5 m^0.5]
+
+
 REYNOLDS_EXIT = 0.47513  # where the film of a parabolic gap ends, over sqrt(2 R h)
-
-
-def raceway_film_params(scene: Scene) -> FilmParams | None:
-    """Film of the raceway contacts, ``None`` when absent."""
-    if scene.effects.film is None:
-        return None
-    bearing, count = scene.bearing, scene.numerics.laminae
-    place = lamina_places(bearing, count)
-    radii = (
-        list(equivalent_radius(bearing, place, "cup")),
-        list(equivalent_radius(bearing, place, "cone")),
-    )
-    return film_params(scene, scene.effects.film, radii, bearing.effective_length / count)
 
 
 def traction_params(
     scene: Scene,
 ) -> tuple[CoulombParams | None, MixedParams | None, LoadSharingParams | None]:
-    """Traction; the blends without a film are dry friction of the asperities."""
+    """Choose the traction law; the blends without a film are dry friction of the asperities."""
     traction = scene.effects.traction
     if traction is None:
         return None, None, None
@@ -65,7 +103,7 @@ def traction_params(
 
 
 def slip_law_params(traction: Traction) -> SlipLawParams | None:
-    """Regularisation of dry friction; ``None`` is the smooth one."""
+    """Choose the regularisation of dry friction; ``None`` is the smooth one."""
     if isinstance(traction, LoadSharingTraction) or traction.regularisation == "smooth":
         return None
     return SlipLawParams(
@@ -92,7 +130,7 @@ def _mixed_params(traction: MixedTraction | ShearedFilmTraction, law: SlipLawPar
 def aihara_params(
     lubricant: Lubricant, temperature: float, largest_slide: float, laminae: NDArray[np.float64]
 ) -> AiharaParams:
-    """Aihara's traction of an oil at a temperature [K] on the laminae of a table.
+    """Work out Aihara's traction of an oil at a temperature [K] on the laminae of a table.
 
     The fit wants the viscosity in cP and the largest pressure in kgf/mm^2.
     """

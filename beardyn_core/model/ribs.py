@@ -1,23 +1,91 @@
-"""Rib contact as kernel parameters."""
+"""Rib contacts of both roller ends as kernel parameters."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from beardyn_core.bearing.contact_law import PointContact, rib_contact
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.hertz import exact_rib_contact
 from beardyn_core.bearing.rib_film import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
-from beardyn_core.effects import Rib, RibShearedFilm
-from beardyn_core.model.guide_parameters import (
-    RibDrillingParams,
-    RibEndParams,
-    RibFilmParams,
-    RibParams,
-    RibShearParams,
-    RibWindowParams,
-)
+from beardyn_core.effects import EffectSet, Rib, RibShearedFilm
+from beardyn_core.model.parameters import DampingParams
 from beardyn_core.scene.scene import Scene
+
+
+class RibWindowParams(NamedTuple):
+    """Edges of the rib face."""
+
+    low: float  # coordinate along the generator of the face [m]
+    high: float
+    rounding: float  # radius of the edges [m]
+
+
+class RibEndParams(NamedTuple):
+    """Rim of the spherical roller end."""
+
+    radius: float  # [m]
+    place: float  # on the axis from the centre of mass [m]
+    cosine: float  # of the angle under which the sphere's centre sees it
+    smallest_bend: float  # floor of the second derivative in the search along the rim
+
+
+class RibShearParams(NamedTuple):
+    """Film that shears up to a limit."""
+
+    viscosity: float  # [Pa s]
+    pressure_viscosity: float  # [1/Pa]
+    limiting_shear: float
+    pressure: float  # mean pressure over the root of the approach [Pa/m^0.5]
+
+
+class RibFilmParams(NamedTuple):
+    """Point-contact film of the rib and the friction that goes with it."""
+
+    log2_factor: float  # film thickness at 1 N and 1 m/s [log2 m]
+    speed_exponent: float
+    load_exponent: float
+    log2_roughness: float  # composite rms [log2 m]
+    boundary_friction: float
+    film_friction: float
+    sheared: RibShearParams | None
+
+
+class RibDrillingParams(NamedTuple):
+    """Friction of the spin inside the contact ellipse."""
+
+    reach: float  # 0.18 a^2 over the approach [m]
+
+
+class RibParams(NamedTuple):
+    """Large roller end on the cone rib."""
+
+    stiffness: float  # [N/m^1.5]
+    sphere_radius: float  # [m]
+    sphere_place: float  # of the sphere centre on the axis from the centre of mass [m]
+    normal_axial: float
+    normal_radial: float
+    distance: float  # of the nominal contact along the normal [m]
+    friction: float
+    regularisation: float  # [m/s]
+    window: RibWindowParams | None
+    end: RibEndParams | None
+    film: RibFilmParams | None
+    drilling: RibDrillingParams | None
+
+
+class SmallRibParams(NamedTuple):
+    """Small roller end at the cone's small rib."""
+
+    radius: float  # of the rib's contact circle [m]
+    place: float  # of that circle, axial from the cone's origin [m]
+    end_place: float  # of the flat end on the axis from the centre of mass [m]
+    stiffness: float  # [N/m]
+    damping: DampingParams
+    friction: float
+    regularisation: float  # [m/s]
+
 
 # Sliding and spin dissipate mu Q sqrt(u^2 + 0.18 a^2 w^2), Zhao et al. (2026).
 _SPIN_SHARE = 0.18
@@ -26,7 +94,7 @@ _SMALLEST_BEND = 0.01
 
 
 def rib_params(scene: Scene) -> RibParams | None:
-    """Rib contact in the cone's coordinates; the nominal roller just touches it."""
+    """Describe the rib contact in the cone's coordinates; the nominal roller just touches it."""
     bearing, rib = scene.bearing, scene.effects.rib
     if rib is None:
         return None
@@ -53,7 +121,7 @@ def rib_params(scene: Scene) -> RibParams | None:
 
 
 def _window(bearing: Bearing, nominal: float, rib: Rib) -> RibWindowParams | None:
-    """Edges of the face as coordinates along its generator; rounding takes at most the whole face."""
+    """Lay the edges of the face on its generator; rounding takes at most the whole face."""
     if not rib.window:
         return None
     along = 1.0 / math.cos(bearing.rib_polar_angle)
@@ -64,7 +132,7 @@ def _window(bearing: Bearing, nominal: float, rib: Rib) -> RibWindowParams | Non
 
 
 def _roller_end(bearing: Bearing) -> RibEndParams:
-    """Rim where the spherical face of the roller end meets the chamfer."""
+    """Work out the rim where the spherical face of the roller end meets the chamfer."""
     radius = bearing.large_end_radius - bearing.roller_chamfer
     ahead = math.sqrt(bearing.sphere_radius**2 - radius**2)
     return RibEndParams(
@@ -76,7 +144,7 @@ def _roller_end(bearing: Bearing) -> RibEndParams:
 
 
 def _film(scene: Scene, rib: Rib, contact: PointContact) -> RibFilmParams | None:
-    """Film thickness at the inlet temperature of the scene, and its friction."""
+    """Work out film thickness at the inlet temperature of the scene, and its friction."""
     lubrication = rib.lubrication
     if lubrication is None:
         return None
@@ -105,3 +173,22 @@ def _around_squared(contact: PointContact) -> float:
     """Square of the ellipse's semi-axis around the ring over the approach, [m]."""
     larger, _ = contact.semi_axes(1.0)
     return float(larger**2 * contact.factor ** (2.0 / 3.0))
+
+
+def small_rib_params(bearing: Bearing, effects: EffectSet) -> SmallRibParams | None:
+    """Describe the small rib in cone coordinates; its clearance opens with the roller on the large rib."""
+    effect = effects.small_rib
+    if effect is None:
+        return None
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    along = -0.5 * bearing.roller_length - bearing.small_rib_clearance
+    below = bearing.small_end_radius - 0.5 * bearing.small_rib_height
+    return SmallRibParams(
+        radius=0.5 * bearing.pitch_diameter + along * sine - below * cosine,
+        place=0.5 * bearing.row_spacing + along * cosine + below * sine,
+        end_place=-0.5 * bearing.roller_length - bearing.roller_mass_offset,
+        stiffness=effect.stiffness,
+        damping=DampingParams(effect.damping / effect.stiffness),
+        friction=effect.friction,
+        regularisation=effect.regularisation_speed,
+    )

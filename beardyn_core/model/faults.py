@@ -1,15 +1,17 @@
-"""Faults as kernel parameters, and their growth between blocks."""
+"""Patches, waviness, wear and size errors as kernel parameters, and their growth between blocks."""
 
 from __future__ import annotations
 
 import math
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.fault_parameters import (
+from beardyn_core.model.laminae import for_springs, lamina_places
+from beardyn_core.model.layout import (
     PATCH_FIELDS,
     PATCH_POINTS,
     PLACE_ARC_RADIUS,
@@ -19,16 +21,49 @@ from beardyn_core.model.fault_parameters import (
     PLACE_REPEATS,
     PLACE_SCALE,
     SPRING_FIELDS,
-    DamageParams,
-    FaultParams,
-    SurfaceParams,
 )
-from beardyn_core.model.lamina_table import lamina_places
 from beardyn_core.model.patch_path import PATH_CELLS, reach_of, roller_path
-from beardyn_core.model.springs import for_springs
-from beardyn_core.model.waviness_params import wave_params
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
+
+
+class SurfaceParams(NamedTuple):
+    """Patches of one surface."""
+
+    places: Any  # [patch, PATCH_FIELDS]: centre [rad], repeats a turn, radius [m], radius by repeats, reach
+    present: Any  # [block, patch, lane], 1 where the lane's roller meets the patch
+    cover: Any  # [patch, lamina], share of the lamina's length
+    paths: Any  # [patch x lamina x PATCH_POINTS], gap over even arcs from the centre to the reach [m]
+
+
+class DamageParams(NamedTuple):
+    """Springs of a contact near a patch: sound parts of all laminae, then their damaged parts."""
+
+    laminae: Any  # the lamina table twice over [row of the table, 2 x lamina]
+    springs: Any  # work space [1, spring x SPRING_FIELDS, lane]
+
+
+class WaveParams(NamedTuple):
+    """Waviness of one surface; a row of the table is one turn and two points more."""
+
+    table: Any  # flat [m]
+    first: Any  # [block, 1, lane], where the lane's row of the table begins
+    points: float  # of one turn
+
+
+class FaultParams(NamedTuple):
+    """Faults; ``None`` is absent."""
+
+    cup: SurfaceParams | None
+    cone: SurfaceParams | None
+    roller: SurfaceParams | None
+    cup_damage: DamageParams | None  # present with any patch of cup or rollers
+    cone_damage: DamageParams | None
+    cup_waves: WaveParams | None
+    cone_waves: WaveParams | None
+    roller_waves: WaveParams | None
+    pockets: Any  # half of the added clearance [block, 1, lane], [m]
+
 
 Float = NDArray[np.float64]
 
@@ -38,7 +73,7 @@ _SMALLEST_PART = 1.0e-9  # of a lamina
 
 
 def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> FaultParams:
-    """All faults at t = 0; what the scene does not have is ``None``."""
+    """Collect all faults at t = 0; what the scene does not have is ``None``."""
     cup, cone, roller = (surface_params(scene, on, arrangement) for on in SURFACES)
     cup_waves, cone_waves, roller_waves = (wave_params(scene, on, arrangement) for on in SURFACES)
     cup_damage, cone_damage = (
@@ -52,12 +87,12 @@ def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> Faul
 
 
 def patches_of(scene: Scene, on: str) -> list[Patch]:
-    """Patches of one surface, in the order of the scene."""
+    """List the patches of one surface, in the order of the scene."""
     return [defect for defect in scene.defects if isinstance(defect, Patch) and defect.on == on]
 
 
 def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfaceParams | None:
-    """Patches of one surface; ``None`` without any."""
+    """Collect the patches of one surface; ``None`` without any."""
     patches = patches_of(scene, on)
     if not patches:
         return None
@@ -106,7 +141,7 @@ def _write_patch(surface: SurfaceParams, index: int, patch: Patch, scene: Scene,
 
 
 def surface_radius(bearing: Bearing, on: str) -> float:
-    """Radius that turns an azimuth of cup, cone or roller into an arc at mid-length, [m]."""
+    """Work out the radius that turns an azimuth of cup, cone or roller into an arc at mid-length, [m]."""
     distance = bearing.apex_distance / math.cos(bearing.half_angle)
     angle = {"cup": bearing.cup_angle, "cone": bearing.cone_angle}
     return 0.5 * bearing.roller_diameter if on == "roller" else distance * math.sin(angle[on])
@@ -128,13 +163,13 @@ def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
 
 
 def damage_params(laminae: Float, width: int) -> DamageParams:
-    """Lamina table twice over (sound and damaged springs) and work space for the springs."""
+    """Double the lamina table (sound and damaged springs) and make work space for the springs."""
     springs = np.zeros((1, SPRING_FIELDS * 2 * laminae.shape[1], width))
     return DamageParams(for_springs(laminae), springs)
 
 
 def pocket_wear(scene: Scene, arrangement: Arrangement) -> Float | None:
-    """Half of the added clearance of each pocket, shape [block, 1, lane], [m]; ``None`` without wear."""
+    """Take half of the clearance added to each pocket, [block, 1, lane], [m]; ``None`` without wear."""
     worn = [defect for defect in scene.defects if isinstance(defect, WornPocket)]
     if not worn:
         return None
@@ -145,9 +180,30 @@ def pocket_wear(scene: Scene, arrangement: Arrangement) -> Float | None:
 
 
 def roller_oversize(scene: Scene) -> Float:
-    """Radius error of each roller, shape [row, roller], [m]."""
+    """Work out the radius error of each roller, shape [row, roller], [m]."""
     error = np.zeros((2, scene.bearing.roller_count))
     for defect in scene.defects:
         if isinstance(defect, RollerError):
             error[defect.row, defect.roller] += 0.5 * defect.diameter
     return error
+
+
+POINTS_PER_WAVE = 64  # linear interpolation is then good to 0.12 % of the amplitude of the shortest wave
+
+
+def wave_params(scene: Scene, on: str, arrangement: Arrangement) -> WaveParams | None:
+    """Tabulate the waviness of one surface over a period per row or roller; ``None`` without any."""
+    waves = [wave for wave in scene.waviness if wave.on == on]
+    if not waves:
+        return None
+    points = max(1024, POINTS_PER_WAVE * max(max(wave.orders) for wave in waves))
+    azimuth = np.arange(points + 2, dtype=np.float64) * (2.0 * math.pi / points)
+    count = arrangement.roller_count if on == "roller" else 1
+    tables = np.zeros((2, count, points + 2))
+    for wave in waves:
+        for roller in range(count):
+            if wave.roller is None or on != "roller" or wave.roller == roller:
+                tables[wave.row, roller] += wave.gap(azimuth, roller)
+    first = np.arange(2 * count, dtype=float).reshape(2, count) * (points + 2)
+    start = arrangement.to_lanes(np.broadcast_to(first, (2, arrangement.roller_count)))
+    return WaveParams(tables.reshape(-1), np.ascontiguousarray(start[:, None, :]), float(points))

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
 from beardyn_core.effects import EffectSet
-from beardyn_core.model.parameters import FlexibilityParams
+
+
+class FlexibilityParams(NamedTuple):
+    """Bending modes of the cup, from two waves upwards, each in two directions."""
+
+    mass: Any  # [mode], [kg]
+    stiffness: Any  # [mode], [N/m]
+    damping: Any  # [mode], [N s/m]
 
 
 def flexibility_params(bearing: Bearing, effects: EffectSet) -> FlexibilityParams | None:
-    """Modes of the cup with the housing wall around it."""
+    """Work out the modes of the cup with the housing wall around it."""
     ring = effects.ring_flexibility
     if ring is None:
         return None

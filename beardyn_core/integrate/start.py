@@ -1,0 +1,154 @@
+"""What a run starts from: the state in static equilibrium, rolling at its first speed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.state import State
+from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.model.arrangement import Arrangement, aligned_zeros
+from beardyn_core.model.layout import (
+    ANGLE,
+    AXIAL,
+    AXIS,
+    BODY_STATES,
+    CAGE_BODY,
+    CONE_BODY,
+    ENERGY_TERMS,
+    MASK,
+    MOMENTUM,
+    POCKET_ANGLE,
+    POSITION,
+    RADIUS,
+    RATE,
+    ROLLER_FIELDS,
+    TILT,
+    VELOCITY,
+)
+from beardyn_core.model.tier_parameters import LumpedParameters
+
+Float = NDArray[np.float64]
+
+_ITERATIONS = 60
+_TOLERANCE = 1e-9
+
+
+def kinematic_spin(bearing: Bearing, cage_speed: float) -> float:
+    """Work out the spin of a roller, rolling on the cup, about its axis in the orbit frame, [rad/s]."""
+    return -cage_speed * math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
+
+
+def initial_state(
+    bearing: Bearing,
+    arrangement: Arrangement,
+    static: StaticSolution,
+    shaft_speed: float,
+    cage_speed: float,
+) -> State:
+    """Make the state in static equilibrium, rolling at the given speeds.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    arrangement : Arrangement
+    static : StaticSolution
+        Equilibrium under the first load.
+    shaft_speed, cage_speed : float
+        [rad/s].
+
+    Returns
+    -------
+    State
+    """
+    lanes = arrangement.to_lanes
+    rollers = aligned_zeros(arrangement.block_count, ROLLER_FIELDS, arrangement.width)
+    angle = bearing.contact_angle + lanes(static.roller_tilt)
+    offset = bearing.roller_mass_offset
+    radius = 0.5 * bearing.pitch_diameter + lanes(static.roller_radial) + offset * np.sin(angle)
+    rollers[:, RADIUS] = radius
+    rollers[:, ANGLE] = 2.0 * math.pi * arrangement.roller / arrangement.roller_count
+    rollers[:, AXIAL] = 0.5 * bearing.row_spacing + lanes(static.roller_axial) + offset * np.cos(angle)
+    rollers[:, VELOCITY + 1] = cage_speed * radius
+    sine, cosine = np.sin(angle), np.cos(angle)
+    rollers[:, AXIS], rollers[:, AXIS + 2] = sine, cosine
+
+    spin = kinematic_spin(bearing, cage_speed)
+    about = bearing.roller_axial_inertia * (spin + cage_speed * cosine)
+    across = bearing.roller_transverse_inertia * cage_speed
+    # omega = spin b + cage_speed e_axial, split along and across the roller axis b
+    rollers[:, MOMENTUM] = about * sine - across * cosine * sine
+    rollers[:, MOMENTUM + 2] = about * cosine + across * sine * sine
+
+    bodies = np.zeros((CAGE_BODY + arrangement.rows, BODY_STATES))
+    bodies[CONE_BODY, POSITION : POSITION + 3] = static.displacement
+    bodies[CONE_BODY, TILT], bodies[CONE_BODY, TILT + 2] = static.tilt
+    bodies[CONE_BODY, RATE] = shaft_speed
+    bodies[CAGE_BODY:, RATE] = cage_speed
+    # through the end play rollers move further than their pockets allow, and take the cage with them
+    rows, room = arrangement.rows, 0.5 * bearing.cage.axial_clearance
+    shift, outward = static.roller_axial.mean(axis=1)[:rows], np.array([-1.0, 1.0])[:rows]
+    bodies[CAGE_BODY:, POSITION + 1] = outward * (shift - np.clip(shift, -room, room))
+    flex = np.zeros((*static.bending.shape, 2))
+    flex[..., 0] = static.bending
+    return State(rollers, bodies, np.zeros(ENERGY_TERMS), flex)
+
+
+def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: float) -> Float:
+    """Find the pose of the cone in the static equilibrium of the lumped tier.
+
+    Parameters
+    ----------
+    p : LumpedParameters
+    pose : float64 array, shape [5]
+        Displacement and tilt about x and z to start from, [m], [rad].
+    load : float64 array, shape [5] or [3]
+        Force on the cup and, with a free tilt, moment about x and z, [N], [N m].
+    cage_rate : float
+        [rad/s].
+
+    Raises
+    ------
+    ValidityError
+        When no equilibrium is found.
+    """
+    spring, cup = p.spring, p.base.cup
+    counted = p.base.rollers[:, MASK] > 0.0
+    sides = np.broadcast_to(p.sides[0, 0], counted.shape)
+    springs = np.zeros(len(load))
+    springs[1] = p.base.mounting.prop_stiffness
+    idle = spring.idle * p.kinematic.centrifugal * cage_rate**2
+    rows = []
+    for side in np.unique(sides):
+        azimuth = np.sort(p.base.rollers[:, POCKET_ANGLE][counted & (sides == side)])
+        outward = np.stack([np.sin(azimuth), np.cos(azimuth)])
+        lean = np.full(azimuth.size, -side * cup.sine)
+        tilt_x, tilt_z = spring.lever * side * outward[1], -spring.lever * side * outward[0]
+        rows.append(
+            np.stack([cup.cosine * outward[0], lean, cup.cosine * outward[1], tilt_x, tilt_z], axis=1)
+        )
+    normal = np.concatenate(rows)[:, : len(load)]
+    found = np.array(pose[: len(load)], dtype=float)
+    scale = np.array([1.0, 1.0, 1.0, spring.lever, spring.lever])[: len(load)]
+    terms = np.arange(len(spring.series))
+    for _ in range(_ITERATIONS):
+        approach = normal @ found - cup.gap
+        root = np.maximum(approach, 1e-12) ** (1.0 / 9.0)
+        pressing = approach > 0.0
+        pressed = pressing * approach * root * (root[:, None] ** terms @ spring.series)
+        tangent = 10.0 / 9.0 * pressed / np.maximum(approach, 1e-12)
+        force = np.maximum(pressed + 0.5 * idle, idle)
+        missing = load - force @ normal - springs * found
+        if np.abs(missing / scale).max() <= _TOLERANCE * max(np.abs(load / scale).max(), 1.0):
+            break
+        tangent = tangent * (pressed > 0.5 * idle)
+        stiffness = (normal * tangent[:, None]).T @ normal + np.diag(1e3 * scale**2 + springs)
+        change = np.linalg.solve(stiffness, missing)
+        found = found + change * min(1.0, 2e-5 / float(np.abs(change * scale).max()))
+    else:
+        raise ValidityError("the lumped tier found no static equilibrium under the first load")
+    return np.concatenate([found, pose[len(load) :]])

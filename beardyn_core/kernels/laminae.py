@@ -1,0 +1,274 @@
+"""Laminae of a raceway contact: what each presses and rubs with, and the sums over all of them.
+
+A sound lamina is one spring, near a patch it is two: its sound and its damaged part. Laminae that are
+coupled are prepared all at once. What leaves the loop are sums weighted by powers of the abscissa.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from beardyn_core.jit import inline
+from beardyn_core.kernels.defect import spring_count, spring_damage, spring_slopes, spring_table
+from beardyn_core.kernels.film import log2_film_thickness, log2_load
+from beardyn_core.kernels.joint_lamina import joint_depth, joint_share, joint_slopes
+from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
+from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
+from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.stage_timer import mark_result
+from beardyn_core.kernels.traction import LaminaContact, friction_rate
+from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
+from beardyn_core.model.stages import CONTACT, FILM, TRACTION
+
+SMALLEST_APPROACH = 1e-15
+# A spring of less of its lamina is rounding of one that is not there.
+SMALLEST_SHARE = 1e-6
+_LOADS = 0  # the work space has one page
+
+
+class LaminaSums(NamedTuple):
+    """Sums over the laminae of one raceway contact; threes are with x^0, x^1, x^2."""
+
+    force: Any  # 3, elastic [N m^k]
+    stiffness: Any  # 3, tangent [N/m m^k]
+    friction: Any  # 3, force over slip [N s/m m^k]
+    energy: Any  # elastic [J]
+    lean: Any  # 2, elastic force times slope of the gap over the azimuth in ring and roller [N m/rad]
+    touches: bool  # whether any roller of the block may touch; else all sums are exactly zero
+    released: Any  # power that dampers take where a contact opens faster than its springs follow [W]
+    deepest: Any  # largest penetration [m]
+
+
+class Raceway(NamedTuple):
+    """What the laminae of one raceway contact share."""
+
+    lanes: Any
+    ring: int
+    laminae: Any  # lamina table [row of the table, lamina]
+    work: Any  # [1, 2 x lamina, lane], for the loads of the springs [N]
+    reach: float  # no lamina is farther from the centre of mass [m]
+    effects: Any
+
+
+@inline
+def lamina_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, near: Any, damage: Any) -> Any:
+    """Sum the laminae of one raceway contact; far from every patch a damaged contact is a sound one.
+
+    Parameters
+    ----------
+    raceway : Raceway
+    line : Line
+    slip : Slip
+    log2_speed : tuple of 2 lane values
+        From `film.log2_entrainment`.
+    near : bool
+        Whether any roller of the block is near a patch, from `defect.find_damage`.
+    damage : DamageParams or None
+
+    Returns
+    -------
+    LaminaSums
+
+    References
+    ----------
+    Palmgren's line contact, Q = 0.356 E' L^(8/9) delta^(10/9) for one contact, shared evenly by laminae.
+    """
+    if damage is None:
+        return _sound_sums(raceway, line, slip, log2_speed)
+    if near:
+        return _spring_sums(raceway, line, slip, log2_speed, damage)
+    return _sound_sums(raceway, line, slip, log2_speed)
+
+
+@inline
+def _sound_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any) -> Any:
+    """Sum a sound contact: a block of rollers of which none touches costs one bound."""
+    if may_touch(raceway.lanes, line.approach, raceway.reach):
+        return _spring_sums(raceway, line, slip, log2_speed, None)
+    zero = raceway.lanes.constant(0.0)
+    nothing = (zero, zero, zero)
+    return LaminaSums(nothing, nothing, nothing, zero, (zero, zero), False, zero, line.approach[0])
+
+
+@inline
+def may_touch(lanes: Any, approach: Any, reach: Any) -> Any:
+    """Tell whether any lane may penetrate within a reach of the middle; a NaN may, too."""
+    slope = magnitude(approach[1]) + reach * (magnitude(approach[2]) + reach * magnitude(approach[3]))
+    zero = lanes.constant(0.0)
+    return any_positive(where_greater(zero, approach[0] + reach * slope, zero, 1.0))
+
+
+@inline
+def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: Any) -> Any:
+    """Sum over the springs in two passes, as short loops keep several laminae in flight."""
+    lanes, ring, work, effects = raceway.lanes, raceway.ring, raceway.work, raceway.effects
+    laminae, approach = raceway.laminae, line.approach
+    zero = lanes.constant(0.0)
+    force_0, force_1, force_2 = zero, zero, zero
+    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    friction_0, friction_1, friction_2 = zero, zero, zero
+    energy = zero
+    lean = (zero, zero)
+    released = zero
+    deepest = approach[0] if damage is None else zero
+    count = laminae.shape[1]
+    _prepare_coupling(lanes, approach, laminae, damage, effects.coupling)
+    springs = spring_count(laminae, damage, effects.coupling)
+    laminae = spring_table(laminae, damage)
+    for k in range(springs):
+        x = laminae[LAMINA_PLACE, k]
+        share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)
+        touching = at_least(depth, SMALLEST_APPROACH)
+        energy = energy + stored
+        opening = slip.rate[0] + x * slip.rate[1]
+        push = _spring_push(touching, opening, effects.damping)
+        whole = share * (0.9 * tangent * touching)
+        lean = _add_lean(lanes, lean, whole, k, count, damage, effects.coupling)
+        tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
+        elastic = 0.9 * tangent * touching
+        lanes.store(work, _LOADS, k, tangent * push)
+        elastic, tangent = share * elastic, share * tangent
+        released = _release(released, whole - elastic, opening, effects.damping, effects.audit)
+        deepest = _deepest_so_far(deepest, share, depth, damage)
+        force_0 = force_0 + elastic
+        force_1 = force_1 + elastic * x
+        force_2 = force_2 + elastic * (x * x)
+        stiffness_0 = stiffness_0 + tangent
+        stiffness_1 = stiffness_1 + tangent * x
+        stiffness_2 = stiffness_2 + tangent * (x * x)
+    for k in range(springs):
+        x = laminae[LAMINA_PLACE, k]
+        load = lanes.load(work, _LOADS, k)
+        around = slip.around[0] + x * slip.around[1]
+        along = slip.along[0] + x * slip.along[1]
+        square = around * around + along * along
+        mark_result(effects.timers, CONTACT, square)
+        log2_force = log2_load(load)
+        log2_film = log2_film_thickness(log2_force, log2_speed, k, ring, laminae, effects.film)
+        mark_result(effects.timers, FILM, log2_film)
+        contact = LaminaContact(load, log2_force, square, log2_film, log2_speed[1], k, ring, laminae)
+        friction = friction_rate(contact, effects)
+        mark_result(effects.timers, TRACTION, friction)
+        friction = _share_of(lanes, k, damage, effects.coupling) * friction
+        friction_0 = friction_0 + friction
+        friction_1 = friction_1 + friction * x
+        friction_2 = friction_2 + friction * (x * x)
+    return LaminaSums(
+        (force_0, force_1, force_2),
+        (stiffness_0, stiffness_1, stiffness_2),
+        (friction_0, friction_1, friction_2),
+        energy,
+        lean,
+        True,
+        released,
+        deepest,
+    )
+
+
+@inline
+def _spring_push(approach: Any, rate: Any, damping: Any) -> Any:
+    """Add 9/10 of the approach (10/9 law) and the damping: tangent stiffness times this is force, [m]."""
+    if damping is None:
+        return 0.9 * approach
+    return 0.9 * approach + damping.time_constant * rate
+
+
+@inline
+def _release(power: Any, lost: Any, rate: Any, damping: Any, audit: Any) -> Any:
+    """Add what the damper of one spring takes where the contact opens faster than the spring follows, [W].
+
+    A contact does not pull: the spring then expands against its own damper, and its energy ends there. What
+    is lost of its force belongs to the stored energy and presses no more, [N].
+    """
+    if damping is None:
+        return power
+    if audit is None:
+        return power
+    return power - lost * rate
+
+
+@inline
+def _deepest_so_far(deepest: Any, share: Any, depth: Any, damage: Any) -> Any:
+    """Take the larger penetration of springs near a patch; a sound contact is measured at its middle, [m]."""
+    if damage is None:
+        return deepest
+    return at_least(deepest, where_greater(share + 0.0 * depth, SMALLEST_SHARE, depth, 0.0 * depth))
+
+
+@inline
+def _geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
+    """Work out the penetration of one lamina or spring, negative when apart, [m]."""
+    x = laminae[LAMINA_PLACE, k]
+    return (
+        approach[0] + x * (approach[1] + x * (approach[2] + x * approach[3])) - laminae[LAMINA_DROP, k] - gap
+    )
+
+
+@inline
+def _prepare_coupling(lanes: Any, approach: Any, laminae: Any, damage: Any, coupling: Any) -> None:
+    """Load the springs of coupled laminae all at once; one over the edge of a patch joins as one."""
+    if coupling is None:
+        return
+    for k in range(laminae.shape[1]):
+        depth = _geometric_depth(approach, 0.0, k, laminae)
+        depth = joint_depth(lanes, depth, k, laminae.shape[1], damage, coupling.part_exponent)
+        lanes.store(coupling.work, DEPTH, k, depth)
+    couple_laminae(lanes, laminae, coupling)
+
+
+@inline
+def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any, coupling: Any) -> Any:
+    """Load one spring of a raceway contact.
+
+    Parameters
+    ----------
+    lanes : Lanes
+    approach : tuple of 4 lane values
+        As in `Line`, [m].
+    k : int
+        The spring.
+    laminae : float64 array, shape [LAMINA_ROWS, spring]
+    damage : DamageParams or None
+    coupling : CouplingParams or None
+
+    Returns
+    -------
+    share, depth, tangent, energy : lane value
+        Share of its lamina [-], by which force, stiffness and damping of the contact are multiplied,
+        penetration [m], tangent stiffness [N/m], energy [J].
+    """
+    if coupling is None:
+        share, gap = spring_damage(lanes, k, damage)
+        depth = _geometric_depth(approach, gap, k, laminae)
+        touching = at_least(depth, SMALLEST_APPROACH)
+        tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
+        tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+        return share, depth, tangent, share * tangent * touching * touching * (0.9 * 9.0 / 19.0)
+    work = coupling.work
+    share, energy = joint_share(lanes, k, damage), lanes.load(work, FORCE, k)
+    return share, lanes.load(work, DEPTH, k) / share, lanes.load(work, SURFACE, k) * share, energy
+
+
+@inline
+def _share_of(lanes: Any, k: Any, damage: Any, coupling: Any) -> Any:
+    """Take the share of its lamina of a spring, [-]."""
+    if coupling is None:
+        return spring_damage(lanes, k, damage)[0]
+    return joint_share(lanes, k, damage)
+
+
+@inline
+def _add_lean(lanes: Any, lean: Any, elastic: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
+    """Add elastic force times slope of a spring's gap over the azimuth in ring and roller, [N m/rad]."""
+    if damage is None:
+        return lean
+    ring_slope, roller_slope = _slopes_of(lanes, k, count, damage, coupling)
+    return lean[0] + elastic * ring_slope, lean[1] + elastic * roller_slope
+
+
+@inline
+def _slopes_of(lanes: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
+    """Take by how much a spring gives way with the azimuth in ring and in roller, [m/rad]."""
+    if coupling is None:
+        return spring_slopes(lanes, k, damage)
+    return joint_slopes(lanes, k, count, damage)
