@@ -1,10 +1,13 @@
 # beardyn: set up, demonstrate, test. `make help` lists the targets.
-# Variables: PYTHON (interpreter for the environment), VENV (its folder), ARGS (passed on to demo or pytest).
+# Variables: PYTHON (interpreter for the environment), VENV (its folder), ARGS (passed on to demo or pytest),
+# JOBS (processes of the tests), BASE (commit that `make same` compares with).
 
 PYTHON ?= python3
 VENV ?= .venv
 ARGS ?=
 BASE ?= HEAD
+JOBS ?= $(shell nproc)
+PARALLEL = $(if $(filter-out 1,$(JOBS)),-n $(JOBS) --dist loadgroup)
 
 BIN := $(VENV)/bin
 METADATA := setup.py setup.cfg pyproject.toml package.xml
@@ -25,14 +28,14 @@ help: ## what there is to make
 demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view (again: ARGS=--force)
 	@$(BIN)/python -m beardyn_ros demo $(ARGS)
 
-test: $(VENV)/.ready-test ## set up, then the tests
-	@$(BIN)/python -m pytest $(ARGS)
+test: $(VENV)/.ready-test ## set up, then the tests, on JOBS processes (one a core)
+	@$(BIN)/python -m pytest $(PARALLEL) $(ARGS)
 
 same: $(VENV)/.ready-test ## short runs of every tier beside those of commit BASE (default: the last one): same to the bit, or where not
 	@$(BIN)/python -m test.golden.same $(BASE) $(ARGS)
 
 slow: $(VENV)/.ready-test ## set up, then the long tests as well
-	@$(BIN)/python -m pytest -m "slow or not slow" $(ARGS)
+	@$(BIN)/python -m pytest -m "slow or not slow" $(PARALLEL) $(ARGS)
 
 hard: $(VENV)/.ready-test ## set up, then the battery of hard cases side by side: table, hard.json; goes on where it was interrupted
 	@$(BIN)/python -m evidence.hard $(ARGS)

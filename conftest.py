@@ -17,6 +17,13 @@ def pytest_configure(config: pytest.Config) -> None:
         settings.load_profile("repeatable")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Keep the tests of a file in one process, for they share runs, and all nodes in one."""
+    for item in items:
+        group = "nodes" if "graph" in getattr(item, "fixturenames", ()) else item.nodeid.partition("::")[0]
+        item.add_marker(pytest.mark.xdist_group(group))
+
+
 @pytest.fixture(autouse=True)
 def _shipped_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("BEARDYN_CONFIG", raising=False)

@@ -25,6 +25,7 @@ TEST = [
     "mcap-ros2-support>=0.5",
     "psutil>=5.9",
     "pytest>=8",
+    "pytest-xdist>=3.5",
     "setuptools>=64",
     "wheel",
 ]
