@@ -11,7 +11,7 @@ REPOSITORY = Path(__file__).resolve().parent
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """The fast suite draws the same examples every time; the long battery looks for new ones."""
+    """Select the examples of hypothesis: the same every time in the fast suite, new ones in the long one."""
     settings.register_profile("repeatable", derandomize=True)
     if config.getoption("markexpr") == "not slow":
         settings.load_profile("repeatable")

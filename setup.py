@@ -41,7 +41,7 @@ DEV = [
 
 
 def tree(folder: str, *patterns: str) -> list[tuple[str, list[str]]]:
-    """Data files of one folder and its subfolders, installed under share/."""
+    """List the data files of one folder and its subfolders, to be installed under share/."""
     folders = [Path(folder), *sorted(path for path in Path(folder).rglob("*") if path.is_dir())]
     found = [
         (

@@ -1,4 +1,4 @@
-"""The one loop of a run: load made, kernels compiled, equilibrium solved, blocks to the end."""
+"""The one loop of a run: make the load, compile kernels, solve the equilibrium, advance to the end."""
 
 from __future__ import annotations
 

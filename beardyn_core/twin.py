@@ -133,7 +133,7 @@ class Twin:
         return took
 
     def _rehearse(self) -> None:
-        """Go through what a block takes, at rest and with nothing kept."""
+        """Compute a block at rest and discard it, so that all its kernels are compiled."""
         static = _at_rest(self.scene.rows, self.roller_count, len(self._bending_stiffness))
         state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
         steps = self._steps
@@ -209,7 +209,7 @@ class Twin:
         return self.scene.effects.gravity.acceleration if self.scene.effects.gravity else 0.0
 
     def _weight_of_rollers_and_cages(self) -> float:
-        """Weight that the cone carries on top of the cup's force, [N]."""
+        """Compute the weight that the cone carries on top of the cup's force, [N]."""
         scene, bearing = self.scene, self.scene.bearing
         cages = scene.rows * bearing.cage.mass if scene.effects.cage else 0.0
         return self._free_fall * (scene.roller_total * bearing.roller_mass + cages)
@@ -220,7 +220,7 @@ class Twin:
 
     @property
     def blocks_at_once(self) -> int:
-        """Most blocks that `advance` may take: several where only the kernel changes anything meanwhile."""
+        """Largest number of blocks in one `advance`: several where only the kernel acts in between."""
         changing = self._warmth is not None or any(
             isinstance(defect, Patch) and defect.growth is not None for defect in self.scene.defects
         )
@@ -289,12 +289,12 @@ class Twin:
 
     @property
     def _tilt_restraint(self) -> Float:
-        """Against the tilt of the bearing about x and z, [N m/rad]."""
+        """Stiffness of the suspension against tilt of the bearing about x and z, [N m/rad]."""
         return tilt_restraint(self.scene.mounting, self._parameters.mounting)
 
     @property
     def _bending_stiffness(self) -> Float:
-        """Of the cup, [N/m]; empty for a rigid one."""
+        """Bending stiffness of the cup, [N/m]; empty for a rigid one."""
         flexibility = self._parameters.effects.ring_flexibility
         return np.zeros(0) if flexibility is None else np.asarray(flexibility.stiffness)
 
@@ -307,14 +307,14 @@ class Twin:
         return self._complete(tier.shown(self._lanes, rollers, self._kernel_parameters), bodies)
 
     def _complete(self, rollers: Any, bodies: Float) -> tuple[Any, Float]:
-        """With what is missing as the observer wants it."""
+        """Fill in the states of missing rollers for the observer."""
         if self._absence is None:
             return rollers, bodies
         whole = rollers if isinstance(rollers, np.ndarray) else rollers.whole()
         return self._absence.completed(whole, bodies)
 
     def _warm_up(self, loads: Float) -> Float:
-        """Temperatures after the block just computed; the kernels go on with what they change, [K]."""
+        """Compute the temperatures after the block, [K], and update what depends on them in the kernels."""
         scene, state, before = self.scene, self._state, self._warmth
         assert state is not None
         assert before is not None
@@ -330,7 +330,7 @@ class Twin:
         return after.temperature
 
     def _energy_audit(self) -> EnergyAudit | None:
-        """Balance from the start of the run to the start of the block just computed."""
+        """Make the energy balance from the start of the run to the start of the block just computed."""
         if not self._audited:
             return None
         if self._first_audit is None:
@@ -338,7 +338,7 @@ class Twin:
         return EnergyAudit.of(self._audit - self._first_audit)
 
     def truth(self) -> dict[str, Any]:
-        """Tell what is known of the run that a train could not know: scene, faults, labels, versions."""
+        """Write the facts of the run that no train could measure: scene, faults, labels, versions."""
         scene, frequencies = self.scene, fault_frequencies(self.scene.bearing)
         return {
             "scene": scene.name,
@@ -369,7 +369,7 @@ class Twin:
         }
 
     def snapshot(self) -> Snapshot:
-        """Everything the rest of the run depends on; `restore` continues bit-identically."""
+        """Copy everything that the rest of the run depends on; `restore` continues bit-identically."""
         if self._state is None or self._observer is None:
             raise ValidityError("the twin has not been started: there is nothing to keep")
         return Snapshot(
@@ -399,7 +399,7 @@ class Twin:
 
 
 def _at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
-    """A bearing without load, for compiling only."""
+    """Make a bearing without load, for compiling only."""
     none = np.zeros((rows, roller_count))
     return StaticSolution(
         displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,

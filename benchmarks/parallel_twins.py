@@ -33,7 +33,7 @@ def _advance(twin: Twin, blocks: int) -> tuple[float, float]:
 
 
 def _child(connection: Connection, blocks: int) -> None:
-    """A twin in a process of its own: runs as many blocks as it is told, 0 ends it."""
+    """Run a twin in its own process: as many blocks as the connection asks for; 0 ends it."""
     twin = started(load_scene(SCENE), blocks)
     connection.send(None)
     while count := connection.recv():

@@ -17,7 +17,7 @@ SCENES = ("smooth_run", "cup_spall", "cone_spall", "static_5kN")
 
 
 def tiers_and_effects(turns: int) -> Table:
-    """Every tier with every shipped set of effects, steady 80 kN; and finer laminae."""
+    """Time every tier with every shipped set of effects, steady 80 kN; and finer laminae."""
     scenes: dict[str, Scene] = {}
     for tier in reversed(TIER_NAMES):
         for name in SETS:
@@ -51,7 +51,7 @@ def tiers_and_effects(turns: int) -> Table:
 
 
 def chosen_steps(scene: Scene) -> float:
-    """What `auto` takes for the scene when its vibration to 10 kHz is asked for."""
+    """Return the step of `auto` for the scene when its vibration to 10 kHz is asked for."""
     operation = scene.operation
     assert isinstance(operation, ConstantOperation)
     load, speed = math.hypot(operation.force[0], operation.force[2]), operation.speed
@@ -62,7 +62,7 @@ def chosen_steps(scene: Scene) -> float:
 
 
 def fast_tiers(turns: int) -> Table:
-    """The fast tiers with cup held and suspended, and with a fault."""
+    """Time the fast tiers with cup held and suspended, and with a fault."""
     scenes = {
         f"{tier} {name}": load_scene(name, tier=tier)
         for tier in ("lumped", "quasistatic")
@@ -80,7 +80,7 @@ def fast_tiers(turns: int) -> Table:
 
 
 def scenes(turns: int) -> Table:
-    """Shipped scenes as they are."""
+    """Time shipped scenes as they are."""
     found = {name: load_scene(name) for name in SCENES}
     return _table("scenes", "Real-time factor of shipped scenes", take_turns(found, turns), SCENES[0])
 
@@ -101,6 +101,6 @@ def _table(name: str, title: str, timings: dict[str, Timing], reference: str) ->
 
 
 def standard_alone(turns: int) -> Table:
-    """The full tier with standard effects, for a comparison."""
+    """Time the full tier with standard effects, for a comparison."""
     timings = take_turns({"full standard": load_scene("static_80kN")}, turns)
     return _table("standard", "Real-time factor, standard effects", timings, "full standard")

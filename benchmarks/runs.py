@@ -76,7 +76,7 @@ class Timing:
         return 1e6 * statistics.median(self.kernel) / (512 * self.twin.scene.numerics.steps_per_sample)
 
     def real_time_factor(self) -> float:
-        """Simulated over wall time of the median block, all channels included."""
+        """Divide simulated by wall time of the median block, all channels included."""
         return self.twin.block_ns * 1e-9 / statistics.median(self.total)
 
     def ratio_to(self, other: Timing) -> float:
@@ -85,7 +85,7 @@ class Timing:
 
 
 def started(scene: Scene, blocks: int) -> Twin:
-    """A twin at t = 0 with load for some blocks."""
+    """Make a twin at t = 0 with load for some blocks."""
     return start(scene, blocks * Twin.block_ns * 1e-9).twin
 
 
@@ -174,7 +174,7 @@ def straight_line(x: list[float], y: list[float]) -> Line:
 
 
 def machine() -> dict[str, Cell]:
-    """What the numbers were measured on."""
+    """Describe the machine on which the numbers were measured."""
     name = platform.processor() or platform.machine()
     cpu = Path("/proc/cpuinfo")
     if cpu.exists():

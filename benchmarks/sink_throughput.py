@@ -16,7 +16,7 @@ from benchmarks.runs import Table
 
 
 def sinks(blocks: int, repetitions: int) -> Table:
-    """The blocks of one run into every sink, opening and closing included."""
+    """Write the blocks of one run into every sink, opening and closing included."""
     scene = load_scene("static_80kN")
     simulation = start(scene, blocks * Twin.block_ns * 1e-9)
     twin = simulation.twin

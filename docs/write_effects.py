@@ -61,7 +61,7 @@ def _plain(value: Any) -> str:
 
 
 def page() -> str:
-    """The whole page."""
+    """Write the whole page."""
     lines, options = [], []
     for entry in catalogue():
         model, about = keys_of(entry.options), entry.about

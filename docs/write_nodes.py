@@ -92,7 +92,7 @@ def parameter_rows(node: str) -> list[str]:
 
 
 def page() -> str:
-    """The whole page."""
+    """Write the whole page."""
     lines = [HEAD, "| exit code | meaning |", "|---|---|"]
     lines += [*(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items()), ""]
     for node in NODES:

@@ -84,7 +84,7 @@ def railway(scene: Scene) -> bool:
 
 
 def friends(scene: Scene) -> str:
-    """What a monitor may take for a fault and is none."""
+    """Describe what a monitor may mistake for a fault."""
     kinds = [event["kind"].replace("_", " ") for event in events_of(scene)["events"]]
     strange = [kind for kind in dict.fromkeys(kinds) if kind not in ("standstill", "forwards", "backwards")]
     return ", ".join(strange)
@@ -108,7 +108,7 @@ def irregularity(scene: Scene) -> str:
 
 
 def page() -> str:
-    """The whole page."""
+    """Write the whole page."""
     scenes = [load_scene(name) for name in shipped_names("scenes")]
     lines = [HEAD, "| scene | km/h | rail | fault | false friends |", "|---|---|---|---|---|"]
     for scene in filter(railway, scenes):
@@ -154,7 +154,7 @@ def _irregularities() -> Iterator[str]:
 
 
 def _deviation(kind: str, direction: str, longest: float) -> float:
-    """Standard deviation over 3 m to the longest wave, [mm]."""
+    """Compute the standard deviation over 3 m to the longest wave, [mm]."""
     wavenumber = np.geomspace(2.0 * np.pi / longest, 2.0 * np.pi / 3.0, 20_001)
     density = spectral_density(kind, wavenumber, direction)
     return float(1e3 * np.sqrt(np.sum(0.5 * (density[1:] + density[:-1]) * np.diff(wavenumber))))
@@ -234,7 +234,7 @@ def _mark(axes: Any, event: dict[str, Any]) -> None:
 
 
 def problems() -> list[str]:
-    """What of the page and its pictures is not as the scenes have it."""
+    """List what of the page and its pictures differs from the scenes."""
     found = []
     if not PAGE.exists() or PAGE.read_text(encoding="utf-8") != page():
         found.append(f"{PAGE.name} is not what the scenes say: python docs/write_scenes.py")

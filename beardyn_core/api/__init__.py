@@ -1,4 +1,4 @@
-"""What a Python program asks for: runs, things made in code, answers without a run.
+"""The interface for Python programs: runs, objects made in code, answers without a run.
 
 =========== ==================================================================
 module      responsibility

@@ -1,4 +1,4 @@
-"""Bearings, lubricants and scenes from names, files, mappings or a handful of arguments."""
+"""Bearings, lubricants and scenes from names, files, mappings or a few arguments."""
 
 from __future__ import annotations
 

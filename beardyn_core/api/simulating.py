@@ -97,7 +97,7 @@ def simulate(
 
 @contextmanager
 def _bar(total: float, shown: bool) -> Iterator[Callable[[Block], None] | None]:
-    """Give what moves a bar by a block, or ``None`` when none is asked for."""
+    """Return a function that moves the progress bar by a block; ``None`` without a bar."""
     if not shown:
         yield None
         return

@@ -11,7 +11,7 @@ from beardyn_core.errors import InputError
 
 
 def check(bearing: Bearing) -> list[str]:
-    """All contradictions of `bearing`, one sentence each; empty when it is sound.
+    """List the contradictions of `bearing`, one sentence each; empty when there is none.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def _check_numbers(bearing: Bearing) -> list[str]:
 
 
 def _check_closure(bearing: Bearing) -> list[str]:
-    """Conditions without which cone angle and rib angle do not exist."""
+    """Find dimensions for which no cone angle or rib angle exists."""
     problems = []
     if bearing.cone_angle <= 0.0:
         problems.append(
@@ -114,7 +114,7 @@ def _check_roller(bearing: Bearing) -> list[str]:
 
 
 def _check_ribs(bearing: Bearing) -> list[str]:
-    """Contact of the roller end between undercut and corner of the rib, and inside the roller's rim."""
+    """Check that the roller end touches the rib between undercut and corner, inside the roller's rim."""
     problems = []
     height, undercut = bearing.rib_contact_height, bearing.rib_undercut
     if not height < bearing.rib_height:

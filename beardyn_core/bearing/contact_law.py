@@ -17,7 +17,7 @@ POINT_EXPONENT = 1.5
 
 
 def line_contact_factor(material: Material, length: float) -> float:
-    """Stiffness factor K of ONE line contact, Q = K delta^(10/9).
+    """Compute the stiffness factor K of ONE line contact, Q = K delta^(10/9).
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class PointContact:
         return math.pi * self.ellipticity * self.contact_modulus * root
 
     def semi_axes(self, load: float) -> tuple[float, float]:
-        """Semi-axes (larger, smaller) of the contact ellipse under `load` [N], [m]."""
+        """Compute the semi-axes (larger, smaller) of the contact ellipse under `load` [N], [m]."""
         k = self.ellipticity
         cubed = 6.0 * k**2 * self.integral_second * load * self.radius / (math.pi * self.contact_modulus)
         larger = cubed ** (1.0 / 3.0)
@@ -112,7 +112,7 @@ class PointContact:
 
 
 def point_contact_factor(radius_x: float, radius_y: float, contact_modulus: float) -> float:
-    """Hertz stiffness factor K of a point contact, Q = K delta^1.5.
+    """Compute the Hertz stiffness factor K of a point contact, Q = K delta^1.5.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def point_contact_factor(radius_x: float, radius_y: float, contact_modulus: floa
 
 
 def rib_curvature_radius(bearing: Bearing) -> float:
-    """R_rib: radius of curvature of the rib cone around the ring at the nominal contact, concave, [m]."""
+    """Compute R_rib, the radius of curvature of the concave rib cone at the nominal contact, [m]."""
     distance = bearing.apex_distance + bearing.sphere_centre
     normal_angle = bearing.contact_angle - bearing.rib_polar_angle
     contact_radius = distance * math.sin(bearing.contact_angle) + bearing.sphere_radius * math.sin(
@@ -144,7 +144,7 @@ _LEAST_CURVATURE = 1.0e-3
 
 
 def rib_contact(bearing: Bearing) -> PointContact:
-    """Contact of the spherical roller end with the conical rib of the cone.
+    """Compute the contact of the spherical roller end with the conical rib of the cone.
 
     Notes
     -----
@@ -159,7 +159,7 @@ def rib_contact(bearing: Bearing) -> PointContact:
 
 
 def rib_contact_factor(bearing: Bearing) -> float:
-    """Stiffness factor K of the rib contact, Q = K delta^1.5, [N/m^1.5]."""
+    """Compute the stiffness factor K of the rib contact, Q = K delta^1.5, [N/m^1.5]."""
     return rib_contact(bearing).factor
 
 
@@ -169,7 +169,7 @@ def curvature_sum(curvatures: tuple[float, float, float, float]) -> float:
 
 
 def curvature_difference(curvatures: tuple[float, float, float, float]) -> float:
-    """F(rho) = |(rho_I1 - rho_I2) + (rho_II1 - rho_II2)| / sum(rho), [-].
+    """Compute F(rho) = |(rho_I1 - rho_I2) + (rho_II1 - rho_II2)| / sum(rho), [-].
 
     References
     ----------

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 
 def edge_concentration(lamina_count: int) -> NDArray[np.float64]:
-    """Factor on the load per length of each lamina in the rating life of a profiled roller.
+    """Compute the factor on the load per length of each lamina in the rating life of a profiled roller.
 
     Parameters
     ----------

@@ -50,7 +50,7 @@ def line_film(
     pressure_viscosity: float,
     formula: str = "dowson_higginson",
 ) -> float:
-    """Flooded isothermal film of an elastohydrodynamic line contact.
+    """Compute the flooded isothermal film of an elastohydrodynamic line contact.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def line_film(
 def rigid_line_film(
     load_per_length: float, entrainment_speed: float, radius: float, viscosity: float
 ) -> float:
-    """Film of a line contact of rigid surfaces with an oil that pressure does not thicken, [m].
+    """Compute the film of a line contact of rigid surfaces with an oil that pressure does not thicken, [m].
 
     The film of lightly loaded rollers; where it is thicker than the elastohydrodynamic one, it rules.
 
@@ -105,7 +105,7 @@ def rigid_line_film(
 
 
 def ellipticity(radius_x: float, radius_y: float) -> float:
-    """Axis ratio of the contact ellipse, across over along the rolling direction x, [-].
+    """Compute the axis ratio of the contact ellipse, across over along the rolling direction x, [-].
 
     References
     ----------
@@ -123,7 +123,7 @@ def point_film_central(
     viscosity: float,
     pressure_viscosity: float,
 ) -> float:
-    """Flooded isothermal central film of an elastohydrodynamic point contact.
+    """Compute the flooded isothermal central film of an elastohydrodynamic point contact.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def point_film_minimum(
     viscosity: float,
     pressure_viscosity: float,
 ) -> float:
-    """Flooded isothermal minimum film of an elastohydrodynamic point contact; as `point_film_central`.
+    """Compute the flooded isothermal minimum film of a point contact; as `point_film_central`.
 
     References
     ----------
@@ -188,7 +188,7 @@ def _point_groups(
     viscosity: float,
     pressure_viscosity: float,
 ) -> tuple[float, float, float]:
-    """U, G and W of a point contact."""
+    """Compute U, G and W of a point contact."""
     return (
         viscosity * entrainment_speed / (contact_modulus * radius_x),
         pressure_viscosity * contact_modulus,
@@ -199,7 +199,7 @@ def _point_groups(
 def starvation_central(
     flooded_film: float, radius_x: float, inlet_distance: float, half_width: float
 ) -> float:
-    """Central film over the flooded one when the oil begins close before the contact, 0 to 1.
+    """Compute the central film over the flooded one when the oil begins close before the contact, 0 to 1.
 
     Parameters
     ----------
@@ -223,7 +223,7 @@ def starvation_central(
 def starvation_minimum(
     flooded_film: float, radius_x: float, inlet_distance: float, half_width: float
 ) -> float:
-    """Minimum film over the flooded one, as `starvation_central` with 3.34 and 0.25."""
+    """Compute the minimum film over the flooded one, as `starvation_central` with 3.34 and 0.25."""
     return _starvation(flooded_film * radius_x / half_width**2, inlet_distance / half_width, 3.34, 0.25)
 
 
@@ -252,12 +252,12 @@ THERMAL_FORMULAS: dict[str, ThermalFormula] = {
 def thermal_loading(
     viscosity: float, temperature_coefficient: float, entrainment_speed: float, conductivity: float
 ) -> float:
-    """Thermal loading of the inlet, L = eta beta u^2 / k, [-]; SI arguments, beta = -d(ln eta)/dT."""
+    """Compute the thermal loading of the inlet, L = eta beta u^2 / k, [-]; beta = -d(ln eta)/dT in SI."""
     return viscosity * temperature_coefficient * entrainment_speed**2 / conductivity
 
 
 def thermal_factor(loading: float, formula: str) -> float:
-    """Film over the isothermal one at a thermal loading, 0 to 1.
+    """Compute the film over the isothermal one at a thermal loading, 0 to 1.
 
     Parameters
     ----------
@@ -278,7 +278,7 @@ def thermal_factor(loading: float, formula: str) -> float:
 def gupta_cheng_factor(
     loading: float, largest_pressure: float, contact_modulus: float, slide_ratio: float
 ) -> float:
-    """Film over the isothermal one with load and sliding, 0 to 1.
+    """Compute the film over the isothermal one with load and sliding, 0 to 1.
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ def roller_forces(
     rib_angle: float,
     centrifugal: float = 0.0,
 ) -> tuple[float, float]:
-    """Cone load and rib load that balance a cup load.
+    """Compute the cone load and rib load that balance a cup load.
 
     Parameters
     ----------
@@ -42,5 +42,5 @@ def roller_forces(
 
 
 def centrifugal_cup_load(centrifugal: float, cup_angle: float, rib_angle: float) -> float:
-    """Cup load of a roller that the cone does not press, F_c sin(af)/sin(ao + af), [N]."""
+    """Compute the cup load of a roller that the cone does not press, F_c sin(af)/sin(ao + af), [N]."""
     return centrifugal * math.sin(rib_angle) / math.sin(cup_angle + rib_angle)

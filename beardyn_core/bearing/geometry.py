@@ -178,7 +178,7 @@ class Bearing:
 
     @property
     def roller_mass(self) -> float:
-        """Of the truncated cone over the overall length, [kg]."""
+        """Mass of a roller as a truncated cone over its overall length, [kg]."""
         return math.pi * self.material.density * math.tan(self.half_angle) ** 2 * self._power_difference(3)
 
     @property
@@ -202,7 +202,7 @@ class Bearing:
         return about_apex - self.roller_mass * (self.apex_distance + self.roller_mass_offset) ** 2
 
     def _power_difference(self, power: int) -> float:
-        """Integral of s^(power - 1) over the roller, s from the apex, [m^power]."""
+        """Compute the integral of s^(power - 1) over the roller, s from the apex, [m^power]."""
         near = self.apex_distance - 0.5 * self.roller_length
         far = self.apex_distance + 0.5 * self.roller_length
         return float(far**power - near**power) / power

@@ -58,7 +58,7 @@ class ExactPointContact(PointContact):
 
 
 def _log_radius_ratio(ellipticity: float) -> float:
-    """ln(Ry/Rx) of an ellipse of semi-axis ratio k; 0 for a circle."""
+    """Compute ln(Ry/Rx) of an ellipse of semi-axis ratio k; 0 for a circle."""
     if ellipticity < 1.0 + 1e-7:
         return 0.0
     first, second = complete_elliptic(1.0 - ellipticity**-2)
@@ -66,7 +66,7 @@ def _log_radius_ratio(ellipticity: float) -> float:
 
 
 def exact_rib_contact(bearing: Bearing) -> ExactPointContact:
-    """`contact_law.rib_contact` with complete elliptic integrals."""
+    """Compute `contact_law.rib_contact` with complete elliptic integrals."""
     fitted = rib_contact(bearing)
     return ExactPointContact(fitted.radius_x, fitted.radius_y, fitted.contact_modulus)
 
@@ -89,13 +89,13 @@ class RibEllipse:
 
 
 def rib_ellipse(bearing: Bearing, load: float) -> RibEllipse:
-    """Contact ellipse of the rib under a load [N]."""
+    """Compute the contact ellipse of the rib under a load [N]."""
     around, along = exact_rib_contact(bearing).semi_axes(load)
     return RibEllipse(around, along, 1.5 * load / (math.pi * around * along) if load > 0.0 else 0.0)
 
 
 def rib_truncation(bearing: Bearing, load: float) -> list[str]:
-    """Where the contact ellipse under a load [N] reaches beyond the rib face or the roller end, in sentences.
+    """Say where the contact ellipse under a load [N] reaches beyond the rib face or the roller end.
 
     The Hertz contact does not know these borders: pressure and stiffness are off where they are passed.
     """

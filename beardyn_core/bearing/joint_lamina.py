@@ -23,12 +23,12 @@ _SMALLEST = 1.0e-12
 
 
 def part_exponent(strength: float) -> float:
-    """Exponent n of the part of a lamina that stands higher, for a strength of the coupling, [-]."""
+    """Compute the exponent n of the higher part of a lamina, for a strength of the coupling, [-]."""
     return 1.0 - _LOST_EXPONENT * strength
 
 
 def joint_depth(depth: Float, gap: Float, cover: Float, exponent: float) -> tuple[Float, Float]:
-    """Depth D of laminae of which a patch covers a part.
+    """Compute the depth D of laminae of which a patch covers a part.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ class FaultFrequencies:
 def frequencies(
     roller_count: int, pitch_diameter: float, roller_diameter: float, angle: float
 ) -> FaultFrequencies:
-    """Fault frequencies of any rolling bearing with the outer ring at rest.
+    """Compute the fault frequencies of any rolling bearing with the outer ring at rest.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def frequencies(
 
 
 def fault_frequencies(bearing: Bearing) -> FaultFrequencies:
-    """Fault frequencies of one row of `bearing` per shaft revolution.
+    """Compute the fault frequencies of one row of `bearing` per shaft revolution.
 
     References
     ----------
@@ -69,18 +69,18 @@ def fault_frequencies(bearing: Bearing) -> FaultFrequencies:
 
 
 def cage_speed_ratio(bearing: Bearing) -> float:
-    """Cage speed over shaft speed in pure rolling, sin(ai)/(sin(ai) + sin(ao)), [-]."""
+    """Compute the cage speed over shaft speed in pure rolling, sin(ai)/(sin(ai) + sin(ao)), [-]."""
     cone, cup = math.sin(bearing.cone_angle), math.sin(bearing.cup_angle)
     return cone / (cone + cup)
 
 
 def cage_speed(bearing: Bearing, shaft_speed: float) -> float:
-    """Speed of cage and roller centres about the bearing axis in pure rolling, [rad/s]."""
+    """Compute the speed of cage and roller centres about the bearing axis in pure rolling, [rad/s]."""
     return cage_speed_ratio(bearing) * shaft_speed
 
 
 def roller_spin(bearing: Bearing, shaft_speed: float) -> float:
-    """Spin of a roller about its own axis relative to the cage, [rad/s].
+    """Compute the spin of a roller about its own axis relative to the cage, [rad/s].
 
     Positive when opposite to the sense in which the shaft turns: w_c sin(ao)/sin(phi).
     """
@@ -88,7 +88,7 @@ def roller_spin(bearing: Bearing, shaft_speed: float) -> float:
 
 
 def roller_cone_spin(bearing: Bearing, shaft_speed: float) -> float:
-    """Relative speed of roller and cone about their common generator, [rad/s].
+    """Compute the relative speed of roller and cone about their common generator, [rad/s].
 
     The rib contact slides with this speed times its height above the cone raceway.
     """

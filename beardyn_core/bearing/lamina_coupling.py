@@ -47,7 +47,7 @@ class LaminaRoot:
 
 
 def rectangle_influence(distance: Float, length: float, half_width: float, contact_modulus: float) -> Float:
-    """Approach at `distance` along the line from the middle of a uniformly pressed rectangle, per load.
+    """Compute the approach per load at `distance` along the line from a uniformly pressed rectangle.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def rectangle_influence(distance: Float, length: float, half_width: float, conta
 def lamina_root(
     count: int, length: float, radius: float, contact_modulus: float, pressure: float, strength: float = 1.0
 ) -> LaminaRoot:
-    """Matrices of a line of equal laminae.
+    """Compute the matrices of a line of equal laminae.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def lamina_root(
 
 
 def bearing_lamina_root(bearing: Bearing, coupling: LaminaCoupling, count: int) -> LaminaRoot:
-    """Matrices of the raceway contacts; one width stands for both, taken with the roller's radius."""
+    """Compute the matrices of the raceway contacts, with one width for both, by the roller's radius."""
     return lamina_root(
         count,
         bearing.effective_length,
@@ -176,7 +176,7 @@ def coupled_law(depth: Float, factor: float, laminae: LaminaRoot) -> tuple[Float
 
 
 def _surface(depth: Float, factor: float, laminae: LaminaRoot) -> Float:
-    """Depth of the surface at every lamina of touching lines, shape [line, lamina], [m]."""
+    """Compute the depth of the surface at every lamina of touching lines, shape [line, lamina], [m]."""
     root, own = laminae.root, np.diag(laminae.stiffness)
     follow = (laminae.stiffness - np.diag(own)) / own[:, None]
     surface = np.maximum(depth, 0.0)
@@ -207,14 +207,14 @@ def _surface(depth: Float, factor: float, laminae: LaminaRoot) -> Float:
 
 
 def _springs(surface: Float, factor: float, root: Float) -> tuple[Float, Float]:
-    """Secant stiffness and force of the independent laminae at W u."""
+    """Compute the secant stiffness and force of the independent laminae at W u."""
     depth = surface @ root
     local = factor * np.maximum(np.abs(depth), 1.0e-15) ** (1.0 / 9.0)
     return local, local * depth
 
 
 def _stiffness(local: Float, loaded: NDArray[np.bool_], root: Float) -> Float:
-    """Tangent of the loads: inverse of the compliance among the loaded laminae."""
+    """Compute the tangent of the loads: inverse of the compliance among the loaded laminae."""
     inverse = np.linalg.inv(root)
     compliance = (inverse * (0.9 / local)[..., None, :]) @ inverse
     both = loaded[..., :, None] & loaded[..., None, :]

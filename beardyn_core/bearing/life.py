@@ -47,7 +47,7 @@ class DynamicRating:
     thrust_high: float
 
     def equivalent_load(self, radial: float, axial: float) -> float:
-        """Dynamic equivalent radial load P of a radial and an axial force, [N]."""
+        """Compute the dynamic equivalent radial load P of a radial and an axial force, [N]."""
         axial = abs(axial)
         if axial <= self.thrust_limit * radial:
             return radial + self.thrust_low * axial
@@ -55,7 +55,7 @@ class DynamicRating:
 
 
 def rating_factor(gamma: float) -> float:
-    """f_c of a radial roller bearing with line contact, [N/mm^(...)].
+    """Compute the factor f_c of a radial roller bearing with line contact, [N/mm^(...)].
 
     Parameters
     ----------
@@ -74,12 +74,12 @@ def rating_factor(gamma: float) -> float:
 
 
 def rating_gamma(bearing: Bearing) -> float:
-    """Dwe cos(alpha) / Dpw with the cup angle, which is the contact angle of the standards, [-]."""
+    """Compute Dwe cos(alpha) / Dpw with the cup angle, the contact angle of the standards, [-]."""
     return bearing.roller_diameter * math.cos(bearing.cup_angle) / bearing.pitch_diameter
 
 
 def dynamic_rating(bearing: Bearing) -> DynamicRating:
-    """Dynamic load rating of the double row; the contact angle of ISO 281 is the cup angle."""
+    """Compute the dynamic load rating of the double row; the contact angle of ISO 281 is the cup angle."""
     angle = bearing.cup_angle
     diameter = bearing.roller_diameter * _MILLIMETRES
     length = bearing.effective_length * _MILLIMETRES
@@ -99,7 +99,7 @@ def dynamic_rating(bearing: Bearing) -> DynamicRating:
 
 
 def static_rating(bearing: Bearing) -> float:
-    """Static radial load rating C_0r of the double row, [N].
+    """Compute the static radial load rating C_0r of the double row, [N].
 
     References
     ----------
@@ -112,7 +112,7 @@ def static_rating(bearing: Bearing) -> float:
 
 
 def load_doubts(bearing: Bearing, force: Sequence[float]) -> tuple[str, str]:
-    """Judge whether a bearing can be meant to carry a force.
+    """Say why a force is implausible for a bearing.
 
     Parameters
     ----------
@@ -154,7 +154,7 @@ def load_doubts(bearing: Bearing, force: Sequence[float]) -> tuple[str, str]:
 
 
 def fatigue_load_limit(bearing: Bearing) -> float:
-    """Fatigue load limit C_u of the double row, [N].
+    """Compute the fatigue load limit C_u of the double row, [N].
 
     References
     ----------
@@ -166,7 +166,7 @@ def fatigue_load_limit(bearing: Bearing) -> float:
 
 
 def reference_viscosity(bearing: Bearing, speed: float) -> float:
-    """Kinematic viscosity nu_1 that gives an adequate film, [m^2/s].
+    """Compute the kinematic viscosity nu_1 that gives an adequate film, [m^2/s].
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def reference_viscosity(bearing: Bearing, speed: float) -> float:
 
 
 def life_modification(viscosity_ratio: float, contamination: float, limit_ratio: float) -> float:
-    """Life modification factor a_ISO of radial roller bearings, [-].
+    """Compute the life modification factor a_ISO of radial roller bearings, [-].
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ def life_modification(viscosity_ratio: float, contamination: float, limit_ratio:
 
 
 def basic_rating_life(rating: float, equivalent_load: float) -> float:
-    """Basic rating life L_10, [revolutions]; infinite without load.
+    """Compute the basic rating life L_10, [revolutions]; infinite without load.
 
     References
     ----------

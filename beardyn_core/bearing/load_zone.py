@@ -16,7 +16,7 @@ _ORDER = 400
 
 
 def radial_integral(extent: float, exponent: float = LINE_EXPONENT) -> float:
-    """J_r: radial load of a row over Z Q_max cos(alpha), [-].
+    """Compute J_r, the radial load of a row over Z Q_max cos(alpha), [-].
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def radial_integral(extent: float, exponent: float = LINE_EXPONENT) -> float:
 
 
 def axial_integral(extent: float, exponent: float = LINE_EXPONENT) -> float:
-    """J_a: axial load of a row over Z Q_max sin(alpha), [-]; arguments as `radial_integral`."""
+    """Compute J_a, the axial load of a row over Z Q_max sin(alpha), [-]; arguments as `radial_integral`."""
     return _zone_integral(extent, exponent, radial=False)
 
 

@@ -19,7 +19,7 @@ BASE_OILS = tuple(_GOLD)
 
 
 def walther_viscosity(at_40: float, at_100: float, temperature: float) -> float:
-    """Kinematic viscosity at `temperature` [K] from those at 40 and 100 deg C, [m^2/s].
+    """Compute the kinematic viscosity at `temperature` [K] from those at 40 and 100 deg C, [m^2/s].
 
     References
     ----------
@@ -32,7 +32,7 @@ def walther_viscosity(at_40: float, at_100: float, temperature: float) -> float:
 
 
 def gold_pressure_viscosity(kinematic_viscosity: float, base_oil: str) -> float:
-    """Pressure-viscosity coefficient of an oil of which only the viscosity is known, [1/Pa].
+    """Compute the pressure-viscosity coefficient of an oil of which only the viscosity is known, [1/Pa].
 
     Parameters
     ----------
@@ -81,14 +81,14 @@ class Lubricant:
     sources: tuple[tuple[str, str], ...] = ()
 
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
-        """Leave the Barus coefficient out that follows from the viscosity."""
+        """Omit the Barus coefficient when it was derived from the viscosity."""
         viscosity = self.kinematic_viscosity(self.pressure_viscosity_temperature)
         if self.pressure_viscosity == gold_pressure_viscosity(viscosity, self.base_oil):
             keys.pop("pressure_viscosity_per_GPa")
         return keys
 
     def rules(self) -> Iterator[str]:
-        """Find viscosities that cannot be those of one oil."""
+        """Check that the two viscosities can belong to one oil."""
         at_40, at_100 = self.kinematic_viscosity_40 / _MM2_PER_S, self.kinematic_viscosity_100 / _MM2_PER_S
         if at_100 >= at_40:
             yield (
@@ -97,15 +97,15 @@ class Lubricant:
             )
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Kinematic viscosity at `temperature` [K], [m^2/s]; `walther_viscosity`."""
+        """Compute the kinematic viscosity at `temperature` [K], [m^2/s]; `walther_viscosity`."""
         return walther_viscosity(self.kinematic_viscosity_40, self.kinematic_viscosity_100, temperature)
 
     def dynamic_viscosity(self, temperature: float) -> float:
-        """Dynamic viscosity at `temperature` [K] and ambient pressure, [Pa s]."""
+        """Compute the dynamic viscosity at `temperature` [K] and ambient pressure, [Pa s]."""
         return self.density * self.kinematic_viscosity(temperature)
 
     def pressure_viscosity_at(self, temperature: float) -> float:
-        """Barus coefficient at `temperature` [K], scaled from the given value, [1/Pa].
+        """Compute the Barus coefficient at `temperature` [K], scaled from the stated value, [1/Pa].
 
         References
         ----------
@@ -117,7 +117,7 @@ class Lubricant:
         return self.pressure_viscosity * ratio ** _GOLD[self.base_oil][1]
 
     def roelands_constants(self, temperature: float) -> tuple[float, float]:
-        """Level ln eta_0 + 9.67 and exponent Z of Roelands' law at `temperature` [K].
+        """Compute the level ln eta_0 + 9.67 and exponent Z of Roelands' law at `temperature` [K].
 
         The slope at ambient pressure is that of Barus: Z = alpha / [5.1e-9 (ln eta_0 + 9.67)].
         """
@@ -125,7 +125,7 @@ class Lubricant:
         return level, self.pressure_viscosity_at(temperature) / (5.1e-9 * level)
 
     def roelands_viscosity(self, temperature: float, pressure: float) -> float:
-        """Dynamic viscosity at `pressure` [Pa] and `temperature` [K], [Pa s].
+        """Compute the dynamic viscosity at `pressure` [Pa] and `temperature` [K], [Pa s].
 
         References
         ----------
@@ -138,5 +138,5 @@ class Lubricant:
 
 
 def _walther(kinematic_viscosity: float) -> float:
-    """log10 log10(nu + 0.7) of a viscosity in m^2/s."""
+    """Compute log10 log10(nu + 0.7) of a viscosity in m^2/s."""
     return math.log10(math.log10(kinematic_viscosity / _MM2_PER_S + 0.7))

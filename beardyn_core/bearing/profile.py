@@ -84,7 +84,7 @@ class Profile:
     ] = None
 
     def rules(self) -> Iterator[str]:
-        """Find what the kind needs and is not given, or does not have and is: the first of it."""
+        """Check that the profile has the numbers that its kind needs, and no other; report one mistake."""
         needed, one_of, optional = _KEYS_OF_KIND[self.kind]
         values = {
             "drop_um": self.drop,
@@ -114,7 +114,7 @@ class Profile:
         roller_diameter: float,
         contact_modulus: float = 226.4e9,
     ) -> Float:
-        """Profile drop along the generator.
+        """Compute the profile drop along the generator.
 
         Parameters
         ----------
@@ -189,20 +189,20 @@ class Profile:
         return math.pi * radius * (self.design_pressure or 0.0) ** 2 / modulus
 
     def _iso_scale(self, modulus: float) -> float:
-        """Factor of the standard's function: that of Lundberg's at the design pressure on a short roller."""
+        """Compute the factor of the standard's function: Lundberg's at the design pressure, short roller."""
         if self.design_pressure is None:
             return 1.0
         return (self.design_pressure / modulus) ** 2 / (2.0 * _ISO_SHORT_FACTOR)
 
 
 def _logarithm(squared: Float) -> Float:
-    """ln(1/(1 - s)), held constant where s gets too near 1."""
+    """Compute ln(1/(1 - s)), held constant where s gets too near 1."""
     result: Float = -np.log1p(-np.minimum(squared, _LARGEST_SQUARED_ABSCISSA))
     return result
 
 
 def _iso_drop(share: Float, length: float, roller_diameter: float) -> Float:
-    """Profile function of ISO/TS 16281 at a share of the half length, [m]."""
+    """Compute the profile function of ISO/TS 16281 at a share of the half length, [m]."""
     if length <= _ISO_LONG_ROLLER * roller_diameter:
         return _ISO_SHORT_FACTOR * roller_diameter * _logarithm(share**2)
     curved = _ISO_LONG_ROLLER * roller_diameter

@@ -50,7 +50,7 @@ class ReferenceLife:
 
 
 def contact_ratings(bearing: Bearing) -> tuple[float, float]:
-    """Dynamic load ratings Q_ci and Q_ce of one roller on cone and cup, [N].
+    """Compute the dynamic load ratings Q_ci and Q_ce of one roller on cone and cup, [N].
 
     References
     ----------
@@ -72,7 +72,7 @@ def reference_life(
     viscosity_ratio: float,
     contamination: float,
 ) -> ReferenceLife:
-    """Basic and modified reference rating life; the cone turns and the load stands still.
+    """Compute the basic and modified reference rating life; the cone turns, the load direction is fixed.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ LOAD_EXPONENT = -0.067
 def rib_film_thickness(
     bearing: Bearing, load: float, entrainment_speed: float, viscosity: float, pressure_viscosity: float
 ) -> float:
-    """Central film thickness of the flooded rib contact, [m].
+    """Compute the central film thickness of the flooded rib contact, [m].
 
     Parameters
     ----------
@@ -60,5 +60,5 @@ def rib_film_thickness(
 def log2_rib_film_factor(
     bearing: Bearing, viscosity: float, pressure_viscosity: float, starvation: float
 ) -> float:
-    """Binary logarithm of the film thickness at 1 N and 1 m/s, [log2 m]."""
+    """Compute the binary logarithm of the film thickness at 1 N and 1 m/s, [log2 m]."""
     return math.log2(starvation * rib_film_thickness(bearing, 1.0, 1.0, viscosity, pressure_viscosity))

@@ -32,7 +32,7 @@ class ThinRing:
     mass: float
 
     def modal_stiffness(self, waves: int) -> float:
-        """Second derivative of the bending energy with the amplitude of a mode, [N/m].
+        """Compute the second derivative of the bending energy with the amplitude of a mode, [N/m].
 
         References
         ----------
@@ -41,24 +41,24 @@ class ThinRing:
         return math.pi * self.rigidity * (waves**2 - 1) ** 2 / self.radius**3
 
     def modal_mass(self, waves: int) -> float:
-        """Second derivative of the kinetic energy with the speed of the amplitude, [kg]."""
+        """Compute the second derivative of the kinetic energy with the speed of the amplitude, [kg]."""
         return 0.5 * self.mass * (1.0 + 1.0 / waves**2)
 
 
 def rectangular_ring(inner: float, wall: float, width: float, modulus: float, mass: float) -> ThinRing:
-    """Ring of rectangular section from its inner radius, wall thickness and width along the axis, [m]."""
+    """Make a ring of rectangular section from inner radius, wall thickness and axial width, [m]."""
     return ThinRing(inner + 0.5 * wall, modulus * width * wall**3 / 12.0, mass)
 
 
 def cup_ring(bearing: Bearing) -> ThinRing:
-    """The cup, its wall taken at the mid-length of the rollers."""
+    """Make the ring that stands for the cup, its wall taken at the mid-length of the rollers."""
     raceway = bearing.apex_distance / math.cos(bearing.half_angle) * math.sin(bearing.cup_angle)
     wall = 0.5 * bearing.outer_diameter - raceway
     return rectangular_ring(raceway, wall, bearing.width, bearing.material.youngs_modulus, bearing.cup_mass)
 
 
 def housing_ring(bearing: Bearing, wall: float, modulus: float, density: float) -> ThinRing:
-    """The wall of the housing around the cup, as wide as the bearing."""
+    """Make the ring that stands for the housing wall around the cup, as wide as the bearing."""
     inner = 0.5 * bearing.outer_diameter
     mass = density * bearing.width * math.pi * ((inner + wall) ** 2 - inner**2)
     return rectangular_ring(inner, wall, bearing.width, modulus, mass)

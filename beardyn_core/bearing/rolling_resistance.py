@@ -71,7 +71,7 @@ class RollingContact:
 
 
 def thermal_reduction(loading: float) -> float:
-    """Share of the isothermal rolling couple that heating of the inlet leaves, [-].
+    """Compute the share of the isothermal rolling couple that heating of the inlet leaves, [-].
 
     References
     ----------
@@ -81,7 +81,7 @@ def thermal_reduction(loading: float) -> float:
 
 
 def aihara_line(contact: RollingContact) -> float:
-    """Rolling couple of a line contact, isothermal and fully flooded, [N m].
+    """Compute the rolling couple of a line contact, isothermal and fully flooded, [N m].
 
     References
     ----------
@@ -91,7 +91,7 @@ def aihara_line(contact: RollingContact) -> float:
 
 
 def zhou_hoeprich_line(contact: RollingContact) -> float:
-    """Rolling couple of a line contact, isothermal and fully flooded, [N m].
+    """Compute the rolling couple of a line contact, isothermal and fully flooded, [N m].
 
     References
     ----------
@@ -108,7 +108,7 @@ def zhou_hoeprich_line(contact: RollingContact) -> float:
 
 
 def biboulet_houpert_force(contact: RollingContact) -> float:
-    """Rolling force on either surface of a line contact, [N].
+    """Compute the rolling force on either surface of a line contact, [N].
 
     From the rigid isoviscous to the elastic regime; the rigid limit is Martin's solution within 4 %.
 
@@ -126,12 +126,12 @@ def biboulet_houpert_force(contact: RollingContact) -> float:
 
 
 def biboulet_houpert_line(contact: RollingContact) -> float:
-    """Rolling couple 2 F_R R of a line contact, [N m]; see `biboulet_houpert_force`."""
+    """Compute the rolling couple 2 F_R R of a line contact, [N m]; see `biboulet_houpert_force`."""
     return 2.0 * contact.radius * biboulet_houpert_force(contact)
 
 
 def hysteresis_line(load: float, half_width: float, loss_factor: float) -> float:
-    """Couple from the elastic hysteresis of a line contact, [N m].
+    """Compute the couple from the elastic hysteresis of a line contact, [N m].
 
     Parameters
     ----------
@@ -150,12 +150,12 @@ def hysteresis_line(load: float, half_width: float, loss_factor: float) -> float
 
 
 def hertz_half_width(load_per_length: float, radius: float, contact_modulus: float) -> float:
-    """Half width of a Hertz line contact, b = sqrt(4 q R / (pi E*)), E* = E'/2, [m]."""
+    """Compute the half width of a Hertz line contact, b = sqrt(4 q R / (pi E*)), E* = E'/2, [m]."""
     return math.sqrt(8.0 * load_per_length * radius / (math.pi * contact_modulus))
 
 
 def aihara_point(contact: RollingContact) -> float:
-    """Rolling couple of a point contact, isothermal; `length` is the semi-major axis, [N m].
+    """Compute the rolling couple of a point contact, isothermal; `length` is the semi-major axis, [N m].
 
     References
     ----------
@@ -165,7 +165,7 @@ def aihara_point(contact: RollingContact) -> float:
 
 
 def fujiwara_point(contact: RollingContact, aspect: float) -> float:
-    """Rolling couple of a point contact, isothermal, [N m].
+    """Compute the rolling couple of a point contact, isothermal, [N m].
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def fujiwara_point(contact: RollingContact, aspect: float) -> float:
 
 
 def houpert_point(contact: RollingContact, semi_minor: float) -> float:
-    """Rolling couple of a point contact from the rigid to the elastic regime, isothermal, [N m].
+    """Compute the rolling couple of a point contact, rigid to elastic regime, isothermal, [N m].
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def houpert_point(contact: RollingContact, semi_minor: float) -> float:
 def _power_law(
     contact: RollingContact, load_parameter: float, factor: float, speed_exponent: float, load_exponent: float
 ) -> float:
-    """Couple factor/alpha (G U)^s W^w R^2 l, [N m]."""
+    """Compute the couple factor/alpha (G U)^s W^w R^2 l, [N m]."""
     film = (contact.material_parameter * contact.speed_parameter) ** speed_exponent
     scale = contact.radius**2 * contact.length / contact.pressure_viscosity
     return factor * film * load_parameter**load_exponent * scale

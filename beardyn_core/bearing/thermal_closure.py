@@ -41,7 +41,7 @@ class Temperatures:
     expansion: A[float, At("um_per_m_K", ge=0.0), "of rings and rollers"] = STEEL_EXPANSION
 
     def closure(self, bearing: Bearing) -> float:
-        """Find what they add to the end play of a bearing, [m]."""
+        """Compute what the temperatures add to the end play of a bearing, [m]."""
         # differences of the numbers as they are written, so that zeros of the scales cost no digit
         cup, cone, rollers, assembly = (
             UNITS["C"].to_edge(value) for value in (self.cup, self.cone, self.rollers, self.assembly)

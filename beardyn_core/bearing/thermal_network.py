@@ -39,11 +39,11 @@ class ThermalNetwork:
         return np.diag(between.sum(axis=1) + self.to_ambient) - between
 
     def steady(self, heat: Float, ambient: float) -> Float:
-        """Temperatures at which as much heat leaves as comes in, [K]."""
+        """Compute the steady temperatures, at which as much heat leaves as comes in, [K]."""
         return ambient + np.asarray(np.linalg.solve(self.matrix, heat))
 
     def after(self, temperature: Float, heat: Float, ambient: float, duration: float) -> Float:
-        """Temperatures after a time with constant heat, [K].
+        """Compute the temperatures after a time with constant heat, [K].
 
         Parameters
         ----------

@@ -47,7 +47,7 @@ RULES: tuple[Callable[[Evidence], Rule], ...] = (
 
 
 def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = None) -> Choice:
-    """Cheapest choice within the accuracy of a scene.
+    """Choose the cheapest tier, effects, laminae and step within the accuracy of a scene.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
             if best is None or key < best[0]:
                 best = (key, stage, found[3], step)
     assert best is not None  # the full tier offers the reference of every rule
-    return _told(scene, evidence, free, best[1], best[2], best[3], rules, looked_at, accuracy)
+    return _choice_of(scene, evidence, free, best[1], best[2], best[3], rules, looked_at, accuracy)
 
 
 class _Clock:
@@ -103,7 +103,7 @@ class _Clock:
     def step(
         self, scene: Scene, tier_name: str, laminae: int, deciding: tuple[Alternative, ...]
     ) -> StepChoice:
-        """Step with what decides it; the scene's own where it is not free."""
+        """Find the time step and what decides it; the scene's own where it is not free."""
         if not self._free.steps:
             return StepChoice(scene.numerics.steps_per_sample, "as the scene has it")
         members = {name: value for option in deciding for name, value in option.members.items()}
@@ -140,7 +140,7 @@ def _stages(
 
 
 def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[Alternative]:
-    """Alternatives of a rule in a tier; what is written down stays, whether or not the tier represents it."""
+    """List the alternatives of a rule in a tier; an effect that the scene fixes is the only one."""
     possible = [
         option
         for option in rule.alternatives
@@ -163,7 +163,7 @@ def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[A
 
 
 def _unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
-    """What a scene has and no rule offers: judged like the plainest of its kind; its absence is not."""
+    """Make the alternative of options that no rule offers, judged like the most similar one offered."""
 
     def likeness(option: Alternative) -> int:
         return sum(type(option.members[name]) is type(value) for name, value in kept.items())
@@ -187,7 +187,7 @@ def _represented(option: Alternative, tier_name: str) -> bool:
     return all(name in represented for name, value in option.members.items() if value is not None)
 
 
-def _told(
+def _choice_of(
     scene: Scene,
     evidence: Evidence,
     free: Free,
@@ -198,7 +198,7 @@ def _told(
     asked: tuple[str, ...],
     accuracy: float,
 ) -> Choice:
-    """The choice with its reasons, shares and expected errors."""
+    """Put together the choice with its reasons, cost and expected errors."""
     members = {name: value for option in taken for name, value in option.members.items()}
     effects = replace(scene.effects, **members)
     if effects.thermal is not None:
@@ -253,7 +253,7 @@ def _told(
 
 
 def _unjudged(scene: Scene, free: Free, given: EffectSet, accuracy: float, why: str) -> Choice:
-    """Everything on, for want of an equilibrium to judge by."""
+    """Choose every effect where no equilibrium exists by which to judge them."""
     name = "full" if free.tier else scene.tier
     usual = scene.numerics.steps_per_sample
     if free.steps:

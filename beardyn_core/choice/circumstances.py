@@ -1,4 +1,4 @@
-"""What a scene puts its bearing through: typical, lightest and heaviest load, and axial extremes."""
+"""Load cases of a scene: typical, lightest and heaviest load, and the axial extremes."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class LoadCase:
 
     @property
     def size(self) -> float:
-        """Of the force, [N]."""
+        """Magnitude of the force, [N]."""
         return float(np.linalg.norm(self.force))
 
 
@@ -86,7 +86,7 @@ class Circumstances:
 
 
 def circumstances(scene: Scene) -> Circumstances:
-    """Load cases of a scene's operation."""
+    """Find the load cases of a scene's operation."""
     wrench, speed = _samples(scene)
     wrench = scene.mounting.about_bearing_centre(wrench)
     size = np.linalg.norm(wrench[:, :3], axis=1)
@@ -126,7 +126,7 @@ def _alike(one: LoadCase, other: LoadCase) -> bool:
 
 
 def _samples(scene: Scene) -> tuple[Float, Float]:
-    """Wrenches and shaft speeds, equally likely, shapes [sample, 6] and [sample]."""
+    """Sample equally likely wrenches and shaft speeds, shapes [sample, 6] and [sample]."""
     operation, look = scene.operation, min(scene.duration, _LONGEST_LOOK)
     if isinstance(operation, ConstantOperation):
         return np.array([[*operation.force, *operation.moment]]), np.array([operation.speed])

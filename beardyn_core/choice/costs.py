@@ -47,7 +47,7 @@ class Costs:
     date: str
 
     def extra(self, change: str) -> float:
-        """What a change adds to the standard step, at least nearly nothing.
+        """Look up the cost that a change adds to the standard step, always more than 0.
 
         A change that has not been measured costs what the class of its effect in the catalogue says.
         """
@@ -57,21 +57,21 @@ class Costs:
         return max(measured - 1.0, _LEAST_SHARE)
 
     def saved(self, effect: str) -> float:
-        """What an effect of the standard set adds to the step without it."""
+        """Look up the cost that an effect of the standard set adds to a step."""
         measured = self.ratios.get(f"- {effect}")
         if measured is None:
             return _CLASS_SHARES[_class_of(effect)]
         return max(1.0 - measured, _LEAST_SHARE)
 
     def instead(self, effect: str, change: str) -> float:
-        """What another kind of an effect of the standard set adds to the step without that effect."""
+        """Look up the cost of an effect of the standard set when it is of another kind."""
         measured = self.ratios.get(f"+ {change}")
         if measured is None:
             return 0.5 * self.saved(effect)
         return max(measured - 1.0 + self.saved(effect), _LEAST_SHARE)
 
     def base(self, tier: str, laminae: int) -> float:
-        """Step of a tier with the effects that always are, without those that a choice adds."""
+        """Compute the cost of a tier's step without the effects that a choice can add."""
         if tier == "lumped":
             # the spring is fitted once; the count matters to nothing but the start
             return self.ratios["tier lumped"] + _START_SHARE * laminae
@@ -87,22 +87,22 @@ class Costs:
         return max(1.0 - saved, 0.1) + slope * more
 
     def scaled(self, effect: str, share: float, laminae: int) -> float:
-        """Cost of an effect measured at 6 laminae."""
+        """Scale the cost of an effect, measured at 6 laminae, to another count."""
         return share * laminae / _REFERENCE_LAMINAE if effect in _PER_LAMINA else share
 
     def seconds(self, step: float, steps_per_sample: float, tier: str) -> float:
-        """Wall time of a simulated second on that machine, from the relative cost of a step."""
+        """Compute the wall time of a simulated second on that machine, from the relative cost of a step."""
         steps = step * self.standard_step * steps_per_sample
         return WAVEFORM_RATE * (steps + self.rest_of_block[tier] / _BLOCK_SAMPLES)
 
     def unmeasured(self, effect: str) -> str | None:
-        """Cost class of an effect of which no kind has been measured; ``None`` where one has."""
+        """Find the cost class of an effect that has not been measured; ``None`` when it has."""
         known = any(name.split(" ", 1)[1].split()[0] == effect for name in self.ratios if name[0] in "+-")
         return None if known else _class_of(effect)
 
 
 def _class_of(effect: str) -> str:
-    """Cost class of an effect, the lowest of its kinds."""
+    """Find the cost class of an effect, the lowest of its kinds."""
     order = tuple(_CLASS_SHARES)
     found = [entry.about.cost for entry in catalogue() if entry.member == effect]
     return min(found, key=order.index, default="low")
@@ -110,7 +110,7 @@ def _class_of(effect: str) -> str:
 
 @cache
 def measured_costs() -> Costs:
-    """The shipped measurement."""
+    """Read the shipped measurement of costs."""
     content: dict[str, Any] = json.loads(COST_FILE.read_text(encoding="utf-8"))
     return Costs(
         ratios=content["ratios"],

@@ -1,4 +1,4 @@
-"""What the rules judge by: the reference scene with its loads, equilibria, losses and costs."""
+"""Facts on which the rules decide: the reference scene with its loads, equilibria, losses and costs."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Difference:
     stiffness: float
 
     def influence(self) -> dict[str, float]:
-        """As influence on the quantities; a spring of other stiffness answers by the ratio."""
+        """Convert to errors of the quantities; vibration changes with the ratio of stiffness."""
         return {
             "deflection": self.deflection,
             "roller_load": self.roller_load,
@@ -47,14 +47,14 @@ class Difference:
 
 
 def decibels(ratio: float) -> float:
-    """Amount of a ratio of amplitudes, at most `MOST_DB`, [dB]."""
+    """Convert a ratio of amplitudes to its size in decibels, at most `MOST_DB`, [dB]."""
     if not 0.0 < ratio < math.inf:
         return MOST_DB
     return min(abs(20.0 * math.log10(ratio)), MOST_DB)
 
 
 class Evidence:
-    """Facts about a scene, each worked out once when a rule first asks.
+    """Facts about a scene, each computed once when a rule first asks for it.
 
     Parameters
     ----------
@@ -101,17 +101,17 @@ class Evidence:
 
     @cached_property
     def torque(self) -> float:
-        """Of the reference under the typical load, [N m]."""
+        """Torque of the reference under the typical load, [N m]."""
         return self.losses.total
 
     @property
     def torque_of_rigid_cup(self) -> float:
-        """Of the reference with a cup that does not bend, [N m]."""
+        """Torque of the reference with a rigid cup, [N m]."""
         rigid = self.statics.at(self.loads.typical)
         return self.torque if rigid is None else Losses(self.scene, self.loads.typical, rigid).total
 
     def slipping(self, orbit: float) -> dict[str, float]:
-        """What an error of the orbit speed makes wrong: centrifugal force is part of the roller loads."""
+        """Compute the errors that an error of the orbit speed causes, by centrifugal force of the rollers."""
         bearing = self.scene.bearing
         turning = cage_speed(bearing, self.loads.typical.speed)
         force = bearing.roller_mass * 0.5 * bearing.pitch_diameter * turning**2
@@ -119,16 +119,16 @@ class Evidence:
         return {"cage_speed": orbit, "roller_load": share, "deflection": share}
 
     def torque_share(self, torque: float) -> float:
-        """Torque over that of the reference; 0 with the shaft at rest."""
+        """Compute the ratio of a torque to that of the reference; 0 with the shaft at rest."""
         return abs(torque) / self.torque if self.torque > 0.0 else 0.0
 
     @cached_property
     def stiffness(self) -> float:
-        """Of the bearing along the typical load, [N/m]."""
+        """Stiffness of the bearing along the typical load, [N/m]."""
         return max(self.along_load(self.typical), 1.0)
 
     def along_load(self, static: StaticSolution) -> float:
-        """Stiffness along the typical load, [N/m]."""
+        """Compute the stiffness along the typical load, [N/m]."""
         force = np.asarray(self.loads.typical.force)
         size = float(np.linalg.norm(force))
         direction = force / size if size > 0.0 else np.array([0.0, 0.0, 1.0])
@@ -136,7 +136,7 @@ class Evidence:
 
     @cached_property
     def resonance(self) -> float:
-        """Of box with cup against journal on the bearing's stiffness, [Hz]."""
+        """Resonance of axlebox and cup on the stiffness of the bearing, [Hz]."""
         box = self.scene.mounting.box_mass + self.scene.bearing.cup_mass
         journal = self.scene.mounting.journal_mass + self.scene.bearing.cone_mass
         reduced = box * journal / (box + journal)
@@ -145,7 +145,7 @@ class Evidence:
     def difference(
         self, first: dict[str, object], second: dict[str, object], heavy: bool = False
     ) -> Difference:
-        """Largest difference over the load cases of two ways to solve them; `heavy`: of the heaviest."""
+        """Find the largest difference between two solutions over the load cases; `heavy`: of the heaviest."""
         cases = self.loads.cases
         if heavy:
             cases = (max(cases, key=lambda case: case.size),)

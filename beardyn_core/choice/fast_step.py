@@ -1,4 +1,4 @@
-"""Time step of the fast tiers: as long as their fastest mode and what shakes them allow."""
+"""Time step of the fast tiers: as long as their fastest mode and their excitation allow."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: in
 
 
 def fast_steps(scene: Scene, long: bool = True) -> StepChoice:
-    """Longest step that a run of a scene in a fast tier is converged with.
+    """Find the longest step with which a run in a fast tier is converged.
 
     Steps longer than a waveform sample end the band of the waveforms at 0.4 of the step rate. A healthy
     bearing under a load without strikes has nothing to say beyond (docs/model.md has the levels); edges of
@@ -98,7 +98,7 @@ def fast_steps(scene: Scene, long: bool = True) -> StepChoice:
 
 
 def _sudden(scene: Scene) -> str:
-    """What is too quick for steps longer than a sample; empty when nothing is."""
+    """Name the excitation that is too sudden for steps longer than a sample; empty when there is none."""
     operation = scene.operation
     if scene.defects or scene.waviness:
         return "faults"

@@ -1,4 +1,4 @@
-"""Rules of what brakes and drives: traction with film, rolling resistance, drag, seals, warming."""
+"""Rules of friction: traction with film, rolling resistance, drag, seals, warming."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _DRY_CREEP = 1.5
 
 
 def traction(evidence: Evidence) -> Rule:
-    """Which law of friction drives the rollers: all of them do while little of the traction is used."""
+    """Decide on the law of friction that drives the rollers: all agree while little traction is used."""
     effects, losses = evidence.scene.effects, evidence.losses
     reference = losses.drive(effects.traction, effects.film)
     parameter = losses.film_parameter(effects.film)
@@ -104,7 +104,7 @@ def _word(law: Traction, film: LineFilm | None) -> str:
 
 
 def _other_law(evidence: Evidence, drive: Drive, reference: Drive, law: Traction) -> dict[str, float]:
-    """Bound of what another law of friction changes where nothing skids.
+    """Bound the errors of another law of friction where nothing skids.
 
     Rib friction skews the rollers, and the raceways lose by their creep about what the rib loses, by an
     amount that each law gives differently; the creep also moves the resonance of the axlebox a little.
@@ -116,7 +116,7 @@ def _other_law(evidence: Evidence, drive: Drive, reference: Drive, law: Traction
 
 
 def _without_slip(evidence: Evidence, reference: Drive) -> dict[str, float]:
-    """Bound of what pure rolling leaves out: what slips, and the creep of skewed rollers."""
+    """Bound the errors of pure rolling, which leaves out slip and the creep of skewed rollers."""
     found = _apart(evidence, Drive(0.0, 1.0, 0.0, 0.0), reference)
     if evidence.scene.effects.traction is not None:
         found["torque"] += _creep(evidence)
@@ -128,7 +128,7 @@ def _creep(evidence: Evidence) -> float:
 
 
 def _apart(evidence: Evidence, one: Drive, other: Drive) -> dict[str, float]:
-    """A slipping roller orbits between the speeds of rolling on the one and on the other raceway."""
+    """Compute the errors when one law of friction replaces another; slip changes the orbit speed."""
     return {
         "torque": evidence.torque_share(one.torque - other.torque),
         **evidence.slipping(0.5 * abs(one.slip - other.slip)),
@@ -136,7 +136,7 @@ def _apart(evidence: Evidence, one: Drive, other: Drive) -> dict[str, float]:
 
 
 def rolling_resistance(evidence: Evidence) -> Rule:
-    """On when rolling makes up a notable part of the torque."""
+    """Decide on rolling resistance: on when it makes up a notable part of the torque."""
     effects, losses = evidence.scene.effects, evidence.losses
     effect = effects.rolling_resistance
     if effect is None:
@@ -158,7 +158,7 @@ def rolling_resistance(evidence: Evidence) -> Rule:
 
 
 def drag(evidence: Evidence) -> Rule:
-    """On when drag and churning make up a notable part of the torque, or brake rollers that slip."""
+    """Decide on drag: on when it makes up a notable part of the torque, or brakes rollers that slip."""
     effects, losses = evidence.scene.effects, evidence.losses
     if effects.drag is None:
         return _absent("drag")
@@ -182,7 +182,7 @@ def drag(evidence: Evidence) -> Rule:
 
 
 def seal(evidence: Evidence) -> Rule:
-    """On when the seals make up a notable part of the torque."""
+    """Decide on the seals: on when they make up a notable part of the torque."""
     effect, torque = evidence.scene.effects.seal, evidence.losses.seal
     if effect is None:
         return _absent("seal")
@@ -197,7 +197,7 @@ def seal(evidence: Evidence) -> Rule:
 
 
 def thermal(evidence: Evidence) -> Rule:
-    """On when a run is so long that its losses warm the oil."""
+    """Decide on warming: on when a run is so long that its losses warm the oil."""
     scene = evidence.scene
     effect = scene.effects.thermal or Thermal()
     drift = _warming(evidence, effect)
@@ -228,7 +228,7 @@ def _drift_text(drift: float) -> str:
 
 
 def _warming(evidence: Evidence, effect: Thermal) -> float:
-    """Drift of the temperature of bearing and box as one body by the end of the run, [K]."""
+    """Compute the drift of the temperature of bearing and box as one body by the end of the run, [K]."""
     scene, speed = evidence.scene, abs(evidence.loads.typical.speed)
     network = thermal_network(
         scene.bearing, effect, scene.mounting.box_mass, speed, scene.roller_total, scene.rows

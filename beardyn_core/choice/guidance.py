@@ -1,4 +1,4 @@
-"""Rules of what guides the rollers: rib, small rib, cage."""
+"""Rules of the parts that guide the rollers: rib, small rib, cage."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MOST_SLIP = 1.0
 
 
 def rib(evidence: Evidence) -> Rule:
-    """Always on: the cone angles press every loaded roller against it; its film when the torque needs it."""
+    """Decide on the rib: always on, as every loaded roller presses on it; with film for the torque."""
     effect, losses = evidence.scene.effects.rib, evidence.losses
     if effect is None:
         return Rule("rib", (Alternative({"rib": None}, "not in the reference", word="off", tiers=_FULL),))
@@ -63,7 +63,7 @@ def _plain(effect: Rib) -> Rib:
 
 
 def small_rib(evidence: Evidence) -> Rule:
-    """On when something takes rollers off the large rib."""
+    """Decide on the small rib: on when rollers can leave the large rib."""
     scene, loads = evidence.scene, evidence.loads
     effect = scene.effects.small_rib
     if effect is None:
@@ -93,7 +93,7 @@ def small_rib(evidence: Evidence) -> Rule:
 
 
 def cage(evidence: Evidence) -> Rule:
-    """Dynamic when rollers slip, a pocket is worn or a vibration is asked for; else kinematic."""
+    """Decide on the cage: dynamic for slip, a worn pocket or vibration; otherwise kinematic."""
     scene, losses = evidence.scene, evidence.losses
     effects = scene.effects
     effect = effects.cage
@@ -150,7 +150,7 @@ def _word(effect: CageModel) -> str:
 
 
 def _excitation(evidence: Evidence) -> float:
-    """Force that shakes the axlebox besides the cage: what a fault takes from a roller, [N]."""
+    """Compute the force that a fault takes from a roller and that shakes the axlebox, [N]."""
     if not evidence.patches:
         return 0.0
     return max(evidence.patch_shares) * evidence.typical.largest_roller_load

@@ -1,4 +1,4 @@
-"""Scenes ready to run: read by `config`, what they leave open closed."""
+"""Scenes ready to run: read by `config`, then completed by the automatic choice."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def _given(overrides: dict[Any, Any]) -> dict[Any, Any]:
 
 
 def closed(found: OpenScene, outside_load: bool = False) -> Scene:
-    """Close what a scene leaves open: the choice with its reasons, or the usual step of its tier."""
+    """Complete a scene: by the automatic choice with its reasons, or by the usual step of its tier."""
     if found.free.anything:
         return with_choice(found.scene, choice_for(found))
     return with_usual_step(found, outside_load).scene

@@ -58,13 +58,13 @@ class Drive:
     torque: float
 
     def share(self, force: float) -> float:
-        """Part that a force on the rollers has in what drives them, at most 1."""
+        """Compute a braking force over the force that drives the rollers, at most 1."""
         driving = min(self.needed, self.available)
         return min(abs(force) / driving, 1.0) if driving > 0.0 else 1.0
 
     @property
     def skids(self) -> bool:
-        """Whether so much of the traction is used that the lighter rollers may let go."""
+        """Whether so much of the traction is used that lightly loaded rollers may skid."""
         return self.used > _NEARLY_ALL
 
     @property
@@ -98,7 +98,7 @@ class Losses:
             self.rolling = self._roll(rolling)
 
     def _roll(self, effect: RollingResistance) -> float:
-        """Torque of the rolling resistance, [N m]; keeps the couples."""
+        """Compute the torque of the rolling resistance, [N m]; keeps the couples."""
         film = effect.kind != "hysteresis"
         running = running_torque(
             self.scene.bearing,
@@ -127,7 +127,7 @@ class Losses:
         return count * power / self.speed
 
     def _drag(self) -> tuple[float, float]:
-        """Force on a roller's orbit and couple on its spin, [N], [N m]."""
+        """Compute the force on a roller's orbit and couple on its spin, [N], [N m]."""
         law = drag_params(self.scene)
         if law is None or self.speed == 0.0:
             return 0.0, 0.0
@@ -145,7 +145,7 @@ class Losses:
         return SEALS * (seal.torque + seal.speed_coefficient * self.speed)
 
     def rib(self, rib: Rib | None) -> float:
-        """Torque of the sliding ribs with some options, [N m]."""
+        """Compute the torque of the sliding ribs with some options, [N m]."""
         if rib is None or self.speed == 0.0:
             return 0.0
         bearing = self.scene.bearing
@@ -163,7 +163,7 @@ class Losses:
         return torque
 
     def rib_friction(self, rib: Rib, load: float) -> float:
-        """Coefficient of friction of a rib contact, shared by film and asperities."""
+        """Compute the coefficient of friction of a rib contact, shared by film and asperities."""
         if not isinstance(rib.lubrication, RibMixedFilm):
             return rib.friction if rib.lubrication is None else rib.lubrication.boundary_friction
         film = self.rib_parameter(rib.lubrication, load)
@@ -172,7 +172,7 @@ class Losses:
         return wet + (rib.lubrication.boundary_friction - wet) * asperities
 
     def rib_parameter(self, film: RibMixedFilm, load: float) -> float:
-        """Film over roughness at a rib contact, [-]."""
+        """Compute film over roughness at a rib contact, [-]."""
         scene = self.scene
         # roller end and rib pass the contact with the speed of the raceway they stand on
         speed = max(self._entrainment[1], 1.0e-3)
@@ -215,7 +215,7 @@ class Losses:
         return rolling + self.drag + self.seal + self.rib(effects.rib) + self.pocket + drive.torque
 
     def film_parameter(self, film: LineFilm | None) -> float:
-        """Film over roughness of the cone contact of the most loaded roller, [-]; 0 without a film."""
+        """Compute film over roughness at the cone for the most loaded roller, [-]; 0 without a film."""
         load = float(self.static.cone_load.max())
         if film is None or self.speed == 0.0 or load <= 0.0:
             return 0.0
@@ -246,7 +246,7 @@ class Losses:
         rolling: bool = True,
         drag: bool = True,
     ) -> Drive:
-        """Traction that the rollers need and what the law of friction gives."""
+        """Compute the traction that the rollers need and what the law of friction gives."""
         loaded = self.static.cone_load > 0.0
         if self.speed == 0.0 or not loaded.any():
             return Drive(0.0, 0.0, 0.0, 0.0)
@@ -264,7 +264,7 @@ class Losses:
     def _slip(
         self, traction: Traction | None, film: LineFilm | None, loads: Float, needed: float
     ) -> tuple[float, float]:
-        """Available traction [N] and slip over entrainment speed at which the needed one is there."""
+        """Compute the available traction [N] and the slip over entrainment speed at the needed traction."""
         speed, total = self._entrainment[1], float(loads.sum())
         if traction is None:
             return 0.0, _DEEP_SLIP
@@ -284,7 +284,7 @@ class Losses:
         return available, min(slip, _DEEP_SLIP)
 
     def _blended(self, traction: MixedTraction | ShearedFilmTraction, film: LineFilm) -> float:
-        """Coefficient between boundary and full film, by the sixth power of the film parameter."""
+        """Blend boundary and full-film coefficients by the sixth power of the film parameter."""
         boundary = traction.boundary_friction
         full = traction.full_film_friction if isinstance(traction, MixedTraction) else traction.limiting_shear
         low, high = traction.boundary_film_parameter, traction.full_film_parameter
@@ -305,7 +305,7 @@ class Losses:
     def _shared_force(
         self, law: LoadSharingTraction, film: LineFilm | None, loads: Float, slips: Float
     ) -> Float:
-        """Friction of all rollers over the slip, [N]."""
+        """Compute the friction of all rollers over the slip, [N]."""
         parameter = self.film_parameter(film)
         asperities = math.exp(-1.8 * parameter**1.2) if parameter > 0.0 else 1.0
         dry = law.boundary_friction * 2.0 / math.pi * np.arctan(law.boundary_slope * slips)
@@ -316,7 +316,7 @@ class Losses:
         return force
 
     def _film_friction(self, law: LoadSharingTraction, load: float, slips: Float) -> Float:
-        """Traction coefficient of the film over the slip.
+        """Compute the traction coefficient of the film over the slip.
 
         References
         ----------
@@ -341,5 +341,5 @@ class Losses:
 
 
 def raceway_speed(scene: Scene, speed: float) -> float:
-    """Speed at which rollers pass a point of the cup, [m/s]."""
+    """Compute the speed at which rollers pass a point of the cup, [m/s]."""
     return cage_speed(scene.bearing, abs(speed)) * raceway_radius(scene.bearing, "cup")

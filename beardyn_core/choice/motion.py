@@ -11,7 +11,7 @@ _FAST, _FULL = frozenset({"lumped", "quasistatic"}), frozenset({"full"})
 
 
 def gravity(evidence: Evidence) -> Rule:
-    """On when rollers and cages weigh something against the load."""
+    """Decide on weight: on when that of rollers and cages is notable against the load."""
     scene = evidence.scene
     effect = scene.effects.gravity
     if effect is None:
@@ -46,7 +46,7 @@ def gravity(evidence: Evidence) -> Rule:
 
 
 def contact_damping(evidence: Evidence) -> Rule:
-    """On when a vibration is asked for: it decides how high resonances stand."""
+    """Decide on contact damping: on for vibration, where it decides the height of resonances."""
     scene = evidence.scene
     effect = scene.effects.contact_damping
     if effect is None:
@@ -81,7 +81,7 @@ def contact_damping(evidence: Evidence) -> Rule:
 
 
 def audit(evidence: Evidence) -> Rule:
-    """Off: it proves the energy balance and changes no quantity."""
+    """Decide on the energy audit: off, because it changes no quantity."""
     effect = evidence.scene.effects.audit
     said = "keeps the energy balance and changes no quantity"
     if evidence.scene.effects.thermal is not None:

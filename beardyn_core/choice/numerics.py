@@ -32,7 +32,7 @@ _BAND = 0.2316
 
 @dataclass(frozen=True)
 class LaminaVerdict:
-    """What a lamina count makes of a scene.
+    """Cost and errors of a scene with a lamina count.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class LaminaVerdict:
 
 
 def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
-    """Convergence of the static load distribution, of the tilt spring, and of what patches take away."""
+    """Compute the errors of a lamina count: load distribution, tilt stiffness, load lost over patches."""
     change = evidence.difference({"laminae": count}, {"laminae": _REFERENCE_LAMINAE}, heavy=True)
     length = evidence.scene.bearing.effective_length
     partial = [patch for patch in evidence.patches if patch.length < length]
@@ -75,7 +75,7 @@ def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
 
 
 def _uncovered(patch: Patch | None, length: float, count: int) -> tuple[list[float], list[float]]:
-    """Middle of each lamina, and its length beside a patch, [m]."""
+    """Find the middle of each lamina, and its length beside a patch, [m]."""
     step = length / count
     middles = [-0.5 * length + (index + 0.5) * step for index in range(count)]
     if patch is None:
@@ -86,7 +86,7 @@ def _uncovered(patch: Patch | None, length: float, count: int) -> tuple[list[flo
 
 
 def tilt_error(patch: Patch | None, length: float, count: int) -> float:
-    """Error of the tilt stiffness of the line that a patch leaves, relative to the reference's laminae, [-].
+    """Compute the error of the tilt stiffness of the line beside a patch, against the reference, [-].
 
     What is left of a lamina acts at the lamina's middle.
     """
@@ -100,7 +100,7 @@ def tilt_error(patch: Patch | None, length: float, count: int) -> float:
 
 
 def lever_error(patch: Patch, length: float, count: int) -> float:
-    """By how much the laminae misplace what a patch takes from a roller, over a quarter of its length, [-].
+    """Compute by how much laminae misplace the load lost over a patch, per quarter of the length, [-].
 
     The covered share of a lamina acts at the lamina's middle.
     """
@@ -120,7 +120,7 @@ def lever_error(patch: Patch, length: float, count: int) -> float:
 
 @cache
 def taking_error(patch: Patch, bearing: Bearing, coupling: LaminaCoupling, count: int) -> float:
-    """By how much coupled laminae misjudge what a patch takes from a roller, [-].
+    """Compute the error of coupled laminae in the load that a roller loses over a patch, [-].
 
     Relative to what the reference's laminae take.
     """
@@ -140,7 +140,7 @@ def taking_error(patch: Patch, bearing: Bearing, coupling: LaminaCoupling, count
 
 
 def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibration: bool) -> StepChoice:
-    """Coarsest step that is converged, by the current stiffness.
+    """Find the longest step that is converged at the current stiffness.
 
     Friction decides; what else a choice may change is taken as in the reference. A sensor that needs
     more steps for its rate gets them.

@@ -56,12 +56,12 @@ class Choice:
 
     @property
     def real_time_factor(self) -> float:
-        """Expected on the machine of the cost file."""
+        """Real-time factor to expect on the machine of the cost file."""
         return 1.0 / self.seconds
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """A sentence for each choice."""
+        """List the reasons, a sentence for each choice."""
         return (
             f"tier {self.tier}: {self.tier_reason}",
             f"laminae {self.laminae}: {self.laminae_reason}",
@@ -70,7 +70,7 @@ class Choice:
         )
 
     def applied(self, scene: Scene) -> Scene:
-        """The scene with this choice; bearing, load, faults, sensors and seed stay."""
+        """Apply this choice to a scene; bearing, load, faults, sensors and seed stay."""
         kept = replace(scene.numerics, laminae=self.laminae, steps_per_sample=self.steps_per_sample)
         return replace(scene, tier=self.tier, effects=self.effects, numerics=kept, chosen=self.reasons)
 
@@ -114,7 +114,7 @@ def _errors(errors: Mapping[str, float]) -> dict[str, dict[str, Any]]:
 
 
 def error_text(quantity: str, error: float) -> str:
-    """Expected error in words."""
+    """Write an expected error in words."""
     if math.isnan(error):
         return "unknown"
     return f"{error:.2g} dB" if quantity == "vibration" else percent(error)

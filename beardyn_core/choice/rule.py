@@ -1,4 +1,4 @@
-"""The nouns of a choice: alternatives of an effect with what they cost and what they leave out."""
+"""Data of a choice: alternatives of an effect with their cost and the errors they cause."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Influence = Mapping[str, float]
 
 @dataclass(frozen=True)
 class Alternative:
-    """One way to have an effect, or to do without it.
+    """One choice for an effect: options with which it is on, or that it is off.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Rule:
-    """All ways to have one effect; the first is that of the reference.
+    """All alternatives for one effect; the first is that of the reference.
 
     Parameters
     ----------
@@ -84,17 +84,17 @@ class Decision:
     influence: Influence
 
     def sentence(self) -> str:
-        """Effect, decision and reason."""
+        """Write effect, decision and reason in a sentence."""
         return f"{self.effect} {self.word}: {self.reason}"
 
 
 def tolerance(quantity: str, accuracy: float) -> float:
-    """What a quantity may be wrong by: a fraction, of vibration in dB."""
+    """Return the largest error that a quantity may have: a fraction, for vibration in dB."""
     return VIBRATION_TOLERANCE_DB if quantity == "vibration" else accuracy
 
 
 def percent(value: float) -> str:
-    """Fraction in words, to two digits."""
+    """Write a fraction in percent, to two digits."""
     share = 100.0 * value
     if 0.0 < abs(share) < _SMALLEST_PERCENT:
         return f"below {_SMALLEST_PERCENT:g} %"

@@ -10,7 +10,7 @@ from beardyn_core.choice.rule import Alternative
 
 @dataclass(frozen=True)
 class Stage:
-    """A tier with a lamina count: what it costs and leaves out before any effect is chosen."""
+    """A tier with a lamina count: its cost and its errors before any effect is chosen."""
 
     tier: str
     laminae: int
@@ -27,7 +27,7 @@ def cheapest(
     limits: tuple[float, ...],
     costs: Costs,
 ) -> tuple[float, float, float, list[Alternative]]:
-    """Best alternatives of one stage: by excess over the limits, cost of a step, error over limit.
+    """Find the best alternatives of a stage: by excess over the limits, cost of a step, error over limit.
 
     Depth first, with the least cost of the rules that are left as bound.
     """
@@ -74,7 +74,7 @@ def cheapest(
 
 
 def _tails(values: list[float]) -> list[float]:
-    """Sum of the values from each one on, and 0 behind the last."""
+    """Sum the values from each one to the last, with 0 behind the last."""
     sums = [0.0]
     for value in reversed(values):
         sums.append(sums[-1] + value)

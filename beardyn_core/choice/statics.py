@@ -1,4 +1,4 @@
-"""Static solutions of the load cases, with and without what a rule asks about."""
+"""Static solutions of the load cases, with and without the effect that a rule asks about."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Statics:
         bending: bool = False,
         half_pitch: bool = False,
     ) -> StaticSolution | None:
-        """Equilibrium under a load case, ``None`` where there is none."""
+        """Solve the equilibrium under a load case; ``None`` where there is none."""
         key = (case, laminae, coupling, bending, half_pitch)
         if key not in self._known:
             self._known[key] = self._solved(case, laminae, coupling, bending, half_pitch)
@@ -91,7 +91,7 @@ class Statics:
             return None
 
     def _restraint(self) -> tuple[float, float]:
-        """Of the suspension against the tilt of the bearing about x and z, [N m/rad]."""
+        """Compute the stiffness of the suspension against tilt of the bearing about x and z, [N m/rad]."""
         mounting = self.scene.mounting
         if mounting.cup == "held" or mounting.journal_tilt == "free":
             return (0.0, 0.0)
@@ -99,7 +99,7 @@ class Statics:
         return float(springs[3, 3]), float(springs[5, 5])
 
     def lumped(self, case: LoadCase, laminae: int) -> tuple[float, float] | None:
-        """Deflection [m] and largest roller load [N] of the springs of the lumped tier."""
+        """Compute the deflection [m] and largest roller load [N] of the springs of the lumped tier."""
         exact = self.at(case)
         if exact is None:
             return None
@@ -150,5 +150,5 @@ class Statics:
 
 
 def _centrifugal(bearing: Bearing, speed: float) -> float:
-    """Of a roller in pure rolling, [N]."""
+    """Compute the centrifugal force of a roller in pure rolling, [N]."""
     return bearing.roller_mass * 0.5 * bearing.pitch_diameter * cage_speed(bearing, speed) ** 2

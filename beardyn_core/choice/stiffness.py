@@ -1,4 +1,4 @@
-"""Rules of what gives way: bending of the cup, coupling of the laminae."""
+"""Rules of compliance: bending of the cup, coupling of the laminae."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _DEPTH = 1.0e-5  # of a working load [m]
 
 
 def ring_flexibility(evidence: Evidence) -> Rule:
-    """On when the bent cup's load distribution or deflection differs from the rigid one's."""
+    """Decide on a flexible cup: on when it changes load distribution or deflection."""
     effect = evidence.scene.effects.ring_flexibility
     if effect is None:
         return Rule(
@@ -41,7 +41,7 @@ def ring_flexibility(evidence: Evidence) -> Rule:
 
 
 def lamina_coupling(evidence: Evidence) -> Rule:
-    """On when coupled laminae distribute the load otherwise than independent ones."""
+    """Decide on coupled laminae: on when they distribute the load otherwise than independent ones."""
     effect = evidence.scene.effects.lamina_coupling
     if effect is None:
         return Rule(
@@ -72,7 +72,7 @@ def lamina_coupling(evidence: Evidence) -> Rule:
 
 
 def beside_a_patch(bearing: Bearing, coupling: LaminaCoupling, share: float) -> float:
-    """Load of a line whose one end stands over a patch, laminae coupled over independent, [-]."""
+    """Compute the load of a line with one end over a patch, coupled over independent laminae, [-]."""
     root = bearing_lamina_root(bearing, coupling, _LAMINAE)
     factor = line_contact_factor(bearing.material, bearing.effective_length) / _LAMINAE
     touching = round((1.0 - share) * _LAMINAE)

@@ -1,4 +1,4 @@
-"""What a tier leaves out by having fewer states."""
+"""Errors of a tier that has fewer states than the full one."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _QUASISTATIC_SHARE = 0.005
 
 @dataclass(frozen=True)
 class TierVerdict:
-    """What a tier makes of a scene.
+    """Errors of a scene in a tier, and the reason for them.
 
     Parameters
     ----------
@@ -33,25 +33,25 @@ class TierVerdict:
 
 
 def verdict(evidence: Evidence, name: str, laminae: int) -> TierVerdict | None:
-    """What a tier leaves out; ``None`` where it cannot run the scene."""
+    """Judge the errors of a tier; ``None`` where it cannot run the scene."""
     if name == "lumped":
         return lumped(evidence, laminae)
     return quasistatic(evidence) if name == "quasistatic" else full(evidence)
 
 
 def full(_evidence: Evidence) -> TierVerdict:
-    """All bodies move by themselves: the reference."""
+    """Judge the full tier, the reference, in which every body has its own motion."""
     return TierVerdict("full", "every body has its own equations of motion", {})
 
 
 def quasistatic(evidence: Evidence) -> TierVerdict:
-    """Rollers without inertia: as good as they are stiff against their mass."""
+    """Judge the quasi-static tier: its rollers have no inertia."""
     influence, said = _without_roller_inertia(evidence)
     return TierVerdict("quasistatic", said, {"deflection": _QUASISTATIC_SHARE, **influence})
 
 
 def lumped(evidence: Evidence, laminae: int) -> TierVerdict | None:
-    """One spring a roller: compared with the exact equilibrium; ``None`` where no spring fits."""
+    """Judge the lumped tier against the exact equilibrium; ``None`` where no roller spring fits."""
     influence, said = _without_roller_inertia(evidence)
     deflection = roller_load = 0.0
     for case in evidence.loads.cases:
@@ -87,7 +87,7 @@ def _without_roller_inertia(evidence: Evidence) -> tuple[dict[str, float], str]:
 
 
 def roller_bounce(evidence: Evidence) -> float:
-    """Frequency of a roller with the mean load between both raceways, [Hz]."""
+    """Compute the frequency at which a roller with the mean load bounces between the raceways, [Hz]."""
     bearing = evidence.scene.bearing
     pressed = evidence.typical.cone_load[evidence.typical.cone_load > 0.0]
     load = float(pressed.mean()) if pressed.size else 1.0
@@ -98,7 +98,7 @@ def roller_bounce(evidence: Evidence) -> float:
 
 
 def fault_overshoot(evidence: Evidence, bounce: float) -> float:
-    """By how much a roller mass overshoots when it leaves the steepest edge of a patch, [-].
+    """Compute the overshoot of a roller that leaves the steepest edge of a patch, [-].
 
     The edge lasts a time e/v; a spring-mass answers to a ramp of that duration with at most 1/(pi f e/v).
     """

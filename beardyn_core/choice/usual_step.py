@@ -1,4 +1,4 @@
-"""Time step of a scene that names none."""
+"""Time step of a scene that states none."""
 
 from __future__ import annotations
 

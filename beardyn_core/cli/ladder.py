@@ -186,7 +186,7 @@ def _quiet() -> Iterator[None]:
 
 
 class _Bar:
-    """Progress with the time left; told which level is at work and how much of the whole is done."""
+    """Progress with the time left; it takes the level that runs and the share of the whole that is done."""
 
     def __init__(self, what: str, count: str, total: float) -> None:
         from tqdm import tqdm

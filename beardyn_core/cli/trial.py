@@ -145,7 +145,7 @@ def _write(result: TrialResult, found: dict[str, object], folder: Path, *, drawn
 
 
 class _Bar:
-    """Progress with the time left; told of every run that ends."""
+    """Progress with the time left; it is called for every run that ends."""
 
     def __init__(self, trial: Trial, kept: int) -> None:
         from tqdm import tqdm

@@ -1,4 +1,4 @@
-"""What the catalogue says of an effect."""
+"""Description of an effect in the catalogue."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The catalogue: every effect a scene can switch on, with what is known of it."""
+"""The catalogue: every effect that a scene can switch on, with its description."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Loss of contacts that are pressed together."""
+"""Damping of contacts under load."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class EffectSet:
     audit: A[Audit | None, At(switch=True), "energy balance kept while the model runs"] = Audit()
 
     def rules(self) -> Iterator[str]:
-        """Find what the effects cannot be together."""
+        """Check the effects against each other."""
         if self.thermal and self.audit is None:
             yield "thermal needs the audit, which tells what each source loses: set audit to true"
 

@@ -34,7 +34,7 @@ class RollingResistance:
     ] = 0.01
 
     def rules(self) -> Iterator[str]:
-        """Find what the options cannot be together."""
+        """Check the options against each other."""
         if self.kind == "hysteresis" and self.hysteresis == 0.0:
             yield (
                 "kind is hysteresis, but hysteresis is 0; give the share of the elastic energy lost in a "

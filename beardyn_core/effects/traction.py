@@ -43,7 +43,7 @@ class CoulombTraction:
     regularisation_start: RegularisationStart = 0.0
 
     def rules(self) -> Iterator[str]:
-        """Find what the options cannot be together."""
+        """Check the options against each other."""
         return _starts_before_full(self)
 
 
@@ -69,7 +69,7 @@ class MixedTraction:
     regularisation_start: RegularisationStart = 0.0
 
     def rules(self) -> Iterator[str]:
-        """Find what the options cannot be together."""
+        """Check the options against each other."""
         yield from _starts_before_full(self)
         yield from _film_parameters_in_order(self)
 
@@ -101,7 +101,7 @@ class ShearedFilmTraction:
     regularisation_start: RegularisationStart = 0.0
 
     def rules(self) -> Iterator[str]:
-        """Find what the options cannot be together."""
+        """Check the options against each other."""
         yield from _starts_before_full(self)
         yield from _film_parameters_in_order(self)
 
@@ -138,7 +138,7 @@ Traction = CoulombTraction | MixedTraction | ShearedFilmTraction | LoadSharingTr
 
 
 def _starts_before_full(dry: CoulombTraction | MixedTraction | ShearedFilmTraction) -> Iterator[str]:
-    """Find a regularisation that starts where its law has none, or too late."""
+    """Check that the regularisation starts below its speed, and that its law has a start."""
     start, full = dry.regularisation_start, dry.regularisation_speed
     if start > 0.0 and dry.regularisation != "ambrosio":
         yield (
@@ -153,7 +153,7 @@ def _starts_before_full(dry: CoulombTraction | MixedTraction | ShearedFilmTracti
 
 
 def _film_parameters_in_order(blend: MixedTraction | ShearedFilmTraction) -> Iterator[str]:
-    """Find film parameters that leave nothing to blend."""
+    """Check that the film parameters of boundary and full film are in ascending order."""
     if blend.boundary_film_parameter >= blend.full_film_parameter:
         yield (
             f"boundary_film_parameter is {blend.boundary_film_parameter:g}; it must be less than "

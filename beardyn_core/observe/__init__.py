@@ -1,4 +1,4 @@
-"""From the motion of bodies to what sensors read, and what can be read from that.
+"""From the motion of bodies to the readings of sensors, and their analysis.
 
 ============= ====================================================================
 module        responsibility

@@ -1,4 +1,4 @@
-"""What the observer sees of rollers and rows that are not there.
+"""States of missing rollers and rows, so that the observer always has two complete rows.
 
 Blocks always have two rows of all rollers, so that whatever reads them works with every bearing. The place of
 a missing roller shows the motion of the roller that stands in for it (`model.arrangement`), turned into its
@@ -70,6 +70,6 @@ def _mirrored(cage: Float) -> Float:
 
 
 def absence_of(arrangement: Arrangement) -> Absence | None:
-    """Find the `Absence` of an arrangement, ``None`` when all rollers are there."""
+    """Find the `Absence` of an arrangement; ``None`` when no roller is missing."""
     whole = arrangement.rows == BOTH_ROWS and not arrangement.missing
     return None if whole else Absence(arrangement)

@@ -1,4 +1,4 @@
-"""What an accelerometer on the axlebox reads: motion at its place, gravity, noise, clipping."""
+"""Reading of an accelerometer on the axlebox: motion at its place, gravity, noise, clipping."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ class NoiseStream:
         self._next = 0
 
     def at(self, first_sample: int, count: int) -> Float:
-        """Draw the numbers of some samples, shape [count, 3]; the next samples in a row come cheapest."""
+        """Draw the numbers of some samples, shape [count, 3]; consecutive samples are the fastest."""
         if first_sample != self._next:
             self._bits = np.random.Philox(key=self._key, counter=first_sample)
         self._next = first_sample + count

@@ -1,4 +1,4 @@
-"""The block: 20 ms of every channel, or some times that: all that crosses a Python boundary."""
+"""The block: 20 ms of every channel, or a multiple of it; nothing else crosses a Python boundary."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def body_names(roller_count: int) -> tuple[str, ...]:
 
 
 class Pictures(Protocol):
-    """Bodies and contacts at some instants, worked out when somebody looks.
+    """Bodies and contacts at some instants, computed when first used.
 
     It must own what it reads: it may be asked after the next blocks, and from any thread.
     """
@@ -99,7 +99,7 @@ class Pictures(Protocol):
 
 @dataclass(frozen=True)
 class Vibration:
-    """What one accelerometer read during a block.
+    """Readings of one accelerometer during a block.
 
     Parameters
     ----------

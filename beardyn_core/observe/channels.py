@@ -45,7 +45,7 @@ _TREND_CHANNELS = 10
 
 
 class Observer:
-    """Turns what the kernel wrote during a block into a `Block`.
+    """Turns the kernel's signals of a block into a `Block`.
 
     Waveforms pass an anti-alias filter from the step rate to 25.6 kHz, or are interpolated to it from
     longer steps, and trends pass another filter to 400 Hz. The delay of all filters is compensated: samples

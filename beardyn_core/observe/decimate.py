@@ -65,12 +65,12 @@ class Decimator:
 
     @property
     def delay_samples(self) -> int:
-        """Input samples by which output m lags: it belongs to input m x factor - delay_samples."""
+        """Delay in input samples: output m belongs to input m x factor - delay_samples."""
         return self._kept - (len(self._kernel) - 1) // 2
 
     @property
     def state(self) -> Float:
-        """Copy of all that the future depends on, shape [channel, past]."""
+        """Copy of the state of the filter, shape [channel, past]."""
         return self._stretch[:, : self._kept].copy()
 
     def restore(self, state: Float) -> None:
@@ -81,7 +81,7 @@ class Decimator:
         self._stretch[:, : self._kept] = state
 
     def push(self, block: Float) -> Float:
-        """Consume a block and return what comes out.
+        """Filter a block and return the output so far.
 
         Parameters
         ----------
@@ -143,7 +143,7 @@ class TwoStageDecimator:
 
     @property
     def state(self) -> tuple[Float, Float]:
-        """Copy of all that the future depends on."""
+        """Copy of the state of the filter."""
         return self._first.state, self._second.state
 
     def restore(self, state: tuple[Float, Float]) -> None:

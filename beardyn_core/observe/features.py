@@ -1,4 +1,4 @@
-"""Envelope, order tracking and line search: what condition monitoring makes of a vibration signal."""
+"""Envelope, order tracking and line search: features of vibration for condition monitoring."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def _taps(pairs: int, beta: float) -> Float:
 
 
 def delay(factor: int) -> int:
-    """Count the samples of the new rate by which the output comes late."""
+    """Compute the delay of the output in samples of the new rate."""
     return 16 * factor
 
 
@@ -71,7 +71,7 @@ class Interpolator:
 
     @property
     def state(self) -> tuple[Float, ...]:
-        """Copy of all that the future depends on."""
+        """Copy of the state of the filter."""
         kept = zip(self._streams, self._kept, strict=True)
         return tuple(stream[:, :count].copy() for stream, count in kept)
 
@@ -81,7 +81,7 @@ class Interpolator:
             stream[:, :count] = values
 
     def push(self, block: Float) -> Float:
-        """Consume a block and return what comes out.
+        """Filter a block and return the output so far.
 
         Parameters
         ----------

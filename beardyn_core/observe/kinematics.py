@@ -45,7 +45,7 @@ INSTANT_LOAD, INSTANT_SHAFT, INSTANT_CAGES, INSTANT_ROLLERS = 0, 6, 8, 12
 
 
 class Instants(Protocol):
-    """Rollers at some instants that are made when somebody asks for them."""
+    """Rollers at some instants, computed when first used."""
 
     def __getitem__(self, times: slice) -> Instants:
         """Take some of the instants."""
@@ -61,7 +61,7 @@ class Instants(Protocol):
 
 
 class Snapshots:
-    """Bodies and contacts at some instants, worked out when they are asked for.
+    """Bodies and contacts at some instants, computed when first used.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ class Snapshots:
 
 @entry
 def write_instants(rollers: Any, bodies: Any, loads: Any, stride: Any, count: Any, out: Any) -> None:
-    """Write the numbers of some instants that the trends are made of.
+    """Write the values of some instants from which the trends are computed.
 
     Parameters
     ----------

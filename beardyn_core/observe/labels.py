@@ -1,4 +1,4 @@
-"""Labels of a run for those who learn from it: condition, load, speed, fault frequencies, dimensions."""
+"""Labels of a run for machine learning: condition, load, speed, fault frequencies, dimensions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Float = NDArray[np.float64]
 
 
 def scene_labels(scene: Scene) -> dict[str, Any]:
-    """Label a scene: what of its truth is known before the run.
+    """Label a scene by the facts that are known before the run.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def load_labels(
 
 
 def flat_labels(truth: Mapping[str, Any]) -> dict[str, Any]:
-    """Bring the labels of a truth to one level, a row of a table.
+    """Flatten the labels of a truth to the row of a table.
 
     Nested keys are joined by ``_``: ``load_fz_N_mean``, ``fault_frequencies_Hz_BPFO``. Of the faults the
     first one gives ``fault_on``, ``fault_kind``, ``fault_row``, ``fault_width_m``, ``fault_depth_m`` and
@@ -126,7 +126,7 @@ def _flat(prefix: str, part: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _range(time_ns: NDArray[np.int64], values: Float) -> dict[str, float]:
-    """Mean over time, smallest and largest value of samples that are linear in between."""
+    """Compute mean over time, smallest and largest value of samples that are linear in between."""
     mean = float(values[0])
     if len(values) > 1:
         steps = np.diff(time_ns).astype(np.float64)

@@ -1,4 +1,4 @@
-"""The monitor: collects the streams that a train has and hands the last revolutions to an algorithm."""
+"""The monitor: collects the signals of a train and passes the last revolutions to an algorithm."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _LEAST_HEATING_NS = 10_000_000_000
 
 @dataclass(frozen=True)
 class MonitorInput:
-    """What a train gives its monitor during a short time; the only way signals come to a `Monitor`.
+    """Signals of a short time that a train passes to its monitor; the only input of a `Monitor`.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class MonitorInput:
 
     @classmethod
     def of_block(cls, block: Block) -> MonitorInput:
-        """Take from a block what a train would measure of it."""
+        """Take from a block the signals that a train would measure."""
         first, known = block.vibration[0], block.temperature is not None
         return cls(
             first.time_ns, first.acceleration, block.trend_time_ns, block.shaft_angle,
@@ -133,7 +133,7 @@ class Monitor:
         self._next_ns: int | None = None
 
     def take(self, part: MonitorInput) -> MonitorResult | None:
-        """Add what came in from all streams, and give a new result when one is due."""
+        """Add the samples of all streams, and give a new result when one is due."""
         self.push_vibration(part.vibration_time_ns, part.acceleration)
         self.push_shaft(part.shaft_time_ns, part.shaft_angle)
         self.push_load(part.load_time_ns, part.vertical_load)
@@ -208,7 +208,7 @@ class Monitor:
         return self.result()
 
     def result(self) -> MonitorResult:
-        """Analyse what is there now, due or not."""
+        """Analyse the samples so far, due or not."""
         if not len(self._time) or not len(self._shaft_time) or self.rate is None:
             return MonitorResult("waiting", "no vibration or no shaft angle yet", 0)
         last = int(min(self._time[-1], self._shaft_time[-1]))
@@ -263,7 +263,7 @@ class Monitor:
         return float(np.polyfit((time - time[0]) * 1e-9, temperature, 1)[0])
 
     def _forget(self, before_ns: int) -> None:
-        """Drop what no later window needs; the shaft keeps one sample before."""
+        """Drop samples that no later window needs; the shaft keeps one sample before."""
         kept = int(np.searchsorted(self._time, before_ns))
         self._time, self._acceleration = self._time[kept:], self._acceleration[kept:]
         kept = max(0, int(np.searchsorted(self._shaft_time, before_ns, side="right")) - 1)

@@ -67,7 +67,7 @@ def filter_coefficients(
 
 
 class Resonance:
-    """The filter of one sensor; what it gives comes `LOOKAHEAD` steps late.
+    """The filter of one sensor; its output comes `LOOKAHEAD` steps late.
 
     Cutting the stream into other blocks gives the same bits.
 
@@ -92,7 +92,7 @@ class Resonance:
 
     @property
     def state(self) -> tuple[Float, Float]:
-        """All that the future depends on; nobody changes these arrays any more."""
+        """State of the filter, in arrays that are not changed afterwards."""
         return self._inputs, self._outputs
 
     def restore(self, state: tuple[Float, Float]) -> None:
@@ -100,7 +100,7 @@ class Resonance:
         self._inputs, self._outputs = state
 
     def push(self, block: Float) -> Float:
-        """Consume a block, shape [step, channel], and return as much."""
+        """Filter a block, shape [step, channel], and return as many steps."""
         stretch = np.concatenate((self._inputs, block))
         out = np.empty((len(block) + 2, block.shape[1]))
         out[:2] = self._outputs

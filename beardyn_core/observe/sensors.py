@@ -1,4 +1,4 @@
-"""All accelerometers of a scene: box motion at the step rate to what each of them reads."""
+"""All accelerometers of a scene: from box motion at the step rate to the reading of each."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class Sensors:
         return found
 
     def vibration(self, index: int, readings: list[Float]) -> tuple[Vibration, ...]:
-        """Stamp readings with their time; what lies before the start of the run is left out."""
+        """Stamp readings with their time; those before the start of the run are left out."""
         found = []
         for sensor, delay, values in zip(self._sensors, self.delays, readings, strict=True):
             first = self._first(index, sensor, delay)
@@ -109,7 +109,7 @@ class Sensors:
 
     @property
     def state(self) -> tuple[Any, ...]:
-        """Everything that the next block depends on."""
+        """State of all filters, from which the next block continues."""
         return tuple(None if chain is None else chain.state for chain in self._chains)
 
     def restore(self, state: tuple[Any, ...]) -> None:

@@ -18,7 +18,7 @@ STAGES = (*KERNEL_STAGES, KERNEL, LOAD, OBSERVE, SINKS, REST)
 
 @dataclass(frozen=True)
 class StageTime:
-    """What one stage took.
+    """Wall time of one stage.
 
     Parameters
     ----------
@@ -50,15 +50,15 @@ class StageClock:
         self._last = now()
 
     def begin(self) -> None:
-        """Leave out what has passed since the last lap, such as waiting."""
+        """Ignore the time since the last lap, such as waiting."""
         self._last = self._now()
 
     def lap(self, stage: str) -> None:
-        """Book the time since the last lap to a stage."""
+        """Add the time since the last lap to a stage."""
         self._seconds[stage] += self._passed()
 
     def lap_kernel(self, cycles: NDArray[np.float64]) -> None:
-        """Book the time since the last lap to the stages of the kernel.
+        """Add the time since the last lap to the stages of the kernel.
 
         Parameters
         ----------

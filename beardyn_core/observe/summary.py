@@ -1,4 +1,4 @@
-"""What a run came to: means over whole cage revolutions, losses, life."""
+"""Summary of a run: means over whole cage revolutions, losses, life."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class RunSummary:
-    """What a run came to; means over the last whole cage revolutions.
+    """Summary of a run; means over the last whole cage revolutions.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the torque of a run goes into: mean power and equivalent torque of every loss."""
+"""Torque budget of a run: mean power and equivalent torque of every loss."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ class TorqueBudget:
 
     @property
     def power(self) -> float:
-        """Of all sources, [W]."""
+        """Power of all sources, [W]."""
         return math.fsum(share.power for share in self.shares)
 
     @property
     def torque(self) -> float:
-        """Of all sources, [N m]."""
+        """Torque of all sources, [N m]."""
         return math.fsum(share.torque for share in self.shares)
 
     def to_json(self) -> dict[str, Any]:
@@ -93,7 +93,7 @@ class TorqueBudget:
 def torque_budget(
     times: Sequence[float], lost: NDArray[np.float64], shaft_speed: float
 ) -> TorqueBudget | None:
-    """Compute the budget from the energies lost up to some times; ``None`` when the times span nothing.
+    """Compute the budget from the energies lost up to some times; ``None`` when no time lies between.
 
     Parameters
     ----------

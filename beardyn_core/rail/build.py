@@ -1,4 +1,4 @@
-"""Any operation to the load history that the twin consumes."""
+"""From any operation to the load history that the twin consumes."""
 
 from __future__ import annotations
 

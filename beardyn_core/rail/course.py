@@ -1,4 +1,4 @@
-"""Curvature and cant under the wheel, and what they press the vehicle with."""
+"""Curvature and cant under the wheel, and the forces on the vehicle that follow from them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Course:
 
 
 def course(curves: tuple[Curve, ...], position: Float, speed: Float) -> Course:
-    """Run over curves.
+    """Compute curvature and cant along a run over curves.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a run meets on its way, as truth: irregularity, strikes of the wheel, joints passed, with times."""
+"""Excitation events of a run as truth: irregularity, strikes of the wheel, joints passed, with times."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _MOST_INSTANTS = 500_000
 
 
 class _Travel:
-    """Way of the wheel along the track over the time."""
+    """Travelled distance of the wheel along the track over time."""
 
     def __init__(self, operation: QuarterVehicleOperation, duration: float) -> None:
         count = min(int(np.ceil(duration / _SPACING)), _MOST_INSTANTS) + 1
@@ -44,7 +44,7 @@ class _Travel:
         self.speed = speed_at(operation.speed_profile, self.time)
 
     def passages(self, first: float, spacing: float | None, endless: bool = False) -> dict[str, Any]:
-        """List times and distances of passing places: one, evenly spaced ones on from it, or endless ones."""
+        """List times and distances at which places are passed: one, or evenly spaced ones."""
         if spacing is None:  # -1 before the place, 0 behind it
             passed = (self.distance >= first).astype(np.int64) - 1
         else:
@@ -197,7 +197,7 @@ def _curves(operation: QuarterVehicleOperation, travel: _Travel) -> Iterator[Eve
 
 
 def _runs(travel: _Travel) -> Iterator[Event]:
-    """List standstills, and starts after them in either direction."""
+    """List standstills, and the starts after them in either direction."""
     moving = np.sign(np.where(np.abs(travel.speed) < 1e-6, 0.0, travel.speed))
     changes = np.flatnonzero(np.diff(moving) != 0.0) + 1
     words = {0.0: "standstill", 1.0: "forwards", -1.0: "backwards"}

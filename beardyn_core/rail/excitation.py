@@ -144,12 +144,12 @@ def _waves(corrugation: Corrugation, position: Float) -> Float:
 
 
 def _apart(distance: Float, period: float) -> Float:
-    """Measure the distance to the nearest of places that come back with the period, not negative."""
+    """Compute the distance to the nearest of periodic places, not negative."""
     return np.abs(distance - period * np.round(distance / period))
 
 
 def _from_nearest(distance: Float, spacing: float | None) -> Float:
-    """Measure the distance to the nearest of places that begin at 0; before the first the rail is sound."""
+    """Compute the distance to the nearest of periodic places from 0 on; there is none before 0."""
     if spacing is None:
         return np.abs(distance)
     return np.where(distance > -0.5 * spacing, _apart(distance, spacing), np.inf)

@@ -203,7 +203,7 @@ def _drawn(
 
 
 def _short_waves(irregularity: Irregularity, seed: int, patch: float) -> RailProfile:
-    """Compute the density that is missing up to that of the roughness limit."""
+    """Compute the density that the spectrum lacks against that of the roughness limit."""
     period = _SHORT_WAVE_PERIOD
     line, wavenumber = _lines(period, *SHORT_WAVE_BAND)
     density = iso_3095_density(wavenumber)

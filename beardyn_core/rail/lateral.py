@@ -131,7 +131,7 @@ def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> L
 def lateral_motion(
     vehicle: LateralVehicle, speed: Float, plan: Course, alignment: Float, step: float
 ) -> LateralMotion:
-    """Run along the course of the track, from the middle of it.
+    """Simulate the lateral motion along the course of the track, starting at its middle.
 
     By the trapezoidal rule, each step linear: creep is reduced where the resultant comes near the friction
     limit, and flanges touch, as at the step's beginning. Stable at any speed, through standstill and

@@ -1,4 +1,4 @@
-"""Braking and starting: what a changing speed does to one axle."""
+"""Braking and starting: forces on one axle while the speed changes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BUILD_UP = 1.0
 
 @dataclass(frozen=True)
 class LongitudinalForces:
-    """Forces of the share of one axlebox along the track, and what the brake does across it.
+    """Forces of one axlebox's share along the track, and those of the brake across it.
 
     Parameters
     ----------

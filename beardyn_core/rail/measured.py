@@ -54,7 +54,7 @@ _READERS = {".mcap": ("beardyn_core.record.load_reading", "read_recorded_load")}
 
 @dataclass(frozen=True)
 class Measurement:
-    """What a file holds, SI, time from its first sample on; zeros where something was not taken.
+    """Load and speed of a file, SI, time from its first sample on; zeros for what was not read.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def read_measurement(path: Path, take: str = "both") -> Measurement:
 
 @lru_cache(maxsize=4)
 def _read(path: Path, take: str, changed: int) -> Measurement:
-    """Read a file; kept, for a scene that is checked, chosen for and run needs it several times."""
+    """Read a file, and cache it, because one scene needs it several times."""
     if path.suffix.lower() in _READERS:
         module, name = _READERS[path.suffix.lower()]
         reader: Callable[[Path, str], Measurement] = getattr(import_module(module), name)
@@ -116,7 +116,7 @@ def _read(path: Path, take: str, changed: int) -> Measurement:
 
 
 def layout_of(take: str) -> Layout:
-    """List the columns of a CSV file of which both, only the force or only the speed is taken."""
+    """List the columns of a CSV file from which force, speed or both are read."""
     wanted = take != "speed"
     return Layout(
         what="load and speed" if take == "both" else take,
@@ -152,7 +152,7 @@ def _read_csv(path: Path, take: str) -> Measurement:
 
 
 def _check_forces(path: Path, table: dict[str, Float]) -> None:
-    """Refuse forces that no axle has, and doubt those so small that they may be in another unit."""
+    """Refuse forces that no axle has, and warn of those so small that they may be in another unit."""
     forces = {name: np.abs(table[name]).max() for name in FORCES if name in table}
     if not forces:
         return

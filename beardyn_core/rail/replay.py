@@ -1,4 +1,4 @@
-"""A measured operation to the load history that the twin consumes."""
+"""From a measured operation to the load history that the twin consumes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Float = NDArray[np.float64]
 def replayed(
     operation: MeasuredOperation, count: int, rate: float, thin: Callable[[Float, int], Float]
 ) -> LoadHistory:
-    """Read the load of a file, and add what of it is modelled.
+    """Read the load of a file, and add the parts that are modelled.
 
     A recorded stream of load that is taken whole is passed on sample by sample, at its own rate.
 

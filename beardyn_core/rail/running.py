@@ -1,4 +1,4 @@
-"""All that a run does to an axlebox besides the vertical profile of the rail: curves, sway, pull."""
+"""Loads on an axlebox besides those of the vertical rail profile: curves, sway, traction and braking."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Running:
 def running(
     operation: QuarterVehicleOperation, mounting: Mounting, time: Float, fade: Float, seed: int
 ) -> Running | None:
-    """Compute what acts besides the vertical profile; ``None`` while the vehicle just rolls straight on.
+    """Compute forces besides those of the vertical profile; ``None`` on straight track at constant speed.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Primary suspension that is not linear: springs that join in one after the other, and dry friction."""
+"""Nonlinear primary suspension: springs that engage one after the other, and dry friction."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SOFT, STIFF, MEET, AT_REST, STATIC, FRICTION, CREEP, LINEAR, VISCOUS = range(9)
 
 
 def law(suspension: ProgressiveSuspension | None, mounting: Mounting, static: float) -> Float:
-    """Gather the numbers that `excess_force` needs in a row.
+    """Gather in one array the numbers that `excess_force` needs.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def excess_force(row: Any, squeeze: Any, squeeze_speed: Any) -> Any:
 
 
 def equivalent_displacement(force: Float, mounting: Mounting, axis: int, step: float) -> Float:
-    """Compute how far the bogie end of a linear suspension must move to press with a further force.
+    """Compute the motion of the bogie end of a linear suspension that gives an additional force.
 
     The twin holds its axlebox by the linear law of the mounting. With the bogie moved by this as well
     the box feels what the rail model's suspension does beyond that law.

@@ -39,7 +39,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Layout:
-    """What a file may hold.
+    """Columns that a file may have.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class Layout:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All columns there may be."""
+        """Names of all columns that may be present."""
         return tuple(column.name for column in self.columns)
 
 
@@ -198,7 +198,7 @@ def _unit_problems(path: Path, line: int, names: list[str], units: list[str], la
 def _numbers(
     path: Path, name: str, lines: list[int], cells: list[str], positive: bool
 ) -> tuple[Float, list[str]]:
-    """Read the numbers of a column, NaN where there is none, and say what is wrong with them."""
+    """Read the numbers of a column, NaN where there is none, and report mistakes."""
     problems = []
     try:
         values = np.array(cells, dtype=np.float64)

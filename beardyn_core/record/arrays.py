@@ -27,8 +27,8 @@ ACCELERATION_AXES = ("ax", "ay", "az")
 
 
 @contextmanager
-def damage_told(path: Path | str) -> Iterator[None]:
-    """Turn whatever goes wrong with bytes that nobody vouches for into a sentence about the file.
+def decoding_checked(path: Path | str) -> Iterator[None]:
+    """Turn any failure of decoding into an `InputError` about the file.
 
     Chunks with checksums do not come this far when they are damaged; messages without, or of somebody
     else's making, may hold anything.
@@ -46,7 +46,7 @@ def damage_told(path: Path | str) -> Iterator[None]:
 
 @dataclass(frozen=True, eq=False)
 class Timed:
-    """What all signals have: the time of each sample.
+    """Base of all signals: the time of each sample.
 
     Parameters
     ----------
@@ -179,7 +179,7 @@ class Contacts(Timed):
         return np.asarray(np.isfinite(self.point[..., 0]))
 
     def of(self, kind: str) -> int:
-        """Index of a kind of contact: ``cup``, ``cone``, ``rib`` or ``pocket``."""
+        """Find the index of a kind of contact: ``cup``, ``cone``, ``rib`` or ``pocket``."""
         return self.kinds.index(kind)
 
     def __repr__(self) -> str:
@@ -214,7 +214,7 @@ class Load(Timed):
 
 
 class Source(Protocol):
-    """Where the arrays of a run come from; each is asked for once, when somebody looks."""
+    """Source of the arrays of a run; each is read once, when it is first used."""
 
     def force(self) -> Signal:
         """Give `Run.force`."""

@@ -74,7 +74,7 @@ class CloudTemplate:
 def points_of(
     dtype: np.dtype[Any], first_sample: int, time_ns: NDArray[np.int64], stamp_ns: int
 ) -> NDArray[Any]:
-    """Make points with ``sample`` and ``t`` filled; the other columns are left to the caller.
+    """Make points with ``sample`` and ``t`` filled; the caller fills the other columns.
 
     Parameters
     ----------

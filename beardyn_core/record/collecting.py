@@ -157,7 +157,7 @@ class BlockSource:
         return Contacts(times, numbers[..., :3], force, numbers[..., 6], numbers[..., 7])
 
     def load(self) -> Load:
-        """Give `Run.load`: what went in up to the end, or without a history the load at 400 Hz."""
+        """Give `Run.load`: the load history up to the end, or without one the load at 400 Hz."""
         history = None if self._description is None else self._description.load
         if history is None:
             times = self._times(lambda block: block.trend_time_ns)

@@ -1,4 +1,4 @@
-"""What a recording says about itself: scene, truth, bodies and the shape of the bearing."""
+"""Description of a run in its recording: scene, truth, bodies and the shape of the bearing."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ class BearingShape:
 
 @dataclass(frozen=True)
 class RunDescription:
-    """What a sink is told before the first block, and what a file alone must be able to say.
+    """Description that a sink gets before the first block and stores, so that a file explains itself.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ class RunDescription:
         body_names: Sequence[str],
         load: LoadHistory | None = None,
     ) -> RunDescription:
-        """Describe a run of a scene as it is; the truth gets labels of the load when that is known."""
+        """Describe a run of a scene; the truth gets labels of the load when the load is known."""
         from beardyn_core.config.text import scene_text  # pydantic is not for readers of a recording
 
         if load is not None:
@@ -170,7 +170,7 @@ class RunDescription:
 
     @property
     def absent_bodies(self) -> frozenset[str]:
-        """Names of the bodies that are not there; their motion in the recording is a stand-in's."""
+        """Names of missing bodies; the recording has a made-up motion in their place."""
         missing = [defect for defect in self.defects if isinstance(defect, MissingRoller)]
         absent = {f"roller_{each.row}_{each.roller}" for each in missing}
         if self.truth.get("rows", 2) == 1:

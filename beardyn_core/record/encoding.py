@@ -182,13 +182,13 @@ class BlockEncoder:
         for i, axis in enumerate(WRENCH_AXES):
             points[axis] = block.force_waveform[:, i]
         yield "force_waveform", stamp, self._waveform.encode(points, stamp)
-        for sensor, heard in enumerate(block.vibration):
-            if not len(heard.time_ns):
+        for sensor, vibration in enumerate(block.vibration):
+            if not len(vibration.time_ns):
                 continue
-            stamp = int(heard.time_ns[0])
-            points = points_of(VIBRATION, heard.sample, heard.time_ns, stamp)
+            stamp = int(vibration.time_ns[0])
+            points = points_of(VIBRATION, vibration.sample, vibration.time_ns, stamp)
             for i, axis in enumerate(("ax", "ay", "az")):
-                points[axis] = heard.acceleration[:, i]
+                points[axis] = vibration.acceleration[:, i]
             yield vibration_topic(sensor, self._sensor_names), stamp, self._vibration.encode(points, stamp)
 
     def _snapshots(self, block: Block) -> Iterator[tuple[str, int, bytes]]:

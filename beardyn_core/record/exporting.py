@@ -115,7 +115,7 @@ def _not_sound(run: Run, name: str) -> str:
 
 
 def refuse_to_write(files: Sequence[Path], *, force: bool, inputs: Sequence[Path] = ()) -> None:
-    """Raise `InputError` for files that exist, or that are an input, which `force` does not change."""
+    """Raise `InputError` for files that exist, unless `force`, and for files that are an input."""
     problems = [each for file in files for each in file_problems("", file, inputs=inputs, force=force)]
     if problems:
         raise InputError(problems)

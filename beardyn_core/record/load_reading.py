@@ -82,7 +82,7 @@ def _messages(path: Path) -> dict[str, list[bytes]]:
 
 
 def _stream(path: Path, cdrs: list[bytes]) -> LoadHistory:
-    """Take the stream from its last beginning on; it begins again when a twin was reset."""
+    """Keep the stream from its last start; it restarts when a twin is reset."""
     parts: list[LoadHistory] = []
     expected = 0
     for cdr in cdrs:

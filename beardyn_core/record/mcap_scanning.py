@@ -1,4 +1,4 @@
-"""Reading MCAP from the front, up to where the file still makes sense.
+"""Reading MCAP from the front, up to the first damaged record.
 
 Ordinary readers begin at the summary in the end of a file and reject one that was cut off. Here the
 records are read in the order they were written, so everything up to the last complete chunk is found.
@@ -60,7 +60,7 @@ class RecordedMessage:
 
 
 class McapScan:
-    """A pass over a file from the front; iterate `messages`, then ask what was found.
+    """A pass over a file from the front; iterate `messages`, then read the attributes.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ class McapScan:
 
 @dataclass(frozen=True)
 class Recovery:
-    """What was found in a cut-off file.
+    """Result of recovering a cut-off file.
 
     Parameters
     ----------
@@ -244,7 +244,7 @@ def recover(path: Path | str, target: Path | str | None = None, *, replace: bool
 
 
 def _copy(scan: McapScan, messages: Iterator[Message], file: BinaryIO) -> tuple[int, int, int]:
-    """Write what a scan finds to a file; count of messages, first and last log time [ns]."""
+    """Write the messages of a scan to a file; return their count, first and last log time [ns]."""
     count, begin, end = 0, 1 << 63, 0
     writer = Writer(file, compression=CompressionType.ZSTD)
     writer.start(profile="ros2", library="beardyn recover")
@@ -274,7 +274,7 @@ def _copy(scan: McapScan, messages: Iterator[Message], file: BinaryIO) -> tuple[
 
 
 def trim(path: Path) -> str:
-    """Cut a file that its writer could not go on with behind its last whole record, and say what it holds.
+    """Cut a file whose writer failed behind its last whole record, and report its content.
 
     Its index would need space that is not there, so it stays a cut-off file, which everything here reads. A
     file without any message goes altogether.

@@ -105,7 +105,7 @@ class McapWriter:
         self.flush_if_due()
 
     def flush_if_due(self) -> None:
-        """Hand the chunk in progress to the operating system when `FLUSH_SECONDS` have gone by."""
+        """Write the chunk in progress to the file when `FLUSH_SECONDS` have passed."""
         now = monotonic()
         if now - self._flushed >= FLUSH_SECONDS:
             self._flushed = now

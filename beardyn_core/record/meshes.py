@@ -250,7 +250,7 @@ def cage(shape: BearingShape, row: int) -> Mesh:
 
 
 def spall(shape: BearingShape, defect: Patch) -> Mesh:
-    """Build a patch on a raceway of the cup or the cone, a little proud so that it is seen."""
+    """Build a patch on a raceway of the cup or the cone, slightly raised so that it is visible."""
     angle = shape.cup_angle if defect.on == "cup" else shape.cone_angle
     lift = -4e-4 if defect.on == "cup" else 4e-4
     side = ROW_SIDE[defect.row]

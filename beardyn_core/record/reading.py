@@ -24,7 +24,7 @@ from beardyn_core.record.arrays import (
     Load,
     Signal,
     Turning,
-    damage_told,
+    decoding_checked,
     no_signal,
 )
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
@@ -85,7 +85,7 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     if not any(name != path for name, path in zip(cdrs, recorded, strict=True)):
         found = f"it has {', '.join(sorted(recorded))}" if recorded else scan.problem or "it has no messages"
         raise InputError(f"{scan.path}: no messages under the namespace {namespace}; {found}")
-    with damage_told(scan.path):
+    with decoding_checked(scan.path):
         return _run(scan, cdrs)
 
 

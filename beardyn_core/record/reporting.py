@@ -1,4 +1,4 @@
-"""What a recording holds, in words and as JSON."""
+"""Content of a recording, in words and as JSON."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.observe.torque_budget import TorqueBudget
-from beardyn_core.record.arrays import damage_told
+from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.reading import read_run
@@ -20,7 +20,7 @@ from beardyn_core.record.run_summary import diagnosed, recorded_budget
 from beardyn_core.scene.defect import defect_from
 
 SAMPLE_RANGE = 1 << 32
-# What others say to the twin or about it, and what is said once: their times are not those of its signals.
+# Topics written by others, or once: their times are not those of the twin's signals.
 NOT_OF_THE_TWIN = (
     *("/load/blocks", "/load/consumed", "/load/wrench", "/load/shaft"),
     *("/monitor/result", "/truth", "/diagnostics"),
@@ -65,7 +65,7 @@ class Gap:
 
 @dataclass(frozen=True)
 class Report:
-    """What a recording holds.
+    """Content of a recording.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ class Report:
 
 
 def report(path: Path | str) -> Report:
-    """Read a recording, cut off or not, and say what it holds.
+    """Read a recording, also a cut-off one, and report its content.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def report(path: Path | str) -> Report:
         begin, end = spans.get(message.topic, (message.log_time, message.log_time))
         spans[message.topic] = (min(begin, message.log_time), max(end, message.log_time))
     run = read_run(path)
-    with damage_told(scan.path):
+    with decoding_checked(scan.path):
         return _report(scan, run, counts, types, spans)
 
 

@@ -67,7 +67,7 @@ def log_parts(stream: rr.RecordingStream, run: RunDescription) -> None:
 
 
 def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defect: Patch) -> None:
-    """Draw a line from the spall to outside the bearing, with its name: raceways are hard to look at."""
+    """Draw a line with a name from the spall to outside the bearing, as raceways are hidden."""
     shape = run.shape
     axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + defect.offset)
     inner = shape.pitch_diameter / 2.0

@@ -72,7 +72,7 @@ class LiveView:
             self.flush()
 
     def flush(self) -> None:
-        """Draw what has come in."""
+        """Draw the messages that have arrived."""
         self._drawn = monotonic()
         if self._run is None or not self._batch:
             return
@@ -116,7 +116,7 @@ class LiveView:
 
 
 class RerunSink:
-    """Draws a desk run while it is computed.
+    """Draws a run while it is computed.
 
     Parameters
     ----------

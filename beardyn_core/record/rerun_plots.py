@@ -79,7 +79,7 @@ def log_curves(stream: rr.RecordingStream, run: Run) -> None:
 
 
 def order_spectrum(run: Run) -> OrderSpectrum | None:
-    """Envelope order spectrum of the first accelerometer, up to a little over three times BPFI."""
+    """Compute the envelope order spectrum of the first accelerometer, to just over three times BPFI."""
     highest = HIGHEST_ORDER_OF_BPFI * run.described().shape.fault_frequencies["BPFI"]
     return envelope_order_spectrum(run.vibration, run.shaft, highest)
 

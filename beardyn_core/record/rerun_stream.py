@@ -17,7 +17,7 @@ APPLICATION = "beardyn"
 
 @dataclass(frozen=True)
 class LiveStream:
-    """A rerun stream that leads somewhere.
+    """A rerun stream to a window, a web page or a file.
 
     Parameters
     ----------

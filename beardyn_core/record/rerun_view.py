@@ -1,4 +1,4 @@
-"""A recording as a rerun recording with a blueprint that opens readable at once."""
+"""A recording as a rerun recording with a blueprint that lays out its views."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def _window(start: rr.TimeRangeBoundary, end: rr.TimeRangeBoundary) -> rrb.arche
 
 
 def run_blueprint(run: Run) -> rrb.Blueprint:
-    """Blueprint for a recording, with its time window."""
+    """Make the blueprint of a recording, with its time window."""
     times = run.vibration.time if len(run.vibration) else run.force.time
     span = (float(times[0]), float(times[-1])) if len(times) else None
     described = run.described()
@@ -166,7 +166,7 @@ def save(run: Run, target: Path | str) -> Path:
 
 
 def about(run: Run) -> str:
-    """Describe in Markdown what the recording is of."""
+    """Describe the scene of the recording in Markdown."""
     description = run.described()
     lines = [
         f"# {description.scene}",

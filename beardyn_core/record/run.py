@@ -22,7 +22,7 @@ from beardyn_core.record.arrays import (
     Signal,
     Source,
     Turning,
-    damage_told,
+    decoding_checked,
     no_signal,
 )
 from beardyn_core.record.topics import vibration_topic
@@ -140,7 +140,7 @@ class Run:
 
     @cached_property
     def specific_force(self) -> Signal:
-        """What the first accelerometer reads, decimated to 400 Hz, values [sample, 3], [m/s^2]."""
+        """Specific force at the first accelerometer, decimated to 400 Hz, values [sample, 3], [m/s^2]."""
         return self._take(self._source.specific_force)
 
     @cached_property
@@ -185,7 +185,7 @@ class Run:
 
     @cached_property
     def diagnostics(self) -> Diagnostics:
-        """Stamp [ns] and statuses that the twin gave of itself every 0.2 s."""
+        """Stamp [ns] and statuses of the twin every 0.2 s."""
         return self._take(self._source.diagnostics)
 
     @cached_property
@@ -195,24 +195,24 @@ class Run:
 
     @cached_property
     def truth(self) -> Mapping[str, Any]:
-        """What is known of the run that a train could not know, with labels of load and speed.
+        """Facts of the run that no train could measure: faults and excitation, with labels of load and speed.
 
         Empty when a file has none. The keys are explained in docs/python.md.
         """
         if self.description is None:
             return {}
         truth, load = json.loads(json.dumps(dict(self.description.truth))), self.load
-        with damage_told(self.label):
+        with decoding_checked(self.label):
             return {**truth, **load_labels(load.time_ns, load.wrench, load.shaft_speed, truth)}
 
     def _take(self, part: Callable[[], Part]) -> Part:
-        """Decode an array; of a damaged file that is a sentence."""
-        with damage_told(self.label):
+        """Decode an array; a damaged file raises `InputError`."""
+        with decoding_checked(self.label):
             return part()
 
     @property
     def labels(self) -> dict[str, Any]:
-        """Numbers and names of `truth` in one level, a row of a table: for learners."""
+        """Numbers and names of `truth` without nesting, as a row of a table, for machine learning."""
         return flat_labels(self.truth)
 
     @cached_property
@@ -257,7 +257,7 @@ class Run:
         return "run in memory" if self.path is None else str(self.path)
 
     def monitor_inputs(self) -> Iterator[MonitorInput]:
-        """Give what a monitor may read, in parts in the order of time, as it would come live."""
+        """Give the signals that a monitor may read, in parts in the order of time, as in a live run."""
         vibration, shaft, load, temperature = self.vibration, self.shaft, self.load, self.temperature
         box = temperature.components.index("axlebox") if len(temperature) else 0
         used = [0, 0, 0]
@@ -277,7 +277,7 @@ class Run:
             )  # fmt: skip
 
     def __repr__(self) -> str:
-        """Scene, length and how it ended, in two lines."""
+        """Describe scene, length and end of the run in two lines."""
         what = "a recording without truth" if self.description is None else self._said()
         sensors = ", ".join(f"{name} {signal.rate / 1e3:g} kHz" for name, signal in self.sensors.items())
         return f"Run of {what}\n  {self.duration:.2f} s, sensors: {sensors or 'none'}; {self.status}"

@@ -1,4 +1,4 @@
-"""Where the blocks of a run go."""
+"""Sinks: receivers of the blocks of a run."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class MemorySink:
         self.status: str | None = None
 
     def open(self, run: RunDescription) -> None:
-        """Begin a run; blocks of an earlier one are forgotten."""
+        """Begin a run; blocks of an earlier one are dropped."""
         self.run, self.blocks, self.status = run, [], None
 
     def write(self, block: Block) -> None:
@@ -63,7 +63,7 @@ class MemorySink:
         self.status = status
 
     def to_run(self, summary: Callable[[], RunSummary] | None = None) -> Run:
-        """Give what has come so far as named arrays; ``summary`` is that of the simulation."""
+        """Give the blocks so far as named arrays; ``summary`` is that of the simulation."""
         status = COMPLETE if self.status == "" else self.status
         return Run.of_blocks(self.blocks, self.run, status, summary)
 

@@ -207,7 +207,7 @@ def labels_of(run: Run) -> dict[str, Any]:
 
 
 def library(name: str, purpose: str) -> Any:
-    """Import a library that only some need.
+    """Import an optional library.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What an axle does when the vehicle slows down or speeds up."""
+"""Brake and drive of an axle: forces when the vehicle slows down or speeds up."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ PATCH_KINDS = ("spall", "rectangular", "half_sine", "elliptic", "dent", "brinell
 
 
 def no_such(key: str, number: int, bearing: Bearing) -> Iterator[str]:
-    """Find the number of a roller or pocket that the bearing does not have."""
+    """Report a number of a roller or pocket that the bearing does not have."""
     if number >= bearing.roller_count:
         yield (
             f"{key} is {number}; {bearing.name} has {bearing.roller_count} rollers per row, "
@@ -26,7 +26,7 @@ def no_such(key: str, number: int, bearing: Bearing) -> Iterator[str]:
 
 
 def not_on_a_roller(roller: int, on: str) -> str:
-    """Say that a surface that is no roller has a roller's number."""
+    """Report a roller number on a surface that is not a roller."""
     return f"roller is {roller}, but on is {on!r}: only `on: roller` has a roller's number"
 
 
@@ -41,12 +41,12 @@ class Growth:
     depth: A[bool, INTERNAL, "depth and height of the rim grow"] = True
 
     def rules(self) -> Iterator[str]:
-        """Find a growth that ends before it begins."""
+        """Check that the growth ends after it begins."""
         if self.end <= self.start:
             yield f"to_s is {self.end:g}; it must be greater than from_s, {self.start:g}"
 
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
-        """Write which sizes grow as one word."""
+        """Write as one word which sizes grow."""
         size = {(True, True): "both", (True, False): "width", (False, True): "depth"}
         return {**keys, "size": size[self.width, self.depth]}
 
@@ -58,7 +58,7 @@ class Growth:
 
 @dataclass(frozen=True)
 class Patch:
-    """A patch of a raceway or a roller that is not where it should be.
+    """A patch of a raceway or a roller that lies deeper or higher than the sound surface.
 
     The azimuth is that of its centre, of brinelling of the centre of its first dent; a roller's 0 faces the
     cup. The width is without the rim, of brinelling that of each dent. The rim is sin^2 in rolling direction.
@@ -93,14 +93,14 @@ class Patch:
     growth: A[Growth | None, "of its size during the run"] = None
 
     def rules(self) -> Iterator[str]:
-        """Find what the patch by itself cannot be."""
+        """Check the patch by itself, without a bearing."""
         if self.on != "roller" and self.roller != 0:  # a recorded scene says every number, 0 too
             yield not_on_a_roller(self.roller, self.on)
         if self.rim_height > 0.0 and self.rim_width == 0.0:
             yield f"rim_width_mm is 0; a shoulder with rim_height_um {self.rim_height * 1e6:g} needs a width"
 
     def contradictions(self, bearing: Bearing) -> Iterator[str]:
-        """Find what of the patch does not fit the bearing."""
+        """Check that the patch fits on the bearing."""
         effective, length = bearing.effective_length * 1e3, self.length * 1e3
         slack = 1e-9 * effective
         if self.on == "roller":
@@ -143,7 +143,7 @@ class Patch:
         return self.width * (factor if self.growth.width else 1.0), self.depth * deep, self.rim_height * deep
 
     def described(self) -> str:
-        """Say what it is, in a few words."""
+        """Describe the defect in a few words."""
         what = self.kind.replace("_", "-")
         where = (
             f"roller {self.roller}, row {self.row}" if self.on == "roller" else f"{self.on}, row {self.row}"
@@ -171,16 +171,16 @@ class RollerError:
     kind: A[str, At(one_of=("diameter",), required=True), "which of the kinds this is"] = "diameter"
 
     def contradictions(self, bearing: Bearing) -> Iterator[str]:
-        """Find what of the defect does not fit the bearing."""
+        """Check that the defect is possible in the bearing."""
         return no_such("roller", self.roller, bearing)
 
     @property
     def on(self) -> str:
-        """The body at fault."""
+        """The body that has the defect."""
         return "roller"
 
     def described(self) -> str:
-        """Say what it is, in a few words."""
+        """Describe the defect in a few words."""
         return f"roller {self.roller}, row {self.row}, {self.diameter * 1e6:+.1f} µm in diameter"
 
 
@@ -198,16 +198,16 @@ class WornPocket:
     kind: A[str, At(one_of=("worn_pocket",), required=True), "which of the kinds this is"] = "worn_pocket"
 
     def contradictions(self, bearing: Bearing) -> Iterator[str]:
-        """Find what of the defect does not fit the bearing."""
+        """Check that the defect is possible in the bearing."""
         return no_such("pocket", self.pocket, bearing)
 
     @property
     def on(self) -> str:
-        """The body at fault."""
+        """The body that has the defect."""
         return "cage"
 
     def described(self) -> str:
-        """Say what it is, in a few words."""
+        """Describe the defect in a few words."""
         return f"pocket {self.pocket} of the cage, row {self.row}, worn by {self.clearance * 1e3:.2f} mm"
 
 
@@ -220,16 +220,16 @@ class MissingRoller:
     kind: A[str, INTERNAL] = "missing"
 
     def contradictions(self, bearing: Bearing) -> Iterator[str]:
-        """Find what of the roller does not fit the bearing."""
+        """Check that the missing roller is one of the bearing."""
         return no_such("roller", self.roller, bearing)
 
     @property
     def on(self) -> str:
-        """The body at fault."""
+        """The body that has the defect."""
         return "roller"
 
     def described(self) -> str:
-        """Say what it is, in a few words."""
+        """Describe the defect in a few words."""
         return f"roller {self.roller}, row {self.row}, missing"
 
 
@@ -266,13 +266,13 @@ def width_problem(width: float, on: str, bearing: Bearing) -> str:
 
 
 def raceway_diameter(on: str, bearing: Bearing) -> float:
-    """Mean diameter of the raceway of the cup or the cone, [m]."""
+    """Compute the mean diameter of the raceway of the cup or the cone, [m]."""
     side = 1.0 if on == "cup" else -1.0
     return bearing.pitch_diameter + side * bearing.roller_diameter * math.cos(bearing.contact_angle)
 
 
 def doubts_about(defects: Sequence[Defect], bearing: Bearing) -> list[str]:
-    """Say what is unusual about defects that can be.
+    """Warn of defects that are possible but unusual.
 
     Parameters
     ----------
@@ -293,7 +293,7 @@ def doubts_about(defects: Sequence[Defect], bearing: Bearing) -> list[str]:
 
 
 def defect_from(stored: Mapping[str, Any]) -> Defect:
-    """Make a defect of the mapping that `dataclasses.asdict` makes of it."""
+    """Make a defect from the mapping that `dataclasses.asdict` gives for it."""
     fields = dict(stored)
     kind = fields.get("kind", "spall")
     if kind == "diameter":
@@ -307,7 +307,7 @@ def defect_from(stored: Mapping[str, Any]) -> Defect:
 
 
 def truth_of(defect: Defect, time: float) -> dict[str, Any]:
-    """Write a defect as JSON-able truth; a growing one with its size at a time [s]."""
+    """Describe a defect as a mapping for JSON; a growing one with its size at a time [s]."""
     found = asdict(defect)
     if isinstance(defect, Patch) and defect.growth is not None:
         width, depth, rim = defect.size_at(time)

@@ -66,11 +66,11 @@ class WheelFlat:
         return self.length**2 / ((8.0 if self.shape == "fresh" else 16.0) * wheel_radius)
 
     def depth_on(self, wheel_radius: float) -> float:
-        """Return the depth as given, or as the length has it, [m]."""
+        """Return the depth, derived from the length when none is set, [m]."""
         return self.usual_depth(wheel_radius) if self.depth is None else self.depth
 
     def contradiction(self, wheel_radius: float) -> str | None:
-        """Find what is wrong between length, depth and wheel; ``None`` when they agree.
+        """Check length and depth against the wheel; ``None`` when they agree.
 
         The depth of a fresh flat is that of its chord. Rolling round makes a flat longer, not deeper:
         at a given length no flat is deeper than the fresh one.
@@ -89,7 +89,7 @@ class WheelFlat:
         return None
 
     def contradictions(self, wheel_radius: float) -> Iterator[str]:
-        """Find what of the flat does not fit a wheel of this radius [m]."""
+        """Check that the flat is possible on a wheel of this radius [m]."""
         if found := self.contradiction(wheel_radius):
             yield f"depth_mm is {1e3 * (self.depth or 0.0):g}; {found}"
 
@@ -105,14 +105,14 @@ class WheelPolygon:
     azimuth: A[float, At("deg"), "of a crest, from +z towards +x at the start of the run"] = 0.0
 
     def contradiction(self, wheel_radius: float) -> str | None:
-        """Find what is wrong between order and wheel: a wave must be longer than the contact patch."""
+        """Check that a wave of the order is longer than the contact patch on this wheel."""
         highest = math.floor(2.0 * math.pi * wheel_radius / 0.02)
         if self.order <= highest:
             return None
         return f"at most {highest} waves of 20 mm fit on a wheel of {2e3 * wheel_radius:g} mm"
 
     def contradictions(self, wheel_radius: float) -> Iterator[str]:
-        """Find what of the polygon does not fit a wheel of this radius [m]."""
+        """Check that the polygon is possible on a wheel of this radius [m]."""
         if found := self.contradiction(wheel_radius):
             yield f"order is {self.order}; {found}"
 
@@ -137,11 +137,11 @@ class WheelOutOfRound:
     seed: A[int, SEED, "of the azimuths of the waves"] = 1
 
     def contradiction(self, wheel_radius: float) -> str | None:
-        """Find what is wrong between the highest order and the wheel."""
+        """Check that the highest order is possible on this wheel."""
         return WheelPolygon(len(self.amplitudes), 0.0).contradiction(wheel_radius)
 
     def contradictions(self, wheel_radius: float) -> Iterator[str]:
-        """Find what of the waves does not fit a wheel of this radius [m]."""
+        """Check that the waves are possible on a wheel of this radius [m]."""
         if found := self.contradiction(wheel_radius):
             yield f"amplitudes_um has {len(self.amplitudes)} orders; {found}"
 
@@ -165,11 +165,11 @@ class DippedJoint:
 
     @property
     def depth(self) -> float:
-        """Of the kink below the sound rail, [m]."""
+        """Depth of the kink below the sound rail, [m]."""
         return 0.125 * self.angle * self.length
 
     def rules(self) -> Iterator[str]:
-        """Find joints that run into each other."""
+        """Check that neighbouring joints do not overlap."""
         if self.spacing is not None and self.spacing < self.length:
             yield f"spacing_m is {self.spacing:g}; it must be at least length_m, {self.length:g}"
 
@@ -186,7 +186,7 @@ class Corrugation:
     end: A[float, At("m", gt=0.0, key="to", absent=True), "to the end of the run when not given"] = math.inf
 
     def rules(self) -> Iterator[str]:
-        """Find a stretch too short for its waves."""
+        """Check that the stretch is long enough for its waves."""
         if self.end < self.begin + 4.0 * self.wavelength:
             yield (
                 f"to_m is {self.end:g}; it must be at least four waves behind from_m, "
@@ -216,7 +216,7 @@ class DippedWeld:
     spacing: A[float | None, At("m", gt=0.0), "to the next such weld; only one when not given"] = None
 
     def rules(self) -> Iterator[str]:
-        """Find welds that run into each other, and a short hollow that is the longer one."""
+        """Check that neighbouring welds do not overlap, and that the short hollow is the shorter one."""
         if self.spacing is not None and self.spacing < self.length:
             yield f"spacing_m is {self.spacing:g}; it must be at least length_m, {self.length:g}"
         if self.short_length > self.length:
@@ -248,11 +248,11 @@ class Crossing:
 
     @property
     def angle(self) -> float:
-        """Between falling and rising way of the wheel, [rad]."""
+        """Angle between the falling and the rising path of the wheel, [rad]."""
         return self.depth / self.wing_length + self.depth / self.nose_length
 
     def rules(self) -> Iterator[str]:
-        """Find a crossing that is a step."""
+        """Check that the crossing has a slope and is not a step."""
         if self.angle > 0.1:
             yield (
                 f"depth_mm is {1e3 * self.depth:g}; with these lengths the way of the wheel turns by "

@@ -1,4 +1,4 @@
-"""What of a scene may be chosen."""
+"""Which parts of a scene the automatic choice may set."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ EFFECTS = tuple(field.name for field in fields(EffectSet))
 
 @dataclass(frozen=True)
 class Free:
-    """What may be chosen; the rest stays as the scene has it.
+    """Parts of a scene that the automatic choice may set; the rest stays as written.
 
     Parameters
     ----------

@@ -7,7 +7,7 @@ LARGEST_STEPS = {"implicit": 64, "explicit": 512}
 
 
 def integrator_problems(integrator: str, tier: str, steps_given: bool, automatic: bool) -> list[str]:
-    """Say why a scene cannot have an integrator: its value and what is allowed.
+    """List the reasons why a scene cannot use its integrator, with what is allowed.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ class Irregularity:
         refuse(self, "irregularity")
 
     def rules(self) -> Iterator[str]:
-        """Find an empty band, and a file that is missing or out of place."""
+        """Check that the band is not empty, and that a file is set exactly when one is needed."""
         if self.shortest_wavelength >= self.longest_wavelength:
             yield (
                 f"shortest_wavelength_m is {self.shortest_wavelength:g}; it must be less than "
@@ -64,5 +64,5 @@ class Irregularity:
 
     @property
     def has_alignment(self) -> bool:
-        """Whether its source has a lateral irregularity too; of a file only the file can tell."""
+        """Whether its source has a lateral irregularity too; for a file this is known once it is read."""
         return self.kind not in (*VERTICAL_ONLY, "none")

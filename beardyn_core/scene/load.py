@@ -36,11 +36,11 @@ class LoadHistory:
         return len(self.time_ns)
 
     def until(self, time_ns: int) -> LoadHistory:
-        """Samples up to a time, and the first one after it."""
+        """Return the samples up to a time, and the first one after it."""
         return self.part(0, int(np.searchsorted(self.time_ns, time_ns)) + 1)
 
     def part(self, first: int, last: int) -> LoadHistory:
-        """Samples ``first`` (included) to ``last`` (excluded)."""
+        """Return the samples ``first`` (included) to ``last`` (excluded)."""
         return LoadHistory(
             self.time_ns[first:last],
             self.wrench[first:last],

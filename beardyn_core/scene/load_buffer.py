@@ -1,4 +1,4 @@
-"""The load as a stream: what has arrived, what is refused, and what covers the next block."""
+"""The load as a stream: samples that have arrived, those refused, those that cover the next block."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SPEED_JUMP_WINDOW_NS = 100_000_000
 
 
 def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
-    """Why a piece of load cannot be used, as a sentence; ``None`` when it can.
+    """Say why samples of load cannot be used; ``None`` when they can.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
 
 
 def speed_jump(time_ns: NDArray[np.int64], shaft_speed: NDArray[np.float64]) -> str | None:
-    """Sentence when the shaft speed jumps as no wheelset can, ``None`` when it does not.
+    """Report a jump of the shaft speed that no wheelset can make; ``None`` when there is none.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def speed_jump(time_ns: NDArray[np.int64], shaft_speed: NDArray[np.float64]) -> 
 
 @dataclass
 class LoadBuffer:
-    """Samples that have arrived and are not used up.
+    """Samples that have arrived and are still needed.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ class LoadBuffer:
         return int(self._parts[-1].time_ns[-1]) if self._parts else None
 
     def append(self, load: LoadHistory) -> bool:
-        """Take samples at the end of the stream; False, and counted, when they cannot be used."""
+        """Append samples to the stream; False, and counted as refused, when they cannot be used."""
         problem = problem_with(load, self.last_ns)
         if problem is not None:
             self.refused += 1
@@ -109,7 +109,7 @@ class LoadBuffer:
         return True
 
     def at_steps(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> NDArray[np.float64]:
-        """Load at the step boundaries, linear between samples, held outside them.
+        """Compute the load at the step boundaries, linear between samples, constant outside them.
 
         Parameters
         ----------
@@ -147,12 +147,12 @@ class LoadBuffer:
             del self._parts[0]
 
     def copy(self) -> LoadBuffer:
-        """A copy; the parts themselves never change."""
+        """Return a copy; it shares the arrays of samples, which never change."""
         return LoadBuffer(self.refused, self.reason, list(self._parts))
 
 
 def _window(part: LoadHistory, start_ns: int, end_ns: int) -> LoadHistory:
-    """Samples between two times, and one more on either side."""
+    """Return the samples between two times, and one more on either side."""
     first = int(np.searchsorted(part.time_ns, start_ns, side="right")) - 1
     last = int(np.searchsorted(part.time_ns, end_ns, side="left")) + 1
     return part.part(max(first, 0), last)
@@ -177,7 +177,7 @@ def _interpolate_blocks(time_ns, wrench, shaft_speed, bogie, start_ns, span_ns, 
 
 @partial(entry, flags=())
 def _interpolate(time_ns, wrench, shaft_speed, bogie, start_ns, spacing, rows):
-    """All columns at evenly spaced times, the same bits as `numpy.interp`."""
+    """Interpolate all columns at evenly spaced times, the same bits as `numpy.interp`."""
     last, sample = len(time_ns) - 1, 0
     slope = np.empty(10)
     known = -1

@@ -45,7 +45,7 @@ class MeasuredOperation:
         return "mcap" if self.path.suffix.lower() == ".mcap" else "csv"
 
     def rules(self) -> Iterator[str]:
-        """Find what is wanted from the file and given as well, or neither, and times that go back."""
+        """Check that load and speed each have exactly one source, and that times increase."""
         wants_speed, wants_force = self.take == "force", self.take == "speed"
         if wants_speed and not self.speed_profile:
             yield "speed_profile is missing; take is 'force', so the speed must come from there"

@@ -63,7 +63,7 @@ class Mounting:
     axial_prop_damping: A[float, At("kN_s_per_m", ge=0.0), "of a damper beside that spring"] = 0.0
 
     def rules(self) -> Iterator[str]:
-        """Find a box lighter about the bearing than at its centre, and an offset that turns nothing."""
+        """Check inertia and centre of mass of the axlebox against each other."""
         x, y, z = (c * c for c in self.box_centre)
         least = (self.box_mass * (y + z), self.box_mass * (x + z), self.box_mass * (x + y))
         if any(have <= need for have, need in zip(self.box_inertia, least, strict=True) if need):
@@ -79,7 +79,7 @@ class Mounting:
             )
 
     def about_bearing_centre(self, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Reduce loads where they act on the journal to the bearing centre.
+        """Convert loads on the journal to force and moment about the bearing centre.
 
         Parameters
         ----------

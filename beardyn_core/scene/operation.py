@@ -60,7 +60,7 @@ class SteppedOperation:
         refuse(self, "operation (stepped)")
 
     def rules(self) -> Iterator[str]:
-        """Find steps that do not begin at 0, go back in time or begin within a ramp."""
+        """Check that the steps begin at 0, follow each other in time and leave room for the ramps."""
         times = [step.time for step in self.steps]
         if times and times[0] != 0.0:
             yield f"steps[0].time_s is {times[0]:g}; the first must be 0"
@@ -181,14 +181,14 @@ class QuarterVehicleOperation:
 
     @property
     def moves_sideways(self) -> bool:
-        """Whether the lateral model runs."""
+        """Whether the lateral motion of the vehicle is simulated."""
         return bool(self.curves) if self.lateral is None else self.lateral
 
     def __post_init__(self) -> None:
         refuse(self, "operation (quarter_vehicle)")
 
     def rules(self) -> Iterator[str | Problem]:
-        """Find what the parts of the operation cannot be together."""
+        """Check the parts of the operation against each other."""
         yield from not_ascending("speed_profile", [time for time, _ in self.speed_profile])
         if self.curves and self.lateral is False:
             yield "lateral is false, and there is a curve; a curve needs the sideways motion"
@@ -203,7 +203,7 @@ class QuarterVehicleOperation:
                 yield Problem(text, ("wheel_defects", index))
 
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
-        """Write what the speed has been worked out from in place of its points."""
+        """Write the timetable, when the speed follows from one, in place of the speed points."""
         source = getattr(self.speed_profile, "source", None)
         if source is None:
             return keys

@@ -96,14 +96,14 @@ class Scene:
     chosen: A[tuple[str, ...], INTERNAL] = field(default=(), compare=False)
 
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
-        """Write the end play as it is mounted, before the temperatures change it."""
+        """Write the end play as mounted, before temperatures change it."""
         if self.temperatures is not None:
             closure = self.temperatures.closure(self.bearing)
             keys["end_play_mm"] = UNITS["mm"].to_edge(self.end_play, closure)
         return keys
 
     def __repr__(self) -> str:
-        """Give what it is about, in two lines."""
+        """Describe the scene in two lines."""
         where = type(self.operation).__name__.removesuffix("Operation")
         faults = "; ".join(self.fault_sentences) or "no faults"
         return (
@@ -132,12 +132,12 @@ class Scene:
 
     @property
     def missing_places(self) -> tuple[tuple[int, int], ...]:
-        """Row and roller of those that are missing."""
+        """Row and number of each missing roller."""
         return tuple((each.row, each.roller) for each in self.missing_rollers)
 
     @property
     def roller_total(self) -> int:
-        """Rollers that are there, of all rows."""
+        """Number of rollers in all rows, without the missing ones."""
         return self.rows * self.bearing.roller_count - len(self.missing_rollers)
 
     @property

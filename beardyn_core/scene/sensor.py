@@ -48,7 +48,7 @@ class Accelerometer:
     ] = RATES[0]
 
     def rules(self) -> Iterator[str]:
-        """Find a rate that is not offered, and a damping of nothing."""
+        """Check that the rate is available, and that a damping has a resonance to act on."""
         if self.rate not in RATES:
             allowed = f"{RATES[0] / 1e3:g} or {RATES[1] / 1e3:g}"
             yield f"rate_kHz is {self.rate / 1e3:g}; allowed is {allowed}"
@@ -60,7 +60,7 @@ class Accelerometer:
 
 
 def steps_do_not_fit(sensors: tuple[Accelerometer, ...], steps_per_sample: float) -> str | None:
-    """Say why a time step cannot serve the sensors, with what is allowed; ``None`` when it can."""
+    """Say why a time step does not fit the rates of the sensors; ``None`` when it does."""
     resonant = [sensor.name for sensor in sensors if sensor.mounting_resonance is not None]
     if resonant and steps_per_sample < 1:
         return (

@@ -27,7 +27,7 @@ POINTS = At(entry=SpeedPoint)
 
 
 def not_ascending(key: str, times: list[float]) -> Iterator[str]:
-    """Find times of a list that do not follow each other."""
+    """Report times of a list that do not increase."""
     for index, (one, two) in enumerate(pairwise(times), start=1):
         if not two > one:
             yield f"{key}[{index}].time_s is {two:g}; it must be greater than the {one:g} before it"

@@ -95,7 +95,7 @@ def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1) -> list[str]:
-    """Say why a tier cannot run a scene: values and what is allowed."""
+    """List the reasons why a tier cannot run a scene, with what is allowed."""
     noun, found = TIERS[tier], []
     if noun.needs_rib and not has_rib:
         found.append(

@@ -1,4 +1,4 @@
-"""A trial: the matrix of runs that a monitor is put to."""
+"""A trial: a matrix of simulated runs on which a monitor is tested."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ class TrialWheel:
 
 @dataclass(frozen=True)
 class Spall:
-    """How the spall of a size looks."""
+    """Depth and shape of a spall as a function of its width."""
 
     length_per_width: A[float, At(gt=0.0, le=20.0), "along the roller"] = 2.0
     depth_per_width: A[float, At(gt=0.0, le=1.0), "depth over width"] = 0.1
     deepest: A[float, At("um", gt=0.0, le=1000.0), "limit of the depth"] = 100.0e-6
 
     def depth(self, width: float) -> float:
-        """Find the depth of a spall of a width, [m]."""
+        """Compute the depth of a spall from its width, [m]."""
         return min(self.depth_per_width * width, self.deepest)
 
 
@@ -71,7 +71,7 @@ class Cell:
 
     @property
     def conditions(self) -> str:
-        """What the run is, without its tier."""
+        """Conditions of the run in words, without its tier."""
         return (
             f"{self.fault} {1e3 * self.size:g} mm, {3.6 * self.speed:g} km/h, {self.track}, {self.wheel}, "
             f"run {self.repeat}"
@@ -97,7 +97,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Trial:
-    """A matrix of scenes that a monitor is put to.
+    """A matrix of simulated runs on which a monitor is tested.
 
     `folder` is that of its file, where a scene file is looked for first.
     """
@@ -134,7 +134,7 @@ class Trial:
     check: A[Check | None, "repeat some runs in another tier"] = None
 
     def rules(self) -> Iterator[str]:
-        """Find entries that stand twice, and a check in the tier of the matrix."""
+        """Check that no entry stands twice, and that the second tier differs from the first."""
         lists = {
             "faults": self.faults,
             "sizes_mm": self.sizes,
@@ -156,11 +156,11 @@ class Trial:
         return None if self.check is None else self.check.tier
 
     def wheel(self, name: str) -> TrialWheel:
-        """Find the wheel of a name."""
+        """Find a wheel by its name."""
         return next(wheel for wheel in self.wheels if wheel.name == name)
 
     def duration(self, speed: float, wheel_diameter: float) -> float:
-        """Find the duration of a run at a speed [m/s] on a wheel [m], [s]."""
+        """Compute the duration of a run from speed [m/s] and wheel radius [m], [s]."""
         return self.revolutions * pi * wheel_diameter / speed
 
     def cells(self) -> tuple[Cell, ...]:

@@ -28,7 +28,7 @@ class Band:
     exponent: A[float, At(ge=0.0, le=4.0), "power of the order with which the amplitudes fall"] = 1.0
 
     def rules(self) -> Iterator[str]:
-        """Find a band without orders."""
+        """Check that the band contains an order."""
         if self.last < self.first:
             yield f"last is {self.last}; it must be at least first, {self.first}"
 
@@ -63,7 +63,7 @@ class Waviness:
     seed: A[int, SEED, "of the phases"] = 1
 
     def rules(self) -> Iterator[str]:
-        """Find a roller's number on a raceway, and amplitudes without an order."""
+        """Check that a roller number is set only for rollers, and that amplitudes match the orders."""
         if self.on != "roller" and self.roller is not None:
             yield not_on_a_roller(self.roller, self.on)
         if len(self.orders) != len(self.amplitudes):
@@ -73,11 +73,11 @@ class Waviness:
             )
 
     def contradictions(self, bearing: Bearing) -> Iterator[str]:
-        """Find what of the waviness does not fit the bearing."""
+        """Check that the waviness is possible in the bearing."""
         return no_such("roller", self.roller or 0, bearing)
 
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
-        """Write a band as the band it is, and equal amplitudes as one number."""
+        """Write a band by its limits, and equal amplitudes as one number."""
         band = getattr(self.amplitudes, "source", None)
         if band is not None and band.orders == self.orders:
             del keys["orders"], keys["amplitude_um"]
@@ -92,12 +92,12 @@ class Waviness:
         return draw.uniform(0.0, 2.0 * math.pi, len(self.orders))
 
     def gap(self, azimuth: NDArray[np.float64], roller: int = 0) -> NDArray[np.float64]:
-        """Find the gap at azimuths [rad] of the body, [m]."""
+        """Compute the gap at azimuths [rad] of the body, [m]."""
         angle = np.multiply.outer(azimuth, np.array(self.orders)) + self.phases(roller)
         return np.asarray(np.cos(angle) @ np.array(self.amplitudes))
 
     def described(self) -> str:
-        """Say what it is, in a few words."""
+        """Describe the waviness in a few words."""
         rms = math.sqrt(0.5 * sum(a * a for a in self.amplitudes))
         first, last = min(self.orders), max(self.orders)
         span = f"order {first}" if first == last else f"orders {first} to {last}"

@@ -1,4 +1,4 @@
-"""What is done with a twin on the desk.
+"""Studies with a twin at the desk: runs, ladders, trials, demonstrations, and their reports.
 
 =================== =========================================================================
 module              responsibility

@@ -1,4 +1,4 @@
-"""Digests of code: all that a monitor consists of, and all that a simulated run depends on."""
+"""Digests of code: the code of a monitor, and all that a simulated run depends on."""
 
 from __future__ import annotations
 

@@ -189,7 +189,7 @@ def sphere_figure(found: Findings) -> Figure:
     places = np.arange(len(ratios))
     right.bar(
         places - width / 2,
-        [1e6 * _felt(case) for case in found.spheres],
+        [1e6 * _real_depth(case) for case in found.spheres],
         width,
         color=_POINT,
         label="general search",
@@ -206,8 +206,8 @@ def sphere_figure(found: Findings) -> Figure:
     return figure
 
 
-def _felt(case: SphereCase) -> float:
-    """Return the depth of a contact that lies on both parts."""
+def _real_depth(case: SphereCase) -> float:
+    """Return the depth of a contact point that lies on both parts."""
     return max(-case.search_gap, 0.0) if case.on_face and case.in_rim else 0.0
 
 

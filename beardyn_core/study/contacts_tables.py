@@ -79,7 +79,7 @@ def ways_table(found: Findings) -> Table:
 
 
 def contacts_table(found: Findings) -> Table:
-    """Time and iterations of each contact."""
+    """List time and iterations of each contact."""
     rows = []
     for name, results in found.by_contact.items():
         by_method = {result.method: result for result in results}

@@ -44,7 +44,7 @@ class Progress:
         self._open = False
 
     def hear(self, verdict: str) -> None:
-        """Note what the monitor says."""
+        """Keep the latest verdict of the monitor."""
         self._monitor = {"waiting": "listening", "healthy": "no fault"}.get(verdict, f"{verdict} fault")
 
     def show(self, simulated: float, real_time_factor: float) -> None:

@@ -1,4 +1,4 @@
-"""What a demonstration ends with: what was found, in words, as a picture, and as files to open."""
+"""Result of a demonstration: in words, as a picture, and as files to open."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def demo_folder(folder: Path, *, force: bool = False) -> Path:
 
 
 def report(folder: Path, pace: Pace, say: Say, picture_of_view: bool = True) -> Conclusion:
-    """Make the files, say what was found and where everything lies.
+    """Write the files, print the result and where everything lies.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def report(folder: Path, pace: Pace, say: Say, picture_of_view: bool = True) -> 
 
 
 def findings_of(run: Run) -> list[Finding]:
-    """Results of the monitor in a recording, without its last summing-up."""
+    """Read the results of the monitor in a recording, without its final summary."""
     found = []
     for _, statuses in run.results:
         for status in statuses:
@@ -134,7 +134,7 @@ def findings_of(run: Run) -> list[Finding]:
 
 
 def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
-    """Say what was found, one line each."""
+    """Write the results of the monitor, one line each."""
     description = run.described()
     factor = f"{pace.real_time_factor:.2f}"
     if pace.overall is not None:
@@ -169,14 +169,14 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
 
 
 def truth_sentence(defects: tuple[Defect, ...], conclusion: Conclusion) -> str:
-    """Say what is really in the bearing, and whether the monitor is right."""
+    """Write which fault the bearing really has, and whether the monitor is right."""
     there = " and ".join(defect.described() for defect in defects)
     right = conclusion.verdict in ({d.on for d in defects} or {HEALTHY})
     return f"{there or 'no defect'}: the monitor is {'right' if right else 'wrong'}"
 
 
 def summary_data(run: Run, conclusion: Conclusion) -> SummaryData:
-    """Arrays of the summary picture."""
+    """Gather the arrays of the summary picture."""
     shape = run.described().shape
     orders = shape.fault_frequencies
     time = run.force.time

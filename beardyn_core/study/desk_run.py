@@ -102,7 +102,7 @@ def run(
 
 
 def life_of(scene: Scene, load: LoadHistory) -> RatingLife | None:
-    """Rate the life under the load of a run; a load that nothing can carry has none.
+    """Rate the life under the load of a run; ``None`` under a load that nothing can carry.
 
     The standards rate the whole bearing: neither has one that lacks rollers.
     """
@@ -178,9 +178,9 @@ class _Trend:
         self.end_ns = block.end_ns
         self.warnings |= block.status
         self._temperature = block.temperature
-        for counts, sensor, heard in zip(self._clipped, self._sensors, block.vibration, strict=True):
-            counts[0] += int((np.abs(heard.acceleration) >= sensor.range).any(axis=1).sum())
-            counts[1] += len(heard.acceleration)
+        for counts, sensor, vibration in zip(self._clipped, self._sensors, block.vibration, strict=True):
+            counts[0] += int((np.abs(vibration.acceleration) >= sensor.range).any(axis=1).sum())
+            counts[1] += len(vibration.acceleration)
         self._residual = None if block.audit is None else block.audit.residual
         if block.audit is not None and block.audit.losses:
             self._lost.append((block.start_ns * 1e-9, *block.audit.losses, block.audit.numerical))
@@ -229,7 +229,7 @@ class _Trend:
         )
 
     def _budget(self, times: Float, shaft_speed: Float, first: float) -> TorqueBudget | None:
-        """Losses from the first block that begins in the averaged time to the begin of the last block."""
+        """Sum up the losses from the first block within the averaged time to the begin of the last block."""
         lost = [row for row in self._lost if row[0] >= first]
         if len(lost) < 2:
             lost = self._lost

@@ -1,4 +1,4 @@
-"""What a monitor found, on the wire and over a whole run."""
+"""Results of a monitor: as a diagnostics message, and summed up over a whole run."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Finding:
 
     @classmethod
     def of(cls, result: MonitorResult) -> Finding:
-        """Finding of a monitor's result."""
+        """Make the finding of a monitor's result."""
         fundamental = [line.level for line in result.lines if line.expected_order == result.expected_order]
         return cls(
             verdict=result.verdict,
@@ -113,7 +113,7 @@ class Finding:
         return self.found_order / self.expected_order - 1.0
 
     def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
-        """Status for ``monitor/result``: a fault is a warning, a hot box an error."""
+        """Write as a status of ``monitor/result``: a fault is a warning, a hot box an error."""
         values = [("verdict", self.verdict)]
         for member in fields(self)[2:]:
             number = float(getattr(self, member.name))
@@ -123,7 +123,7 @@ class Finding:
 
     @classmethod
     def from_diagnostic(cls, status: Diagnostic) -> Finding | None:
-        """Finding of a status, ``None`` when it is none."""
+        """Read a finding from a status; ``None`` when the status is no finding."""
         verdict = status.value("verdict")
         if verdict is None:
             return None
@@ -133,7 +133,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Conclusion:
-    """What a monitor's results over a run come to.
+    """Results of a monitor over a whole run, summed up.
 
     Parameters
     ----------
@@ -154,7 +154,7 @@ class Conclusion:
 
 
 def conclude(findings: Sequence[Finding]) -> Conclusion:
-    """Most frequent verdict of a run; results before there was enough signal do not count."""
+    """Find the most frequent verdict of a run; results before there was enough signal do not count."""
     judged = [finding for finding in findings if finding.verdict != WAITING]
     if not judged:
         return Conclusion(None, 0, 0)

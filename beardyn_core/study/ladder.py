@@ -45,7 +45,7 @@ _VARIED_END_PLAY, _VARIED_SPEED = 1.0e-9, 1.0e-4
 
 @dataclass(frozen=True)
 class Plan:
-    """What every run of a ladder is given, and the windows in which it is judged.
+    """Load of every run of a ladder, and the windows in which runs are compared.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> t
 
 
 def varied(scene: Scene, number: int) -> Scene:
-    """Begin the same scene a hair apart: end play by nanometres, cage speed by 1e-4 at the start.
+    """Change the start of a scene very slightly: end play by nanometres, cage speed by 1e-4.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Errors of a level against the reference, each with the band that runs of one level scatter in.
+"""Errors of a level against the reference, each with the scatter between runs of one level.
 
 The bearing is chaotic: two runs that begin a hair apart share statistics, not trajectories. Repeated runs
 give the variance of every component twice: between whole runs, and between the same windows of two runs
@@ -48,7 +48,7 @@ class Part:
         return abs(self.error) > self.band
 
     def verdict(self, limit: float) -> str:
-        """Judge: ``yes`` surely within, ``no`` surely beyond, ``open`` where the band crosses the limit."""
+        """Judge an error: ``yes`` surely within, ``no`` surely beyond, ``open`` in between."""
         if abs(self.error) + self.band <= limit:
             return "yes"
         return "no" if abs(self.error) - self.band > limit else "open"

@@ -27,7 +27,7 @@ _MANY_EFFECTS, _MANY_EFFECTS_FACTOR = 10, 1.8
 
 @dataclass(frozen=True)
 class Level:
-    """One choice of what a scene is computed with.
+    """Tier, effects, laminae and step with which a scene is computed.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
 
 
 def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
-    """Describe what a scene itself is computed with as a level.
+    """Make a level of a scene's own tier, effects, laminae and step.
 
     Parameters
     ----------

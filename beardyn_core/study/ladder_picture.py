@@ -107,7 +107,7 @@ def _panel(
     colours: dict[str, str],
     size: float = 8.0,
 ) -> None:
-    """Draw points with their bands on logarithmic axes; the limit and what is good below it."""
+    """Draw points with their bands on logarithmic axes, the limit, and the good region below it."""
     axes.set_xscale("log")
     axes.set_yscale("log")
     lowest = _LOWEST * limit

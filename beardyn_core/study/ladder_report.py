@@ -70,12 +70,12 @@ def heading(ladder: Ladder) -> list[str]:
 
 
 def counted(number: int, what: str) -> str:
-    """Write a number of things."""
+    """Write a count with its word, in singular or plural."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def limits_of(ladder: Ladder) -> list[str]:
-    """Say which quantities have to be within what."""
+    """List the quantities and the limits of their errors."""
     words = {"%": percent(ladder.accuracy), "dB": f"{BAND_LIMIT_DB:g} dB"}
     asked = {unit: [name for name in ladder.asked if UNITS[name] == unit] for unit in words}
     return [f"{', '.join(names)} within {words[unit]}" for unit, names in asked.items() if names]
@@ -104,7 +104,7 @@ def convergence(ladder: Ladder) -> str:
 
 
 def closing(ladder: Ladder) -> list[str]:
-    """Say what the table comes to."""
+    """Write the conclusion below the table."""
     best = ladder.cheapest
     if best is not None:
         found = f"{best.level.name}, {best.cost.median:.2f} s for each simulated second"
@@ -123,7 +123,7 @@ def closing(ladder: Ladder) -> list[str]:
 
 
 def choices(ladder: Ladder) -> list[str]:
-    """Say what those levels are computed with whose names do not say it."""
+    """Explain the levels whose names do not say what they are computed with."""
     return [
         f"{row.level.name}: {row.level.tier} tier, "
         f"{row.level.laminae} laminae x {row.level.steps_per_sample}, "
@@ -134,7 +134,7 @@ def choices(ladder: Ladder) -> list[str]:
 
 
 def _effects_text(ladder: Ladder, level: Level) -> str:
-    """Name the effects, or what is left out of the reference's and what is otherwise than there."""
+    """Name the effects, or their differences from those of the reference."""
     held, absent, other = _against_reference(ladder, level)
     if len(absent) > len(held):
         text = ", ".join(held)
@@ -144,7 +144,7 @@ def _effects_text(ladder: Ladder, level: Level) -> str:
 
 
 def _against_reference(ladder: Ladder, level: Level) -> tuple[list[str], list[str], list[str]]:
-    """List the effects that a level has, lacks of the reference's, and has with other parameters."""
+    """List the effects that a level has, lacks against the reference, and has with other parameters."""
     every, held = ladder.reference.level.effects, list(level.effects.names())
     absent = [name for name in every.names() if name not in held]
     other = [name for name in held if getattr(level.effects, name) != getattr(every, name)]

@@ -1,4 +1,4 @@
-"""What a ladder found: levels with cost and errors, which of them meet an accuracy, which are efficient."""
+"""Result of a ladder: levels with cost and errors, those that meet an accuracy, the efficient ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a stretch of a run comes to, in the numbers that the ladder compares."""
+"""Numbers of a stretch of a run, by which the ladder compares runs."""
 
 from __future__ import annotations
 
@@ -144,8 +144,8 @@ def line_level(signals: Signals, order: float) -> float:
     if len(turned) < 2 or np.any(np.diff(turned) <= 0.0):
         return float("nan")
     per_revolution = _MONITOR.samples_per_revolution
-    heard = envelope(signals.acceleration[within], WAVEFORM_RATE, _MONITOR.band)
-    even = resample_by_angle(heard, turned, per_revolution)
+    envelope_signal = envelope(signals.acceleration[within], WAVEFORM_RATE, _MONITOR.band)
+    even = resample_by_angle(envelope_signal, turned, per_revolution)
     if len(even) < per_revolution:
         return float("nan")
     spectrum = order_spectrum(even, per_revolution, 2.0 * order, _MONITOR.background_width)
@@ -234,7 +234,7 @@ UNITS = {measure.quantity: "dB" if measure.scale is None else "%" for measure in
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one run came to.
+    """Numbers of one run.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ MONITOR_STATUS = "axlebox/monitor"
 
 
 class MonitoredRecording(McapSink):
-    """MCAP sink that shows vibration, shaft and load to a monitor and records what it says.
+    """MCAP sink that passes vibration, shaft and load to a monitor and records its results.
 
     Parameters
     ----------

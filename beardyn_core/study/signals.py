@@ -1,4 +1,4 @@
-"""What a run is judged by: the channels of its blocks in one piece, and windows of them."""
+"""Channels of a run's blocks joined over time, and windows of them."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class Signals:
 
 
 class SignalCollector:
-    """Keeps of every block what a run is judged by."""
+    """Collects the channels of every block that the measures of a run need."""
 
     def __init__(self) -> None:
         self._parts: list[tuple[NDArray[Any], ...]] = []

@@ -1,4 +1,4 @@
-"""A trial conducted: every run of the matrix on several processes, kept as it ends, and taken up again."""
+"""Conducting a trial: all runs of the matrix on several processes, each saved as it ends, resumable."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Progress = Callable[[TrialRun], None]
 
 @dataclass(frozen=True)
 class Plan:
-    """What is to be run.
+    """Runs of a trial that are done, outdated or still to do.
 
     Parameters
     ----------
@@ -59,13 +59,13 @@ class Plan:
 
     @property
     def missing(self) -> tuple[Cell, ...]:
-        """Cells still to be run, long ones first so that no process is left alone with one."""
+        """Cells still to be run, long ones first so that all processes end at about the same time."""
         cells = [cell for cell in self.trial.cells() if cell.key not in self.kept]
         return tuple(sorted(cells, key=lambda cell: (not cell.checks, cell.speed)))
 
 
 def plan_of(trial: Trial, algorithm: str, folder: Path | None, *, force: bool = False) -> Plan:
-    """Plan what is to be run, after what a folder already holds.
+    """Plan the runs that a folder does not hold yet.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def identity(trial: Trial, algorithm: str) -> dict[str, Any]:
 
 
 def read_runs(path: Path) -> list[TrialRun]:
-    """Read the runs in a file of JSON lines; a line that was cut off is passed over.
+    """Read the runs in a file of JSON lines; a line that was cut off is ignored.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def _run_of(content: dict[str, Any]) -> TrialRun | None:
 def _other_trial(
     path: Path, earlier: Sequence[TrialRun], mine: dict[str, Any], digests: dict[str, str]
 ) -> list[str]:
-    """Say why runs in a folder cannot be gone on with: they are of another trial, or being written."""
+    """Say why the runs in a folder cannot be continued: another trial, or being written."""
     if is_being_written(path):
         return [f"{path}: another trial is writing this file; wait for its end or give another folder"]
     about = next((line["of"] for line in _lines(path) if isinstance(line.get("of"), dict)), None)
@@ -161,13 +161,13 @@ def _other_trial(
 
 
 def warm(trial: Trial) -> None:
-    """Compile what the runs need, one after the other, so that the processes find it."""
+    """Compile the kernels of the runs one after the other, so that all processes find them in the cache."""
     for cell in {(cell.tier, cell.fault): cell for cell in trial.cells()}.values():
         Twin(trial_scene(trial, cell)).warm()
 
 
 def conduct(plan: Plan, folder: Path | None, jobs: int, progress: Progress) -> list[TrialRun]:
-    """Run what is missing and keep each run as it ends.
+    """Simulate the missing runs and save each as it ends.
 
     Parameters
     ----------
@@ -235,7 +235,7 @@ def _gather(
 
 @contextmanager
 def _interrupts_held() -> Iterator[None]:
-    """Hold Ctrl-C back; it comes at the end."""
+    """Delay Ctrl-C to the end of the context."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
     try:
         yield
@@ -244,7 +244,7 @@ def _interrupts_held() -> Iterator[None]:
 
 
 class _Keeper:
-    """Appends runs to the file in the folder as they end, behind a line that says of which trial they are."""
+    """Appends runs to the file in the folder as they end; its first line identifies the trial."""
 
     def __init__(self, plan: Plan, folder: Path | None) -> None:
         self._plan = plan
@@ -295,7 +295,7 @@ class _Keeper:
 
 
 def _quiet_worker(folder: str) -> None:
-    """Prepare a process: it ends with its parent, without a word, and works in its parent's folder."""
+    """Prepare a process: it ends silently with its parent and works in its parent's folder."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.chdir(folder)
     threading.Thread(target=_end_with_parent, daemon=True).start()

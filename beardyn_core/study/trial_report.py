@@ -24,7 +24,7 @@ def table(result: TrialResult) -> str:
 
 
 def slices(result: TrialResult) -> list[tuple[str, Where]]:
-    """Speeds, tracks and wheels of the matrix: a name, and whether a cell belongs to it."""
+    """List speeds, tracks and wheels of the matrix: a name, and whether a cell belongs to it."""
     trial = result.trial
     by_speed = [(f"{3.6 * speed:g} km/h", _at_speed(speed)) for speed in trial.speeds]
     by_track = [(track, _on_track(track)) for track in trial.tracks]
@@ -33,7 +33,7 @@ def slices(result: TrialResult) -> list[tuple[str, Where]]:
 
 
 def rate_text(rate: Rate) -> str:
-    """``35/36  97 % (85 to 100)``."""
+    """Write a rate such as ``35/36  97 % (85 to 100)``."""
     if not rate.total:
         return "no runs"
     interval = f"({100.0 * rate.low:.3g} to {100.0 * rate.high:.3g})"
@@ -41,7 +41,7 @@ def rate_text(rate: Rate) -> str:
 
 
 def smallest_text(smallest: Smallest) -> str:
-    """``cup: 4 mm (2 to 6 mm)``."""
+    """Write a smallest size such as ``cup: 4 mm (2 to 6 mm)``."""
     if smallest.size is None:
         return f"{smallest.fault}: none of these sizes"
     high = "beyond the largest" if smallest.high is None else f"{1e3 * smallest.high:g} mm"

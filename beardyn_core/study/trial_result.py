@@ -1,4 +1,4 @@
-"""What a trial came to: rates with their intervals, smallest sizes, and the tiers side by side."""
+"""Result of a trial: rates with their intervals, smallest sizes found, and a comparison of tiers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FOUND_AT = 0.9  # detection rate from which a size counts as found
 
 @dataclass(frozen=True)
 class Rate:
-    """How often something happened, with the interval of its probability.
+    """Share of runs, with the confidence interval of its probability.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class Rate:
 
     @classmethod
     def of(cls, count: int, total: int) -> Rate:
-        """Rate of a count; everything is possible when there was nothing to count."""
+        """Compute the rate of a count; its interval is 0 to 1 when there is nothing to count."""
         if total == 0:
             return cls(0, 0, 0.0, 1.0)
         interval = binomtest(count, total).proportion_ci(CONFIDENCE, method="exact")
@@ -97,7 +97,7 @@ class Smallest:
 
 @dataclass(frozen=True)
 class TrialResult:
-    """What a trial came to.
+    """Result of a trial.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class TrialResult:
 
     @classmethod
     def of(cls, trial: Trial, algorithm: str, runs: Sequence[TrialRun]) -> TrialResult:
-        """Judge the runs there are."""
+        """Compute the result from the runs."""
         by_key = {run.key: run for run in runs}
         pairs = [(cell, by_key[cell.key]) for cell in trial.cells() if cell.key in by_key]
         return cls(
@@ -132,16 +132,16 @@ class TrialResult:
         return tuple(pair for pair in (*self.runs, *self.checks) if not pair[1].complete)
 
     def false_alarms(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
-        """Healthy runs in which at least one analysis called a fault."""
+        """Count healthy runs in which at least one analysis reported a fault."""
         return false_alarms(_chosen(self.runs, where))
 
     def false_analyses(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
-        """Analyses of healthy runs that called a fault."""
+        """Count analyses of healthy runs that reported a fault."""
         healthy = [run for cell, run in _chosen(self.runs, where) if cell.fault == HEALTHY]
         return Rate.of(sum(run.alarms for run in healthy), sum(run.analyses for run in healthy))
 
     def detection(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
-        """Faulty runs whose verdict names the part."""
+        """Count faulty runs whose verdict names the faulty part."""
         return detection(_chosen(self.runs, where))
 
     def sizes(self) -> list[SizeRow]:
@@ -153,7 +153,7 @@ class TrialResult:
         ]
 
     def smallest(self) -> list[Smallest]:
-        """Smallest size found of every part."""
+        """Find the smallest size found of every part."""
         rows = self.sizes()
         return [_smallest(fault, [row for row in rows if row.fault == fault]) for fault in self.trial.faults]
 
@@ -163,7 +163,7 @@ class TrialResult:
         return Rate.of(sum(own.verdict == other.verdict for _, own, other in pairs), len(pairs))
 
     def score_differences(self) -> tuple[float, float, float]:
-        """Smallest, median and largest of score in the check less score in the matrix, faults found, [dB]."""
+        """Compare the scores of found faults, check less matrix: smallest, median and largest, [dB]."""
         differences = [
             own_score(cell, other) - own_score(cell, own)
             for cell, own, other in self.pairs()
@@ -172,7 +172,7 @@ class TrialResult:
         return _spread(differences)
 
     def pairs(self) -> list[tuple[Cell, TrialRun, TrialRun]]:
-        """Run of the matrix and run of the check, where there are both."""
+        """List runs of the matrix with their runs of the check, where both exist."""
         own = {cell.conditions: run for cell, run in self.runs if run.complete}
         return [
             (cell, own[cell.conditions], run)
@@ -185,13 +185,13 @@ Pairs = Sequence[tuple[Cell, TrialRun]]
 
 
 def false_alarms(pairs: Pairs) -> Rate:
-    """Healthy runs in which at least one analysis called a fault."""
+    """Count healthy runs in which at least one analysis reported a fault."""
     healthy = [run for cell, run in pairs if cell.fault == HEALTHY and run.complete]
     return Rate.of(sum(run.alarms > 0 for run in healthy), len(healthy))
 
 
 def detection(pairs: Pairs) -> Rate:
-    """Faulty runs whose verdict names the part."""
+    """Count faulty runs whose verdict names the faulty part."""
     faulty = [(cell, run) for cell, run in pairs if cell.fault != HEALTHY and run.complete]
     return Rate.of(sum(run.verdict == cell.fault for cell, run in faulty), len(faulty))
 
@@ -227,7 +227,7 @@ def _smallest(fault: str, rows: Sequence[SizeRow]) -> Smallest:
 
 
 def _from_on(rows: Sequence[SizeRow], limit: Callable[[Rate], float]) -> float | None:
-    """Smallest size from which on a limit of the rate stays at or above 90 %."""
+    """Find the smallest size from which on a limit of the rate stays at or above 90 %."""
     size = None
     for row in sorted(rows, key=lambda row: -row.size):
         if not limit(row.found) >= FOUND_AT:

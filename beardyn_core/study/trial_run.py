@@ -1,4 +1,4 @@
-"""One run of a trial: a scene simulated with a monitor beside it, and what came of it."""
+"""One run of a trial: a scene simulated with a monitor beside it, and the result."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ VALID = "complete"
 
 @dataclass(frozen=True)
 class TrialRun:
-    """What came of one run.
+    """Result of one run.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class TrialRun:
         return self.status == VALID
 
     def to_json(self) -> dict[str, Any]:
-        """As an object of a JSON line."""
+        """Write as the object of a JSON line."""
         return asdict(self)
 
     @classmethod
@@ -156,6 +156,6 @@ def results_over(scene: Scene, monitor: Monitor) -> tuple[list[MonitorResult], s
 
 
 def _middle(values: list[float]) -> float:
-    """Median of the finite ones, NaN without."""
+    """Compute the median of the finite values; NaN without any."""
     finite = sorted(value for value in values if isfinite(value))
     return finite[len(finite) // 2] if finite else float("nan")

@@ -1,4 +1,4 @@
-"""Fault-line scoring: how much power stands on the lines of each fault, against what noise has there.
+"""Fault-line scoring: power on the lines of each fault, compared with that of noise.
 
 The threshold follows from a stated false-alarm rate. In stationary noise the squared envelope has a smooth
 spectrum whose lines are independent and, over their local mean, exponentially distributed. The score of a
@@ -61,7 +61,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Pattern:
-    """Where a fault puts its lines: harmonics of one order, with sidebands.
+    """Lines of a fault: harmonics of one order, with sidebands.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ class Pattern:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A pattern laid over a spectrum.
+    """A pattern at its best place in a spectrum.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class Candidate:
 
 @dataclass(frozen=True)
 class FaultLines:
-    """What the spectrum holds.
+    """Lines of faults in a spectrum, with their scores.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def comb_score(
 
 @cache
 def threshold(lines: int, places: float, rate: float) -> float:
-    """Compute the score that noise passes somewhere with a given rate.
+    """Compute the score that noise exceeds somewhere at the false-alarm rate.
 
     Parameters
     ----------
@@ -248,7 +248,7 @@ def trimmed_tail(total: float, lines: int) -> float:
 
 
 def reach(order: float, resolution: float) -> float:
-    """Compute how far a line of a found pattern may lie from its place: resolution and slow cage slip."""
+    """Compute how far a line may lie from its place in a pattern, by resolution and slow cage slip."""
     return min(resolution + 0.003 * order, 0.25)
 
 
@@ -296,7 +296,7 @@ def _lay(
 
 
 def _beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
-    """Take the whole orders out of a spectrum, where a wheel whose strikes wax and wane leaves a rest."""
+    """Remove the whole orders from a spectrum, where a wheel of varying strikes leaves a residue."""
     whole = np.abs(spectrum.order - np.round(spectrum.order)) <= 2.0 * spectrum.resolution
     return replace(spectrum, level=np.where(whole, _NOTHING, spectrum.level))
 
@@ -307,5 +307,5 @@ def _name(pattern: Pattern, harmonic: int, side: int) -> str:
 
 
 def _level(power_over_mean: float) -> float:
-    """Compute the level over the median background of a power over the mean one, [dB]."""
+    """Convert a power over the mean background to a level over the median background, [dB]."""
     return float(10.0 * np.log10(power_over_mean / _MEDIAN_OVER_MEAN))

@@ -40,7 +40,7 @@ class Band:
 
 
 def by_kurtogram(stretch: Stretch, settings: MonitorSettings) -> Band:
-    """Choose the band of largest spectral kurtosis, or the usual one when none stands out of noise.
+    """Choose the band of largest spectral kurtosis, or the default one when none exceeds noise.
 
     Parameters
     ----------

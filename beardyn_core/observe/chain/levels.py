@@ -65,7 +65,7 @@ def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], 
 
 
 def rise(levels: Levels, earlier: Sequence[Levels], like: float = 0.1) -> float:
-    """Compare RMS with the median of earlier stretches at a like speed; NaN with fewer than three, [dB].
+    """Compare RMS with the median of earlier stretches at similar speed; NaN for fewer than three, [dB].
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ OURS = "beardyn_core.observe.chain:REFERENCE"
 
 
 def algorithm_named(name: str) -> Algorithm:
-    """Find the algorithm of a name; the working folder is searched for the module too.
+    """Import an algorithm by its name; the working folder is searched for the module too.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def answer_of(
     roller_count: int,
     settings: MonitorSettings,
 ) -> MonitorResult:
-    """Ask an algorithm, and turn what is wrong with it or its answer into a sentence.
+    """Call an algorithm; a failure or a wrong answer raises an error with a sentence.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def answer_of(
 
 
 def _failure(error: Exception) -> str:
-    """Exception, and the last line of the monitor's own code that it came from."""
+    """Write the exception, and the last line of the monitor's own code in its traceback."""
     frames = traceback.extract_tb(error.__traceback__)[1:]
     own = [
         frame

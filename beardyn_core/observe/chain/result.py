@@ -1,4 +1,4 @@
-"""What a monitoring algorithm answers."""
+"""Result of a monitoring algorithm."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ VERDICTS = ("waiting", "healthy", "cup", "cone", "roller", "hot_box")
 
 @dataclass(frozen=True)
 class MonitorResult:
-    """What the monitor says at one time; an algorithm fills in what it has.
+    """Result of the monitor at one time; an algorithm sets the fields that it computes.
 
     Parameters
     ----------

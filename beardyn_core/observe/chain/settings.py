@@ -1,4 +1,4 @@
-"""What can be tuned about the chain and about how often it is asked."""
+"""Settings of the chain, and of how often it runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The input of a monitoring algorithm: a stretch of signal with what a train knows beside it."""
+"""Input of a monitoring algorithm: a stretch of signal, with the shaft, load and temperature of a train."""
 
 from __future__ import annotations
 
@@ -47,10 +47,10 @@ class Stretch:
 
     @property
     def revolutions(self) -> float:
-        """Of the shaft, [-]."""
+        """Revolutions of the shaft, [-]."""
         return float(self.shaft_angle[-1] - self.shaft_angle[0]) / (2.0 * np.pi)
 
     @property
     def shaft_frequency(self) -> float:
-        """Mean, [Hz]."""
+        """Mean frequency of the shaft, [Hz]."""
         return self.revolutions * self.rate / (len(self.shaft_angle) - 1)

@@ -36,7 +36,7 @@ def squared_envelope(stretch: Stretch, band: Band) -> Float:
 
 
 def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float:
-    """Resample power over equal steps of the shaft angle, whole revolutions, less what the wheel itself does.
+    """Resample power over equal steps of the shaft angle, whole revolutions, less the wheel's own part.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The verdict: which fault is called, and the sentence that says why."""
+"""The verdict: the fault that is reported, and the sentence that says why."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _ZERO_CELSIUS = 273.15
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is called.
+    """Fault that is reported, with its reason.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Verdict:
 
 
 def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
-    """Call the fault whose score is most over its threshold, if any is and nothing stronger contradicts.
+    """Report the fault whose score exceeds its threshold most, unless something stronger contradicts.
 
     A contradiction is a line that is no chance, stronger than all of the fault's and not one of them: then
     something else is periodic. A hot box is called whatever the lines say; it leaves a fault its name.

@@ -1,4 +1,4 @@
-"""What the wheel does at each of its angles: flats, polygons and whatever else turns with the shaft."""
+"""Vibration of the wheel over its angle: flats, polygons and all else that turns with the shaft."""
 
 from __future__ import annotations
 
