@@ -76,7 +76,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     argv : sequence of str, optional
-        Words after the program's name; those of the process when not given.
+        Words after the program's name; those of the process when left out.
 
     Returns
     -------

@@ -59,7 +59,7 @@ class Waviness:
         At("um", ge=0.0, le=50.0, key="amplitude", optional=True),
         "of each order: one for all, or one an order",
     ]
-    roller: A[int | None, At(ge=0), "which roller, with `on: roller`; all of the row when not given"] = None
+    roller: A[int | None, At(ge=0), "which roller, with `on: roller`; all of the row when left out"] = None
     seed: A[int, SEED, "of the phases"] = 1
 
     def rules(self) -> Iterator[str]:
