@@ -213,7 +213,7 @@ class WornPocket:
 
 @dataclass(frozen=True)
 class MissingRoller:
-    """A roller that is not there; its pocket is empty."""
+    """A missing roller; its pocket is empty."""
 
     row: A[int, ROW, "0 inboard, 1 outboard"]
     roller: A[int, At(ge=0), "which roller"]

@@ -134,7 +134,7 @@ class Trial:
     check: A[Check | None, "repeat some runs in another tier"] = None
 
     def rules(self) -> Iterator[str]:
-        """Check that no entry stands twice, and that the second tier differs from the first."""
+        """Check that no entry occurs twice, and that the second tier differs from the first."""
         lists = {
             "faults": self.faults,
             "sizes_mm": self.sizes,

@@ -106,7 +106,7 @@ class Waviness:
 
 
 def band_amplitudes(first: int, last: int, rms: float, exponent: float = 1.0) -> tuple[float, ...]:
-    """Find the amplitudes of the orders of a band that fall as ``k^-exponent``, of a given rms sum [m].
+    """Compute the amplitudes of a band's orders, which fall as ``k^-exponent``, from their rms sum [m].
 
     References
     ----------

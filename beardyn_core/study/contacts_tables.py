@@ -111,7 +111,7 @@ def contacts_table(found: Findings) -> Table:
 
 
 def run_table(found: Findings) -> Table:
-    """Set Santos (2017), Table 1, beside ours, extrapolated to its run."""
+    """Compare Santos (2017), Table 1, with our times, extrapolated to its run."""
     rows = []
     for result in found.whole_bearing:
         hours = santos_hours(result.method)
