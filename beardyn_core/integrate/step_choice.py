@@ -83,9 +83,9 @@ def choose_steps(
     axial : float
         Axial load that goes with the largest radial one, [N].
     end_play : float, optional
-        [m]; the bearing's own when left out.
+        [m]; the bearing's own when not given.
     mounting : Mounting, optional
-        The usual one when left out.
+        The usual one when not given.
     band : float
         Up to here third-octave levels of the vibration stay within 1.5 dB, [Hz]; 0 when only forces, torque
         and motion matter.
