@@ -93,7 +93,7 @@ PARAMETERS = (
     NodeParameter(
         "loop",
         False,
-        "go on at the start of the scenario when it ends, with a cross-fade, until told otherwise",
+        "go on at the start of the scenario when it ends, with a cross-fade, until `loop` is set to false",
         live=True,
     ),
     NodeParameter("fade", 0.5, "cross-fade of a seek or a loop", "s", minimum=0.001, maximum=60.0),

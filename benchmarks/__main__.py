@@ -61,7 +61,7 @@ def main() -> None:
         "--json", metavar="FILE", type=Path, default=Path("bench.json"), help="where the numbers go"
     )
     parser.add_argument("--only", nargs="+", choices=PARTS, default=list(PARTS), help="parts to measure")
-    parser.add_argument("--quick", action="store_true", help="fewer turns, for a glance")
+    parser.add_argument("--quick", action="store_true", help="fewer turns, for a quick look")
     arguments = parser.parse_args()
     about = machine()
     print(f"{about['processor']}, one core; load average before: {about['load_average_before']:.2f}")

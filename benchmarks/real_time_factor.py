@@ -74,8 +74,8 @@ def fast_tiers(turns: int) -> Table:
         "Real-time factor of the fast tiers, each run by itself",
         ("run", "steps a sample", "RTF alone", "RTF alone, desk", "RTF alone, desk, all looked at"),
         [(name, scenes[name].numerics.steps_per_sample, *factors) for name, factors in found.items()],
-        "Poses, twists and contacts of the rollers are worked out when somebody looks at them, as a "
-        "recording does; the last column includes that at every snapshot.",
+        "Poses, twists and contacts of the rollers are worked out when they are first used, for "
+        "example by a recording; the last column includes that at every snapshot.",
     )
 
 

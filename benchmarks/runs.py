@@ -125,7 +125,7 @@ def measure_alone(
     -------
     dict of name to 3 floats
         Medians over all advances: with blocks of 20 ms, with as many in one as a desk run takes, and with
-        these and all that a block works out only when somebody looks.
+        these and all that a block works out only when it is used.
     """
     found = {}
     for name, scene in scenes.items():

@@ -50,10 +50,10 @@ says which stamp stands where, before the load that it is about comes: `replay.p
 passage, its first `sample` and `stamp_s`, its `position_s` there, and for how long (`fade_s`) the passage
 before it still fades out. At the stamp t of a passage the position is `position_s + t - stamp_s`.
 
-A pause is said on `load/truth` too, and the twin then waits in either mode: simulated time stands still,
-neither `load_timeout` nor `max_age` runs, and the age of a live load counts anew when it goes on. A source
-that falls silent without a word, or a paused one that dies (Fast DDS tells within 10 s), is a lost load as
-ever. Reset of the twin starts the stream again at sample 0 and the first stamp.
+A pause is also published on `load/truth`, and the twin then waits in either mode: simulated time stands
+still, neither `load_timeout` nor `max_age` runs, and the age of a live load counts anew when it goes on. When
+a source falls silent without announcing a pause, or dies while paused (Fast DDS reports it within 10 s), the
+load is lost as ever. Reset of the twin starts the stream again at sample 0 and the first stamp.
 
 ### A recording in its place
 
@@ -63,7 +63,7 @@ Any node may send the load. A recording of a lockstep run replays to the same bi
 ros2 bag play run.mcap --topics /axlebox/load/blocks /axlebox/load/truth
 ```
 
-A bag knows no credit: with `--rate` it may run ahead of the twin by `load_queue` seconds or
+A bag does not wait for credit: with `--rate` it may run ahead of the twin by `load_queue` seconds or
 `load_queue_size` MB, beyond which the twin stops and says so.
 """
 

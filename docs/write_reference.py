@@ -1,4 +1,4 @@
-"""Write docs/reference.md from the declarations of the nouns: ``python docs/write_reference.py``.
+"""Write docs/reference.md from the fields of the dataclasses: ``python docs/write_reference.py``.
 
 ``--check`` writes nothing and ends with 1 when the page is not what the declarations say.
 """

@@ -42,9 +42,9 @@ A scene is a YAML file: a bearing, a lubricant, an operation, faults, sensors. `
 runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come first; the others turn a
 bearing under a constant load.
 
-Every railway scene is there to prove a monitor: some have a fault that must be found (*true*), some only
-something that looks like one (*false friend*), some both, and the healthy ones nothing at all. What a run
-meets on its way is part of its truth (topic `truth`, key `excitation`): the irregularity with its seed,
+Every railway scene is there to test a monitor: some have a fault that must be found (*true*), some only
+something that looks like one (*similar disturbance*), some both, and the healthy ones nothing at all. The
+excitation of a run is part of its truth (topic `truth`, key `excitation`): the irregularity with its seed,
 strikes of a flat, joints passed, each with time and distance.
 
 ## Railway scenes
@@ -54,7 +54,7 @@ MEASURED = """
 ## Measured input
 
 A CSV file names its columns in the first line; a second one may give their units; lines that begin with
-`#` are comments. Every mistake is told at once, with file, line and what is allowed: unknown or missing
+`#` are comments. All mistakes are reported at once, with file, line and what is allowed: unknown or missing
 columns, other units, values that are no finite numbers, time that does not increase, gaps.
 
 | file | key | columns |
@@ -110,7 +110,7 @@ def irregularity(scene: Scene) -> str:
 def page() -> str:
     """Write the whole page."""
     scenes = [load_scene(name) for name in shipped_names("scenes")]
-    lines = [HEAD, "| scene | km/h | rail | fault | false friends |", "|---|---|---|---|---|"]
+    lines = [HEAD, "| scene | km/h | rail | fault | similar disturbances |", "|---|---|---|---|---|"]
     for scene in filter(railway, scenes):
         cells = (f"[{scene.name}](#{scene.name})", speeds(scene), irregularity(scene))
         faults = "; ".join(scene.fault_sentences)

@@ -47,7 +47,7 @@ def _deg(angle: float) -> str:
 
 
 def _check_numbers(bearing: Bearing) -> list[str]:
-    """Find numbers beyond the limits that stand on the fields of the bearing and its parts."""
+    """Find numbers beyond the limits of the fields of the bearing and its parts."""
     problems = [f"{' '.join(map(str, found.place))} {found.text}.".lstrip() for found in outside(bearing)]
     if not bearing.sphere_ratio < 1.0:
         problems.append(

@@ -32,7 +32,7 @@ class PartTemperatures:
 
 @dataclass(frozen=True)
 class Temperatures:
-    """Temperatures of the parts, for the end play; it is given as mounted at the assembly temperature."""
+    """Temperatures of the parts, for the end play, which is stated as mounted at assembly temperature."""
 
     cup: A[float, At("C", ge=-60.0, le=250.0), "of the cup"]
     cone: A[float, At("C", ge=-60.0, le=250.0), "of both cones"]

@@ -54,9 +54,9 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
     scene : Scene
         Its effects are those of the reference; `accuracy` and `quantities` say what is asked for.
     free : Free, optional
-        What may be chosen, everything when not given; the rest is kept as the scene has it.
+        What may be chosen, everything when left out; the rest is kept as the scene has it.
     given : EffectSet, optional
-        The effects that are kept where they are not free; those of the reference when not given.
+        The effects that are kept where they are not free; those of the reference when left out.
 
     Returns
     -------

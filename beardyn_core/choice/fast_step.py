@@ -78,7 +78,7 @@ def fast_steps(scene: Scene, long: bool = True) -> StepChoice:
     long : bool
         Whether a step may be longer than a sample.
     """
-    noun = TIERS[scene.tier]
+    limits = TIERS[scene.tier]
     fastest = fastest_mode(scene.bearing, scene.mounting, scene.end_play < 0.0, scene.rows)
     needed = fastest / (LARGEST_TURN * WAVEFORM_RATE)
     mode = f"the rings on all rollers, at most {fastest / (2e3 * math.pi):.3g} kHz"
@@ -86,13 +86,15 @@ def fast_steps(scene: Scene, long: bool = True) -> StepChoice:
         steps = min(math.ceil(needed), _MOST_STEPS)
         return StepChoice(steps, f"{mode}, turn by {fastest / steps / WAVEFORM_RATE:.2g} rad a step")
     if not long:
-        return StepChoice(noun.steps_per_sample, f"the usual step of the tier {scene.tier}")
+        return StepChoice(limits.steps_per_sample, f"the usual step of the tier {scene.tier}")
     sudden = _sudden(scene)
     if not sudden and scene.tier == "quasistatic" and scene.mounting.cup == "suspended":
         sudden = "vibrations of the box, which follow the rollers to 8 kHz,"
     if sudden:
-        return StepChoice(noun.steps_per_sample, f"{sudden} fill the band of the waveforms")
-    steps_per_sample = next((steps for steps in noun.long_steps if needed <= steps), noun.steps_per_sample)
+        return StepChoice(limits.steps_per_sample, f"{sudden} fill the band of the waveforms")
+    steps_per_sample = next(
+        (steps for steps in limits.long_steps if needed <= steps), limits.steps_per_sample
+    )
     turn = fastest / steps_per_sample / WAVEFORM_RATE
     return StepChoice(steps_per_sample, f"{mode}, turn by {turn:.2g} rad a step, and nothing strikes")
 

@@ -20,7 +20,7 @@ from beardyn_core.model.heat import thermal_network
 _FAST = frozenset({"lumped", "quasistatic"})
 _FULL = frozenset({"full"})
 # Runs shorter than this stay at the temperature the scene gives.
-_SMALLEST_DRIFT = 0.01  # that is told [K]
+_SMALLEST_DRIFT = 0.01  # that a reason mentions, [K]
 _SHORT = 60.0
 # Torque goes about with this power of the viscosity, which falls with `temperature_coefficient`.
 _VISCOSITY_POWER = 0.66
@@ -34,21 +34,21 @@ def traction(evidence: Evidence) -> Rule:
     reference = losses.drive(effects.traction, effects.film)
     parameter = losses.film_parameter(effects.film)
     use = "would need" if reference.used > 1.0 else "use"
-    said = (
+    reason = (
         f"the rollers {use} {percent(reference.used)} of the traction there is, at a film of "
         f"{parameter:.2f} times the roughness"
         if reference.needed > 0.0
         else "nothing has to be driven"
     )
     if reference.slip >= 1.0:
-        said += ": they skid, and the law of friction decides the torque"
+        reason += ": they skid, and the law of friction decides the torque"
     costs = evidence.costs
 
     def alternative(word: str, law: Traction, film: LineFilm | None, cost: float) -> Alternative:
         drive = losses.drive(law, film)
         return Alternative(
             {"traction": law, "film": film},
-            f"{said}; by this law {percent(drive.used)}" if law is not effects.traction else said,
+            f"{reason}; by this law {percent(drive.used)}" if law is not effects.traction else reason,
             {}
             if law is effects.traction and film is effects.film
             else _other_law(evidence, drive, reference, law),
@@ -82,7 +82,7 @@ def traction(evidence: Evidence) -> Rule:
     found.append(
         Alternative(
             {"traction": None, "film": None},
-            f"the tier's rollers roll without slip; {said}",
+            f"the tier's rollers roll without slip; {reason}",
             _without_slip(evidence, reference),
             0.0,
             # nothing else drives the rollers of the full tier
@@ -143,7 +143,7 @@ def rolling_resistance(evidence: Evidence) -> Rule:
         return _absent("rolling_resistance")
     drive = losses.drive(effects.traction, effects.film)
     less = losses.drive(effects.traction, effects.film, rolling=False)
-    said = f"{losses.rolling:.3g} N m of a torque of about {evidence.torque:.3g} N m"
+    reason = f"{losses.rolling:.3g} N m of a torque of about {evidence.torque:.3g} N m"
     influence = {
         "torque": evidence.torque_share(losses.rolling) + evidence.torque_share(drive.torque - less.torque),
         **evidence.slipping(0.5 * abs(drive.slip - less.slip)),
@@ -151,8 +151,10 @@ def rolling_resistance(evidence: Evidence) -> Rule:
     return Rule(
         "rolling_resistance",
         (
-            Alternative({"rolling_resistance": effect}, said, {}, evidence.costs.extra("rolling_resistance")),
-            Alternative({"rolling_resistance": None}, said, influence, word="off"),
+            Alternative(
+                {"rolling_resistance": effect}, reason, {}, evidence.costs.extra("rolling_resistance")
+            ),
+            Alternative({"rolling_resistance": None}, reason, influence, word="off"),
         ),
     )
 
@@ -164,10 +166,10 @@ def drag(evidence: Evidence) -> Rule:
         return _absent("drag")
     drive = losses.drive(effects.traction, effects.film)
     less = losses.drive(effects.traction, effects.film, drag=False)
-    said = f"{losses.drag:.3g} N m of a torque of about {evidence.torque:.3g} N m"
+    reason = f"{losses.drag:.3g} N m of a torque of about {evidence.torque:.3g} N m"
     part = drive.share(drive.needed - less.needed) if drive.skids else 0.0
     if part > 0.0:
-        said += f", {percent(part)} of what brakes rollers that hardly stick"
+        reason += f", {percent(part)} of what brakes rollers that hardly stick"
     influence = {
         "torque": evidence.torque_share(losses.drag) + evidence.torque_share(part * drive.torque),
         **evidence.slipping(0.5 * max(abs(drive.slip - less.slip), part)),
@@ -175,8 +177,8 @@ def drag(evidence: Evidence) -> Rule:
     return Rule(
         "drag",
         (
-            Alternative({"drag": effects.drag}, said, {}, evidence.costs.extra("drag")),
-            Alternative({"drag": None}, said, influence, word="off"),
+            Alternative({"drag": effects.drag}, reason, {}, evidence.costs.extra("drag")),
+            Alternative({"drag": None}, reason, influence, word="off"),
         ),
     )
 
@@ -186,12 +188,12 @@ def seal(evidence: Evidence) -> Rule:
     effect, torque = evidence.scene.effects.seal, evidence.losses.seal
     if effect is None:
         return _absent("seal")
-    said = f"{torque:.3g} N m of a torque of about {evidence.torque:.3g} N m"
+    reason = f"{torque:.3g} N m of a torque of about {evidence.torque:.3g} N m"
     return Rule(
         "seal",
         (
-            Alternative({"seal": effect}, said, {}, evidence.costs.extra("seal")),
-            Alternative({"seal": None}, said, {"torque": evidence.torque_share(torque)}, word="off"),
+            Alternative({"seal": effect}, reason, {}, evidence.costs.extra("seal")),
+            Alternative({"seal": None}, reason, {"torque": evidence.torque_share(torque)}, word="off"),
         ),
     )
 
@@ -203,20 +205,20 @@ def thermal(evidence: Evidence) -> Rule:
     drift = _warming(evidence, effect)
     influence = {"torque": min(_VISCOSITY_POWER * scene.lubricant.temperature_coefficient * abs(drift), 1.0)}
     if scene.duration < _SHORT and scene.effects.thermal is None:
-        said = f"in {scene.duration:g} s {_drift_text(drift)}"
-        return Rule("thermal", (Alternative({"thermal": None}, said, word="off"),))
-    said = f"in {scene.duration:g} s {_drift_text(drift)}"
+        reason = f"in {scene.duration:g} s {_drift_text(drift)}"
+        return Rule("thermal", (Alternative({"thermal": None}, reason, word="off"),))
+    reason = f"in {scene.duration:g} s {_drift_text(drift)}"
     return Rule(
         "thermal",
         (
             Alternative(
                 {"thermal": effect},
-                f"{said}; the audit feeds it",
+                f"{reason}; the audit feeds it",
                 {},
                 evidence.costs.extra("thermal") + evidence.costs.saved("audit"),
                 _FULL,
             ),
-            Alternative({"thermal": None}, said, influence, word="off"),
+            Alternative({"thermal": None}, reason, influence, word="off"),
         ),
     )
 

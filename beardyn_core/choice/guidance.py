@@ -23,11 +23,11 @@ def rib(evidence: Evidence) -> Rule:
         return Rule("rib", (Alternative({"rib": None}, "not in the reference", word="off", tiers=_FULL),))
     share = float(evidence.typical.rib_load.max()) / max(evidence.typical.largest_roller_load, 1.0e-3)
     full, dry = losses.rib(effect), losses.rib(_plain(effect))
-    said = f"the raceways press the rollers against it with {percent(share)} of their load"
+    reason = f"the raceways press the rollers against it with {percent(share)} of their load"
     fuller = effect.lubrication is not None or effect.roller_end or effect.drilling
     if fuller:
-        said += f"; lubricated it takes {full:.3g} N m, dry {dry:.3g} N m "
-        said += f"of a torque of {evidence.torque:.3g} N m"
+        reason += f"; lubricated it takes {full:.3g} N m, dry {dry:.3g} N m "
+        reason += f"of a torque of {evidence.torque:.3g} N m"
     costs = evidence.costs
     basic = costs.saved("rib")
     more = 0.0
@@ -38,7 +38,7 @@ def rib(evidence: Evidence) -> Rule:
     found = [
         Alternative(
             {"rib": effect},
-            said,
+            reason,
             {},
             basic + more,
             _FULL if fuller else _FAST | _FULL,
@@ -54,7 +54,7 @@ def rib(evidence: Evidence) -> Rule:
             part = drive.share(brake)
             influence["torque"] += evidence.torque_share(part * drive.torque)
             influence |= evidence.slipping(0.5 * part)
-        found.append(Alternative({"rib": _plain(effect)}, said, influence, basic, word="dry"))
+        found.append(Alternative({"rib": _plain(effect)}, reason, influence, basic, word="dry"))
     return Rule("rib", tuple(found))
 
 
@@ -72,7 +72,7 @@ def small_rib(evidence: Evidence) -> Rule:
     outward = orbit**2 * 0.5 * scene.bearing.pitch_diameter * math.sin(scene.bearing.cup_angle) / _GRAVITY
     influence: dict[str, float] = {}
     if loads.reverses:
-        said = (
+        reason = (
             f"the axial force goes from {loads.axial_low / 1e3:.3g} to {loads.axial_high / 1e3:.3g} kN "
             "and takes the rollers of one row after the other off the large rib"
         )
@@ -80,14 +80,14 @@ def small_rib(evidence: Evidence) -> Rule:
     else:
         if outward < 1.0:
             influence = {"vibration": decibels(1.0 + 1.0 / max(outward, 0.1))}
-        said = (
+        reason = (
             f"the centrifugal force holds idle rollers at the large rib with {outward:.2g} times their weight"
         )
     return Rule(
         "small_rib",
         (
-            Alternative({"small_rib": effect}, said, {}, evidence.costs.extra("small_rib"), _FULL),
-            Alternative({"small_rib": None}, said, influence, word="off"),
+            Alternative({"small_rib": effect}, reason, {}, evidence.costs.extra("small_rib"), _FULL),
+            Alternative({"small_rib": None}, reason, influence, word="off"),
         ),
     )
 
@@ -101,13 +101,13 @@ def cage(evidence: Evidence) -> Rule:
         return Rule("cage", (Alternative({"cage": None}, "not in the reference", word="off"),))
     drive = losses.drive(effects.traction, effects.film)
     slip = 0.5 * drive.slip
-    said = f"the rollers slip by {percent(drive.slip)} of their rolling speed"
-    said += f", using {percent(drive.used)} of the traction"
+    reason = f"the rollers slip by {percent(drive.slip)} of their rolling speed"
+    reason += f", using {percent(drive.used)} of the traction"
     worn = evidence.worn_pockets
     if worn:
-        said += f"; a pocket is worn by {1e3 * max(defect.clearance for defect in worn):.2g} mm"
+        reason += f"; a pocket is worn by {1e3 * max(defect.clearance for defect in worn):.2g} mm"
     if drive.needed == 0.0:
-        said = "nothing turns the cage"
+        reason = "nothing turns the cage"
     pocket = evidence.torque_share(losses.pocket)
     knock = MOST_DB if worn else decibels(1.0 + losses.pocket_force / max(_excitation(evidence), 1.0))
     costs = evidence.costs
@@ -120,7 +120,7 @@ def cage(evidence: Evidence) -> Rule:
     def alternative(
         word: str, model: CageModel | None, cost: float, without: Influence, tiers: frozenset[str]
     ) -> Alternative:
-        return Alternative({"cage": model}, said, without, max(cost, 0.001), tiers, word)
+        return Alternative({"cage": model}, reason, without, max(cost, 0.001), tiers, word)
 
     whole = basic
     if isinstance(effect, Cage) and effect.lubrication is not None:

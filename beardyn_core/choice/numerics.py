@@ -55,7 +55,7 @@ def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
     # a mode that moves by half of that takes its level out of its band by as much
     shift = decibels(1.0 + 0.5 * tilt / _BAND)
     influence = {**change.influence(), "vibration": shift + decibels(change.stiffness)}
-    said = (
+    reason = (
         f"{percent(change.deflection)} of the deflection is left out, {percent(tilt)} of the tilt stiffness"
     )
     if partial:
@@ -64,14 +64,14 @@ def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
         # over the patch the neighbours take what the line of springs gives wrongly
         influence["roller_load"] += 0.5 * (tilt + lever)
         shortest = 1e3 * min(patch.length for patch in partial)
-        said += f"; a patch of {shortest:.3g} mm tilts its roller {percent(lever)} wrong"
+        reason += f"; a patch of {shortest:.3g} mm tilts its roller {percent(lever)} wrong"
         coupling = evidence.scene.effects.lamina_coupling
         if coupling is not None:
             taken = max(taking_error(patch, evidence.scene.bearing, coupling, count) for patch in partial)
             influence["vibration"] += decibels(1.0 + taken)
-            said += f" and takes {percent(taken)} too much or too little from it"
+            reason += f" and takes {percent(taken)} too much or too little from it"
     influence["vibration"] = min(influence["vibration"], MOST_DB)
-    return LaminaVerdict(count, said, influence)
+    return LaminaVerdict(count, reason, influence)
 
 
 def _uncovered(patch: Patch | None, length: float, count: int) -> tuple[list[float], list[float]]:

@@ -27,15 +27,15 @@ def ring_flexibility(evidence: Evidence) -> Rule:
         **change.influence(),
         "torque": evidence.torque_share(evidence.torque_of_rigid_cup - evidence.torque),
     }
-    said = (
+    reason = (
         f"bending of the cup changes the deflection by {percent(change.deflection)} and the largest roller "
         f"load by {percent(change.roller_load)}, the torque by {percent(influence['torque'])}"
     )
     return Rule(
         "ring_flexibility",
         (
-            Alternative({"ring_flexibility": effect}, said, {}, evidence.costs.extra("ring_flexibility")),
-            Alternative({"ring_flexibility": None}, said, influence, word="off"),
+            Alternative({"ring_flexibility": effect}, reason, {}, evidence.costs.extra("ring_flexibility")),
+            Alternative({"ring_flexibility": None}, reason, influence, word="off"),
         ),
     )
 
@@ -49,7 +49,7 @@ def lamina_coupling(evidence: Evidence) -> Rule:
         )
     change = evidence.difference({"coupling": None}, {"coupling": effect}, heavy=True)
     influence = change.influence()
-    said = (
+    reason = (
         f"coupled laminae change the deflection by {percent(change.deflection)} and the largest roller load "
         f"by {percent(change.roller_load)}"
     )
@@ -61,12 +61,12 @@ def lamina_coupling(evidence: Evidence) -> Rule:
         # what the rest of the line carries more is not given to the neighbours
         influence["roller_load"] += (gain - 1.0) * (1.0 - share) * 2.0 / loaded
         influence["vibration"] += decibels((1.0 - (1.0 - share) * gain) / share)
-        said += f"; a line that a patch leaves {percent(1.0 - share)} of carries {percent(gain - 1.0)} more"
+        reason += f"; a line that a patch leaves {percent(1.0 - share)} of carries {percent(gain - 1.0)} more"
     return Rule(
         "lamina_coupling",
         (
-            Alternative({"lamina_coupling": effect}, said, {}, evidence.costs.extra("lamina_coupling")),
-            Alternative({"lamina_coupling": None}, said, influence, word="off"),
+            Alternative({"lamina_coupling": effect}, reason, {}, evidence.costs.extra("lamina_coupling")),
+            Alternative({"lamina_coupling": None}, reason, influence, word="off"),
         ),
     )
 

@@ -46,13 +46,13 @@ def full(_evidence: Evidence) -> TierVerdict:
 
 def quasistatic(evidence: Evidence) -> TierVerdict:
     """Judge the quasi-static tier: its rollers have no inertia."""
-    influence, said = _without_roller_inertia(evidence)
-    return TierVerdict("quasistatic", said, {"deflection": _QUASISTATIC_SHARE, **influence})
+    influence, reason = _without_roller_inertia(evidence)
+    return TierVerdict("quasistatic", reason, {"deflection": _QUASISTATIC_SHARE, **influence})
 
 
 def lumped(evidence: Evidence, laminae: int) -> TierVerdict | None:
     """Judge the lumped tier against the exact equilibrium; ``None`` where no roller spring fits."""
-    influence, said = _without_roller_inertia(evidence)
+    influence, reason = _without_roller_inertia(evidence)
     deflection = roller_load = 0.0
     for case in evidence.loads.cases:
         spring, exact = evidence.statics.lumped(case, laminae), evidence.statics.at(case)
@@ -63,27 +63,27 @@ def lumped(evidence: Evidence, laminae: int) -> TierVerdict | None:
         straight = float((exact.displacement @ exact.displacement) ** 0.5)
         deflection = max(deflection, abs(spring[0] / max(straight, 1.0e-9) - 1.0))
         roller_load = max(roller_load, abs(spring[1] / max(exact.largest_roller_load, 1.0e-3) - 1.0))
-    said = (
+    reason = (
         f"one spring a roller misses the deflection by {percent(deflection)} and the largest roller load by "
-        f"{percent(roller_load)}; {said}"
+        f"{percent(roller_load)}; {reason}"
     )
     influence = dict(influence)
     influence["deflection"] = deflection
     influence["roller_load"] = influence["roller_load"] + roller_load
-    return TierVerdict("lumped", said, influence)
+    return TierVerdict("lumped", reason, influence)
 
 
 def _without_roller_inertia(evidence: Evidence) -> tuple[dict[str, float], str]:
     bounce = roller_bounce(evidence)
     # response of a mass on springs over that of the springs alone, at the end of the band
     ratio = 1.0 / abs(1.0 - min((_HIGHEST_FREQUENCY / bounce) ** 2, 0.999))
-    said = f"its rollers have no inertia, a roller bounces at {bounce / 1e3:.3g} kHz"
+    reason = f"its rollers have no inertia, a roller bounces at {bounce / 1e3:.3g} kHz"
     influence = {"vibration": decibels(ratio), "roller_load": _QUASISTATIC_SHARE}
     if evidence.patches:
         overshoot = fault_overshoot(evidence, bounce)
-        said += f" and overshoots by {percent(overshoot)} behind a fault"
+        reason += f" and overshoots by {percent(overshoot)} behind a fault"
         influence["roller_load"] += overshoot
-    return influence, said
+    return influence, reason
 
 
 def roller_bounce(evidence: Evidence) -> float:

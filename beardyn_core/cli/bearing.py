@@ -70,7 +70,7 @@ def add_parser(subparsers: Any) -> None:
         type=float,
         default=70.0,
         metavar="CELSIUS",
-        help="of the lubricant, degrees Celsius; default 70",
+        help="temperature of the lubricant, degrees Celsius; default 70",
     )
     parser.add_argument(
         "--contamination",

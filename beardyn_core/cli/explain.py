@@ -33,8 +33,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--quantities",
         metavar="NAMES",
-        help="what that accuracy is asked of, with commas between: force, deflection, roller_load, torque, "
-        "vibration, cage_speed; default the scene's",
+        help="quantities that the accuracy applies to, with commas between: force, deflection, "
+        "roller_load, torque, vibration, cage_speed; default the scene's",
     )
     parser.add_argument(
         "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's"

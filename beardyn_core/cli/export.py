@@ -28,8 +28,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--signals",
         metavar="NAMES",
         default="",
-        help="commas between: vibration, force, force_waveform, shaft, torque, cages, rollers, bodies, "
-        "contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
+        help="signals, with commas between: vibration, force, force_waveform, shaft, torque, cages, "
+        "rollers, bodies, contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
     )
     parser.add_argument("--force", action="store_true", help="replace files that exist")
     parser.add_argument("--json", action="store_true", help="print one JSON object")

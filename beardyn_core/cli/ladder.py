@@ -58,7 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--quantities",
         metavar="NAMES",
-        help="what the accuracy is asked of, with commas between; default the scene's, or all",
+        help="quantities that the accuracy applies to, with commas between; default the scene's, or all",
     )
     parser.add_argument("--quick", action="store_true", help="few levels")
     parser.add_argument(

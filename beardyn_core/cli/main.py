@@ -76,7 +76,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     argv : sequence of str, optional
-        Words after the program's name; those of the process when not given.
+        Words after the program's name; those of the process when left out.
 
     Returns
     -------
@@ -88,7 +88,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             args = build_parser().parse_args(argv)
             _announce_on_stderr()
             code = int(args.run(args))
-            sys.stdout.flush()  # a pipe or disk that refuses is told here, not at exit
+            sys.stdout.flush()  # a pipe or disk that refuses is reported here, not at exit
             return code
     except InputError as error:
         _complain(error.problems)

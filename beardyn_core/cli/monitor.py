@@ -34,7 +34,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "monitor",
         help="run a monitor, ours or yours, over a recording",
-        description="Give vibration, shaft and load of a recording to a monitor, and print its verdicts.",
+        description="Pass vibration, shaft and load of a recording to a monitor, and print its verdicts.",
     )
     parser.add_argument("recording", metavar="run.mcap", help="recording to analyse")
     parser.add_argument(

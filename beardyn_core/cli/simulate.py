@@ -51,11 +51,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--quantities",
         metavar="NAMES",
-        help="what that accuracy is asked of, with commas between: force, deflection, roller_load, torque, "
-        "vibration, cage_speed; default the scene's",
+        help="quantities that the accuracy applies to, with commas between: force, deflection, "
+        "roller_load, torque, vibration, cage_speed; default the scene's",
     )
     parser.add_argument(
-        "--seed", metavar="N", type=int, help="of irregularity and noise; default the scene's"
+        "--seed", metavar="N", type=int, help="seed of irregularity and noise; default the scene's"
     )
     parser.add_argument("--force", action="store_true", help="replace the file of -o when it exists")
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")

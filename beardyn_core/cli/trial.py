@@ -57,7 +57,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("--jobs", metavar="N", type=int, help="processes; default one for each core")
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full; default the trial's")
     parser.add_argument(
-        "--seed", metavar="N", type=int, help="of tracks, noise and places of spalls; default the trial's"
+        "--seed",
+        metavar="N",
+        type=int,
+        help="seed of tracks, noise and places of spalls; default the trial's",
     )
     parser.add_argument(
         "--force", action="store_true", help="start over in a folder that holds runs, and lose them"

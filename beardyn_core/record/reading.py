@@ -115,7 +115,7 @@ def run_of_messages(
 ) -> Run:
     """Gather a run of messages by the name of their topic, from a file or from a live graph.
 
-    The messages are decoded when somebody looks at their array.
+    The messages are decoded when their array is first used.
     """
     return Run(
         MessageSource(cdrs, description),

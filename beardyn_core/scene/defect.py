@@ -79,7 +79,7 @@ class Patch:
     length: A[
         float,
         At("mm", gt=0.0, optional=True),
-        "along the roller; the whole contact when not given",
+        "along the roller; the whole contact when left out",
     ]
     offset: A[float, At("mm"), "centre from mid-length, positive towards the large end"] = 0.0
     roller: A[int, At(ge=0), "which roller, with `on: roller`"] = 0
@@ -88,7 +88,7 @@ class Patch:
     rim_width: A[
         float,
         At("mm", ge=0.0, le=50.0, optional=True),
-        "of the shoulder on each side; a quarter of the width when not given",
+        "of the shoulder on each side; a quarter of the width when left out",
     ] = 0.0
     growth: A[Growth | None, "of its size during the run"] = None
 
@@ -213,7 +213,7 @@ class WornPocket:
 
 @dataclass(frozen=True)
 class MissingRoller:
-    """A roller that is not there; its pocket is empty."""
+    """A missing roller; its pocket is empty."""
 
     row: A[int, ROW, "0 inboard, 1 outboard"]
     roller: A[int, At(ge=0), "which roller"]

@@ -46,7 +46,7 @@ class WheelFlat:
     depth: A[
         float | None,
         At("mm", ge=0.0),
-        "L^2 / (8 R) of a fresh, L^2 / (16 R) of a rounded flat when not given",
+        "L^2 / (8 R) of a fresh, L^2 / (16 R) of a rounded flat when left out",
     ] = None
     shape: A[str, At(one_of=FLAT_SHAPES), "a chord with sharp ends, or rolled round (haversine)"] = "fresh"
     azimuth: A[
@@ -161,7 +161,7 @@ class DippedJoint:
     position: A[float, POSITION, "of the kink, from the start of the run"]
     angle: A[float, At("mrad", ge=0.0, le=50.0), "between the two rail ends, twice the slope of each"]
     length: A[float, At("m", gt=0.0, ge=0.05, le=5.0), "of the dip, both sides together"] = 1.0
-    spacing: A[float | None, At("m", gt=0.0), "to the next such joint; only one when not given"] = None
+    spacing: A[float | None, At("m", gt=0.0), "to the next such joint; only one when left out"] = None
 
     @property
     def depth(self) -> float:
@@ -183,7 +183,7 @@ class Corrugation:
     wavelength: A[float, At("mm", gt=0.0, ge=20.0, le=2000.0), "of the waves along the rail"]
     amplitude: A[float, AMPLITUDE, "about the mean, half of valley to crest"]
     begin: A[float, POSITION, At(key="from"), "from the start of the run"] = 0.0
-    end: A[float, At("m", gt=0.0, key="to", absent=True), "to the end of the run when not given"] = math.inf
+    end: A[float, At("m", gt=0.0, key="to", absent=True), "to the end of the run when left out"] = math.inf
 
     def rules(self) -> Iterator[str]:
         """Check that the stretch is long enough for its waves."""
@@ -213,7 +213,7 @@ class DippedWeld:
         0.0
     )
     short_length: A[float, At("m", gt=0.0, ge=0.05, le=1.0), "of the short hollow"] = 0.1
-    spacing: A[float | None, At("m", gt=0.0), "to the next such weld; only one when not given"] = None
+    spacing: A[float | None, At("m", gt=0.0), "to the next such weld; only one when left out"] = None
 
     def rules(self) -> Iterator[str]:
         """Check that neighbouring welds do not overlap, and that the short hollow is the shorter one."""

@@ -27,7 +27,7 @@ class Free:
 
     @property
     def anything(self) -> bool:
-        """Whether there is something to choose."""
+        """Whether any part may be chosen."""
         return self.tier or self.laminae or self.steps or bool(self.effects)
 
 

@@ -95,7 +95,7 @@ class Vehicle:
     )
     primary_suspension: A[
         ProgressiveSuspension | None,
-        "of freight bogies; the vertical springs of the mounting when not given",
+        "of freight bogies; the vertical springs of the mounting when left out",
     ] = None
     guidance: A[Guidance, "what the sideways motion depends on"] = Guidance()
     sources: tuple[tuple[str, str], ...] = ()
@@ -169,7 +169,7 @@ class QuarterVehicleOperation:
     payload: A[
         float, At("t", ge=0.0, le=100.0), "of the whole car, besides what its body_mass_t has in it"
     ] = 0.0
-    lateral: A[bool | None, "sideways motion; where there are curves when not given"] = None
+    lateral: A[bool | None, "sideways motion; where there are curves when left out"] = None
     curves: A[tuple[Curve, ...], At(key="curve"), "one curve or a list in order of place"] = ()
     braking: A[Braking | None, "the brake of this axle, where it brakes"] = None
     starting: A[Starting | None, "the drive of this axle, where it is driven"] = None

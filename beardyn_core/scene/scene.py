@@ -58,7 +58,7 @@ class Scene:
     end_play: A[
         float,
         At("mm", ge=-0.5, le=2.0, optional=True),
-        "total axial travel, negative for preload; the bearing's own when not given",
+        "total axial travel, negative for preload; the bearing's own when left out",
     ]
     tier: A[str, At(one_of=(*TIER_NAMES, "auto")), "which bodies move by their own equations of motion"] = (
         "full"
@@ -75,7 +75,7 @@ class Scene:
     accuracy: A[
         float | None,
         At("percent", gt=0.0, ge=0.1, le=50.0),
-        "of what is asked for, when something is auto; 5 when not given",
+        "of what is asked for, when something is auto; 5 when left out",
     ] = None
     quantities: A[
         tuple[str, ...],

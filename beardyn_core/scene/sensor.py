@@ -34,12 +34,12 @@ class Accelerometer:
     mounting_resonance: A[
         float | None,
         At("Hz", gt=0.0, ge=500.0, le=100_000.0),
-        "of the accelerometer on its mounting (ISO 5348); rigid when not given",
+        "of the accelerometer on its mounting (ISO 5348); rigid when left out",
     ] = None
     mounting_damping_ratio: A[
         float,
         At(gt=0.0, ge=0.001, le=0.9, absent=True),
-        "of critical; 0.02 when not given",
+        "of critical; 0.02 when left out",
     ] = 0.02
     rate: A[
         float,

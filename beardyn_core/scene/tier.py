@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class TierNoun:
-    """What a tier can and cannot show.
+class TierLimits:
+    """Abilities and limits of a tier.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
 TIERS = {
     tier.name: tier
     for tier in (
-        TierNoun(
+        TierLimits(
             "lumped",
             "axlebox with cup, journal with cones; each roller a massless spring",
             _FAST,
@@ -70,7 +70,7 @@ TIERS = {
             blocks_at_once=16,
             long_steps=(0.25, 0.5),
         ),
-        TierNoun(
+        TierLimits(
             "quasistatic",
             "axlebox with cup, journal with cones; every roller in balance with its laminae",
             _FAST,
@@ -81,7 +81,7 @@ TIERS = {
             blocks_at_once=8,
             long_steps=(0.5,),
         ),
-        TierNoun("full", "every body with 6 degrees of freedom", None, 4, False, 2, ()),
+        TierLimits("full", "every body with 6 degrees of freedom", None, 4, False, 2, ()),
     )
 }
 TIER_NAMES = tuple(TIERS)
@@ -96,19 +96,19 @@ def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
 
 def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1) -> list[str]:
     """List the reasons why a tier cannot run a scene, with what is allowed."""
-    noun, found = TIERS[tier], []
-    if noun.needs_rib and not has_rib:
+    limits, found = TIERS[tier], []
+    if limits.needs_rib and not has_rib:
         found.append(
             f"{tier!r} needs effects.rib, which is absent: nothing else holds its rollers axially; switch "
             "effects.rib on (friction 0 leaves a frictionless rib) or take the tier 'full'"
         )
-    if laminae < noun.smallest_laminae:
+    if laminae < limits.smallest_laminae:
         found.append(
-            f"{tier!r} needs numerics.laminae of at least {noun.smallest_laminae}, not {laminae}: a single "
+            f"{tier!r} needs numerics.laminae of at least {limits.smallest_laminae}, not {laminae}: a single "
             "lamina holds no tilt"
         )
-    if steps_per_sample < 1 and steps_per_sample not in noun.long_steps:
-        *others, last = *(f"{steps:g}" for steps in noun.long_steps), "1 or more"
+    if steps_per_sample < 1 and steps_per_sample not in limits.long_steps:
+        *others, last = *(f"{steps:g}" for steps in limits.long_steps), "1 or more"
         allowed = f"{', '.join(others)} or {last}" if others else last
         found.append(
             f"numerics.steps_per_sample {steps_per_sample} does not go with tier {tier!r}: "

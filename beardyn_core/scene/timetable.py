@@ -32,7 +32,7 @@ class Timetable:
         refuse(self, "timetable")
 
     def speed_profile(self) -> Profile:
-        """Work out points of time and speed: speed up, hold the top speed where there is room, brake.
+        """Compute points of time and speed: speed up, hold the top speed where there is room, brake.
 
         Returns
         -------

@@ -111,7 +111,7 @@ class Trial:
     ] = "smooth_run"
     folder: A[Path, INTERNAL] = Path()
     tier: A[str, At(one_of=TIERS), "of the runs"] = "quasistatic"
-    effects: A[str | dict[str, Any] | None, "as in a scene file; the scene's when not given"] = None
+    effects: A[str | dict[str, Any] | None, "as in a scene file; the scene's when left out"] = None
     faults: A[tuple[str, ...], At(one_of=FAULTS, size=(1, None)), "parts that are spalled"] = FAULTS
     sizes: A[
         tuple[float, ...],
@@ -134,7 +134,7 @@ class Trial:
     check: A[Check | None, "repeat some runs in another tier"] = None
 
     def rules(self) -> Iterator[str]:
-        """Check that no entry stands twice, and that the second tier differs from the first."""
+        """Check that no entry occurs twice, and that the second tier differs from the first."""
         lists = {
             "faults": self.faults,
             "sizes_mm": self.sizes,

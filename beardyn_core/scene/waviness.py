@@ -59,7 +59,7 @@ class Waviness:
         At("um", ge=0.0, le=50.0, key="amplitude", optional=True),
         "of each order: one for all, or one an order",
     ]
-    roller: A[int | None, At(ge=0), "which roller, with `on: roller`; all of the row when not given"] = None
+    roller: A[int | None, At(ge=0), "which roller, with `on: roller`; all of the row when left out"] = None
     seed: A[int, SEED, "of the phases"] = 1
 
     def rules(self) -> Iterator[str]:
@@ -106,7 +106,7 @@ class Waviness:
 
 
 def band_amplitudes(first: int, last: int, rms: float, exponent: float = 1.0) -> tuple[float, ...]:
-    """Find the amplitudes of the orders of a band that fall as ``k^-exponent``, of a given rms sum [m].
+    """Compute the amplitudes of a band's orders, which fall as ``k^-exponent``, from their rms sum [m].
 
     References
     ----------

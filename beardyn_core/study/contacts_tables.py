@@ -111,7 +111,7 @@ def contacts_table(found: Findings) -> Table:
 
 
 def run_table(found: Findings) -> Table:
-    """Set Santos (2017), Table 1, beside ours, extrapolated to its run."""
+    """Compare Santos (2017), Table 1, with our times, extrapolated to its run."""
     rows = []
     for result in found.whole_bearing:
         hours = santos_hours(result.method)
@@ -156,7 +156,7 @@ def run_table(found: Findings) -> Table:
             f"run: {found.searches_per_evaluation} searches x {EVALUATIONS} evaluations "
             f"(Runge-Kutta 4(5), mean step {MEAN_STEP * 1e6:g} us, {EVALUATIONS_PER_STEP} evaluations a "
             f"step), detection alone; the twin's step: {TWIN_EVALUATIONS} evaluations",
-            f"Santos (2017): {CONTACT_SHARE:.0%} of its time, which it says goes into the contact points",
+            f"Santos (2017): {CONTACT_SHARE:.0%} of its time, which the paper assigns to the contact points",
         ),
     )
 

@@ -260,7 +260,7 @@ def climb(
     progress : callable, optional
         Told after every block which level it was of, and the wall time that was expected of it, [s].
     runner : callable, optional
-        Runs one scene; `simulate` when not given.
+        Runs one scene; `simulate` when left out.
 
     Returns
     -------

@@ -44,7 +44,7 @@ class Part:
 
     @property
     def resolved(self) -> bool:
-        """Whether the error stands out of the run-to-run band."""
+        """Whether the error is larger than the run-to-run band."""
         return abs(self.error) > self.band
 
     def verdict(self, limit: float) -> str:

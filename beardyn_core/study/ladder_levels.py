@@ -189,7 +189,7 @@ def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
     effects_name : str
         What its effects are called.
     name : str, optional
-        Of the level; from its choices when not given.
+        Of the level; from its choices when left out.
     """
     numerics = scene.numerics
     level = _level(scene.tier, effects_name, scene.effects, numerics.laminae, numerics.steps_per_sample)

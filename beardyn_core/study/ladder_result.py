@@ -52,7 +52,7 @@ class Score:
 
     @property
     def resolved(self) -> bool:
-        """Whether the error stands out of the run-to-run band."""
+        """Whether the error is larger than the run-to-run band."""
         return self.value > self.bar
 
 

@@ -254,7 +254,7 @@ def measured(signals: Signals, line: FaultLine | None) -> tuple[Float, ...]:
 
 
 def outcome(signals: Signals, edges: tuple[float, ...], line: FaultLine | None) -> Outcome:
-    """Measure a run over windows with the given ends, [s]."""
+    """Measure a run over windows that end at these times, [s]."""
     whole = signals.between(edges[0], edges[-1])
     windows = tuple(measured(whole.between(start, end), line) for start, end in pairwise(edges))
     return Outcome(measured(whole, line), windows)

@@ -62,7 +62,7 @@ SPHERES = """BearDyn's rib contact was lost when the radius of the roller end wa
 changed the radius. Shown here: the rib face is that of the sound bearing, only the roller end changes. Near
 the apex (ratio 1) the search runs off along the rib to a point that is open, so no force would act while
 the roller is pushed 10 um into the rib; beyond it the point found lies off the roller end. It converges all
-the same, and nothing in the equations tells. Two cures: a bearing with such an end is refused by the
+the same, and nothing in the equations shows it. Two cures: a bearing with such an end is refused by the
 consistency check (it names sphere ratio and the rib's radius of curvature), and where an effect set limits
 the rib face and the roller end, the contact stays on both: the rim bears, at the depth it is pushed."""
 
@@ -90,7 +90,7 @@ sliding to act at all. A smaller v_r loses less. `beardyn contacts --rrd FILE.rr
 BARREL = """The text announced spherical roller bearings as an extension of the same functions: only the
 arcs are new. Rollers are in balance in radial and axial direction and tilt; gaps of both contacts by the
 search (surface-surface), forces by Hertz with complete elliptic integrals, no friction. The formula is the
-sum Q_j = K (delta cos psi_j cos alpha - c)^1.5 over the rollers, which knows no search and keeps the
+sum Q_j = K (delta cos psi_j cos alpha - c)^1.5 over the rollers, which needs no search and keeps the
 contact angle; its difference is the contact angle that changes under load. Both rows carry the same."""
 
 MISSING = """The search is not part of the twin; nothing else imports `beardyn_core/laboratory`. Shapes have

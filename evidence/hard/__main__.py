@@ -25,15 +25,15 @@ def main(words: list[str] | None = None) -> int:
         prog="make hard ARGS=...",
         description="Hard cases, each judged by its measures. Ctrl-C loses nothing: the next run goes on.",
     )
-    parser.add_argument("names", nargs="*", metavar="CASE", help="cases or topics; all when not given")
+    parser.add_argument("names", nargs="*", metavar="CASE", help="cases or topics; all when left out")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="side by side (2)")
     parser.add_argument("--fast", action="store_true", help="only the subset that the tests run")
-    parser.add_argument("--no-long", action="store_true", help="without the hour and the minute")
-    parser.add_argument("--again", action="store_true", help="also what is done already")
-    parser.add_argument("--list", action="store_true", help="name the cases and what would break")
+    parser.add_argument("--no-long", action="store_true", help="without the two longest cases")
+    parser.add_argument("--again", action="store_true", help="repeat cases that are done already")
+    parser.add_argument("--list", action="store_true", help="list the cases and what each would break")
     parser.add_argument("-o", "--output", type=Path, default=Path("hard.json"), metavar="FILE")
     parser.add_argument("--folder", type=Path, default=Path("hard_runs"), metavar="DIR",
-                        help="of results and checkpoints")  # fmt: skip
+                        help="folder of results and checkpoints")  # fmt: skip
     arguments = parser.parse_args(words)
     known = {*TOPICS, *(case.name for case in CASES)}
     if unknown := [name for name in arguments.names if name not in known]:

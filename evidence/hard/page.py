@@ -64,7 +64,7 @@ CHATTER = """## Finite is not stable
 One roller of this bearing between two raceways, 10 kN, friction 0.1 rounded over 10 mm/s, pulled back by a
 cage with 20 N: half of that is the right friction on the cup. Explicit steps follow up to 1.1 us. Beyond,
 everything stays finite **and the mean stays right**, while the friction flips between its limits from step
-to step. Whoever logs every second step sees a calm run. The twin's monitor looks at every step, and tells.
+to step. A log of every second step shows a calm run. The twin's monitor looks at every step, and reports it.
 
 | method | step us | mean friction N | scatter N | scatter, every second step N | chatter index | monitor |
 |---|--:|--:|--:|--:|--:|---|

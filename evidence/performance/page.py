@@ -64,7 +64,7 @@ raceway forces that end the step with their energy terms, *motion* drift and kic
 cup, cone and axlebox. A stage without work shows up to 1.5 %, what is left of its marks.
 
 The timers are an argument like every effect: without them they compile to nothing. With them a step that is
-not timed has about 240 branches more. That could not be told from none: the medians of the ratio were 0.98
+not timed has about 240 branches more. Their effect could not be measured: the medians of the ratio were 0.98
 and 1.00 in two runs, and code that lies elsewhere in memory makes 5 % either way.
 
 """,

@@ -29,8 +29,8 @@ STEP = """
 
 ![Radial force after the load comes on](pictures/santos_step.png)
 
-`beardyn simulate santos_step`: one dry row starts without load and is given 5 kN. Its ring of 7 kg rings on
-the rollers at 3 kHz; contact damping and friction use that up. Without the prop:
+`beardyn simulate santos_step`: one dry row starts without load and is loaded with 5 kN. Its ring of 7 kg
+rings on the rollers at 3 kHz; contact damping and friction use that up. Without the prop:
 
 > {refusal}
 

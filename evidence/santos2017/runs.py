@@ -71,7 +71,7 @@ def record(scene: Scene, load: LoadHistory | None = None) -> StepRecord:
     ----------
     scene : Scene
     load : LoadHistory, optional
-        The scene's own when not given.
+        The scene's own when left out.
 
     Returns
     -------

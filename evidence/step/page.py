@@ -65,7 +65,7 @@ reference, and the spectrum of the housing acceleration within the run-to-run ba
 ## Finite is not stable
 
 Explicit steps across their limit. Beyond it everything stays finite for long and the mean torque stays
-about right while slips flip from step to step, which whoever looks at every second step hardly sees. With
+about right while slips flip from step to step, which is hardly visible in every second step. With
 the films of `standard` that begins at 5 us and 150 kN, with `dry` friction between 0.5 and 2 us.
 
 {unstable_runs}
