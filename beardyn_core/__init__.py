@@ -129,6 +129,13 @@ class _CallableRoom(ModuleType):
         return self._function(*arguments, **options)
 
     @property
+    def __doc__(self) -> str:  # type: ignore[override]
+        """What the function does, and then what the room holds: for help."""
+        from inspect import getdoc
+
+        return f"{getdoc(self._function)}\n\nThe package of this name: {self.__dict__['__doc__']}"
+
+    @property
     def __signature__(self) -> Any:
         """Signature of that function, for help and completion."""
         from inspect import signature

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -26,15 +27,15 @@ _STEEL_DENSITY = 7830.0  # [kg/m^3]
 _NEEDED = ("rollers", "pitch_diameter_mm", "roller_diameter_mm", "roller_length_mm", "contact_angle_deg")
 
 
-def bearing(name: str | Path | None = None, *, rollers: int | None = None, **keys: Any) -> Bearing:
-    """Give a shipped bearing, one of a file, or one made in code.
+def bearing(name: str | Path | Bearing | None = None, *, rollers: int | None = None, **keys: Any) -> Bearing:
+    """Give a shipped bearing, one of a file, or one made in code, with changes.
 
     Parameters
     ----------
-    name : str or Path, optional
-        Shipped bearing or YAML file. Without it the bearing is made of ``rollers``, ``pitch_diameter_mm``,
-        ``roller_diameter_mm``, ``roller_length_mm`` and ``contact_angle_deg``; every other number is derived
-        from them as docs/python.md says, and marked so in ``bearing.sources``.
+    name : str, Path or Bearing, optional
+        Shipped bearing, YAML file, or a bearing. Without it the bearing is made of ``rollers``,
+        ``pitch_diameter_mm``, ``roller_diameter_mm``, ``roller_length_mm`` and ``contact_angle_deg``; every
+        other number is derived from them as docs/python.md says, and marked so in ``bearing.sources``.
     rollers : int, optional
         Per row.
     **keys
@@ -57,6 +58,13 @@ def bearing(name: str | Path | None = None, *, rollers: int | None = None, **key
     """
     if rollers is not None:
         keys = {"roller_count": rollers, **keys}
+    keys = _plain(keys)
+    if isinstance(name, Bearing):
+        made = bearing_from_mapping({**written(name), **keys}, f"bearing {name.name}")
+        kept = (
+            (key, source) for key, source in made.sources if getattr(made, key, 0) == getattr(name, key, 0)
+        )
+        return replace(made, sources=tuple(kept))  # a changed number is not of its source any more
     if name is not None:
         path = find("bearings", str(name))
         return bearing_from_mapping({**read_file(path), **keys}, str(path))
@@ -67,7 +75,7 @@ def bearing(name: str | Path | None = None, *, rollers: int | None = None, **key
         raise InputError(
             f"bearing made in code: {', '.join(missing)} not given; give them, or the name of a bearing"
         )
-    wrong = [key for key in _NEEDED[1:] if not isinstance(keys[key], int | float) or not keys[key] > 0]
+    wrong = [key for key in _NEEDED[1:] if not isinstance(keys[key], Real) or not keys[key] > 0]
     if wrong:
         raise InputError(
             [f"bearing made in code: {key} is {keys[key]!r}; it must be above 0" for key in wrong]
@@ -152,7 +160,7 @@ def scene(
     source: str | Path | Mapping[str, Any] | Scene | None = None,
     *,
     bearing: str | Bearing | Mapping[str, Any] | None = None,
-    lubricant: str | None = None,
+    lubricant: str | Lubricant | Mapping[str, Any] | None = None,
     load_kN: float | Sequence[float] | None = None,
     speed_rpm: float | None = None,
     speed_kmh: float | None = None,
@@ -172,7 +180,7 @@ def scene(
         Name of a shipped scene, YAML file, mapping with the keys of a scene file, or a scene. Without it
         the scene has the bearing HS130x230, the grease L055, 80 kN upwards on the journal and 1000 rpm.
     bearing, lubricant : optional
-        Name, file or, of a bearing, what `bearing` gives.
+        Name, file, keys of such a file, or what `bearing` and `lubricant` give.
     load_kN : float or 3 floats, optional
         Constant load on the journal, upwards or along x, y, z; it replaces the scene's operation.
     speed_rpm : float, optional
@@ -204,15 +212,15 @@ def scene(
     data, label, folder = _mapping_of(source)
     changes: dict[str, Any] = {
         "bearing": written(bearing) if isinstance(bearing, Bearing) else bearing,
-        "lubricant": lubricant,
+        "lubricant": written(lubricant) if isinstance(lubricant, Lubricant) else lubricant,
         "tier": tier,
         "effects": None if isinstance(effects, EffectSet) else effects,
         "duration_s": duration,
         "seed": seed,
-        "defects": None if faults is None else [_fault(each) for each in faults],
+        "defects": None if faults is None else _faults(faults),
         **keys,
     }
-    data |= {key: value for key, value in changes.items() if value is not None}
+    data |= {key: _plain(value) for key, value in changes.items() if value is not None}
     _set_operation(data, load_kN, speed_rpm, speed_kmh)
     numerics = data.get("numerics", {})
     if isinstance(numerics, Mapping):
@@ -260,18 +268,39 @@ def _set_operation(
                 "speed_rpm": USUAL_SPEED_RPM,
             }
         if load_kN is not None:
-            upwards = isinstance(load_kN, int | float)
-            operation["force_kN"] = [0.0, 0.0, float(load_kN)] if upwards else [float(f) for f in load_kN]  # type: ignore[arg-type, union-attr]
+            operation["force_kN"] = (
+                [0.0, 0.0, _plain(load_kN)] if isinstance(load_kN, Real) else _plain(load_kN)
+            )
         if speed_rpm is not None:
-            operation["speed_rpm"] = float(speed_rpm)
+            operation["speed_rpm"] = _plain(speed_rpm)
         data["operation"] = operation
     elif speed_kmh is not None:
         if operation.get("kind") != "quarter_vehicle":
             raise InputError(
-                f"speed_kmh is {speed_kmh:g}; this scene does not run on a track, give speed_rpm instead"
+                f"speed_kmh is {speed_kmh}; this scene does not run on a track, give speed_rpm instead"
             )
-        operation["speed_profile"] = [{"time_s": 0, "speed_kmh": float(speed_kmh)}]
+        operation["speed_profile"] = [{"time_s": 0, "speed_kmh": _plain(speed_kmh)}]
         data["operation"] = operation
+
+
+def _faults(given: Any) -> list[dict[str, Any]]:
+    """Complete the keys of every fault."""
+    several = list(given) if isinstance(given, Iterable) and not isinstance(given, str | Mapping) else [given]
+    if isinstance(given, str | Mapping) or not all(isinstance(each, Mapping) for each in several):
+        raise InputError(
+            f"faults is {given!r}; it must be a list of mappings: "
+            'faults=[{"on": "cup", "width_mm": 6}], or [] for none'
+        )
+    return [_fault(each) for each in several]
+
+
+def _plain(value: Any) -> Any:
+    """Turn NumPy numbers and arrays, also inside lists and mappings, into those of Python."""
+    if isinstance(value, Mapping):
+        return {key: _plain(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _fault(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
 from beardyn_core.observe.summary import RunSummary
+from beardyn_core.outputs import files_read
 from beardyn_core.record.exporting import refuse_to_write
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
@@ -64,6 +66,11 @@ def simulate(
         Its ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its range of
         validity; the arrays end there.
 
+    Warns
+    -----
+    UserWarning
+        A load or a fault is unusual, or an accelerometer has clipped: what ``beardyn simulate`` warns of.
+
     Raises
     ------
     InputError
@@ -74,25 +81,35 @@ def simulate(
     asked = {"tier": tier, "effects": effects, "duration": duration, "laminae": laminae, "seed": seed}
     asked |= changes
     untouched = isinstance(scene, Scene) and all(value is None for value in asked.values())
-    made = scene if isinstance(scene, Scene) and untouched else make_scene(scene, **asked)  # type: ignore[arg-type]
+    with files_read() as inputs:
+        made = scene if isinstance(scene, Scene) and untouched else make_scene(scene, **asked)  # type: ignore[arg-type]
     memory = MemorySink()
     sinks: list[Sink] = [memory]
     if record is not None:
-        inputs = [Path(scene)] if isinstance(scene, str | Path) else []
         refuse_to_write([Path(record)], force=force, inputs=inputs)
-        sinks.append(McapSink(record))
+        sinks.append(McapSink(record, replace=force))
+    for doubt in made.doubts:
+        warnings.warn(doubt, stacklevel=2)
     with _bar(made.duration, progress) as advance:
         summary = desk_run.run(made, sinks, advance, life=False)
     if not summary.complete:
         warnings.warn(summary.status, RuntimeWarning, stacklevel=2)
+    for sensor, count, total in summary.clipped:
+        warnings.warn(
+            f"the accelerometer {sensor} has clipped {count} of {total} samples; "
+            "give it a larger range_m_per_s2",
+            stacklevel=2,
+        )
+    load = None if memory.run is None else memory.run.load
+    return memory.to_run(partial(_with_life, summary, made, load))
 
-    def with_life() -> RunSummary:
-        load = run.load
-        history = LoadHistory(load.time_ns, load.wrench, load.shaft_speed, load.bogie)
-        return replace(summary, life=desk_run.life_of(made, history))
 
-    run = memory.to_run(with_life)
-    return run
+def _with_life(summary: RunSummary, scene: Scene, load: LoadHistory | None) -> RunSummary:
+    """Add the rating life under the load until the end of the run; it can take longer than a short run."""
+    if load is None:
+        return summary
+    until = round(summary.duration * 1e9)
+    return replace(summary, life=desk_run.life_of(scene, load.until(until)))
 
 
 @contextmanager
@@ -131,7 +148,7 @@ def read(path: Path | str, namespace: str | None = None) -> Run:
 
 
 def monitor(
-    run: Run,
+    run: Run | Path | str,
     algorithm: Algorithm = REFERENCE,
     *,
     bearing: Bearing | None = None,
@@ -141,8 +158,9 @@ def monitor(
 
     Parameters
     ----------
-    run : Run
-        Vibration of its first accelerometer, shaft, load and temperature are used, and nothing else.
+    run : Run or Path
+        A run or a recording: vibration of its first accelerometer, shaft, load and temperature are used,
+        and nothing else.
     algorithm : function, optional
         In place of the reference chain: a `Chain`, or a function like it.
     bearing : Bearing, optional
@@ -159,6 +177,7 @@ def monitor(
     InputError
         The run has no vibration with a shaft angle, or does not say which bearing it is of.
     """
+    run = run if isinstance(run, Run) else read_run(run)
     if bearing is None and not run.scene_text:
         raise InputError(f"{run.label}: does not say which bearing it is of; give bearing")
     plate = bearing or scene_from_text(run.scene_text, run.label).bearing

@@ -7,7 +7,9 @@ z, and a scalar or a sequence of what it is asked over.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterable, Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -16,6 +18,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies as frequencies_per_rev
+from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.errors import InputError
@@ -69,7 +72,7 @@ def equilibrium(
     chosen = _bearing(bearing)
     return solve(
         chosen,
-        _force(load_kN),
+        _force(chosen, load_kN),
         end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
         tilt=tilt,
         laminae=laminae,
@@ -109,9 +112,9 @@ def stiffness(
         found = equilibrium(bearing, load_kN, end_play_mm=play, tilt=tilt, laminae=laminae)
         return found.stiffness_tilt_free if tilt == "free" else found.stiffness_tilt_held
 
-    if end_play_mm is None or isinstance(end_play_mm, int | float):
-        return one(end_play_mm)
-    return np.array([one(float(play)) for play in end_play_mm])
+    if end_play_mm is None or np.ndim(end_play_mm) == 0:
+        return one(None if end_play_mm is None else _number("end_play_mm", end_play_mm))
+    return np.array([one(_number("end_play_mm", play)) for play in _listed(end_play_mm)])
 
 
 def torque(
@@ -153,9 +156,9 @@ def torque(
         static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=rpm)
         return running_torque(chosen, oil, kelvin, static, rpm * _RPM, rib_friction=rib_friction).total
 
-    if isinstance(speed_rpm, int | float):
-        return one(float(speed_rpm))
-    return np.array([one(float(rpm)) for rpm in speed_rpm])
+    if np.ndim(speed_rpm) == 0:
+        return one(_number("speed_rpm", speed_rpm))
+    return np.array([one(_number("speed_rpm", rpm)) for rpm in _listed(speed_rpm)])
 
 
 def life(
@@ -191,12 +194,14 @@ def life(
     Raises
     ------
     InputError
-        The shaft stands.
+        The shaft stands, or an argument makes no sense.
     """
     if not speed_rpm:
         raise InputError("speed_rpm is 0; life needs a shaft that turns")
+    if not 0.0 <= contamination <= 1.0:
+        raise InputError(f"contamination is {contamination:g}; it must be from 0 to 1")
     chosen = _bearing(bearing)
-    x, y, z = _force(load_kN)
+    x, y, z = _force(chosen, load_kN)
     rated = rating_life(
         chosen,
         (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(speed_rpm) * _RPM),),
@@ -290,13 +295,32 @@ def _lubricant(lubricant: Lubricant | str) -> Lubricant:
     return lubricant if isinstance(lubricant, Lubricant) else load_lubricant(lubricant)
 
 
-def _force(load_kN: Load) -> tuple[float, float, float]:
-    if isinstance(load_kN, int | float):
-        return 0.0, 0.0, load_kN * _KN
-    if len(load_kN) != 3:
-        raise InputError(f"load_kN is {list(load_kN)}; give one number, upwards, or three along x, y, z")
-    x, y, z = load_kN
-    return x * _KN, y * _KN, z * _KN
+def _force(bearing: Bearing, load_kN: Any) -> tuple[float, float, float]:
+    """Turn a load into newtons; refuse what no bearing can be meant to carry, warn of what is unusual."""
+    several = (0.0, 0.0, load_kN) if isinstance(load_kN, Real) else load_kN
+    if not isinstance(several, Iterable) or isinstance(several, str):
+        several = ()
+    numbers = [float(each) * _KN for each in several if isinstance(each, Real)]
+    if len(numbers) != 3:
+        raise InputError(f"load_kN is {load_kN!r}; give one number, upwards, or three along x, y, z")
+    problem, doubt = load_doubts(bearing, numbers)
+    if problem:
+        raise InputError(f"load_kN: {problem}")
+    if doubt:
+        warnings.warn(f"load_kN: {doubt}", stacklevel=4)
+    return numbers[0], numbers[1], numbers[2]
+
+
+def _listed(values: Any) -> list[Any]:
+    """List the entries of a sequence or an array."""
+    return list(values)
+
+
+def _number(name: str, value: Any) -> float:
+    """Give a number as a float; refuse what is none."""
+    if not isinstance(value, Real):
+        raise InputError(f"{name} is {value!r}; give a number or a sequence of numbers")
+    return float(value)
 
 
 def _kelvin(temperature_C: float) -> float:

@@ -88,11 +88,10 @@ def run(args: argparse.Namespace) -> int:
     from tqdm import tqdm
 
     from beardyn_core.record.sinks import McapSink
-    from beardyn_core.scene.defect import doubts_about
     from beardyn_core.study import desk_run
 
     print(f"beardyn: {scene.name}, {scene.purpose}", file=sys.stderr)
-    for doubt in doubts_about(scene.defects, scene.bearing):
+    for doubt in scene.doubts:
         print(f"beardyn: warning: {doubt}", file=sys.stderr)
     sinks = [] if args.output is None else [McapSink(args.output, replace=args.force)]
     bar_format = "{desc} {bar} {n:.2f}/{total:.2f} s{postfix} [{elapsed}<{remaining}]"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,7 +36,7 @@ def export(
     path: Path | str,
     *,
     kind: str | None = None,
-    signals: Sequence[str] = (),
+    signals: Iterable[str] = (),
     force: bool = False,
 ) -> list[Path]:
     """Write signals of a run to a file.
@@ -49,9 +49,9 @@ def export(
         ``<name>_<signal>.<ending>``.
     kind : str, optional
         One of `KINDS`; by default the ending of the path.
-    signals : sequence of str
-        Of `tables.signal_names`; by default the vibration of every accelerometer for Parquet, CSV and WAV,
-        all for NPZ and HDF5.
+    signals : str or iterable of str
+        One signal or several, of `tables.signal_names`; by default the vibration of every accelerometer for
+        Parquet, CSV and WAV, all for NPZ and HDF5.
     force : bool
         Replace files that exist.
 
@@ -68,7 +68,7 @@ def export(
     """
     path = Path(path)
     kind = kind or path.suffix.lower().removeprefix(".").replace("hdf5", "h5")
-    names = tuple(dict.fromkeys(signals)) or _usual(run, kind)
+    names = tuple(dict.fromkeys([signals] if isinstance(signals, str) else signals)) or _usual(run, kind)
     problems = [
         f"signal {name!r} is not one of the run; allowed are {', '.join(signal_names(run))}"
         for name in names

@@ -130,6 +130,7 @@ class McapWriter:
             return
         with self._disk():
             self._closed = True
+            self._writer.flush()  # the last chunk first: a file that lacks it must not say how it ended
             self._writer.add_metadata(END_RECORD, {"status": status or COMPLETE})
             self._writer.add_metadata("rosbag2", {"serialized_metadata": self._rosbag2_metadata()})
             self._writer.finish()

@@ -278,9 +278,11 @@ class Run:
 
     def __repr__(self) -> str:
         """Describe scene, length and end of the run in two lines."""
-        what = "a recording without truth" if self.description is None else self._said()
+        nameless = "blocks without a description" if self.path is None else "a recording without truth"
+        what = nameless if self.description is None else self._said()
+        ending = self.status or self.problem or "how it ended is not known"
         sensors = ", ".join(f"{name} {signal.rate / 1e3:g} kHz" for name, signal in self.sensors.items())
-        return f"Run of {what}\n  {self.duration:.2f} s, sensors: {sensors or 'none'}; {self.status}"
+        return f"Run of {what}\n  {self.duration:.2f} s, sensors: {sensors or 'none'}; {ending}"
 
     def _said(self) -> str:
         truth = self.truth
@@ -324,4 +326,4 @@ class Run:
     def _export(self, path: Path | str, kind: str, signals: Iterable[str], force: bool) -> list[Path]:
         from beardyn_core.record.exporting import export
 
-        return export(self, path, kind=kind, signals=tuple(signals), force=force)
+        return export(self, path, kind=kind, signals=signals, force=force)

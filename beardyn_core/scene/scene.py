@@ -11,10 +11,10 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal_closure import Temperatures
 from beardyn_core.edge import INTERNAL, SEED, UNITS, At
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.defect import Defect, MissingRoller
+from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
 from beardyn_core.scene.integrator import LARGEST_STEPS
 from beardyn_core.scene.mounting import Mounting
-from beardyn_core.scene.operation import Operation
+from beardyn_core.scene.operation import ConstantOperation, Operation, SteppedOperation
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.scene.tier import TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
@@ -124,6 +124,21 @@ class Scene:
     def fault_sentences(self) -> tuple[str, ...]:
         """Defects, missing rollers and waviness in words."""
         return tuple(fault.described() for fault in (*self.faults, *self.waviness))
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Sentences about what can be but is probably not meant: a force of 80 N, a very wide spall."""
+        from beardyn_core.bearing.life import load_doubts
+
+        forces = {}
+        if isinstance(self.operation, ConstantOperation):
+            forces["operation.force_kN"] = self.operation.force
+        elif isinstance(self.operation, SteppedOperation):
+            for index, step in enumerate(self.operation.steps):
+                forces[f"operation.steps[{index}].force_kN"] = step.force
+        loads = {key: load_doubts(self.bearing, force)[1] for key, force in forces.items()}
+        told = [f"{key}: {doubt}" for key, doubt in loads.items() if doubt]
+        return (*told, *doubts_about(self.defects, self.bearing))
 
     @property
     def faults(self) -> tuple[Defect, ...]:

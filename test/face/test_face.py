@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import pickle
 import subprocess
 import sys
 import time
@@ -15,6 +16,7 @@ import beardyn_core as bd
 from beardyn_core import run as run_module
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import shipped_names
+from beardyn_core.config.folders import find
 from beardyn_core.config.load import bearing_from_mapping
 from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet
@@ -60,6 +62,7 @@ def test_the_rooms_of_the_same_name_still_are_rooms() -> None:
     assert fresh(code + "print(room.Scene is bd.Scene, bd.scene.scene is room)") == "True True"
     assert "faults" in inspect.signature(bd.scene).parameters
     assert "rollers" in inspect.signature(bd.bearing).parameters
+    assert (inspect.getdoc(bd.bearing) or "").startswith("Give a shipped bearing")
 
 
 def test_simulate_gives_the_run_of_a_desk_run(tmp_path: Path) -> None:
@@ -76,6 +79,56 @@ def test_simulate_gives_the_run_of_a_desk_run(tmp_path: Path) -> None:
     assert back.truth == run.truth
     with pytest.raises(bd.InputError, match="exists"):
         bd.simulate("cup_spall", tier="quasistatic", duration=0.5, record=path)
+    again = bd.simulate("cup_spall", tier="quasistatic", duration=0.1, record=path, force=True)
+    assert bd.read(path).duration == again.duration < run.duration
+    assert bd.monitor(path).analyses == bd.monitor(again).analyses
+    sent = pickle.loads(pickle.dumps(run))  # from a worker process
+    np.testing.assert_array_equal(sent.vibration.values, run.vibration.values)
+    assert sent.summary == run.summary
+
+
+def test_what_is_unusual_is_warned_of_in_python_too() -> None:
+    change = {"tier": "quasistatic", "duration": 0.1, "load_kN": 0.5}
+    with pytest.warns(UserWarning, match="operation|defects") as caught:
+        bd.simulate("static_80kN", faults=[{"on": "cup", "width_mm": 60}], **change)  # type: ignore[arg-type]
+    told = [str(each.message) for each in caught]
+    assert any("operation.force_kN: the force is 500 N, less than a thousandth" in each for each in told)
+    assert any("defects[0]" in each and "between two rollers" in each for each in told)
+
+
+def test_no_file_that_a_scene_is_made_of_is_written_over(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.yaml"
+    mine.write_bytes((shipped_folder() / "HS130x230.yaml").read_bytes())
+    with pytest.raises(bd.InputError, match="the command reads this file"):
+        bd.simulate("static_80kN", tier="lumped", duration=0.1, bearing=str(mine), record=mine, force=True)
+    assert bd.bearing(mine) == bd.bearing("HS130x230")
+
+
+def shipped_folder() -> Path:
+    return find("bearings", "HS130x230").parent
+
+
+def test_faults_that_are_no_list_of_mappings_are_a_sentence() -> None:
+    fault = {"on": "cup", "width_mm": 6}
+    for wrong in (fault, "cup", ["cup"], 5):
+        with pytest.raises(bd.InputError, match="it must be a list of mappings"):
+            bd.scene("static_80kN", faults=wrong)  # type: ignore[arg-type]
+    made = bd.scene("static_80kN", faults=(each for each in [fault]))  # type: ignore[arg-type]
+    assert made == bd.scene("static_80kN", faults=[fault])
+
+
+def test_scenes_and_bearings_take_numbers_of_numpy_and_nouns() -> None:
+    fault = {"on": "cup", "width_mm": np.float64(6), "row": np.int64(1)}
+    made = bd.scene("static_80kN", load_kN=np.int64(8), seed=np.int64(5), faults=[fault])  # type: ignore[arg-type]
+    plain = bd.scene("static_80kN", load_kN=8, seed=5, faults=[{"on": "cup", "width_mm": 6, "row": 1}])
+    assert made == plain
+    assert bd.scene(load_kN=np.array([0, 0, 8])) == bd.scene(load_kN=8)  # type: ignore[arg-type]
+    shipped = bd.bearing("HS130x230")
+    assert bd.bearing(shipped) == shipped
+    assert bd.bearing(shipped, end_play_mm=0.1) == bd.bearing("HS130x230", end_play_mm=0.1)
+    assert bd.scene(lubricant=bd.lubricant("L055")) == bd.scene(lubricant="L055")
+    with pytest.raises(bd.InputError, match=r"force_kN is '80'; it must be a list"):
+        bd.scene(load_kN="80")  # type: ignore[arg-type]
 
 
 def test_a_run_that_leaves_its_validity_warns_and_keeps_its_arrays(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -49,6 +51,31 @@ def test_life_falls_with_load_by_the_exponent_of_the_standard() -> None:
     assert heavy.modified < bd.life(BEARING, 80, contamination=1.0).modified
     with pytest.raises(bd.InputError, match="shaft that turns"):
         bd.life(BEARING, 80, 0.0)
+    with pytest.raises(bd.InputError, match="contamination is 7; it must be from 0 to 1"):
+        bd.life(BEARING, 80, contamination=7)
+
+
+def test_loads_that_cannot_be_meant_are_refused_or_warned_of_as_on_the_command_line() -> None:
+    with pytest.raises(bd.InputError, match=r"load_kN: .* times the static load rating .* check the unit"):
+        bd.stiffness(BEARING, 80_000)
+    with pytest.warns(UserWarning, match="load_kN: the force is 80 N, less than a thousandth"):
+        bd.load_distribution(BEARING, 0.08)
+    for wrong in ("80", [1, 2], ["a", "b", "c"], None):
+        with pytest.raises(bd.InputError, match=r"load_kN is .*; give one number, upwards, or three"):
+            bd.load_distribution(BEARING, wrong)  # type: ignore[arg-type]
+    with pytest.raises(bd.InputError, match="end_play_mm is 'x'; give a number"):
+        bd.stiffness(BEARING, end_play_mm=["x"])  # type: ignore[list-item]
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    eight: list[Any] = [np.int64(8), np.float32(8.0), np.array([0, 0, 8])]
+    for load in eight:
+        np.testing.assert_array_equal(bd.load_distribution(BEARING, load), bd.load_distribution(BEARING, 8))
+    speed: Any = np.int64(600)
+    assert bd.torque(BEARING, speed) == bd.torque(BEARING, 600)
+    plays: Any = np.array([0.0, 0.1])
+    found = bd.stiffness(BEARING, end_play_mm=plays)
+    np.testing.assert_array_equal(found[1], bd.stiffness(BEARING, end_play_mm=0.1))
 
 
 def test_film_grows_with_speed_and_is_thinner_when_hot() -> None:

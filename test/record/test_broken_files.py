@@ -15,6 +15,7 @@ from mcap.writer import CompressionType, Writer
 
 from beardyn_core.cli import main as command
 from beardyn_core.errors import InputError
+from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import read_run
 from test.record.conftest import write_recording
 
@@ -32,8 +33,6 @@ def loose_recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("loose")
     source = write_recording(folder / "run.mcap", 3)
     target = folder / "loose.mcap"
-    from beardyn_core.record.mcap_scanning import McapScan
-
     scan = McapScan(source)
     messages = list(scan.raw_messages())
     with target.open("wb") as file:
@@ -199,3 +198,20 @@ def test_a_view_that_cannot_be_written_is_a_sentence(short_recording: Path, tmp_
     code, said = told("view", str(path), "--save", str(tmp_path / "no" / "run.rrd"))
     assert code == command.BAD_INPUT
     assert "the folder" in said
+
+
+def test_a_file_without_its_last_messages_does_not_say_how_the_run_ended(
+    short_recording: Path, tmp_path: Path
+) -> None:
+    whole = short_recording.read_bytes()
+    messages = sum(1 for _ in McapScan(short_recording).raw_messages())
+    cut = tmp_path / "cut.mcap"
+    short = []
+    for size in range(len(whole) * 9 // 10, len(whole), max(len(whole) // 1000, 1)):
+        cut.write_bytes(whole[:size])
+        if sum(1 for _ in McapScan(cut).raw_messages()) < messages:
+            short.append(size)
+            assert read_run(cut).status is None, size
+    assert short
+    cut.write_bytes(whole[: short[-1]])
+    assert "not closed properly" in repr(read_run(cut))
