@@ -249,3 +249,11 @@ def test_another_bearing_than_the_recorded_one_is_told() -> None:
     told = other_bearing(other, BEARING)
     assert told.startswith(f"the recording is of HS130x230, {BEARING.roller_count} rollers in a row, BPFO")
     assert "METRO120x220 would show" in told
+
+
+def test_a_scene_tells_of_a_force_of_another_unit_and_shipped_ones_of_nothing() -> None:
+    (doubt,) = scene_from_text(scene_text(FORCE=0.08)).doubts
+    assert doubt.startswith("operation.force_kN: the force is 80 N, less than a thousandth")
+    assert scene_from_text(scene_text()).doubts == ()
+    for name in ("static_80kN", "static_5kN", "light_coasting", "cup_spall"):
+        assert load_scene(name).doubts == ()

@@ -136,10 +136,12 @@ def test_the_command_refuses_what_exists_and_what_is_the_input(
         assert set(arrays) == {"truth", "vibration.time", "vibration.values", "force.time", "force.values"}
     before = target.read_bytes()
     assert main(["export", str(recording), "-o", str(target)]) == 2
-    assert "exists; give --force" in capsys.readouterr().err
+    assert "the file exists; --force (in Python force=True) replaces it" in capsys.readouterr().err
     assert target.read_bytes() == before
     assert main(["export", str(recording), "-o", str(target), "--force", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == {"files": [str(target)]}
+    told = json.loads(capsys.readouterr().out)
+    assert told["command"] == "export"
+    assert (told["recording"], told["files"]) == (str(recording), [str(target)])
     assert target.read_bytes() != before
     kept = recording.read_bytes()
     link = tmp_path / "run.csv"
