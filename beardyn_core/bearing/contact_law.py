@@ -111,24 +111,6 @@ class PointContact:
         return larger, larger / k
 
 
-def point_contact_factor(radius_x: float, radius_y: float, contact_modulus: float) -> float:
-    """Hertz stiffness factor K of a point contact, Q = K delta^1.5.
-
-    Parameters
-    ----------
-    radius_x, radius_y : float
-        Equivalent radii in the two principal planes, in any order, [m].
-    contact_modulus : float
-        E' = 2/sum((1 - nu^2)/E), [Pa].
-
-    Returns
-    -------
-    float
-        K, [N/m^1.5].
-    """
-    return PointContact(radius_x, radius_y, contact_modulus).factor
-
-
 def rib_curvature_radius(bearing: Bearing) -> float:
     """R_rib: radius of curvature of the rib cone around the ring at the nominal contact, concave, [m]."""
     distance = bearing.apex_distance + bearing.sphere_centre
@@ -161,19 +143,3 @@ def rib_contact(bearing: Bearing) -> PointContact:
 def rib_contact_factor(bearing: Bearing) -> float:
     """Stiffness factor K of the rib contact, Q = K delta^1.5, [N/m^1.5]."""
     return rib_contact(bearing).factor
-
-
-def curvature_sum(curvatures: tuple[float, float, float, float]) -> float:
-    """Sum of the principal curvatures (body I x, I y, body II x, II y), [1/m]."""
-    return sum(curvatures)
-
-
-def curvature_difference(curvatures: tuple[float, float, float, float]) -> float:
-    """F(rho) = |(rho_I1 - rho_I2) + (rho_II1 - rho_II2)| / sum(rho), [-].
-
-    References
-    ----------
-    Harris, T. A. (2001), Rolling Bearing Analysis, 4th ed., chapter 2.
-    """
-    first_x, first_y, second_x, second_y = curvatures
-    return abs((first_x - first_y) + (second_x - second_y)) / curvature_sum(curvatures)

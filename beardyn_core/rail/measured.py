@@ -40,7 +40,6 @@ SPEEDS = ("speed_rpm", "shaft_speed_rad_s")
 FORCES = ("fx_N", "fy_N", "fz_N")
 MOMENTS = ("mx_Nm", "my_Nm", "mz_Nm")
 BOGIE = ("ux_m", "uy_m", "uz_m")
-COLUMNS = (TIME, *SPEEDS, *FORCES, *MOMENTS, *BOGIE)
 GAP = (20.0, 0.05)
 LARGEST_FORCE = 1e7  # on a journal [N]; an axle load is some 1e5
 DOUBTED_FORCE = 1e3  # the journal of an empty wagon carries 2e4 [N]
