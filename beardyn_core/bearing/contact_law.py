@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.material import Material
@@ -51,22 +52,15 @@ class PointContact:
     The stiffness factor is within 1 % for the elongated ellipses of ribs (Ry/Rx from 3 to 10) and 9 % too
     large for a circular contact; `hertz.ExactPointContact` has complete elliptic integrals.
 
-    Parameters
-    ----------
-    radius_x, radius_y : float
-        Equivalent radii in the two principal planes, [m].
-    contact_modulus : float
-        E', [Pa].
-
     References
     ----------
     Hamrock, B. J. and Brewe, D. (1983), Simplified solution for stresses and deformations, ASME J. Lubr.
     Technol. 105: k = 1.0339 (Ry/Rx)^0.636, E = 1.0003 + 0.5968 Rx/Ry, F = 1.5277 + 0.6023 ln(Ry/Rx).
     """
 
-    radius_x: float
-    radius_y: float
-    contact_modulus: float
+    radius_x: A[float, "equivalent radius in the first principal plane, [m]"]
+    radius_y: A[float, "in the second, [m]"]
+    contact_modulus: A[float, "E', [Pa]"]
 
     @property
     def _smaller(self) -> float:

@@ -10,25 +10,18 @@ H = h / R = c U^a G^b W^c.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 
 @dataclass(frozen=True)
 class LineFormula:
-    """Film of a line contact, H = coefficient U^speed G^material W^load.
-
-    Parameters
-    ----------
-    coefficient, speed_exponent, material_exponent, load_exponent : float
-    what : str
-        ``minimum`` at the constriction of the outlet, or ``central`` in the flat of the contact.
-    source : str
-    """
+    """Film of a line contact, H = coefficient U^speed G^material W^load."""
 
     coefficient: float
     speed_exponent: float
     material_exponent: float
     load_exponent: float
-    what: str
+    what: A[str, "``minimum`` at the constriction of the outlet, or ``central`` in the flat of the contact"]
     source: str
 
 

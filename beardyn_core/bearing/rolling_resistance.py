@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 AIHARA_FACTOR, AIHARA_SPEED, AIHARA_LOAD = 176.0, 0.658, 0.31
 ZHOU_HOEPRICH_FACTOR, ZHOU_HOEPRICH_SPEED, ZHOU_HOEPRICH_LOAD = 58.4, 0.648, 0.246
@@ -21,33 +22,15 @@ THERMAL_FACTOR, THERMAL_EXPONENT = 0.29, 0.78
 
 @dataclass(frozen=True)
 class RollingContact:
-    """A contact that rolls.
+    """A contact that rolls."""
 
-    Parameters
-    ----------
-    load : float
-        [N].
-    entrainment_speed : float
-        Mean surface speed in the contact-fixed frame, [m/s].
-    radius : float
-        Equivalent radius in rolling direction, [m].
-    length : float
-        Length of a line contact; semi-major axis of a point contact, [m].
-    contact_modulus : float
-        E' = 2 / sum((1 - nu^2) / E), [Pa].
-    viscosity : float
-        Dynamic viscosity at inlet temperature, [Pa s].
-    pressure_viscosity : float
-        [1/Pa].
-    """
-
-    load: float
-    entrainment_speed: float
-    radius: float
-    length: float
-    contact_modulus: float
-    viscosity: float
-    pressure_viscosity: float
+    load: A[float, "[N]"]
+    entrainment_speed: A[float, "mean surface speed in the contact-fixed frame, [m/s]"]
+    radius: A[float, "equivalent radius in rolling direction, [m]"]
+    length: A[float, "length of a line contact; semi-major axis of a point contact, [m]"]
+    contact_modulus: A[float, "E' = 2 / sum((1 - nu^2) / E), [Pa]"]
+    viscosity: A[float, "dynamic viscosity at inlet temperature, [Pa s]"]
+    pressure_viscosity: A[float, "[1/Pa]"]
 
     @property
     def speed_parameter(self) -> float:

@@ -32,14 +32,7 @@ _BAND = 0.2316
 
 @dataclass(frozen=True)
 class LaminaVerdict:
-    """What a lamina count makes of a scene.
-
-    Parameters
-    ----------
-    count : int
-    reason : str
-    influence : mapping
-    """
+    """What a lamina count makes of a scene."""
 
     count: int
     reason: str

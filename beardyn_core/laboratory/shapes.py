@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,22 +31,12 @@ def unit(vector: ArrayLike) -> Float:
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a shape is: origin and three orthonormal axes, shape [3] each.
+    """Where a shape is: origin and three orthonormal axes, shape [3] each."""
 
-    Parameters
-    ----------
-    origin : float64 array
-        [m].
-    east, north : float64 array
-        Directions of the sweep angle 0 and 90 deg.
-    pole : float64 array
-        Axis of revolution, direction of a straight line.
-    """
-
-    origin: Float
-    east: Float
-    north: Float
-    pole: Float
+    origin: A[Float, "[m]"]
+    east: A[Float, "direction of the sweep angle 0 deg"]
+    north: A[Float, "direction of the sweep angle 90 deg"]
+    pole: A[Float, "axis of revolution, direction of a straight line"]
 
 
 def placed(origin: ArrayLike, pole: ArrayLike, east: ArrayLike = (1.0, 0.0, 0.0)) -> Placement:
@@ -62,22 +53,12 @@ def placed(origin: ArrayLike, pole: ArrayLike, east: ArrayLike = (1.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Frame:
-    """A point of a shape with its vectors.
+    """A point of a shape with its vectors."""
 
-    Parameters
-    ----------
-    point : float64 array, shape [3]
-        [m].
-    vectors : float64 array, shape [3, 3]
-        Rows t, b, n.
-    point_slopes : float64 array, shape [parameter, 3]
-    vector_slopes : float64 array, shape [parameter, 3, 3]
-    """
-
-    point: Float
-    vectors: Float
-    point_slopes: Float
-    vector_slopes: Float
+    point: A[Float, "shape [3], [m]"]
+    vectors: A[Float, "shape [3, 3], rows t, b, n"]
+    point_slopes: A[Float, "shape [parameter, 3]"]
+    vector_slopes: A[Float, "shape [parameter, 3, 3]"]
 
 
 @dataclass(frozen=True)
@@ -260,15 +241,9 @@ class Circle(_Line):
 
 @dataclass(frozen=True)
 class FaceCircle(Circle):
-    """The same circle as the edge of a flat end: its normal is axial and its binormal radial.
+    """The same circle as the edge of a flat end: its normal is axial and its binormal radial."""
 
-    Parameters
-    ----------
-    side : float
-        +1 when the end looks along the pole, else -1.
-    """
-
-    side: float = 1.0
+    side: A[float, "+1 when the end looks along the pole, else -1"] = 1.0
 
     def frame(self, parameters: Float) -> Frame:
         """Return the frame at a place along the line."""

@@ -24,6 +24,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,27 +54,13 @@ _READERS = {".mcap": ("beardyn_core.record.load_reading", "read_recorded_load")}
 
 @dataclass(frozen=True)
 class Measurement:
-    """What a file holds, SI, time from its first sample on; zeros where something was not taken.
+    """What a file holds, SI, time from its first sample on; zeros where something was not taken."""
 
-    Parameters
-    ----------
-    time : float64 array, shape [sample]
-        [s].
-    wrench : float64 array, shape [sample, 6]
-        [N, N m].
-    shaft_speed : float64 array, shape [sample]
-        [rad/s].
-    bogie : float64 array, shape [sample, 3]
-        [m].
-    stream : LoadHistory or None
-        The very samples, when they were a stream of load for the twin.
-    """
-
-    time: Float
-    wrench: Float
-    shaft_speed: Float
-    bogie: Float
-    stream: LoadHistory | None = None
+    time: A[Float, "shape [sample], [s]"]
+    wrench: A[Float, "shape [sample, 6], [N, N m]"]
+    shaft_speed: A[Float, "shape [sample], [rad/s]"]
+    bogie: A[Float, "shape [sample, 3], [m]"]
+    stream: A[LoadHistory | None, "the very samples, when they were a stream of load for the twin"] = None
 
 
 def read_measurement(path: Path, take: str = "both") -> Measurement:

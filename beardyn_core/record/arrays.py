@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,15 +47,9 @@ def damage_told(path: Path | str) -> Iterator[None]:
 
 @dataclass(frozen=True, eq=False)
 class Timed:
-    """What all signals have: the time of each sample.
+    """What all signals have: the time of each sample."""
 
-    Parameters
-    ----------
-    time_ns : int64 array, shape [sample]
-        Simulated time, the delay of filters compensated, [ns].
-    """
-
-    time_ns: Int
+    time_ns: A[Int, "shape [sample], simulated time, the delay of filters compensated, [ns]"]
 
     def __len__(self) -> int:
         return len(self.time_ns)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Annotated as A
 
 from beardyn_core.effects import EffectSet
 
@@ -11,19 +12,12 @@ EFFECTS = tuple(field.name for field in fields(EffectSet))
 
 @dataclass(frozen=True)
 class Free:
-    """What may be chosen; the rest stays as the scene has it.
-
-    Parameters
-    ----------
-    tier, laminae, steps : bool
-    effects : frozenset of str
-        Members of the effect set.
-    """
+    """What may be chosen; the rest stays as the scene has it."""
 
     tier: bool = True
     laminae: bool = True
     steps: bool = True
-    effects: frozenset[str] = frozenset(EFFECTS)
+    effects: A[frozenset[str], "members of the effect set"] = frozenset(EFFECTS)
 
     @property
     def anything(self) -> bool:
