@@ -130,22 +130,11 @@ class _Revolved(Shape):
 
 @dataclass(frozen=True)
 class Cone(_Revolved):
-    """Cone or cylinder without ends.
+    """Cone or cylinder without ends."""
 
-    Parameters
-    ----------
-    place : Placement
-    radius : float
-        At the origin, [m].
-    angle : float
-        Between generator and axis, + when it widens along the pole, [rad].
-    side : float
-        +1: the body is inside, its normal points outwards; -1: the body is outside.
-    """
-
-    radius: float
-    angle: float = 0.0
-    side: float = 1.0
+    radius: A[float, "at the origin, [m]"]
+    angle: A[float, "between generator and axis, + when it widens along the pole, [rad]"] = 0.0
+    side: A[float, "+1: the body is inside, its normal points outwards; -1: the body is outside"] = 1.0
 
     def _meridian(self, u: float) -> tuple[Float, Float, Float, Float, Float, Float]:
         tangent = np.array([math.sin(self.angle), math.cos(self.angle)])
@@ -165,22 +154,11 @@ class Cone(_Revolved):
 
 @dataclass(frozen=True)
 class Arc(_Revolved):
-    """Sphere, torus or barrel: an arc swept about the axis.
+    """Sphere, torus or barrel: an arc swept about the axis."""
 
-    Parameters
-    ----------
-    place : Placement
-    ring_radius : float
-        Of the arc's centre from the axis: 0 for a sphere, negative for a barrel, [m].
-    radius : float
-        Of the arc, [m].
-    side : float
-        +1: the body is inside the arc; -1: it is outside.
-    """
-
-    ring_radius: float
-    radius: float
-    side: float = 1.0
+    ring_radius: A[float, "of the arc's centre from the axis: 0 for a sphere, negative for a barrel, [m]"]
+    radius: A[float, "of the arc, [m]"]
+    side: A[float, "+1: the body is inside the arc; -1: it is outside"] = 1.0
 
     def _meridian(self, u: float) -> tuple[Float, Float, Float, Float, Float, Float]:
         outward, ahead = np.array([math.cos(u), math.sin(u)]), np.array([-math.sin(u), math.cos(u)])
@@ -204,17 +182,9 @@ class _Line(Shape):
 
 @dataclass(frozen=True)
 class Circle(_Line):
-    """Circle about the pole; its normal is radial and its binormal axial.
+    """Circle about the pole, its centre in the origin; its normal is radial and its binormal axial."""
 
-    Parameters
-    ----------
-    place : Placement
-        The origin is the centre.
-    radius : float
-        [m].
-    """
-
-    radius: float
+    radius: A[float, "[m]"]
 
     def frame(self, parameters: Float) -> Frame:
         """Return the frame at a place along the line."""
