@@ -21,6 +21,11 @@ class FaultFrequencies:
     bpfi: A[float, "the same of the cone"]
     bsf: A[float, "spin of a roller in its cage pocket; a roller fault strikes twice as often"]
 
+    @property
+    def by_name(self) -> dict[str, float]:
+        """``FTF``, ``BPFO``, ``BPFI`` and ``BSF``, [-]."""
+        return {name.upper(): value for name, value in vars(self).items()}
+
 
 def frequencies(
     roller_count: int, pitch_diameter: float, roller_diameter: float, angle: float

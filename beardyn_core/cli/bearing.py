@@ -198,16 +198,10 @@ def _report(
     """Gather the content of the JSON object."""
     from beardyn_core.bearing.kinematics import fault_frequencies
 
-    frequencies = fault_frequencies(bearing)
     return {
         "bearing": bearing.name,
         "geometry": _geometry(bearing),
-        "fault_frequencies_per_rev": {
-            "FTF": frequencies.ftf,
-            "BPFO": frequencies.bpfo,
-            "BPFI": frequencies.bpfi,
-            "BSF": frequencies.bsf,
-        },
+        "fault_frequencies_per_rev": fault_frequencies(bearing).by_name,
         "static": {
             "applied_force_N": operation.load,
             "end_play_m": end_play,

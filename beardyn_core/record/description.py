@@ -77,8 +77,9 @@ class BearingShape:
     @property
     def fault_frequencies(self) -> dict[str, float]:
         """FTF, BPFO, BPFI, BSF of one row per shaft revolution, cup at rest."""
-        found = frequencies(self.roller_count, self.pitch_diameter, self.roller_diameter, self.contact_angle)
-        return {"FTF": found.ftf, "BPFO": found.bpfo, "BPFI": found.bpfi, "BSF": found.bsf}
+        return frequencies(
+            self.roller_count, self.pitch_diameter, self.roller_diameter, self.contact_angle
+        ).by_name
 
 
 @dataclass(frozen=True)
