@@ -20,6 +20,7 @@ from beardyn_core.observe.summary import RunSummary
 from beardyn_core.record.exporting import refuse_to_write
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
+from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import McapSink, MemorySink, Sink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
@@ -89,7 +90,7 @@ def simulate(
     def with_life() -> RunSummary:
         load = run.load
         history = LoadHistory(load.time_ns, load.wrench, load.shaft_speed, load.bogie)
-        return replace(summary, life=desk_run.life_of(made, history))
+        return replace(summary, life=life_of(made, history))
 
     run = memory.to_run(with_life)
     return run
