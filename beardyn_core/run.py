@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
@@ -15,21 +16,11 @@ from beardyn_core.twin import Twin
 
 @dataclass(frozen=True)
 class Simulation:
-    """A scene at t = 0, ready to advance.
+    """A scene at t = 0, ready to advance."""
 
-    Parameters
-    ----------
-    twin : Twin
-        Its kernels are compiled and its equilibrium is solved.
-    load : LoadHistory
-        Load on the journal over the whole run; the twin has it.
-    block_count : int
-        Blocks of 20 ms to the end.
-    """
-
-    twin: Twin
-    load: LoadHistory
-    block_count: int
+    twin: A[Twin, "its kernels are compiled and its equilibrium is solved"]
+    load: A[LoadHistory, "load on the journal over the whole run; the twin has it"]
+    block_count: A[int, "blocks of 20 ms to the end"]
 
     def blocks(self, at_once: int = 1) -> Iterator[Block]:
         """Advance to the end, block by block.

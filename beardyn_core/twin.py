@@ -339,7 +339,7 @@ class Twin:
 
     def truth(self) -> dict[str, Any]:
         """Write the facts of the run that no train could measure: scene, faults, labels, versions."""
-        scene, frequencies = self.scene, fault_frequencies(self.scene.bearing)
+        scene = self.scene
         return {
             "scene": scene.name,
             "purpose": scene.purpose,
@@ -354,12 +354,7 @@ class Twin:
             "faults": [truth_of(defect, self._index * BLOCK_NS * 1e-9) for defect in scene.faults],
             "waviness": [asdict(wave) for wave in scene.waviness],
             "excitation": events_of(scene),
-            "fault_frequencies_per_rev": {
-                "FTF": frequencies.ftf,
-                "BPFO": frequencies.bpfo,
-                "BPFI": frequencies.bpfi,
-                "BSF": frequencies.bsf,
-            },
+            "fault_frequencies_per_rev": fault_frequencies(scene.bearing).by_name,
             **scene_labels(scene),
             "laminae": scene.numerics.laminae,
             "step_s": self._parameters.step,

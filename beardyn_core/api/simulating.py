@@ -22,6 +22,7 @@ from beardyn_core.outputs import files_read
 from beardyn_core.record.exporting import refuse_to_write
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
+from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import McapSink, MemorySink, Sink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
@@ -109,7 +110,7 @@ def _with_life(summary: RunSummary, scene: Scene, load: LoadHistory | None) -> R
     if load is None:
         return summary
     until = round(summary.duration * 1e9)
-    return replace(summary, life=desk_run.life_of(scene, load.until(until)))
+    return replace(summary, life=life_of(scene, load.until(until)))
 
 
 @contextmanager

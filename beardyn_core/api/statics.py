@@ -277,14 +277,8 @@ def fault_frequencies(bearing: Bearing | str, speed_rpm: float | None = None) ->
     dict
         [Hz] at that speed, without one per revolution of the shaft. A roller fault strikes at 2 BSF.
     """
-    found = frequencies_per_rev(_bearing(bearing))
     hertz = 1.0 if speed_rpm is None else abs(speed_rpm) / 60.0
-    return {
-        name: hertz * value
-        for name, value in zip(
-            ("FTF", "BPFO", "BPFI", "BSF"), (found.ftf, found.bpfo, found.bpfi, found.bsf), strict=True
-        )
-    }
+    return {name: hertz * value for name, value in frequencies_per_rev(_bearing(bearing)).by_name.items()}
 
 
 def _bearing(bearing: Bearing | str) -> Bearing:

@@ -14,9 +14,8 @@ lamina_coupling    laminae coupled through the half-space: influence matrix and 
 joint_lamina       a lamina partly over a patch, as one spring
 ring_bending       stiffness and mass of the bending modes of a thin ring
 force_triangle     one roller between cup, cone and rib
-load_zone          load-zone integrals of one row
 lubricant          viscosity and pressure-viscosity with temperature
-film_thickness     films of line and point contacts, starvation, inlet heating
+film_thickness     films of line contacts, inlet heating
 rib_film           film of the rib contact
 rolling_resistance rolling couple of one lubricated contact
 thermal_closure    what temperature does to the end play

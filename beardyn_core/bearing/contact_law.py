@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.material import Material
@@ -51,22 +52,15 @@ class PointContact:
     The stiffness factor is within 1 % for the elongated ellipses of ribs (Ry/Rx from 3 to 10) and 9 % too
     large for a circular contact; `hertz.ExactPointContact` has complete elliptic integrals.
 
-    Parameters
-    ----------
-    radius_x, radius_y : float
-        Equivalent radii in the two principal planes, [m].
-    contact_modulus : float
-        E', [Pa].
-
     References
     ----------
     Hamrock, B. J. and Brewe, D. (1983), Simplified solution for stresses and deformations, ASME J. Lubr.
     Technol. 105: k = 1.0339 (Ry/Rx)^0.636, E = 1.0003 + 0.5968 Rx/Ry, F = 1.5277 + 0.6023 ln(Ry/Rx).
     """
 
-    radius_x: float
-    radius_y: float
-    contact_modulus: float
+    radius_x: A[float, "equivalent radius in the first principal plane, [m]"]
+    radius_y: A[float, "in the second, [m]"]
+    contact_modulus: A[float, "E', [Pa]"]
 
     @property
     def _smaller(self) -> float:
@@ -111,24 +105,6 @@ class PointContact:
         return larger, larger / k
 
 
-def point_contact_factor(radius_x: float, radius_y: float, contact_modulus: float) -> float:
-    """Compute the Hertz stiffness factor K of a point contact, Q = K delta^1.5.
-
-    Parameters
-    ----------
-    radius_x, radius_y : float
-        Equivalent radii in the two principal planes, in any order, [m].
-    contact_modulus : float
-        E' = 2/sum((1 - nu^2)/E), [Pa].
-
-    Returns
-    -------
-    float
-        K, [N/m^1.5].
-    """
-    return PointContact(radius_x, radius_y, contact_modulus).factor
-
-
 def rib_curvature_radius(bearing: Bearing) -> float:
     """Compute R_rib, the radius of curvature of the concave rib cone at the nominal contact, [m]."""
     distance = bearing.apex_distance + bearing.sphere_centre
@@ -161,19 +137,3 @@ def rib_contact(bearing: Bearing) -> PointContact:
 def rib_contact_factor(bearing: Bearing) -> float:
     """Compute the stiffness factor K of the rib contact, Q = K delta^1.5, [N/m^1.5]."""
     return rib_contact(bearing).factor
-
-
-def curvature_sum(curvatures: tuple[float, float, float, float]) -> float:
-    """Sum of the principal curvatures (body I x, I y, body II x, II y), [1/m]."""
-    return sum(curvatures)
-
-
-def curvature_difference(curvatures: tuple[float, float, float, float]) -> float:
-    """Compute F(rho) = |(rho_I1 - rho_I2) + (rho_II1 - rho_II2)| / sum(rho), [-].
-
-    References
-    ----------
-    Harris, T. A. (2001), Rolling Bearing Analysis, 4th ed., chapter 2.
-    """
-    first_x, first_y, second_x, second_y = curvatures
-    return abs((first_x - first_y) + (second_x - second_y)) / curvature_sum(curvatures)

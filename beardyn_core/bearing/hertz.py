@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.contact_law import PointContact, rib_contact
 from beardyn_core.bearing.geometry import Bearing
@@ -73,19 +74,11 @@ def exact_rib_contact(bearing: Bearing) -> ExactPointContact:
 
 @dataclass(frozen=True)
 class RibEllipse:
-    """Contact ellipse of the rib at its nominal place.
+    """Contact ellipse of the rib at its nominal place."""
 
-    Parameters
-    ----------
-    around, along : float
-        Semi-axes around the ring and along the face, [m].
-    largest_pressure : float
-        [Pa].
-    """
-
-    around: float
-    along: float
-    largest_pressure: float
+    around: A[float, "semi-axis around the ring, [m]"]
+    along: A[float, "semi-axis along the face, [m]"]
+    largest_pressure: A[float, "[Pa]"]
 
 
 def rib_ellipse(bearing: Bearing, load: float) -> RibEllipse:

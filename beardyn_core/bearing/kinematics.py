@@ -7,28 +7,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
 
 
 @dataclass(frozen=True)
 class FaultFrequencies:
-    """Kinematic frequencies per shaft revolution, [-].
+    """Kinematic frequencies per shaft revolution, [-]."""
 
-    Parameters
-    ----------
-    ftf : float
-        Cage speed.
-    bpfo, bpfi : float
-        Passing of one row's rollers over a point of the cup, of the cone.
-    bsf : float
-        Spin of a roller in its cage pocket; a roller fault strikes twice as often.
-    """
+    ftf: A[float, "cage speed"]
+    bpfo: A[float, "passing of one row's rollers over a point of the cup"]
+    bpfi: A[float, "the same of the cone"]
+    bsf: A[float, "spin of a roller in its cage pocket; a roller fault strikes twice as often"]
 
-    ftf: float
-    bpfo: float
-    bpfi: float
-    bsf: float
+    @property
+    def by_name(self) -> dict[str, float]:
+        """``FTF``, ``BPFO``, ``BPFI`` and ``BSF``, [-]."""
+        return {name.upper(): value for name, value in vars(self).items()}
 
 
 def frequencies(

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,18 +33,13 @@ _TOLERANCE = 1.0e-14
 
 @dataclass(frozen=True)
 class LaminaRoot:
-    """Matrices of coupled laminae, shape [lamina, lamina], [-].
+    """Matrices of coupled laminae, shape [lamina, lamina], [-]."""
 
-    Parameters
-    ----------
-    root : float64 array
-        W, symmetric.
-    stiffness : float64 array
-        W W, the normalised inverse of the influence matrix; no element off its diagonal is positive.
-    """
-
-    root: Float
-    stiffness: Float
+    root: A[Float, "W, symmetric"]
+    stiffness: A[
+        Float,
+        "W W, the normalised inverse of the influence matrix; no element off its diagonal is positive",
+    ]
 
 
 def rectangle_influence(distance: Float, length: float, half_width: float, contact_modulus: float) -> Float:

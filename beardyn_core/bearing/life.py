@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
 
@@ -29,22 +30,12 @@ _BELOW_ALL_FILMS = 0.1
 
 @dataclass(frozen=True)
 class DynamicRating:
-    """Dynamic load rating and load factors of the double row, ISO 281.
+    """Dynamic load rating and load factors of the double row, ISO 281."""
 
-    Parameters
-    ----------
-    radial : float
-        C_r of both rows together, [N].
-    thrust_limit : float
-        e: thrust ratio up to which Y1 applies, [-].
-    thrust_low, thrust_high : float
-        Y1 and Y2, axial load factors below and above e, [-].
-    """
-
-    radial: float
-    thrust_limit: float
-    thrust_low: float
-    thrust_high: float
+    radial: A[float, "C_r of both rows together, [N]"]
+    thrust_limit: A[float, "e: thrust ratio up to which Y1 applies, [-]"]
+    thrust_low: A[float, "Y1, axial load factor below e, [-]"]
+    thrust_high: A[float, "Y2, above e, [-]"]
 
     def equivalent_load(self, radial: float, axial: float) -> float:
         """Compute the dynamic equivalent radial load P of a radial and an axial force, [N]."""

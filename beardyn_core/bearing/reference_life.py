@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,24 +30,15 @@ _ROTATING, _STATIONARY = 4.0, 4.5  # exponents of the mean load of a ring
 
 @dataclass(frozen=True)
 class ReferenceLife:
-    """Reference rating life of one load.
+    """Reference rating life of one load."""
 
-    Parameters
-    ----------
-    basic : float
-        L_10r, [revolutions].
-    modified : float
-        L_10mr with lubrication and contamination, [revolutions].
-    equivalent_load : float
-        P_ref,r = C_r / (L_10r / 10^6)^(3/10), [N].
-    lamina_life : float64 array, shape [row, lamina]
-        Basic life of each lamina of a row, both raceways, [revolutions].
-    """
-
-    basic: float
-    modified: float
-    equivalent_load: float
-    lamina_life: Float
+    basic: A[float, "L_10r, [revolutions]"]
+    modified: A[float, "L_10mr with lubrication and contamination, [revolutions]"]
+    equivalent_load: A[float, "P_ref,r = C_r / (L_10r / 10^6)^(3/10), [N]"]
+    lamina_life: A[
+        Float,
+        "shape [row, lamina], basic life of each lamina of a row, both raceways, [revolutions]",
+    ]
 
 
 def contact_ratings(bearing: Bearing) -> tuple[float, float]:

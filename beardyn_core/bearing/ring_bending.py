@@ -9,27 +9,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
 
 
 @dataclass(frozen=True)
 class ThinRing:
-    """A circular ring of constant section.
+    """A circular ring of constant section."""
 
-    Parameters
-    ----------
-    radius : float
-        Of the middle of the wall, [m].
-    rigidity : float
-        Young's modulus times second moment of area for bending in the ring's plane, [N m^2].
-    mass : float
-        [kg].
-    """
-
-    radius: float
-    rigidity: float
-    mass: float
+    radius: A[float, "of the middle of the wall, [m]"]
+    rigidity: A[float, "Young's modulus times second moment of area for bending in the ring's plane, [N m^2]"]
+    mass: A[float, "[kg]"]
 
     def modal_stiffness(self, waves: int) -> float:
         """Compute the second derivative of the bending energy with the amplitude of a mode, [N/m].

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 AIHARA_FACTOR, AIHARA_SPEED, AIHARA_LOAD = 176.0, 0.658, 0.31
 ZHOU_HOEPRICH_FACTOR, ZHOU_HOEPRICH_SPEED, ZHOU_HOEPRICH_LOAD = 58.4, 0.648, 0.246
@@ -21,33 +22,15 @@ THERMAL_FACTOR, THERMAL_EXPONENT = 0.29, 0.78
 
 @dataclass(frozen=True)
 class RollingContact:
-    """A contact that rolls.
+    """A contact that rolls."""
 
-    Parameters
-    ----------
-    load : float
-        [N].
-    entrainment_speed : float
-        Mean surface speed in the contact-fixed frame, [m/s].
-    radius : float
-        Equivalent radius in rolling direction, [m].
-    length : float
-        Length of a line contact; semi-major axis of a point contact, [m].
-    contact_modulus : float
-        E' = 2 / sum((1 - nu^2) / E), [Pa].
-    viscosity : float
-        Dynamic viscosity at inlet temperature, [Pa s].
-    pressure_viscosity : float
-        [1/Pa].
-    """
-
-    load: float
-    entrainment_speed: float
-    radius: float
-    length: float
-    contact_modulus: float
-    viscosity: float
-    pressure_viscosity: float
+    load: A[float, "[N]"]
+    entrainment_speed: A[float, "mean surface speed in the contact-fixed frame, [m/s]"]
+    radius: A[float, "equivalent radius in rolling direction, [m]"]
+    length: A[float, "length of a line contact; semi-major axis of a point contact, [m]"]
+    contact_modulus: A[float, "E' = 2 / sum((1 - nu^2) / E), [Pa]"]
+    viscosity: A[float, "dynamic viscosity at inlet temperature, [Pa s]"]
+    pressure_viscosity: A[float, "[1/Pa]"]
 
     @property
     def speed_parameter(self) -> float:
@@ -63,11 +46,6 @@ class RollingContact:
     def line_load_parameter(self) -> float:
         """W = Q / (l E' R), [-]."""
         return self.load / (self.length * self.contact_modulus * self.radius)
-
-    @property
-    def point_load_parameter(self) -> float:
-        """W = Q / (E' R^2), [-]."""
-        return self.load / (self.contact_modulus * self.radius**2)
 
 
 def thermal_reduction(loading: float) -> float:
@@ -152,67 +130,6 @@ def hysteresis_line(load: float, half_width: float, loss_factor: float) -> float
 def hertz_half_width(load_per_length: float, radius: float, contact_modulus: float) -> float:
     """Compute the half width of a Hertz line contact, b = sqrt(4 q R / (pi E*)), E* = E'/2, [m]."""
     return math.sqrt(8.0 * load_per_length * radius / (math.pi * contact_modulus))
-
-
-def aihara_point(contact: RollingContact) -> float:
-    """Compute the rolling couple of a point contact, isothermal; `length` is the semi-major axis, [N m].
-
-    References
-    ----------
-    Aihara (1987) as applied to balls by D-BRAIN (Tribology.cpp): line formula with W = Q/(E' R^2), l = a.
-    """
-    return _power_law(contact, contact.point_load_parameter, AIHARA_FACTOR, AIHARA_SPEED, AIHARA_LOAD)
-
-
-def fujiwara_point(contact: RollingContact, aspect: float) -> float:
-    """Compute the rolling couple of a point contact, isothermal, [N m].
-
-    Parameters
-    ----------
-    contact : RollingContact
-    aspect : float
-        Semi-minor over semi-major axis as the source code has it, b/a.
-
-    References
-    ----------
-    Fujiwara, NTN Technical Review 82 (2014), as in D-BRAIN (Tribology.cpp):
-    F = 44.6/alpha U^0.694 G^0.961 W^0.401 (1 - 0.962 exp(-0.818 k)) R^2, M = F R.
-    """
-    force = (
-        44.6
-        * contact.speed_parameter**0.694
-        * contact.material_parameter**0.961
-        * contact.point_load_parameter**0.401
-        * (1.0 - 0.962 * math.exp(-0.818 * aspect))
-    )
-    return force * contact.radius**3 / contact.pressure_viscosity
-
-
-def houpert_point(contact: RollingContact, semi_minor: float) -> float:
-    """Compute the rolling couple of a point contact, rigid to elastic regime, isothermal, [N m].
-
-    Parameters
-    ----------
-    contact : RollingContact
-    semi_minor : float
-        Semi-axis in rolling direction b, [m].
-
-    References
-    ----------
-    Houpert (1987), ASME J. Lubr. Technol. 109, 363, as in D-BRAIN (Tribology.cpp), whose code divides
-    whole numbers in the exponent -1/3 and so misses its own test value by 2 %.
-    """
-    semi_major, modulus, radius = contact.length, contact.contact_modulus, contact.radius
-    pressure = 1.5 * contact.load / (math.pi * semi_major * semi_minor)
-    aspect = semi_minor / semi_major
-    slenderness = semi_minor * modulus / (math.pi * pressure * radius)
-    load = 2.0 * math.pi * pressure * semi_minor**2 / (3.0 * aspect * modulus * radius**2)
-    speed = 2.0 * contact.speed_parameter
-    regime = slenderness**0.25 * aspect * load * speed**-0.75
-    elastic = 1.8 * slenderness**-0.25
-    rigid = 0.77 * slenderness ** (-1.0 / 3.0) * aspect**0.12 * speed ** (-1.0 / 12.0)
-    level = (rigid - elastic) / (1.0 + regime / 6.6) + elastic
-    return 2.0 * semi_major / radius * level * speed**0.75 * modulus * radius**3
 
 
 def _power_law(

@@ -17,17 +17,11 @@ STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
 
 @dataclass(frozen=True)
 class PartTemperatures:
-    """Temperatures of the parts that carry the load.
+    """Temperatures of the parts that carry the load."""
 
-    Parameters
-    ----------
-    cup, cone, rollers : float
-        [K].
-    """
-
-    cup: float
-    cone: float
-    rollers: float
+    cup: A[float, "[K]"]
+    cone: A[float, "[K]"]
+    rollers: A[float, "[K]"]
 
 
 @dataclass(frozen=True)

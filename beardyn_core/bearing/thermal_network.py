@@ -7,6 +7,7 @@ air. The step is exact for heat that is constant over it, so it may be as long a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,21 +17,11 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ThermalNetwork:
-    """Nodes with capacities, conductances between them and to the ambient.
+    """Nodes with capacities, conductances between them and to the ambient."""
 
-    Parameters
-    ----------
-    capacity : float64 array, shape [node]
-        [J/K].
-    conductance : float64 array, shape [node, node]
-        Symmetric, between two nodes; the diagonal is not used, [W/K].
-    to_ambient : float64 array, shape [node]
-        [W/K].
-    """
-
-    capacity: Float
-    conductance: Float
-    to_ambient: Float
+    capacity: A[Float, "shape [node], [J/K]"]
+    conductance: A[Float, "shape [node, node], symmetric, between two nodes; the diagonal is not used, [W/K]"]
+    to_ambient: A[Float, "shape [node], [W/K]"]
 
     @property
     def matrix(self) -> Float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,22 +26,12 @@ _SAME = 0.02
 
 @dataclass(frozen=True)
 class LoadCase:
-    """One load on the journal.
+    """One load on the journal."""
 
-    Parameters
-    ----------
-    name : str
-        ``typical``, ``lightest``, ``heaviest`` or ``axial``.
-    force, moment : tuple of 3 floats
-        [N], [N m].
-    speed : float
-        Of the shaft, [rad/s].
-    """
-
-    name: str
-    force: tuple[float, float, float]
-    moment: tuple[float, float, float]
-    speed: float
+    name: A[str, "``typical``, ``lightest``, ``heaviest`` or ``axial``"]
+    force: A[tuple[float, float, float], "[N]"]
+    moment: A[tuple[float, float, float], "[N m]"]
+    speed: A[float, "of the shaft, [rad/s]"]
 
     @property
     def size(self) -> float:
@@ -50,28 +41,14 @@ class LoadCase:
 
 @dataclass(frozen=True)
 class Circumstances:
-    """The load cases of a scene.
+    """The load cases of a scene."""
 
-    Parameters
-    ----------
-    cases : tuple of LoadCase
-        The typical one first; those that are nearly the same are left out.
-    lightest : float
-        Force of the lightest case, [N].
-    top_speed : float
-        Largest amount of the shaft speed, [rad/s].
-    changing : bool
-        Whether the load changes.
-    axial_low, axial_high : float
-        Smallest and largest axial force, [N].
-    """
-
-    cases: tuple[LoadCase, ...]
-    lightest: float
-    top_speed: float
-    changing: bool
-    axial_low: float
-    axial_high: float
+    cases: A[tuple[LoadCase, ...], "the typical one first; those that are nearly the same are left out"]
+    lightest: A[float, "force of the lightest case, [N]"]
+    top_speed: A[float, "largest amount of the shaft speed, [rad/s]"]
+    changing: A[bool, "whether the load changes"]
+    axial_low: A[float, "smallest axial force, [N]"]
+    axial_high: A[float, "largest axial force, [N]"]
 
     @property
     def typical(self) -> LoadCase:

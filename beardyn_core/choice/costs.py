@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.effects.catalogue import catalogue
@@ -26,25 +27,16 @@ _PER_LAMINA = frozenset({"traction", "lamina_coupling"})
 
 @dataclass(frozen=True)
 class Costs:
-    """Costs relative to the step of the `standard` set in the full tier with 6 laminae.
+    """Costs relative to the step of the `standard` set in the full tier with 6 laminae."""
 
-    Parameters
-    ----------
-    ratios : dict
-        Name of a measured set (`benchmarks/effect_costs.py`) -> its time over that of the standard step.
-    standard_step : float
-        Time of the standard step on the machine of the measurement, [s].
-    rest_of_block : dict
-        Tier -> time of a block of 512 samples outside of its steps, [s].
-    machine, date : str
-        Where and when it was measured.
-    """
-
-    ratios: dict[str, float]
-    standard_step: float
-    rest_of_block: dict[str, float]
-    machine: str
-    date: str
+    ratios: A[
+        dict[str, float],
+        "name of a measured set (`benchmarks/effect_costs.py`) -> its time over that of the standard step",
+    ]
+    standard_step: A[float, "time of the standard step on the machine of the measurement, [s]"]
+    rest_of_block: A[dict[str, float], "tier -> time of a block of 512 samples outside of its steps, [s]"]
+    machine: A[str, "where it was measured"]
+    date: A[str, "when"]
 
     def extra(self, change: str) -> float:
         """Look up the cost that a change adds to the standard step, always more than 0.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Annotated as A
 
 import numpy as np
 
@@ -23,19 +24,11 @@ MOST_DB = 20.0
 
 @dataclass(frozen=True)
 class Difference:
-    """What two static solutions differ by.
+    """What two static solutions differ by."""
 
-    Parameters
-    ----------
-    deflection, roller_load : float
-        Relative to the typical load's, [-].
-    stiffness : float
-        Stiffness along the load over that of the reference, [-].
-    """
-
-    deflection: float
-    roller_load: float
-    stiffness: float
+    deflection: A[float, "relative to the typical load's, [-]"]
+    roller_load: A[float, "relative to the typical load's, [-]"]
+    stiffness: A[float, "stiffness along the load over that of the reference, [-]"]
 
     def influence(self) -> dict[str, float]:
         """Convert to errors of the quantities; vibration changes with the ratio of stiffness."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from typing import Annotated as A
 
 from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
@@ -82,21 +83,11 @@ def scene_from_mapping(data: dict[str, Any], label: str, folder: Path) -> Scene:
 
 @dataclass(frozen=True)
 class Explanation:
-    """A scene, why it is computed as it is, and what would be chosen for it.
+    """A scene, why it is computed as it is, and what would be chosen for it."""
 
-    Parameters
-    ----------
-    scene : Scene
-        Resolved.
-    current : Choice
-        What it has, with what has been chosen.
-    automatic : Choice or None
-        What `effects: auto` would choose; ``None`` where `current` is that already.
-    """
-
-    scene: Scene
-    current: Choice
-    automatic: Choice | None
+    scene: A[Scene, "resolved"]
+    current: A[Choice, "what it has, with what has been chosen"]
+    automatic: A[Choice | None, "what `effects: auto` would choose; ``None`` where `current` is that already"]
 
 
 def explain_scene(

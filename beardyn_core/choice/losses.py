@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,22 +41,12 @@ _NEARLY_ALL = 0.5
 
 @dataclass(frozen=True)
 class Drive:
-    """How raceway traction drives the rollers.
+    """How raceway traction drives the rollers."""
 
-    Parameters
-    ----------
-    needed, available : float
-        Tangential force over all loaded rollers, [N].
-    slip : float
-        Slip over entrainment speed at which the traction is what is needed; 1 where it never is.
-    torque : float
-        On the shaft, that the slip loses, [N m].
-    """
-
-    needed: float
-    available: float
-    slip: float
-    torque: float
+    needed: A[float, "tangential force over all loaded rollers, [N]"]
+    available: A[float, "what traction could give, [N]"]
+    slip: A[float, "slip over entrainment speed at which the traction is what is needed; 1 where it never is"]
+    torque: A[float, "on the shaft, that the slip loses, [N m]"]
 
     def share(self, force: float) -> float:
         """Compute a braking force over the force that drives the rollers, at most 1."""

@@ -32,14 +32,7 @@ _BAND = 0.2316
 
 @dataclass(frozen=True)
 class LaminaVerdict:
-    """Cost and errors of a scene with a lamina count.
-
-    Parameters
-    ----------
-    count : int
-    reason : str
-    influence : mapping
-    """
+    """Cost and errors of a scene with a lamina count."""
 
     count: int
     reason: str

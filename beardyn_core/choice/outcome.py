@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.choice.rule import Decision, percent
@@ -14,45 +15,22 @@ from beardyn_core.scene.scene import Scene
 
 @dataclass(frozen=True)
 class Choice:
-    """What a scene is computed with, and why.
-
-    Parameters
-    ----------
-    tier : str
-    effects : EffectSet
-    laminae : int
-    steps_per_sample : float
-    accuracy : float
-        Asked for, [-].
-    quantities : tuple of str
-        Asked for.
-    tier_reason, laminae_reason, steps_reason : str
-    decisions : tuple of Decision
-        One for each effect, in the order of the catalogue.
-    expected : mapping
-        Expected error of each asked quantity: a fraction, of vibration in dB.
-    step_cost : float
-        Of a step, in steps of the standard set.
-    seconds : float
-        Wall time of a simulated second on the machine of the cost file, [s].
-    within : bool
-        Whether the expected errors are within the accuracy.
-    """
+    """What a scene is computed with, and why."""
 
     tier: str
     effects: EffectSet
     laminae: int
     steps_per_sample: float
-    accuracy: float
-    quantities: tuple[str, ...]
+    accuracy: A[float, "asked for, [-]"]
+    quantities: A[tuple[str, ...], "asked for"]
     tier_reason: str
     laminae_reason: str
     steps_reason: str
-    decisions: tuple[Decision, ...]
-    expected: Mapping[str, float]
-    step_cost: float
-    seconds: float
-    within: bool
+    decisions: A[tuple[Decision, ...], "one for each effect, in the order of the catalogue"]
+    expected: A[Mapping[str, float], "expected error of each asked quantity: a fraction, of vibration in dB"]
+    step_cost: A[float, "of a step, in steps of the standard set"]
+    seconds: A[float, "wall time of a simulated second on the machine of the cost file, [s]"]
+    within: A[bool, "whether the expected errors are within the accuracy"]
 
     @property
     def real_time_factor(self) -> float:

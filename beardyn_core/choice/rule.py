@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.scene.scene import QUANTITIES
@@ -21,67 +22,40 @@ Influence = Mapping[str, float]
 
 @dataclass(frozen=True)
 class Alternative:
-    """One choice for an effect: options with which it is on, or that it is off.
+    """One choice for an effect: options with which it is on, or that it is off."""
 
-    Parameters
-    ----------
-    members : mapping
-        Member of the effect set -> its options or ``None``.
-    reason : str
-        A sentence with the number that speaks for or against it.
-    influence : mapping
-        Quantity -> what it makes wrong against the reference: a fraction, of vibration in dB.
-    cost : float
-        Added to the step, in steps of the standard set.
-    tiers : frozenset of str
-        Tiers that can have it.
-    word : str
-        What it is called, ``on`` and ``off`` mostly.
-    """
-
-    members: Mapping[str, Any]
-    reason: str
-    influence: Influence = field(default_factory=dict)
-    cost: float = 0.0
-    tiers: frozenset[str] = frozenset({"lumped", "quasistatic", "full"})
-    word: str = "on"
+    members: A[Mapping[str, Any], "member of the effect set -> its options or ``None``"]
+    reason: A[str, "a sentence with the number that speaks for or against it"]
+    influence: A[
+        Influence,
+        "quantity -> what it makes wrong against the reference: a fraction, of vibration in dB",
+    ] = field(default_factory=dict)
+    cost: A[float, "added to the step, in steps of the standard set"] = 0.0
+    tiers: A[frozenset[str], "tiers that can have it"] = frozenset({"lumped", "quasistatic", "full"})
+    word: A[str, "what it is called, ``on`` and ``off`` mostly"] = "on"
 
 
 @dataclass(frozen=True)
 class Rule:
-    """All alternatives for one effect; the first is that of the reference.
+    """All alternatives for one effect; the first is that of the reference."""
 
-    Parameters
-    ----------
-    effect : str
-        Its name in the catalogue.
-    alternatives : tuple of Alternative
-    """
-
-    effect: str
+    effect: A[str, "its name in the catalogue"]
     alternatives: tuple[Alternative, ...]
 
 
 @dataclass(frozen=True)
 class Decision:
-    """What has been decided on an effect.
-
-    Parameters
-    ----------
-    effect, word, reason : str
-    on : bool
-    cost_share : float
-        Part of the step that it takes, [-].
-    influence : mapping
-        Expected error of each asked quantity by this decision: a fraction, of vibration in dB.
-    """
+    """What has been decided on an effect."""
 
     effect: str
     word: str
     reason: str
     on: bool
-    cost_share: float
-    influence: Influence
+    cost_share: A[float, "part of the step that it takes, [-]"]
+    influence: A[
+        Influence,
+        "expected error of each asked quantity by this decision: a fraction, of vibration in dB",
+    ]
 
     def sentence(self) -> str:
         """Write effect, decision and reason in a sentence."""

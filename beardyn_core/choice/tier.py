@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.choice.evidence import Evidence, decibels
@@ -18,18 +19,11 @@ _QUASISTATIC_SHARE = 0.005
 
 @dataclass(frozen=True)
 class TierVerdict:
-    """Errors of a scene in a tier, and the reason for them.
-
-    Parameters
-    ----------
-    name, reason : str
-    influence : mapping
-        Quantity -> what it makes wrong besides the effects it does not have.
-    """
+    """Errors of a scene in a tier, and the reason for them."""
 
     name: str
     reason: str
-    influence: Influence
+    influence: A[Influence, "quantity -> what it makes wrong besides the effects it does not have"]
 
 
 def verdict(evidence: Evidence, name: str, laminae: int) -> TierVerdict | None:

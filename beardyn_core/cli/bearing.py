@@ -8,6 +8,7 @@ import sys
 import textwrap
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+from typing import Annotated as A
 
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.quantities import NEGATIVE_QUANTITY, read_quantity
@@ -89,21 +90,11 @@ def add_parser(subparsers: Any) -> None:
 
 @dataclass(frozen=True)
 class _Operation:
-    """What the bearing is solved for, from the options.
+    """What the bearing is solved for, from the options."""
 
-    Parameters
-    ----------
-    load : tuple of 3 floats
-        On the cone, [N].
-    end_play : float or None
-        [m]; ``None``: that of the bearing.
-    speed : float
-        Of the shaft, [rad/s].
-    """
-
-    load: tuple[float, float, float]
-    end_play: float | None
-    speed: float
+    load: A[tuple[float, float, float], "on the cone, [N]"]
+    end_play: A[float | None, "[m]; ``None``: that of the bearing"]
+    speed: A[float, "of the shaft, [rad/s]"]
 
     @property
     def rpm(self) -> float:
@@ -207,16 +198,10 @@ def _report(
     """Gather the content of the JSON object."""
     from beardyn_core.bearing.kinematics import fault_frequencies
 
-    frequencies = fault_frequencies(bearing)
     return {
         "bearing": bearing.name,
         "geometry": _geometry(bearing),
-        "fault_frequencies_per_rev": {
-            "FTF": frequencies.ftf,
-            "BPFO": frequencies.bpfo,
-            "BPFI": frequencies.bpfi,
-            "BSF": frequencies.bsf,
-        },
+        "fault_frequencies_per_rev": fault_frequencies(bearing).by_name,
         "static": {
             "applied_force_N": operation.load,
             "end_play_m": end_play,

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 from typing import Any
 
 from pydantic import ValidationError
@@ -42,21 +43,11 @@ from beardyn_core.scene.waviness import Waviness
 
 @dataclass(frozen=True)
 class OpenScene:
-    """A scene as its file has it, before `beardyn_core.choice` closes what the file leaves open.
+    """A scene as its file has it, before `beardyn_core.choice` closes what the file leaves open."""
 
-    Parameters
-    ----------
-    scene : Scene
-        With stand-ins for what is open.
-    free : Free
-        What the file leaves to be chosen with ``auto``.
-    step_given : bool
-        Whether the file gives the time step.
-    """
-
-    scene: Scene
-    free: Free
-    step_given: bool
+    scene: A[Scene, "with stand-ins for what is open"]
+    free: A[Free, "what the file leaves to be chosen with ``auto``"]
+    step_given: A[bool, "whether the file gives the time step"]
 
 
 def read_scene(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import Any
 
 from pydantic import ValidationError
@@ -17,21 +18,11 @@ Place = tuple[str | int, ...]
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a part of the resolved scene was written.
+    """Where a part of the resolved scene was written."""
 
-    Parameters
-    ----------
-    place : tuple
-        Keys of the part in the resolved scene.
-    label : str
-        File (or option) it was written in.
-    keys : tuple
-        Keys of the part in that file.
-    """
-
-    place: Place
-    label: str
-    keys: Place = ()
+    place: A[Place, "keys of the part in the resolved scene"]
+    label: A[str, "file (or option) it was written in"]
+    keys: A[Place, "keys of the part in that file"] = ()
 
 
 _LIMITS = {

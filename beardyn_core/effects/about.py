@@ -3,28 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 
 @dataclass(frozen=True)
 class About:
-    """One entry of the catalogue.
+    """One entry of the catalogue."""
 
-    Parameters
-    ----------
-    adds : str
-        What the effect adds to the model.
-    states : str
-        States it adds, ``none`` for a force alone.
-    cost : str
-        Cost class in the step: ``none``, ``low`` (below 3 %), ``medium`` (below 15 %) or ``high``.
-    validity : str
-        Where it holds.
-    source : str
-        Where its formulas come from.
-    """
-
-    adds: str
-    states: str
-    cost: str
-    validity: str
-    source: str
+    adds: A[str, "what the effect adds to the model"]
+    states: A[str, "states it adds, ``none`` for a force alone"]
+    cost: A[str, "cost class in the step: ``none``, ``low`` (below 3 %), ``medium`` (below 15 %) or ``high``"]
+    validity: A[str, "where it holds"]
+    source: A[str, "where its formulas come from"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from types import NoneType
+from typing import Annotated as A
 from typing import Any, get_args, get_type_hints
 
 from beardyn_core.effects.about import About
@@ -12,19 +13,10 @@ from beardyn_core.effects.effect_set import EffectSet
 
 @dataclass(frozen=True)
 class Entry:
-    """One choice of the catalogue.
+    """One choice of the catalogue."""
 
-    Parameters
-    ----------
-    member : str
-        Name of the effect in an `EffectSet` and in a scene.
-    options : type
-        Its options; several choices of one effect have the same member.
-    about : About
-    """
-
-    member: str
-    options: type
+    member: A[str, "name of the effect in an `EffectSet` and in a scene"]
+    options: A[type, "its options; several choices of one effect have the same member"]
     about: About
 
 

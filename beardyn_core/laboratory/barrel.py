@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,34 +33,18 @@ _UNIT = 1e-6  # roller coordinates are solved in this unit, [m]
 
 @dataclass(frozen=True)
 class BarrelBearing:
-    """A double-row spherical roller bearing with symmetric rollers.
-
-    Parameters
-    ----------
-    name, source : str
-    roller_count : int
-        Per row.
-    pitch_diameter, roller_diameter, roller_length : float
-        [m].
-    contact_angle : float
-        [rad].
-    roller_contour, inner_contour : float
-        Radii of the roller's and of the inner raceway's profile, [m].
-    outer_sphere : float
-        Radius of the outer raceway, [m].
-    material : Material
-    """
+    """A double-row spherical roller bearing with symmetric rollers."""
 
     name: str
     source: str
-    roller_count: int
-    pitch_diameter: float
-    roller_diameter: float
-    roller_length: float
-    contact_angle: float
-    roller_contour: float
-    inner_contour: float
-    outer_sphere: float
+    roller_count: A[int, "per row"]
+    pitch_diameter: A[float, "[m]"]
+    roller_diameter: A[float, "[m]"]
+    roller_length: A[float, "[m]"]
+    contact_angle: A[float, "[rad]"]
+    roller_contour: A[float, "radius of the roller's profile, [m]"]
+    inner_contour: A[float, "radius of the inner raceway's profile, [m]"]
+    outer_sphere: A[float, "radius of the outer raceway, [m]"]
     material: Material
 
     @property
@@ -154,38 +139,21 @@ BARREL_22317 = BarrelBearing(
 
 @dataclass(frozen=True)
 class BarrelLoads:
-    """Loads of one row under a radial load, and those of the closed form.
+    """Loads of one row under a radial load, and those of the closed form."""
 
-    Parameters
-    ----------
-    force : float
-        Radial load on the bearing, [N].
-    displacement : float
-        Of the inner ring, [m].
-    azimuth, load, formula : float64 arrays, shape [roller]
-        [rad], [N], [N].
-    formula_displacement : float
-        [m].
-    integral_largest : float
-        Largest load by the load-zone integral instead of the sum over rollers, [N].
-    contact_angle : float64 array, shape [roller]
-        Under load at the outer raceway, nominal where a roller is free, [rad].
-    balance : float
-        Largest force that a roller's balance leaves over its load, [-].
-    searches : int
-        General searches it took.
-    """
-
-    force: float
-    displacement: float
-    azimuth: Float
-    load: Float
-    formula: Float
-    formula_displacement: float
-    integral_largest: float
-    contact_angle: Float
-    balance: float
-    searches: int
+    force: A[float, "radial load on the bearing, [N]"]
+    displacement: A[float, "of the inner ring, [m]"]
+    azimuth: A[Float, "shape [roller], [rad]"]
+    load: A[Float, "shape [roller], [N]"]
+    formula: A[Float, "shape [roller], by the closed form, [N]"]
+    formula_displacement: A[float, "[m]"]
+    integral_largest: A[float, "largest load by the load-zone integral instead of the sum over rollers, [N]"]
+    contact_angle: A[
+        Float,
+        "shape [roller], under load at the outer raceway, nominal where a roller is free, [rad]",
+    ]
+    balance: A[float, "largest force that a roller's balance leaves over its load, [-]"]
+    searches: A[int, "general searches it took"]
 
 
 class _Row:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -217,27 +218,15 @@ def pair_residual(p: Any, q: Any, cut: Any, form: Any, count: Any, x: Any, w: An
 
 @dataclass(frozen=True)
 class Batch:
-    """Pairs as arrays, with their starts.
+    """Pairs as arrays, with their starts."""
 
-    Parameters
-    ----------
-    p, q : float64 array, shape [pair, SHAPE_NUMBERS]
-    cut : int64 array, shape [pair]
-        Parameters of P.
-    forms : int64 array, shape [pair, 4, 2]
-    counts : int64 array, shape [pair]
-        Equations.
-    signed : bool array, shape [pair]
-    start : float64 array, shape [pair, 4]
-    """
-
-    p: Float
-    q: Float
-    cut: NDArray[np.int64]
-    forms: NDArray[np.int64]
-    counts: NDArray[np.int64]
-    signed: NDArray[np.bool_]
-    start: Float
+    p: A[Float, "shape [pair, SHAPE_NUMBERS]"]
+    q: A[Float, "shape [pair, SHAPE_NUMBERS]"]
+    cut: A[NDArray[np.int64], "shape [pair], parameters of P"]
+    forms: A[NDArray[np.int64], "shape [pair, 4, 2]"]
+    counts: A[NDArray[np.int64], "shape [pair], equations"]
+    signed: A[NDArray[np.bool_], "shape [pair]"]
+    start: A[Float, "shape [pair, 4]"]
 
     def solve(self, *, analytic: bool = True) -> tuple[Float, NDArray[np.int64], Float]:
         """Return parameters [pair, 4], iterations [pair] (-1: failed) and gaps [pair] of all pairs."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Annotated as A
 
 import numpy as np
 
@@ -42,71 +43,35 @@ GOOD_FRICTION = 2.0e-4  # transition speed of the run with little creep, [m/s]
 
 @dataclass(frozen=True)
 class LocatedContact:
-    """One of the nine contacts at the first time step, most loaded roller.
-
-    Parameters
-    ----------
-    name : str
-    abscissa : float
-        [m].
-    gap : float
-        By the general search, [m].
-    plain_difference, compiled_difference : float
-        Of the closed forms from it, [m].
-    p, q : tuple of 3 floats
-        Points found, in the frame of the roller's azimuth, [m].
-    """
+    """One of the nine contacts at the first time step, most loaded roller."""
 
     name: str
-    abscissa: float
-    gap: float
-    plain_difference: float
-    compiled_difference: float
-    p: tuple[float, float, float]
-    q: tuple[float, float, float]
+    abscissa: A[float, "[m]"]
+    gap: A[float, "by the general search, [m]"]
+    plain_difference: A[float, "of the plain closed forms from it, [m]"]
+    compiled_difference: A[float, "of the compiled ones, [m]"]
+    p: A[tuple[float, float, float], "point on P, in the frame of the roller's azimuth, [m]"]
+    q: A[tuple[float, float, float], "point on Q, [m]"]
 
 
 @dataclass(frozen=True)
 class Findings:
-    """Results of a run of the laboratory.
-
-    Parameters
-    ----------
-    bearing : Bearing
-    quick : bool
-    located : tuple of LocatedContact
-    row_difference : float
-        Largest difference of general search and closed forms over the whole row, [m].
-    by_contact : dict of name to tuple of MethodResult
-        Random rollers, starts at the nominal roller.
-    random_rollers : tuple of MethodResult
-        All contacts of them together.
-    whole_bearing : tuple of MethodResult
-        All rollers of a row at the first time step, warm starts.
-    forms : tuple of FormResult
-    shapes : tuple of RandomResult
-    spheres : tuple of SphereCase
-    rolling : tuple of Rolling
-    barrel : BarrelBearing
-    barrel_loads : tuple of BarrelLoads
-    seconds : float
-        Wall time of all this, [s].
-    """
+    """Results of a run of the laboratory."""
 
     bearing: Bearing
     quick: bool
     located: tuple[LocatedContact, ...]
-    row_difference: float
-    by_contact: dict[str, tuple[MethodResult, ...]]
-    random_rollers: tuple[MethodResult, ...]
-    whole_bearing: tuple[MethodResult, ...]
+    row_difference: A[float, "largest difference of general search and closed forms over the whole row, [m]"]
+    by_contact: A[dict[str, tuple[MethodResult, ...]], "random rollers, starts at the nominal roller"]
+    random_rollers: A[tuple[MethodResult, ...], "all contacts of them together"]
+    whole_bearing: A[tuple[MethodResult, ...], "all rollers of a row at the first time step, warm starts"]
     forms: tuple[FormResult, ...]
     shapes: tuple[RandomResult, ...]
     spheres: tuple[SphereCase, ...]
     rolling: tuple[Rolling, ...]
     barrel: BarrelBearing
     barrel_loads: tuple[BarrelLoads, ...]
-    seconds: float
+    seconds: A[float, "wall time of all this, [s]"]
 
     @property
     def searches_per_evaluation(self) -> int:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,42 +49,21 @@ PAIRINGS: dict[str, tuple[str, Form]] = {
 
 @dataclass(frozen=True)
 class RollerPose:
-    """Where a roller and the cone are, in the frame of the roller's azimuth.
+    """Where a roller and the cone are, in the frame of the roller's azimuth."""
 
-    Parameters
-    ----------
-    centre : float64 array, shape [3]
-        Mid-length of the roller, [m].
-    axis : float64 array, shape [3]
-        Unit vector to the large end.
-    cone : float64 array, shape [3]
-        Displacement of the cone against the cup, [m].
-    """
-
-    centre: Float
-    axis: Float
-    cone: Float
+    centre: A[Float, "shape [3], mid-length of the roller, [m]"]
+    axis: A[Float, "shape [3], unit vector to the large end"]
+    cone: A[Float, "shape [3], displacement of the cone against the cup, [m]"]
 
 
 @dataclass(frozen=True)
 class Contact:
-    """One contact search of a roller.
+    """One contact search of a roller."""
 
-    Parameters
-    ----------
-    name : str
-        One of `NAMES`.
-    abscissa : float
-        Of the disc from mid-length, [m]; 0 where there is none.
-    pair : Pair
-    start : float64 array
-        Parameters of the nominal roller.
-    """
-
-    name: str
-    abscissa: float
+    name: A[str, "one of `NAMES`"]
+    abscissa: A[float, "of the disc from mid-length, [m]; 0 where there is none"]
     pair: Pair
-    start: Float
+    start: A[Float, "parameters of the nominal roller"]
 
 
 def nominal_axis(bearing: Bearing) -> Float:
@@ -113,19 +93,12 @@ def disc_radius(bearing: Bearing, abscissa: float) -> float:
 
 @dataclass(frozen=True)
 class RibFace:
-    """Face of a rib as a cone: components of the normal into the rib, and a point of the face.
-
-    Parameters
-    ----------
-    normal_axial, normal_radial : float
-    axial, radial : float
-        [m].
-    """
+    """Face of a rib as a cone: components of the normal into the rib, and a point of the face."""
 
     normal_axial: float
     normal_radial: float
-    axial: float
-    radial: float
+    axial: A[float, "[m]"]
+    radial: A[float, "[m]"]
 
     @property
     def distance(self) -> float:

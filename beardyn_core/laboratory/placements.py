@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,23 +59,13 @@ def _moved(shape: Shape, origin: Float) -> Shape:
 
 @dataclass(frozen=True)
 class RandomCase:
-    """A pair of simple shapes apart from each other.
-
-    Parameters
-    ----------
-    name : str
-    form : Form
-    p, q : functions that draw a shape
-        P is then moved away from Q.
-    truth : function of both shapes
-        Least distance, [m].
-    """
+    """A pair of simple shapes apart from each other."""
 
     name: str
     form: Form
-    p: Callable[[Random], Shape]
-    q: Callable[[Random], Shape]
-    truth: Callable[..., float]
+    p: A[Callable[[Random], Shape], "draws a shape, which is then moved away from Q"]
+    q: A[Callable[[Random], Shape], "draws a shape"]
+    truth: A[Callable[..., float], "of both shapes, least distance, [m]"]
 
     def draw(self, random: Random) -> Pair:
         """Draw one placement."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -36,26 +37,13 @@ _FULL_FRICTION = 1.0 - math.exp(-3.0)
 
 @dataclass(frozen=True)
 class RollingBody:
-    """A body of revolution that touches with circles.
-
-    Parameters
-    ----------
-    name : str
-    radius : float
-        Of its circles, [m].
-    thickness : float
-        Overall, [m].
-    circles : int
-        Circles evenly along the thickness.
-    density : float
-        [kg/m^3].
-    """
+    """A body of revolution that touches with circles."""
 
     name: str
-    radius: float
-    thickness: float
-    circles: int
-    density: float = 7800.0
+    radius: A[float, "of its circles, [m]"]
+    thickness: A[float, "overall, [m]"]
+    circles: A[int, "circles evenly along the thickness"]
+    density: A[float, "[kg/m^3]"] = 7800.0
 
     @property
     def mass(self) -> float:
@@ -80,24 +68,13 @@ class RollingBody:
 
 @dataclass(frozen=True)
 class Trough:
-    """Cylindrical floor with a horizontal axis, and the contact laws.
+    """Cylindrical floor with a horizontal axis, and the contact laws."""
 
-    Parameters
-    ----------
-    radius : float
-        [m].
-    stiffness, damping : float
-        Of the whole body's contact, shared by its circles, [N/m], [N s/m].
-    friction : float
-    transition_speed : float
-        v_r of Threlfall's law, [m/s].
-    """
-
-    radius: float = 0.3
-    stiffness: float = 2.0e6
-    damping: float = 200.0
+    radius: A[float, "[m]"] = 0.3
+    stiffness: A[float, "of the whole body's contact, shared by its circles, [N/m]"] = 2.0e6
+    damping: A[float, "of the whole body's contact, shared by its circles, [N s/m]"] = 200.0
     friction: float = 0.25
-    transition_speed: float = 2.0e-3
+    transition_speed: A[float, "v_r of Threlfall's law, [m/s]"] = 2.0e-3
 
     def floor(self) -> Cone:
         """Build the floor: axis along z, body outside; its sweep angle starts at the lowest line."""
@@ -247,24 +224,16 @@ def roll(
 
 @dataclass(frozen=True)
 class Rolling:
-    """What a body did in the trough.
-
-    Parameters
-    ----------
-    body : RollingBody
-    trough : Trough
-    time : float64 array, shape [sample]
-        [s].
-    history : float64 array, shape [sample, column]
-        State, elastic energy, deepest penetration, three parameters of each contact.
-    failed_searches : int
-    searches : int
-    """
+    """What a body did in the trough."""
 
     body: RollingBody
     trough: Trough
-    time: Float
-    history: Float
+    time: A[Float, "shape [sample], [s]"]
+    history: A[
+        Float,
+        "shape [sample, column], state, elastic energy, deepest penetration, three parameters of each "
+        "contact",
+    ]
     failed_searches: int
     searches: int
 

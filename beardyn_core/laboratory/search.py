@@ -7,6 +7,7 @@ suits a pair of shape kinds. Plain NumPy, one pair at a time; `compiled` holds t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import Literal
 
 import numpy as np
@@ -29,20 +30,11 @@ DIFFERENCE = 1e-7  # of a parameter for the numeric Jacobian, [rad] or [m]
 
 @dataclass(frozen=True)
 class Form:
-    """One set of conditions.
-
-    Parameters
-    ----------
-    name : str
-    equations : tuple of pairs of rows
-        Whose scalar products vanish.
-    signed : bool
-        The gap is d . n_Q, negative inside the body; otherwise it is the length of d.
-    """
+    """One set of conditions."""
 
     name: str
-    equations: tuple[tuple[int, int], ...]
-    signed: bool = True
+    equations: A[tuple[tuple[int, int], ...], "pairs of rows, whose scalar products vanish"]
+    signed: A[bool, "the gap is d . n_Q, negative inside the body; otherwise it is the length of d"] = True
 
     def coded(self) -> NDArray[np.int64]:
         """Return the equations as an array, shape [4, 2], unused rows -1."""
@@ -70,13 +62,7 @@ FORMS = (SURFACES_PRINTED, SURFACES_CROSSED, SURFACES, SURFACE_LINE, LINES, LINE
 
 @dataclass(frozen=True)
 class Pair:
-    """Two shapes that may touch.
-
-    Parameters
-    ----------
-    p, q : Shape
-    form : Form
-    """
+    """Two shapes that may touch."""
 
     p: Shape
     q: Shape
@@ -85,27 +71,14 @@ class Pair:
 
 @dataclass(frozen=True)
 class Found:
-    """What a search found.
+    """What a search found."""
 
-    Parameters
-    ----------
-    parameters : float64 array
-        Of P, then of Q.
-    iterations : int
-        Newton steps, or evaluations of the root finder.
-    converged : bool
-    gap : float
-        d . n_Q, or the length of d, [m].
-    p, q : float64 array, shape [3]
-        The points, [m].
-    """
-
-    parameters: Float
-    iterations: int
+    parameters: A[Float, "of P, then of Q"]
+    iterations: A[int, "Newton steps, or evaluations of the root finder"]
     converged: bool
-    gap: float
-    p: Float
-    q: Float
+    gap: A[float, "d . n_Q, or the length of d, [m]"]
+    p: A[Float, "shape [3], point on P, [m]"]
+    q: A[Float, "shape [3], point on Q, [m]"]
 
 
 def vectors(pair: Pair, parameters: Float) -> Float:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,22 +31,12 @@ def unit(vector: ArrayLike) -> Float:
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a shape is: origin and three orthonormal axes, shape [3] each.
+    """Where a shape is: origin and three orthonormal axes, shape [3] each."""
 
-    Parameters
-    ----------
-    origin : float64 array
-        [m].
-    east, north : float64 array
-        Directions of the sweep angle 0 and 90 deg.
-    pole : float64 array
-        Axis of revolution, direction of a straight line.
-    """
-
-    origin: Float
-    east: Float
-    north: Float
-    pole: Float
+    origin: A[Float, "[m]"]
+    east: A[Float, "direction of the sweep angle 0 deg"]
+    north: A[Float, "direction of the sweep angle 90 deg"]
+    pole: A[Float, "axis of revolution, direction of a straight line"]
 
 
 def placed(origin: ArrayLike, pole: ArrayLike, east: ArrayLike = (1.0, 0.0, 0.0)) -> Placement:
@@ -62,22 +53,12 @@ def placed(origin: ArrayLike, pole: ArrayLike, east: ArrayLike = (1.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Frame:
-    """A point of a shape with its vectors.
+    """A point of a shape with its vectors."""
 
-    Parameters
-    ----------
-    point : float64 array, shape [3]
-        [m].
-    vectors : float64 array, shape [3, 3]
-        Rows t, b, n.
-    point_slopes : float64 array, shape [parameter, 3]
-    vector_slopes : float64 array, shape [parameter, 3, 3]
-    """
-
-    point: Float
-    vectors: Float
-    point_slopes: Float
-    vector_slopes: Float
+    point: A[Float, "shape [3], [m]"]
+    vectors: A[Float, "shape [3, 3], rows t, b, n"]
+    point_slopes: A[Float, "shape [parameter, 3]"]
+    vector_slopes: A[Float, "shape [parameter, 3, 3]"]
 
 
 @dataclass(frozen=True)
@@ -149,22 +130,11 @@ class _Revolved(Shape):
 
 @dataclass(frozen=True)
 class Cone(_Revolved):
-    """Cone or cylinder without ends.
+    """Cone or cylinder without ends."""
 
-    Parameters
-    ----------
-    place : Placement
-    radius : float
-        At the origin, [m].
-    angle : float
-        Between generator and axis, + when it widens along the pole, [rad].
-    side : float
-        +1: the body is inside, its normal points outwards; -1: the body is outside.
-    """
-
-    radius: float
-    angle: float = 0.0
-    side: float = 1.0
+    radius: A[float, "at the origin, [m]"]
+    angle: A[float, "between generator and axis, + when it widens along the pole, [rad]"] = 0.0
+    side: A[float, "+1: the body is inside, its normal points outwards; -1: the body is outside"] = 1.0
 
     def _meridian(self, u: float) -> tuple[Float, Float, Float, Float, Float, Float]:
         tangent = np.array([math.sin(self.angle), math.cos(self.angle)])
@@ -184,22 +154,11 @@ class Cone(_Revolved):
 
 @dataclass(frozen=True)
 class Arc(_Revolved):
-    """Sphere, torus or barrel: an arc swept about the axis.
+    """Sphere, torus or barrel: an arc swept about the axis."""
 
-    Parameters
-    ----------
-    place : Placement
-    ring_radius : float
-        Of the arc's centre from the axis: 0 for a sphere, negative for a barrel, [m].
-    radius : float
-        Of the arc, [m].
-    side : float
-        +1: the body is inside the arc; -1: it is outside.
-    """
-
-    ring_radius: float
-    radius: float
-    side: float = 1.0
+    ring_radius: A[float, "of the arc's centre from the axis: 0 for a sphere, negative for a barrel, [m]"]
+    radius: A[float, "of the arc, [m]"]
+    side: A[float, "+1: the body is inside the arc; -1: it is outside"] = 1.0
 
     def _meridian(self, u: float) -> tuple[Float, Float, Float, Float, Float, Float]:
         outward, ahead = np.array([math.cos(u), math.sin(u)]), np.array([-math.sin(u), math.cos(u)])
@@ -223,17 +182,9 @@ class _Line(Shape):
 
 @dataclass(frozen=True)
 class Circle(_Line):
-    """Circle about the pole; its normal is radial and its binormal axial.
+    """Circle about the pole, its centre in the origin; its normal is radial and its binormal axial."""
 
-    Parameters
-    ----------
-    place : Placement
-        The origin is the centre.
-    radius : float
-        [m].
-    """
-
-    radius: float
+    radius: A[float, "[m]"]
 
     def frame(self, parameters: Float) -> Frame:
         """Return the frame at a place along the line."""
@@ -260,15 +211,9 @@ class Circle(_Line):
 
 @dataclass(frozen=True)
 class FaceCircle(Circle):
-    """The same circle as the edge of a flat end: its normal is axial and its binormal radial.
+    """The same circle as the edge of a flat end: its normal is axial and its binormal radial."""
 
-    Parameters
-    ----------
-    side : float
-        +1 when the end looks along the pole, else -1.
-    """
-
-    side: float = 1.0
+    side: A[float, "+1 when the end looks along the pole, else -1"] = 1.0
 
     def frame(self, parameters: Float) -> Frame:
         """Return the frame at a place along the line."""

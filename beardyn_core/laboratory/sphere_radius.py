@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -35,43 +36,23 @@ _LONGEST_MOVE = 2e-3
 
 @dataclass(frozen=True)
 class SphereCase:
-    """One radius of the roller end.
+    """One radius of the roller end."""
 
-    Parameters
-    ----------
-    ratio : float
-        Sphere radius over the distance from the apex to the edge of the large end, [-].
-    radius : float
-        [m].
-    search_height, bounded_height : float
-        Of the contact over the cone raceway, by the general search and by the bounded closed form, [m].
-    search_gap : float
-        Of the general search with the roller pushed in, [m].
-    search_converged : bool
-    condition : float
-        Of its Jacobian.
-    on_face, in_rim : bool
-        Whether its contact lies on the rib face, and within the rim of the roller end.
-    bounded_depth : float
-        Penetration of the bounded closed form, [m].
-    carried_by : str
-        Part that bears in the bounded closed form: ``face``, ``edge of the face`` or ``rim``.
-    refused : bool
-        Whether the consistency check of the bearing refuses this radius.
-    """
-
-    ratio: float
-    radius: float
-    search_height: float
-    bounded_height: float
-    search_gap: float
+    ratio: A[float, "sphere radius over the distance from the apex to the edge of the large end, [-]"]
+    radius: A[float, "[m]"]
+    search_height: A[float, "of the contact over the cone raceway, by the general search, [m]"]
+    bounded_height: A[float, "the same by the bounded closed form, [m]"]
+    search_gap: A[float, "of the general search with the roller pushed in, [m]"]
     search_converged: bool
-    condition: float
-    on_face: bool
-    in_rim: bool
-    bounded_depth: float
-    carried_by: str
-    refused: bool
+    condition: A[float, "of its Jacobian"]
+    on_face: A[bool, "whether its contact lies on the rib face"]
+    in_rim: A[bool, "whether it lies within the rim of the roller end"]
+    bounded_depth: A[float, "penetration of the bounded closed form, [m]"]
+    carried_by: A[
+        str,
+        "part that bears in the bounded closed form: ``face``, ``edge of the face`` or ``rim``",
+    ]
+    refused: A[bool, "whether the consistency check of the bearing refuses this radius"]
 
 
 @entry

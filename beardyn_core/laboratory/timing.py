@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -51,53 +52,26 @@ _PLAIN_SOLVERS = {METHODS[0]: "fsolve", METHODS[1]: "numeric", METHODS[2]: "anal
 
 @dataclass(frozen=True)
 class MethodResult:
-    """What one method did on a set of pairs.
+    """What one method did on a set of pairs."""
 
-    Parameters
-    ----------
-    method : str
-        One of `METHODS`.
-    microseconds : float
-        Per search, median over blocks.
-    iterations : float or None
-        Mean; evaluations of the residual for fsolve; none for closed forms.
-    failures : float
-        Share that did not converge or is off by more than `FAILURE`, [-].
-    largest_error : float
-        Of the gap, among those that did not fail, [m].
-    """
-
-    method: str
-    microseconds: float
-    iterations: float | None
-    failures: float
-    largest_error: float
+    method: A[str, "one of `METHODS`"]
+    microseconds: A[float, "per search, median over blocks"]
+    iterations: A[float | None, "mean; evaluations of the residual for fsolve; none for closed forms"]
+    failures: A[float, "share that did not converge or is off by more than `FAILURE`, [-]"]
+    largest_error: A[float, "of the gap, among those that did not fail, [m]"]
 
 
 @dataclass(frozen=True)
 class Setting:
-    """Pairs with starts and true gaps, for all methods.
-
-    Parameters
-    ----------
-    name : str
-    pairs : tuple of Pair
-    starts : tuple of float64 arrays
-    truth : float64 array, shape [pair]
-        [m].
-    plain_closed, compiled_closed : functions of no argument, or None
-        Give all gaps; those of the closed forms.
-    closed_compiled_in_place : function of no argument, or None
-        The same for timing.
-    """
+    """Pairs with starts and true gaps, for all methods."""
 
     name: str
     pairs: tuple[Pair, ...]
     starts: tuple[Float, ...]
-    truth: Float
-    plain_closed: Callable[[], Float] | None = None
-    compiled_closed: Callable[[], Float] | None = None
-    closed_compiled_in_place: Callable[[], None] | None = None
+    truth: A[Float, "shape [pair], [m]"]
+    plain_closed: A[Callable[[], Float] | None, "give all gaps by the closed forms"] = None
+    compiled_closed: A[Callable[[], Float] | None, "the same, compiled"] = None
+    closed_compiled_in_place: A[Callable[[], None] | None, "the same for timing"] = None
 
 
 def _rated(
@@ -272,21 +246,12 @@ def bearing_setting(
 
 @dataclass(frozen=True)
 class RandomResult:
-    """How the search does on random placements of simple shapes.
-
-    Parameters
-    ----------
-    case, start : str
-        Start: ``near`` (nearest to the other's centre) or ``random``.
-    methods : tuple of MethodResult
-    elsewhere : float
-        Share that converged, but to another stationary pair of points, [-].
-    """
+    """How the search does on random placements of simple shapes."""
 
     case: str
-    start: str
+    start: A[str, "``near`` (nearest to the other's centre) or ``random``"]
     methods: tuple[MethodResult, ...]
-    elsewhere: float
+    elsewhere: A[float, "share that converged, but to another stationary pair of points, [-]"]
 
 
 def random_results(count: int, *, blocks: int, sweeps: int, seed: int = 11) -> list[RandomResult]:
@@ -314,26 +279,16 @@ def _drawn(case: RandomCase, count: int, seed: int) -> tuple[tuple[Pair, ...], F
 
 @dataclass(frozen=True)
 class FormResult:
-    """How one form of the surface-surface conditions does on the contact of sphere and rib.
-
-    Parameters
-    ----------
-    form : str
-    failures : float
-        [-].
-    iterations : float or None
-        Mean, of those that converged.
-    condition : float
-        Median of the Jacobian at the true contact.
-    even_condition : float
-        The same for the roller in its place, whose axis and the bearing's lie in one plane.
-    """
+    """How one form of the surface-surface conditions does on the contact of sphere and rib."""
 
     form: str
-    failures: float
-    iterations: float | None
-    condition: float
-    even_condition: float
+    failures: A[float, "[-]"]
+    iterations: A[float | None, "mean, of those that converged"]
+    condition: A[float, "median of the Jacobian at the true contact"]
+    even_condition: A[
+        float,
+        "the same for the roller in its place, whose axis and the bearing's lie in one plane",
+    ]
 
 
 def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[Form]) -> list[FormResult]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Annotated as A
 from typing import Protocol
 
 import numpy as np
@@ -31,27 +32,16 @@ SMALLEST_LOSS = 0.1
 
 @dataclass(frozen=True)
 class EnergyAudit:
-    """Energy terms since the start of the run, each from its own force times velocity, [J].
+    """Energy terms since the start of the run, each from its own force times velocity, [J]."""
 
-    Parameters
-    ----------
-    external : float
-        Work of the load, the shaft drive, gravity and the bogie motion.
-    dissipated : float
-        Work lost in all sources of `losses`.
-    numerical : float
-        Dissipation of the time step itself, listed apart.
-    stored : float
-        Change of kinetic and elastic energy.
-    losses : tuple of floats
-        The dissipated energy by source, in the order of ``model.layout.LOSS_NAMES``; empty when not known.
-    """
-
-    external: float
-    dissipated: float
-    numerical: float
-    stored: float
-    losses: tuple[float, ...] = ()
+    external: A[float, "work of the load, the shaft drive, gravity and the bogie motion"]
+    dissipated: A[float, "work lost in all sources of `losses`"]
+    numerical: A[float, "dissipation of the time step itself, listed apart"]
+    stored: A[float, "change of kinetic and elastic energy"]
+    losses: A[
+        tuple[float, ...],
+        "the dissipated energy by source, in the order of ``model.layout.LOSS_NAMES``; empty when not known",
+    ] = ()
 
     @classmethod
     def of(cls, since: Float) -> EnergyAudit:
@@ -99,96 +89,60 @@ class Pictures(Protocol):
 
 @dataclass(frozen=True)
 class Vibration:
-    """Readings of one accelerometer during a block.
+    """Readings of one accelerometer during a block."""
 
-    Parameters
-    ----------
-    rate : float
-        [Hz].
-    sample : int
-        Running index of the first sample.
-    time_ns : int64 array, shape [sample]
-        True time of each sample; the delay of the anti-alias filter is compensated, [ns].
-    acceleration : float64 array, shape [sample, 3]
-        Specific force: +g on z at rest, [m/s^2].
-    """
-
-    rate: float
-    sample: int
-    time_ns: Int
-    acceleration: Float
+    rate: A[float, "[Hz]"]
+    sample: A[int, "running index of the first sample"]
+    time_ns: A[
+        Int,
+        "shape [sample], true time of each sample; the delay of the anti-alias filter is compensated, [ns]",
+    ]
+    acceleration: A[Float, "shape [sample, 3], specific force: +g on z at rest, [m/s^2]"]
 
 
 @dataclass(frozen=True)
 class Block:
-    """One block of simulated time, world axes, SI.
+    """One block of simulated time, world axes, SI."""
 
-    Parameters
-    ----------
-    index : int
-        Running number of the block, counted in 20 ms; of the first one where it holds several.
-    start_ns, end_ns : int
-        Simulated time at its first and after its last step, [ns].
-    waveform_sample : int
-        Running index of the first waveform sample.
-    waveform_time_ns : int64 array, shape [sample]
-        True time of each waveform sample; the delay of the anti-alias filter is compensated, [ns].
-    force_waveform : float64 array, shape [sample, 6]
-        Force and moment of the rollers on the cup at the bearing centre, [N, N m].
-    vibration : tuple of Vibration
-        Of each accelerometer, in the order of the scene.
-    trend_sample : int
-        Running index of the first trend sample (400 Hz).
-    trend_time_ns : int64 array, shape [trend], [ns]
-    force : float64 array, shape [trend, 6], [N, N m]
-    load : float64 array, shape [trend, 6]
-        Load on the journal, [N, N m].
-    specific_force : float64 array, shape [trend, 3]
-        First accelerometer decimated for plots, [m/s^2].
-    shaft_angle, shaft_speed, shaft_torque : float64 array, shape [trend], [rad, rad/s, N m]
-    cage_angle, cage_speed : float64 array, shape [trend, row], [rad, rad/s]
-    roller_angle, roller_speed : float64 array, shape [trend, row, roller]
-        Orbit angle (from +z towards +x) and speed, [rad, rad/s].
-    snapshot_sample : int
-        Running index of the first snapshot (200 Hz).
-    snapshot_time_ns : int64 array, shape [snapshot], [ns]
-    pictures : Pictures
-        Bodies and contacts at the snapshots: look at `body_pose`, `body_twist` and `contacts`.
-    status : int
-        Bit flags of `integrate.status`.
-    audit : EnergyAudit or None
-    wall_s : float
-        Wall time the block took to compute, [s].
-    temperature : float64 array or None, shape [node]
-        Of `model.heat.NODES` at the end of the block, with the thermal effect, [K].
-    """
-
-    index: int
-    start_ns: int
-    end_ns: int
-    waveform_sample: int
-    waveform_time_ns: Int
-    force_waveform: Float
-    vibration: tuple[Vibration, ...]
-    trend_sample: int
-    trend_time_ns: Int
-    force: Float
-    load: Float
-    specific_force: Float
-    shaft_angle: Float
-    shaft_speed: Float
-    shaft_torque: Float
-    cage_angle: Float
-    cage_speed: Float
-    roller_angle: Float
-    roller_speed: Float
-    snapshot_sample: int
-    snapshot_time_ns: Int
-    pictures: Pictures
-    status: int
+    index: A[int, "running number of the block, counted in 20 ms; of the first one where it holds several"]
+    start_ns: A[int, "simulated time at its first step, [ns]"]
+    end_ns: A[int, "after its last step, [ns]"]
+    waveform_sample: A[int, "running index of the first waveform sample"]
+    waveform_time_ns: A[
+        Int,
+        "shape [sample], true time of each waveform sample; the delay of the anti-alias filter is "
+        "compensated, [ns]",
+    ]
+    force_waveform: A[
+        Float,
+        "shape [sample, 6], force and moment of the rollers on the cup at the bearing centre, [N, N m]",
+    ]
+    vibration: A[tuple[Vibration, ...], "of each accelerometer, in the order of the scene"]
+    trend_sample: A[int, "running index of the first trend sample (400 Hz)"]
+    trend_time_ns: A[Int, "shape [trend], [ns]"]
+    force: A[Float, "shape [trend, 6], [N, N m]"]
+    load: A[Float, "shape [trend, 6], load on the journal, [N, N m]"]
+    specific_force: A[Float, "shape [trend, 3], first accelerometer decimated for plots, [m/s^2]"]
+    shaft_angle: A[Float, "shape [trend], [rad]"]
+    shaft_speed: A[Float, "shape [trend], [rad/s]"]
+    shaft_torque: A[Float, "shape [trend], [N m]"]
+    cage_angle: A[Float, "shape [trend, row], [rad]"]
+    cage_speed: A[Float, "shape [trend, row], [rad/s]"]
+    roller_angle: A[Float, "shape [trend, row, roller], orbit angle from +z towards +x, [rad]"]
+    roller_speed: A[Float, "shape [trend, row, roller], orbit speed, [rad/s]"]
+    snapshot_sample: A[int, "running index of the first snapshot (200 Hz)"]
+    snapshot_time_ns: A[Int, "shape [snapshot], [ns]"]
+    pictures: A[
+        Pictures,
+        "bodies and contacts at the snapshots: look at `body_pose`, `body_twist` and `contacts`",
+    ]
+    status: A[int, "bit flags of `integrate.status`"]
     audit: EnergyAudit | None
-    wall_s: float
-    temperature: Float | None = None
+    wall_s: A[float, "wall time the block took to compute, [s]"]
+    temperature: A[
+        Float | None,
+        "shape [node], of `model.heat.NODES` at the end of the block, with the thermal effect, [K]",
+    ] = None
 
     def __repr__(self) -> str:
         """Give number, time and what it holds, in one line."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -91,24 +92,12 @@ def resample_by_angle(signal: Float, angle: Float, samples_per_revolution: int) 
 
 @dataclass(frozen=True)
 class OrderSpectrum:
-    """Amplitude spectrum over multiples of the shaft speed.
+    """Amplitude spectrum over multiples of the shaft speed."""
 
-    Parameters
-    ----------
-    order : float64 array, shape [line]
-        Cycles per shaft revolution, [-].
-    amplitude : float64 array, shape [line]
-        One-sided peak amplitude, unit of the signal.
-    level : float64 array, shape [line]
-        Amplitude over the local background, [dB].
-    resolution : float
-        One over the revolutions analysed, [-].
-    """
-
-    order: Float
-    amplitude: Float
-    level: Float
-    resolution: float
+    order: A[Float, "shape [line], cycles per shaft revolution, [-]"]
+    amplitude: A[Float, "shape [line], one-sided peak amplitude, unit of the signal"]
+    level: A[Float, "shape [line], amplitude over the local background, [dB]"]
+    resolution: A[float, "one over the revolutions analysed, [-]"]
 
 
 def order_spectrum(

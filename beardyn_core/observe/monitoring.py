@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,31 +32,16 @@ _LEAST_HEATING_NS = 10_000_000_000
 
 @dataclass(frozen=True)
 class MonitorInput:
-    """Signals of a short time that a train passes to its monitor; the only input of a `Monitor`.
+    """Signals of a short time that a train passes to its monitor; the only input of a `Monitor`."""
 
-    Parameters
-    ----------
-    vibration_time_ns : int64 array, shape [sample], [ns]
-    acceleration : float64 array, shape [sample, 3]
-        Of the first accelerometer, [m/s^2].
-    shaft_time_ns : int64 array, shape [sample], [ns]
-    shaft_angle : float64 array, shape [sample], [rad]
-    load_time_ns : int64 array, shape [sample], [ns]
-    vertical_load : float64 array, shape [sample], [N]
-    temperature_time_ns : int64 array, shape [sample], [ns]
-        Empty without a thermometer.
-    temperature : float64 array, shape [sample]
-        Of the axlebox, [K].
-    """
-
-    vibration_time_ns: Int
-    acceleration: Float
-    shaft_time_ns: Int
-    shaft_angle: Float
-    load_time_ns: Int
-    vertical_load: Float
-    temperature_time_ns: Int
-    temperature: Float
+    vibration_time_ns: A[Int, "shape [sample], [ns]"]
+    acceleration: A[Float, "shape [sample, 3], of the first accelerometer, [m/s^2]"]
+    shaft_time_ns: A[Int, "shape [sample], [ns]"]
+    shaft_angle: A[Float, "shape [sample], [rad]"]
+    load_time_ns: A[Int, "shape [sample], [ns]"]
+    vertical_load: A[Float, "shape [sample], [N]"]
+    temperature_time_ns: A[Int, "shape [sample], [ns], empty without a thermometer"]
+    temperature: A[Float, "shape [sample], of the axlebox, [K]"]
 
     @classmethod
     def of_block(cls, block: Block) -> MonitorInput:

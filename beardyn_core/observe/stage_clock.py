@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,18 +19,10 @@ STAGES = (*KERNEL_STAGES, KERNEL, LOAD, OBSERVE, SINKS, REST)
 
 @dataclass(frozen=True)
 class StageTime:
-    """Wall time of one stage.
+    """Wall time of one stage."""
 
-    Parameters
-    ----------
-    stage : str
-        One of `STAGES`.
-    seconds : float
-        Wall time, [s].
-    """
-
-    stage: str
-    seconds: float
+    stage: A[str, "one of `STAGES`"]
+    seconds: A[float, "wall time, [s]"]
 
 
 class StageClock:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,66 +22,51 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class RunSummary:
-    """Summary of a run; means over the last whole cage revolutions.
-
-    Parameters
-    ----------
-    scene, tier : str
-    effects : tuple of str
-        Names of the effects that were present.
-    not_in_tier : tuple of str
-        Names of the effects that the scene asks for and the tier does not represent.
-    duration : float
-        Simulated, [s].
-    wall_time : float
-        Spent in the simulation itself, without compiling, recording and drawing, [s].
-    status : str
-        ``complete``, or the sentence that says how the run left its validity.
-    mean_force : tuple of 3 floats
-        Of the rollers on the cup, world axes, [N].
-    shaft_torque : float
-        Mean torque of the bearing on the shaft, [N m].
-    cage_speed_ratio : tuple of floats, one a row
-        Cage speed over FTF and shaft speed, nominal 1; NaN with the shaft at rest.
-    energy_residual : float or None
-        Of the audit at the end; ``None`` without audit.
-    budget : TorqueBudget or None
-        Losses by source over the whole blocks of the means; ``None`` without audit.
-    averaged : tuple of 2 floats
-        First and last time of the means, [s].
-    cage_revolutions : int
-        Whole revolutions of the cage that the means cover; 0 when the run was shorter than one.
-    life : RatingLife or None
-        Under the run's load history; ``None`` when the shaft stood, or no equilibrium carries a load class.
-    faults : tuple of str
-        Defects and waviness of the scene in words.
-    temperatures : tuple of (part, temperature) pairs
-        At the end, with the thermal effect, [K].
-    clipped : tuple of (sensor, samples, all samples) tuples
-        Accelerometers that have read their largest value, and how often.
-    stages : tuple of StageTime
-        Where the wall time from the first block to the last went, recording and drawing included.
-    """
+    """Summary of a run; means over the last whole cage revolutions."""
 
     scene: str
     tier: str
-    effects: tuple[str, ...]
-    not_in_tier: tuple[str, ...]
-    duration: float
-    wall_time: float
-    status: str
-    mean_force: tuple[float, float, float]
-    shaft_torque: float
-    cage_speed_ratio: tuple[float, ...]
-    energy_residual: float | None
-    budget: TorqueBudget | None
-    averaged: tuple[float, float]
-    cage_revolutions: int
-    life: RatingLife | None = None
-    faults: tuple[str, ...] = ()
-    temperatures: tuple[tuple[str, float], ...] = ()
-    clipped: tuple[tuple[str, int, int], ...] = ()
-    stages: tuple[StageTime, ...] = ()
+    effects: A[tuple[str, ...], "names of the effects that were present"]
+    not_in_tier: A[
+        tuple[str, ...],
+        "names of the effects that the scene asks for and the tier does not represent",
+    ]
+    duration: A[float, "simulated, [s]"]
+    wall_time: A[float, "spent in the simulation itself, without compiling, recording and drawing, [s]"]
+    status: A[str, "``complete``, or the sentence that says how the run left its validity"]
+    mean_force: A[tuple[float, float, float], "of the rollers on the cup, world axes, [N]"]
+    shaft_torque: A[float, "mean torque of the bearing on the shaft, [N m]"]
+    cage_speed_ratio: A[
+        tuple[float, ...],
+        "one a row, cage speed over FTF and shaft speed, nominal 1; NaN with the shaft at rest",
+    ]
+    energy_residual: A[float | None, "of the audit at the end; ``None`` without audit"]
+    budget: A[
+        TorqueBudget | None,
+        "losses by source over the whole blocks of the means; ``None`` without audit",
+    ]
+    averaged: A[tuple[float, float], "first and last time of the means, [s]"]
+    cage_revolutions: A[
+        int,
+        "whole revolutions of the cage that the means cover; 0 when the run was shorter than one",
+    ]
+    life: A[
+        RatingLife | None,
+        "under the run's load history; ``None`` when the shaft stood, or no equilibrium carries a load class",
+    ] = None
+    faults: A[tuple[str, ...], "defects and waviness of the scene in words"] = ()
+    temperatures: A[
+        tuple[tuple[str, float], ...],
+        "(part, temperature) pairs, at the end, with the thermal effect, [K]",
+    ] = ()
+    clipped: A[
+        tuple[tuple[str, int, int], ...],
+        "(sensor, samples, all samples), accelerometers that have read their largest value, and how often",
+    ] = ()
+    stages: A[
+        tuple[StageTime, ...],
+        "where the wall time from the first block to the last went, recording and drawing included",
+    ] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -100,28 +86,17 @@ class RunSummary:
 
 @dataclass(frozen=True)
 class TrendMeans:
-    """Means of a run over its last whole cage revolutions.
+    """Means of a run over its last whole cage revolutions."""
 
-    Parameters
-    ----------
-    force : tuple of 3 floats
-        Of the rollers on the cup, [N]; NaN like the others when there is nothing to average.
-    torque, shaft_speed : float
-        [N m], [rad/s].
-    cage_speed : tuple of 2 floats
-        Of each row, [rad/s].
-    averaged : tuple of 2 floats
-        First and last time, [s].
-    revolutions : int
-        Whole revolutions of the cage.
-    """
-
-    force: tuple[float, float, float] = (math.nan, math.nan, math.nan)
-    torque: float = math.nan
-    shaft_speed: float = math.nan
-    cage_speed: tuple[float, ...] = (math.nan, math.nan)
-    averaged: tuple[float, float] = (0.0, 0.0)
-    revolutions: int = 0
+    force: A[
+        tuple[float, float, float],
+        "of the rollers on the cup, [N]; NaN like the others when there is nothing to average",
+    ] = (math.nan, math.nan, math.nan)
+    torque: A[float, "[N m]"] = math.nan
+    shaft_speed: A[float, "[rad/s]"] = math.nan
+    cage_speed: A[tuple[float, ...], "of each row, [rad/s]"] = (math.nan, math.nan)
+    averaged: A[tuple[float, float], "first and last time, [s]"] = (0.0, 0.0)
+    revolutions: A[int, "whole revolutions of the cage"] = 0
 
     def cage_speed_ratio(self, ftf: float, rows: int) -> tuple[float, ...]:
         """Compare the speed of each cage with that of pure rolling: nominal 1, NaN with the shaft at rest."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -17,35 +18,16 @@ NUMERICAL = "time_step"
 
 @dataclass(frozen=True)
 class LossShare:
-    """One source of loss.
+    """One source of loss."""
 
-    Parameters
-    ----------
-    source : str
-        One of ``LOSS_NAMES``, or `NUMERICAL` for what the implicit time step itself loses.
-    power : float
-        Mean dissipated power, [W].
-    torque : float
-        The same power over the mean shaft speed, NaN with the shaft at rest, [N m].
-    """
-
-    source: str
-    power: float
-    torque: float
+    source: A[str, "one of ``LOSS_NAMES``, or `NUMERICAL` for what the implicit time step itself loses"]
+    power: A[float, "mean dissipated power, [W]"]
+    torque: A[float, "the same power over the mean shaft speed, NaN with the shaft at rest, [N m]"]
 
 
 @dataclass(frozen=True)
 class TorqueBudget:
     """Losses of a run by source.
-
-    Parameters
-    ----------
-    begin, end : float
-        Time that the means cover, [s].
-    shaft_speed : float
-        Mean amount of the shaft speed in that time, [rad/s].
-    shares : tuple of LossShare
-        Every source, the time step last.
 
     Notes
     -----
@@ -53,10 +35,10 @@ class TorqueBudget:
     other sign; else the change of the stored energy and the work of the load make the difference.
     """
 
-    begin: float
-    end: float
-    shaft_speed: float
-    shares: tuple[LossShare, ...]
+    begin: A[float, "time from which the means are taken, [s]"]
+    end: A[float, "time up to which they are, [s]"]
+    shaft_speed: A[float, "mean amount of the shaft speed in that time, [rad/s]"]
+    shares: A[tuple[LossShare, ...], "every source, the time step last"]
 
     @property
     def power(self) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,21 +21,17 @@ HALF_GAUGE = 0.75
 
 @dataclass(frozen=True)
 class Course:
-    """The track's plan along the run, in the axes of the track: y to the left, z off its plane.
+    """The track's plan along the run, in the axes of the track: y to the left, z off its plane."""
 
-    Parameters
-    ----------
-    curvature : float64 array, shape [step]
-        Positive where the track turns left, [1/m].
-    lean : float64 array, shape [step]
-        Unbalanced lateral acceleration that the vehicle feels, positive to the left, [m/s^2].
-    press : float64 array, shape [step]
-        What it feels at right angles to the track beyond gravity, downwards, [m/s^2].
-    """
-
-    curvature: Float
-    lean: Float
-    press: Float
+    curvature: A[Float, "shape [step], positive where the track turns left, [1/m]"]
+    lean: A[
+        Float,
+        "shape [step], unbalanced lateral acceleration that the vehicle feels, positive to the left, [m/s^2]",
+    ]
+    press: A[
+        Float,
+        "shape [step], what it feels at right angles to the track beyond gravity, downwards, [m/s^2]",
+    ]
 
 
 def course(curves: tuple[Curve, ...], position: Float, speed: Float) -> Course:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,24 +46,12 @@ _MOST_POINTS = 2**23
 
 @dataclass(frozen=True)
 class RailProfile:
-    """A periodic profile of the rail on a uniform grid, with its exact first derivative.
+    """A periodic profile of the rail on a uniform grid, with its exact first derivative."""
 
-    Parameters
-    ----------
-    spacing : float
-        Between grid points, [m].
-    height : float64 array, shape [point]
-        Upwards, [m].
-    slope : float64 array, shape [point]
-        First derivative along the track, [-].
-    finer : RailProfile or None
-        Short waves on a grid of their own, that add to it.
-    """
-
-    spacing: float
-    height: Float
-    slope: Float
-    finer: RailProfile | None = None
+    spacing: A[float, "between grid points, [m]"]
+    height: A[Float, "shape [point], upwards, [m]"]
+    slope: A[Float, "shape [point], first derivative along the track, [-]"]
+    finer: A[RailProfile | None, "short waves on a grid of their own, that add to it"] = None
 
     @property
     def period(self) -> float:

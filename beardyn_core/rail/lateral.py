@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,57 +28,40 @@ _WALK = 0.5
 
 @dataclass(frozen=True)
 class LateralVehicle:
-    """Half a wheelset with its axlebox, a quarter of a bogie, an eighth of the body.
+    """Half a wheelset with its axlebox, a quarter of a bogie, an eighth of the body."""
 
-    Parameters
-    ----------
-    mass : float64 array, shape [4]
-        Of `SIDEWAYS`, `YAW` (of the half wheelset, [kg m^2]), `FRAME` and `CAR`, [kg].
-    stiffness, damping : float64 array, shape [4, 4]
-        Of primary and secondary suspension, [N/m], [N s/m] ([N m/rad], [N m s/rad] in yaw).
-    creep : float
-        Creep coefficient of one wheel, longitudinal and lateral, [N].
-    creep_limit : float
-        Friction force of one wheel, [N].
-    steering : float
-        Conicity over the wheel radius, [1/m].
-    clearance : float
-        From the middle of the track to the flange contact, [m].
-    flange_stiffness, flange_damping : float
-        Half of one rail's, [N/m], [N s/m].
-    journal_yaw : float
-        Moment of inertia of the half wheelset and the axlebox as masses at the bearing, [kg m^2].
-    """
-
-    mass: Float
-    stiffness: Float
-    damping: Float
-    creep: float
-    creep_limit: float
-    steering: float
-    clearance: float
-    flange_stiffness: float
-    flange_damping: float
-    journal_yaw: float
+    mass: A[
+        Float,
+        "shape [4], of `SIDEWAYS`, `YAW` (of the half wheelset, [kg m^2]), `FRAME` and `CAR`, [kg]",
+    ]
+    stiffness: A[Float, "shape [4, 4], of primary and secondary suspension, [N/m], in yaw [N m/rad]"]
+    damping: A[Float, "shape [4, 4], the same, [N s/m], in yaw [N m s/rad]"]
+    creep: A[float, "creep coefficient of one wheel, longitudinal and lateral, [N]"]
+    creep_limit: A[float, "friction force of one wheel, [N]"]
+    steering: A[float, "conicity over the wheel radius, [1/m]"]
+    clearance: A[float, "from the middle of the track to the flange contact, [m]"]
+    flange_stiffness: A[float, "half of one rail's, [N/m]"]
+    flange_damping: A[float, "half of one rail's, [N s/m]"]
+    journal_yaw: A[
+        float,
+        "moment of inertia of the half wheelset and the axlebox as masses at the bearing, [kg m^2]",
+    ]
 
 
 @dataclass(frozen=True)
 class LateralMotion:
-    """Lateral response on a uniform time grid; positive to the left.
+    """Lateral response on a uniform time grid; positive to the left."""
 
-    Parameters
-    ----------
-    motion : float64 array, shape [step, 4]
-        Of wheelset, its yaw, bogie and body from the middle of the track, [m], [rad].
-    rail_force : float64 array, shape [step]
-        Of both rails on the half wheelset: half of the axle's, [N].
-    yaw_moment : float64 array, shape [step]
-        About z, that would yaw the half wheelset likewise if its mass were at the bearing, [N m].
-    """
-
-    motion: Float
-    rail_force: Float
-    yaw_moment: Float
+    motion: A[
+        Float,
+        "shape [step, 4], of wheelset, its yaw, bogie and body from the middle of the track, [m], [rad]",
+    ]
+    rail_force: A[Float, "shape [step], of both rails on the half wheelset: half of the axle's, [N]"]
+    yaw_moment: A[
+        Float,
+        "shape [step], about z, that would yaw the half wheelset likewise if its mass were at the bearing, "
+        "[N m]",
+    ]
 
 
 def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> LateralVehicle:

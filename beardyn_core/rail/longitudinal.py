@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,21 +20,15 @@ BUILD_UP = 1.0
 
 @dataclass(frozen=True)
 class LongitudinalForces:
-    """Forces of one axlebox's share along the track, and those of the brake across it.
+    """Forces of one axlebox's share along the track, and those of the brake across it."""
 
-    Parameters
-    ----------
-    acceleration : float64 array, shape [step]
-        Of the vehicle, forwards, [m/s^2].
-    rail : float64 array, shape [step]
-        Of the rail on the wheel, forwards, [N].
-    brake : float64 array, shape [step, 2]
-        Of a brake on the half wheelset, forwards and upwards; the opposite on the bogie, [N].
-    """
-
-    acceleration: Float
-    rail: Float
-    brake: Float
+    acceleration: A[Float, "shape [step], of the vehicle, forwards, [m/s^2]"]
+    rail: A[Float, "shape [step], of the rail on the wheel, forwards, [N]"]
+    brake: A[
+        Float,
+        "shape [step, 2], of a brake on the half wheelset, forwards and upwards; the opposite on the bogie, "
+        "[N]",
+    ]
 
 
 def acceleration_at(profile: Profile, time: Float) -> tuple[Float, Float]:

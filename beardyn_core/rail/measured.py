@@ -24,6 +24,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +41,6 @@ SPEEDS = ("speed_rpm", "shaft_speed_rad_s")
 FORCES = ("fx_N", "fy_N", "fz_N")
 MOMENTS = ("mx_Nm", "my_Nm", "mz_Nm")
 BOGIE = ("ux_m", "uy_m", "uz_m")
-COLUMNS = (TIME, *SPEEDS, *FORCES, *MOMENTS, *BOGIE)
 GAP = (20.0, 0.05)
 LARGEST_FORCE = 1e7  # on a journal [N]; an axle load is some 1e5
 DOUBTED_FORCE = 1e3  # the journal of an empty wagon carries 2e4 [N]
@@ -54,27 +54,13 @@ _READERS = {".mcap": ("beardyn_core.record.load_reading", "read_recorded_load")}
 
 @dataclass(frozen=True)
 class Measurement:
-    """Load and speed of a file, SI, time from its first sample on; zeros for what was not read.
+    """Load and speed of a file, SI, time from its first sample on; zeros for what was not read."""
 
-    Parameters
-    ----------
-    time : float64 array, shape [sample]
-        [s].
-    wrench : float64 array, shape [sample, 6]
-        [N, N m].
-    shaft_speed : float64 array, shape [sample]
-        [rad/s].
-    bogie : float64 array, shape [sample, 3]
-        [m].
-    stream : LoadHistory or None
-        The very samples, when they were a stream of load for the twin.
-    """
-
-    time: Float
-    wrench: Float
-    shaft_speed: Float
-    bogie: Float
-    stream: LoadHistory | None = None
+    time: A[Float, "shape [sample], [s]"]
+    wrench: A[Float, "shape [sample, 6], [N, N m]"]
+    shaft_speed: A[Float, "shape [sample], [rad/s]"]
+    bogie: A[Float, "shape [sample, 3], [m]"]
+    stream: A[LoadHistory | None, "the very samples, when they were a stream of load for the twin"] = None
 
 
 def read_measurement(path: Path, take: str = "both") -> Measurement:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,22 +23,12 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Running:
-    """Forces and motions on a uniform time grid.
-
-    Parameters
-    ----------
-    plan : Course
-    pull : LongitudinalForces
-    sway : LateralMotion or None
-        ``None``: no lateral motion asked for.
-    push : float64 array, shape [step, 4]
-        Upward forces on body, bogie, half wheelset and axlebox, [N].
-    """
+    """Forces and motions on a uniform time grid."""
 
     plan: Course
     pull: LongitudinalForces
-    sway: LateralMotion | None
-    push: Float
+    sway: A[LateralMotion | None, "``None``: no lateral motion asked for"]
+    push: A[Float, "shape [step, 4], upward forces on body, bogie, half wheelset and axlebox, [N]"]
 
 
 def running(

@@ -6,6 +6,7 @@ import csv
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,48 +22,27 @@ _SHOWN = 5
 
 @dataclass(frozen=True)
 class Column:
-    """One column.
+    """One column."""
 
-    Parameters
-    ----------
-    name : str
-        As in the header; ends in the unit.
-    unit : str
-        As a row of units may say it.
-    needed : bool
-    """
-
-    name: str
-    unit: str
+    name: A[str, "as in the header; ends in the unit"]
+    unit: A[str, "as a row of units may say it"]
     needed: bool = True
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Columns that a file may have.
+    """Columns that a file may have."""
 
-    Parameters
-    ----------
-    what : str
-        What it is a file of, for the sentences.
-    columns : tuple of Column
-    ascending : str
-        Column that must increase from row to row.
-    gap : tuple of 2 floats or None
-        A step of that column is a gap when it is longer than the first times the usual step and longer
-        than the second.
-    one_of : tuple of tuple of str
-        Of each of these groups exactly one column must be there.
-    positive : bool
-        Whether all numbers must be above zero.
-    """
-
-    what: str
+    what: A[str, "what it is a file of, for the sentences"]
     columns: tuple[Column, ...]
-    ascending: str
-    gap: tuple[float, float] | None = None
-    one_of: tuple[tuple[str, ...], ...] = ()
-    positive: bool = False
+    ascending: A[str, "column that must increase from row to row"]
+    gap: A[
+        tuple[float, float] | None,
+        "a step of that column is a gap when it is longer than the first times the usual step and longer "
+        "than the second",
+    ] = None
+    one_of: A[tuple[tuple[str, ...], ...], "of each of these groups exactly one column must be there"] = ()
+    positive: A[bool, "whether all numbers must be above zero"] = False
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,33 +26,16 @@ class RailWaves:
 
     Wave n has the wavenumber 2 pi n / length. Each is a chain rail - pad - sleeper - ballast - subgrade
     of its own; the rail under the wheel moves by their sum, and by the residue.
-
-    Parameters
-    ----------
-    length : float
-        Of the stretch, [m].
-    mass : float64 array, shape [3]
-        Rail, sleepers, ballast, [kg/m].
-    stiffness : float64 array, shape [wave]
-        Of the rail's own bending and shear, [N/m^2].
-    seats, seat_damping : float64 array, shape [3]
-        Pads, ballast, subgrade, [N/m^2], [N s/m^2].
-    share : float64 array, shape [wave]
-        Length of rail that moves with the amplitude of the wave, [m].
-    residual_flexibility : float
-        Of all shorter waves together, [m/N].
-    residual_time : float
-        With which they give way, [s].
     """
 
-    length: float
-    mass: Float
-    stiffness: Float
-    seats: Float
-    seat_damping: Float
-    share: Float
-    residual_flexibility: float
-    residual_time: float
+    length: A[float, "of the stretch, [m]"]
+    mass: A[Float, "shape [3], rail, sleepers, ballast, [kg/m]"]
+    stiffness: A[Float, "shape [wave], of the rail's own bending and shear, [N/m^2]"]
+    seats: A[Float, "shape [3], pads, ballast, subgrade, [N/m^2]"]
+    seat_damping: A[Float, "shape [3], [N s/m^2]"]
+    share: A[Float, "shape [wave], length of rail that moves with the amplitude of the wave, [m]"]
+    residual_flexibility: A[float, "of all shorter waves together, [m/N]"]
+    residual_time: A[float, "with which they give way, [s]"]
 
     @property
     def inverse_mass(self) -> Float:

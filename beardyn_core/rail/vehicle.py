@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,60 +31,34 @@ _CONTACT_FIT = {"worn": (3.86e-8, -0.115), "cone": (4.57e-8, -0.149)}
 
 @dataclass(frozen=True)
 class QuarterVehicle:
-    """Body and bogie share, half wheelset, axlebox and the rail: displacements from static.
+    """Body and bogie share, half wheelset, axlebox and the rail: displacements from static."""
 
-    Parameters
-    ----------
-    mass : float64 array, shape [4]
-        In the order `BODY`, `BOGIE`, `WHEEL`, `BOX`, [kg].
-    stiffness, damping : float64 array, shape [4, 4]
-        Without the wheel-rail contact, [N/m], [N s/m].
-    rail : RailWaves
-        Track under the wheel.
-    primary : float64 array, shape [9] or [0]
-        Row of `suspension.law`; empty while the primary suspension is linear.
-    static_force : float
-        Wheel-rail force at rest, [N].
-    journal_weight : float
-        Weight of the half wheelset, [N].
-    contact_flexibility : float
-        G in P = (compression / G)^1.5, [m/N^(2/3)].
-    """
-
-    mass: Float
-    stiffness: Float
-    damping: Float
-    rail: RailWaves
-    primary: Float
-    static_force: float
-    journal_weight: float
-    contact_flexibility: float
+    mass: A[Float, "shape [4], in the order `BODY`, `BOGIE`, `WHEEL`, `BOX`, [kg]"]
+    stiffness: A[Float, "shape [4, 4], without the wheel-rail contact, [N/m]"]
+    damping: A[Float, "shape [4, 4], the same, [N s/m]"]
+    rail: A[RailWaves, "track under the wheel"]
+    primary: A[
+        Float,
+        "shape [9] or [0], row of `suspension.law`; empty while the primary suspension is linear",
+    ]
+    static_force: A[float, "wheel-rail force at rest, [N]"]
+    journal_weight: A[float, "weight of the half wheelset, [N]"]
+    contact_flexibility: A[float, "G in P = (compression / G)^1.5, [m/N^(2/3)]"]
 
 
 @dataclass(frozen=True)
 class Ride:
-    """Response of the quarter vehicle on a uniform time grid.
+    """Response of the quarter vehicle on a uniform time grid."""
 
-    Parameters
-    ----------
-    contact_force : float64 array, shape [step]
-        Wheel-rail force, upwards on the wheel, never negative, [N].
-    bogie : float64 array, shape [step]
-        Displacement of the bogie from its static place, upwards, [m].
-    wheel : float64 array, shape [step]
-        Displacement of wheel and journal from their static place, upwards, [m].
-    box : float64 array, shape [step]
-        The same of the axlebox, [m].
-    excess : float64 array, shape [step]
-        Upward force of the primary suspension on the bogie beyond its static load and the linear law of
-        the mounting, [N].
-    """
-
-    contact_force: Float
-    bogie: Float
-    wheel: Float
-    box: Float
-    excess: Float
+    contact_force: A[Float, "shape [step], wheel-rail force, upwards on the wheel, never negative, [N]"]
+    bogie: A[Float, "shape [step], displacement of the bogie from its static place, upwards, [m]"]
+    wheel: A[Float, "shape [step], displacement of wheel and journal from their static place, upwards, [m]"]
+    box: A[Float, "shape [step], the same of the axlebox, [m]"]
+    excess: A[
+        Float,
+        "shape [step], upward force of the primary suspension on the bogie beyond its static load and the "
+        "linear law of the mounting, [N]",
+    ]
 
 
 def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> QuarterVehicle:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,15 +47,9 @@ def decoding_checked(path: Path | str) -> Iterator[None]:
 
 @dataclass(frozen=True, eq=False)
 class Timed:
-    """Base of all signals: the time of each sample.
+    """Base of all signals: the time of each sample."""
 
-    Parameters
-    ----------
-    time_ns : int64 array, shape [sample]
-        Simulated time, the delay of filters compensated, [ns].
-    """
-
-    time_ns: Int
+    time_ns: A[Int, "shape [sample], simulated time, the delay of filters compensated, [ns]"]
 
     def __len__(self) -> int:
         return len(self.time_ns)
@@ -76,23 +71,12 @@ class Timed:
 
 @dataclass(frozen=True, eq=False)
 class Signal(Timed):
-    """One quantity over time.
+    """One quantity over time."""
 
-    Parameters
-    ----------
-    time_ns : int64 array, shape [sample], [ns]
-    values : float64 array, shape [sample] or [sample, component]
-    components : tuple of str
-        Names along the last axis of `values`; empty for a scalar.
-    unit : str
-    sample : int64 array, shape [sample]
-        Running index that shows losses; empty where none is kept.
-    """
-
-    values: Float
-    components: tuple[str, ...]
+    values: A[Float, "shape [sample] or [sample, component]"]
+    components: A[tuple[str, ...], "names along the last axis of `values`; empty for a scalar"]
     unit: str
-    sample: Int
+    sample: A[Int, "shape [sample], running index that shows losses; empty where none is kept"]
 
     def __repr__(self) -> str:
         """Give shape, rate and unit."""
@@ -102,17 +86,10 @@ class Signal(Timed):
 
 @dataclass(frozen=True, eq=False)
 class Turning(Timed):
-    """Angle and speed of things that turn about the bearing axis.
+    """Angle and speed of things that turn about the bearing axis."""
 
-    Parameters
-    ----------
-    time_ns : int64 array, shape [sample], [ns]
-    angle, speed : float64 array, shape [sample], [sample, row] or [sample, row, roller]
-        Angle from +z towards +x, and speed, [rad, rad/s].
-    """
-
-    angle: Float
-    speed: Float
+    angle: A[Float, "shape [sample], [sample, row] or [sample, row, roller], from +z towards +x, [rad]"]
+    speed: A[Float, "of the same shape, [rad/s]"]
 
     def __repr__(self) -> str:
         """Give shape and rate."""
@@ -121,24 +98,12 @@ class Turning(Timed):
 
 @dataclass(frozen=True, eq=False)
 class Bodies(Timed):
-    """Pose and motion of all bodies.
+    """Pose and motion of all bodies."""
 
-    Parameters
-    ----------
-    time_ns : int64 array, shape [snapshot], [ns]
-    names : tuple of str
-        ``cup``, ``cone``, ``cage_0``, ``cage_1``, ``roller_<row>_<number>``.
-    pose : float64 array, shape [snapshot, body, 7]
-        x, y, z, qx, qy, qz, qw, [m, -].
-    twist : float64 array, shape [snapshot, body, 6]
-        vx, vy, vz, wx, wy, wz, [m/s, rad/s].
-    sample : int64 array, shape [snapshot]
-    """
-
-    names: tuple[str, ...]
-    pose: Float
-    twist: Float
-    sample: Int
+    names: A[tuple[str, ...], "``cup``, ``cone``, ``cage_0``, ``cage_1``, ``roller_<row>_<number>``"]
+    pose: A[Float, "shape [snapshot, body, 7], x, y, z, qx, qy, qz, qw, [m, -]"]
+    twist: A[Float, "shape [snapshot, body, 6], vx, vy, vz, wx, wy, wz, [m/s, rad/s]"]
+    sample: A[Int, "shape [snapshot]"]
 
     def __repr__(self) -> str:
         """Give shape and rate."""
@@ -147,25 +112,19 @@ class Bodies(Timed):
 
 @dataclass(frozen=True, eq=False)
 class Contacts(Timed):
-    """Contacts of every roller with cup, cone, rib and pocket.
+    """Contacts of every roller with cup, cone, rib and pocket."""
 
-    Parameters
-    ----------
-    time_ns : int64 array, shape [snapshot], [ns]
-    point : float64 array, shape [snapshot, row, roller, kind, 3]
-        World axes, [m]; NaN without contact, like `slip` and `film`.
-    force : float64 array, shape [snapshot, row, roller, kind, 3]
-        Of the partner on the roller, [N]; zero without contact.
-    slip : float64 array, shape [snapshot, row, roller, kind]
-        Sliding speed, [m/s].
-    film : float64 array, shape [snapshot, row, roller, kind]
-        Film thickness, [m].
-    """
-
-    point: Float
-    force: Float
-    slip: Float
-    film: Float
+    point: A[
+        Float,
+        "shape [snapshot, row, roller, kind, 3], world axes, [m]; NaN without contact, like `slip` and "
+        "`film`",
+    ]
+    force: A[
+        Float,
+        "shape [snapshot, row, roller, kind, 3], of the partner on the roller, [N]; zero without contact",
+    ]
+    slip: A[Float, "shape [snapshot, row, roller, kind], sliding speed, [m/s]"]
+    film: A[Float, "shape [snapshot, row, roller, kind], film thickness, [m]"]
     kinds = CONTACT_KINDS
 
     @cached_property
@@ -189,23 +148,12 @@ class Contacts(Timed):
 
 @dataclass(frozen=True, eq=False)
 class Load(Timed):
-    """Load on the journal and shaft speed, as they went into the run.
+    """Load on the journal and shaft speed, as they went into the run."""
 
-    Parameters
-    ----------
-    time_ns : int64 array, shape [sample], [ns]
-    wrench : float64 array, shape [sample, 6]
-        fx, fy, fz, mx, my, mz, [N, N m].
-    shaft_speed : float64 array, shape [sample], [rad/s]
-    bogie : float64 array, shape [sample, 3]
-        Displacement of the bogie end of the suspension, [m].
-    sample : int64 array, shape [sample]
-    """
-
-    wrench: Float
-    shaft_speed: Float
-    bogie: Float
-    sample: Int
+    wrench: A[Float, "shape [sample, 6], fx, fy, fz, mx, my, mz, [N, N m]"]
+    shaft_speed: A[Float, "shape [sample], [rad/s]"]
+    bogie: A[Float, "shape [sample, 3], displacement of the bogie end of the suspension, [m]"]
+    sample: A[Int, "shape [sample]"]
     components = WRENCH_AXES
 
     def __repr__(self) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from math import atan, sin, tan
 from typing import TYPE_CHECKING, Any
+from typing import Annotated as A
 
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.errors import InputError
@@ -24,38 +25,19 @@ DESCRIPTION_KEY = "description"
 
 @dataclass(frozen=True)
 class BearingShape:
-    """Dimensions that drawing and signal analysis need, stored with every run, [m], [rad].
-
-    Parameters
-    ----------
-    name : str
-    roller_count : int
-        Per row.
-    pitch_diameter, roller_diameter : float
-        Through the roller centres; mean of the roller.
-    roller_length : float
-        Whole length of a roller.
-    contact_angle : float
-        Angle of the roller axis against the bearing axis.
-    row_spacing : float
-        Between the roller centres of the rows.
-    bore, outer_diameter, width : float
-        Envelope.
-    rib_contact_height : float
-        Of the rib contact above the cone raceway.
-    """
+    """Dimensions that drawing and signal analysis need, stored with every run, [m], [rad]."""
 
     name: str
-    roller_count: int
-    pitch_diameter: float
-    roller_diameter: float
-    roller_length: float
-    contact_angle: float
-    row_spacing: float
+    roller_count: A[int, "per row"]
+    pitch_diameter: A[float, "through the roller centres"]
+    roller_diameter: A[float, "mean"]
+    roller_length: A[float, "whole length of a roller"]
+    contact_angle: A[float, "angle of the roller axis against the bearing axis"]
+    row_spacing: A[float, "between the roller centres of the rows"]
     bore: float
     outer_diameter: float
     width: float
-    rib_contact_height: float
+    rib_contact_height: A[float, "of the rib contact above the cone raceway"]
 
     @classmethod
     def of(cls, bearing: Bearing) -> BearingShape:
@@ -95,44 +77,31 @@ class BearingShape:
     @property
     def fault_frequencies(self) -> dict[str, float]:
         """FTF, BPFO, BPFI, BSF of one row per shaft revolution, cup at rest."""
-        found = frequencies(self.roller_count, self.pitch_diameter, self.roller_diameter, self.contact_angle)
-        return {"FTF": found.ftf, "BPFO": found.bpfo, "BPFI": found.bpfi, "BSF": found.bsf}
+        return frequencies(
+            self.roller_count, self.pitch_diameter, self.roller_diameter, self.contact_angle
+        ).by_name
 
 
 @dataclass(frozen=True)
 class RunDescription:
-    """Description that a sink gets before the first block and stores, so that a file explains itself.
+    """Description that a sink gets before the first block and stores, so that a file explains itself."""
 
-    Parameters
-    ----------
-    scene : str
-        Name of the scene.
-    scene_text : str
-        Resolved YAML of the scene.
-    shape : BearingShape
-    body_names : tuple of str
-        Order of the bodies in `Block.body_pose`.
-    sensor_names : tuple of str
-        Order of the accelerometers in `Block.vibration`.
-    sensor_rates : tuple of float
-        Of each of them, [Hz].
-    defects : tuple of Patch, RollerError, WornPocket, MissingRoller
-    truth : mapping
-        What ``Twin.truth`` returns, JSON-able: faults, fault frequencies, versions, effects, seed.
-    load : LoadHistory or None
-        Load on the journal when it is known in advance (desk run): written to the file as
-        ``load/blocks``. A live graph records the topic instead.
-    """
-
-    scene: str
-    scene_text: str
+    scene: A[str, "name of the scene"]
+    scene_text: A[str, "resolved YAML of the scene"]
     shape: BearingShape
-    body_names: tuple[str, ...]
-    sensor_names: tuple[str, ...]
+    body_names: A[tuple[str, ...], "order of the bodies in `Block.body_pose`"]
+    sensor_names: A[tuple[str, ...], "order of the accelerometers in `Block.vibration`"]
     defects: tuple[Defect, ...]
-    truth: Mapping[str, Any]
-    load: LoadHistory | None = None
-    sensor_rates: tuple[float, ...] = ()
+    truth: A[
+        Mapping[str, Any],
+        "what ``Twin.truth`` returns, JSON-able: faults, fault frequencies, versions, effects, seed",
+    ]
+    load: A[
+        LoadHistory | None,
+        "load on the journal when it is known in advance (desk run): written to the file as ``load/blocks``. "
+        "A live graph records the topic instead",
+    ] = None
+    sensor_rates: A[tuple[float, ...], "of each of them, [Hz]"] = ()
 
     def __post_init__(self) -> None:
         if not self.sensor_rates:  # all at the usual one, as every recording before there was another

@@ -13,6 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
+from typing import Annotated as A
 from typing import BinaryIO
 
 import zstandard
@@ -43,19 +44,11 @@ _DAMAGE = (
 
 @dataclass(frozen=True)
 class RecordedMessage:
-    """One message of a file.
-
-    Parameters
-    ----------
-    topic, type : str
-    log_time : int
-        [ns].
-    cdr : bytes
-    """
+    """One message of a file."""
 
     topic: str
     type: str
-    log_time: int
+    log_time: A[int, "[ns]"]
     cdr: bytes
 
 
@@ -163,24 +156,14 @@ class McapScan:
 
 @dataclass(frozen=True)
 class Recovery:
-    """Result of recovering a cut-off file.
+    """Result of recovering a cut-off file."""
 
-    Parameters
-    ----------
-    path, target : Path
-        The cut file and the repaired one.
-    size_bytes, usable_bytes : int
-    message_count : int
-    seconds : float
-        From the first to the last message found.
-    """
-
-    path: Path
-    target: Path
+    path: A[Path, "the cut file"]
+    target: A[Path, "the repaired one"]
     size_bytes: int
     usable_bytes: int
     message_count: int
-    seconds: float
+    seconds: A[float, "from the first to the last message found"]
 
     def sentence(self) -> str:
         """Describe the recovery in a sentence."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, pi, sin, tan
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,21 +27,12 @@ MARK_COLOUR = (0.30, 0.32, 0.36)
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles.
+    """Triangles."""
 
-    Parameters
-    ----------
-    vertices : float64 array, shape [vertex, 3], [m]
-    normals : float64 array, shape [vertex, 3]
-    triangles : int64 array, shape [triangle, 3]
-    shades : float64 array, shape [vertex, 3]
-        Factor on the part's colour, 0 to 1.
-    """
-
-    vertices: Float
-    normals: Float
-    triangles: NDArray[np.int64]
-    shades: Float
+    vertices: A[Float, "shape [vertex, 3], [m]"]
+    normals: A[Float, "shape [vertex, 3]"]
+    triangles: A[NDArray[np.int64], "shape [triangle, 3]"]
+    shades: A[Float, "shape [vertex, 3], factor on the part's colour, 0 to 1"]
 
     def moved(self, offset: Float) -> Mesh:
         """Shift the mesh by a vector, [m]."""

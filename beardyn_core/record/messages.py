@@ -6,6 +6,7 @@ import struct
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -85,22 +86,12 @@ def decode_string(cdr: bytes) -> str:
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """One status of a diagnostics message.
-
-    Parameters
-    ----------
-    name : str
-    level : int
-        Index into `DIAGNOSTIC_LEVELS`.
-    message : str
-        A sentence.
-    values : tuple of (key, value)
-    """
+    """One status of a diagnostics message."""
 
     name: str
-    level: int
-    message: str
-    values: tuple[tuple[str, str], ...] = ()
+    level: A[int, "index into `DIAGNOSTIC_LEVELS`"]
+    message: A[str, "a sentence"]
+    values: A[tuple[tuple[str, str], ...], "(key, value)"] = ()
 
     def value(self, key: str) -> str | None:
         """Look up the value of a key, ``None`` when absent."""

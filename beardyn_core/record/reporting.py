@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -29,95 +30,54 @@ NOT_OF_THE_TWIN = (
 
 @dataclass(frozen=True)
 class TopicCount:
-    """One topic of a file.
-
-    Parameters
-    ----------
-    name, type : str
-    count : int
-        Messages.
-    rate : float or None
-        Messages per second between its first and its last one, [1/s]; ``None`` without such a span.
-    """
+    """One topic of a file."""
 
     name: str
     type: str
-    count: int
-    rate: float | None
+    count: A[int, "messages"]
+    rate: A[
+        float | None,
+        "messages per second between its first and its last one, [1/s]; ``None`` without such a span",
+    ]
 
 
 @dataclass(frozen=True)
 class Gap:
-    """Samples that are not in the file.
-
-    Parameters
-    ----------
-    topic : str
-    time : float
-        Of the last sample before the gap, [s].
-    missing : int
-    """
+    """Samples that are not in the file."""
 
     topic: str
-    time: float
+    time: A[float, "of the last sample before the gap, [s]"]
     missing: int
 
 
 @dataclass(frozen=True)
 class Report:
-    """Content of a recording.
-
-    Parameters
-    ----------
-    path : str
-    size_bytes, usable_bytes : int
-    complete : bool
-        The file was closed properly.
-    problem : str
-        Where and why reading stopped.
-    status : str or None
-        How the run ended: ``complete`` as asked, ``None`` not known.
-    begin, end : float
-        First and last log time of what the twin says, [s]: a live load stream runs ahead of it.
-    topics : tuple of TopicCount
-    attachments : mapping of name to bytes
-    gaps : tuple of Gap
-    scene, bearing : str or None
-    faults : list
-    fault_frequencies_per_rev : mapping
-    mean_shaft_speed : float or None
-        [rad/s].
-    real_time_factor, energy_residual : float or None
-        Mean, and last value.
-    budget : TorqueBudget or None
-        Losses by source after the start has settled; ``None`` when the recording does not say.
-    monitor : str or None
-        Last verdict of the monitor.
-    sensor_rates_Hz : mapping
-        Accelerometers by name.
-    """
+    """Content of a recording."""
 
     path: str
     size_bytes: int
     usable_bytes: int
-    complete: bool
-    problem: str
-    status: str | None
-    begin: float
-    end: float
+    complete: A[bool, "the file was closed properly"]
+    problem: A[str, "where and why reading stopped"]
+    status: A[str | None, "how the run ended: ``complete`` as asked, ``None`` not known"]
+    begin: A[float, "first log time of what the twin says, [s]: a live load stream runs ahead of it"]
+    end: A[float, "last log time, [s]"]
     topics: tuple[TopicCount, ...]
-    attachments: Mapping[str, int]
+    attachments: A[Mapping[str, int], "name to bytes"]
     gaps: tuple[Gap, ...]
     scene: str | None
     bearing: str | None
     faults: list[Any]
     fault_frequencies_per_rev: Mapping[str, float]
-    mean_shaft_speed: float | None
-    real_time_factor: float | None
-    energy_residual: float | None
-    budget: TorqueBudget | None
-    monitor: str | None
-    sensor_rates_Hz: Mapping[str, float]
+    mean_shaft_speed: A[float | None, "[rad/s]"]
+    real_time_factor: A[float | None, "mean"]
+    energy_residual: A[float | None, "last value"]
+    budget: A[
+        TorqueBudget | None,
+        "losses by source after the start has settled; ``None`` when the recording does not say",
+    ]
+    monitor: A[str | None, "last verdict of the monitor"]
+    sensor_rates_Hz: A[Mapping[str, float], "accelerometers by name"]
 
     def to_json(self) -> dict[str, Any]:
         """Give the content as a mapping for JSON."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 
 import rerun as rr
 
@@ -17,17 +18,10 @@ APPLICATION = "beardyn"
 
 @dataclass(frozen=True)
 class LiveStream:
-    """A rerun stream to a window, a web page or a file.
-
-    Parameters
-    ----------
-    stream : rerun.RecordingStream
-    where : str
-        For a person: the page to open, the file, or ``a window``.
-    """
+    """A rerun stream to a window, a web page or a file."""
 
     stream: rr.RecordingStream
-    where: str
+    where: A[str, "for a person: the page to open, the file, or ``a window``"]
 
 
 @contextmanager

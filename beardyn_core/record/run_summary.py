@@ -14,6 +14,7 @@ from beardyn_core.observe.summary import COMPLETE, SETTLING_S, RunSummary, Trend
 from beardyn_core.observe.torque_budget import NUMERICAL, TorqueBudget, torque_budget
 from beardyn_core.record.encoding import loss_key
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness
 
 if TYPE_CHECKING:
@@ -77,6 +78,19 @@ def _means(run: Run) -> TrendMeans:
     )
 
 
+def life_of(scene: Scene, load: LoadHistory) -> RatingLife | None:
+    """Rate the life under the load of a run; a load that nothing can carry has none.
+
+    The standards rate the whole bearing: neither has one that lacks rollers.
+    """
+    if scene.rows != 2 or scene.missing_rollers:
+        return None
+    try:
+        return scene_life(scene, load)
+    except ValidityError:
+        return None
+
+
 def _life(run: Run) -> RatingLife | None:
     """Rate the bearing under the recorded load; ``None`` when the scene or the load is not known."""
     from beardyn_core.choice import scene_from_text
@@ -86,9 +100,8 @@ def _life(run: Run) -> RatingLife | None:
         return None
     try:
         scene = scene_from_text(run.scene_text, run.label)
-        history = LoadHistory(load.time_ns, load.wrench, load.shaft_speed, load.bogie)
-        return None if scene.rows != 2 or scene.missing_rollers else scene_life(scene, history)
-    except (InputError, ValidityError):
+        return life_of(scene, LoadHistory(load.time_ns, load.wrench, load.shaft_speed, load.bogie))
+    except InputError:
         return None
 
 

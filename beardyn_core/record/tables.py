@@ -6,6 +6,7 @@ import importlib
 import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,18 +29,10 @@ _POSE, _TWIST = (*_AXES, "qx", "qy", "qz", "qw"), ("vx", "vy", "vz", "wx", "wy",
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """One array of a signal.
+    """One array of a signal."""
 
-    Parameters
-    ----------
-    values : array, shape [time, ...]
-    dims : tuple of str
-        Names of the axes after the time.
-    unit : str
-    """
-
-    values: NDArray[Any]
-    dims: tuple[str, ...]
+    values: A[NDArray[Any], "shape [time, ...]"]
+    dims: A[tuple[str, ...], "names of the axes after the time"]
     unit: str
 
 

@@ -7,6 +7,7 @@ same names and the same bytes go on the wire, into the file and to the viewer.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Annotated as A
 
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.messages import CLOCK, DIAGNOSTICS, STRING, TIME
@@ -23,33 +24,15 @@ JOINTS = "sensor_msgs/msg/JointState"
 
 @dataclass(frozen=True)
 class Topic:
-    """One topic.
+    """One topic."""
 
-    Parameters
-    ----------
-    name : str
-        Relative to the namespace; absolute with a leading slash.
-    type : str
-        ROS message type.
-    reliability : str
-        ``reliable`` or ``best_effort``.
-    durability : str
-        ``volatile`` or ``transient_local``.
-    depth : int
-        Messages kept for a slow reader; 0: all.
-    rate : str
-        How often it is published.
-    content : str
-        What it carries, units included.
-    """
-
-    name: str
-    type: str
-    reliability: str
-    durability: str
-    depth: int
-    rate: str
-    content: str
+    name: A[str, "relative to the namespace; absolute with a leading slash"]
+    type: A[str, "ROS message type"]
+    reliability: A[str, "``reliable`` or ``best_effort``"]
+    durability: A[str, "``volatile`` or ``transient_local``"]
+    depth: A[int, "messages kept for a slow reader; 0: all"]
+    rate: A[str, "how often it is published"]
+    content: A[str, "what it carries, units included"]
 
     def path(self, namespace: str = NAMESPACE) -> str:
         """Write the absolute name."""

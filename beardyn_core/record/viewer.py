@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 
 from beardyn_core.errors import InputError
 
@@ -73,19 +74,10 @@ def open_window(recording: Path) -> int:
 
 @dataclass(frozen=True)
 class WebViewer:
-    """A running web viewer.
+    """A running web viewer."""
 
-    Parameters
-    ----------
-    url : str
-        The page.
-    stream_url : str
-        Where a recording stream connects to be shown.
-    process : subprocess.Popen
-    """
-
-    url: str
-    stream_url: str
+    url: A[str, "the page"]
+    stream_url: A[str, "where a recording stream connects to be shown"]
     process: subprocess.Popen[bytes]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Annotated as A
 
 from beardyn_core.effects import EffectSet
 
@@ -11,19 +12,12 @@ EFFECTS = tuple(field.name for field in fields(EffectSet))
 
 @dataclass(frozen=True)
 class Free:
-    """Parts of a scene that the automatic choice may set; the rest stays as written.
-
-    Parameters
-    ----------
-    tier, laminae, steps : bool
-    effects : frozenset of str
-        Members of the effect set.
-    """
+    """Parts of a scene that the automatic choice may set; the rest stays as written."""
 
     tier: bool = True
     laminae: bool = True
     steps: bool = True
-    effects: frozenset[str] = frozenset(EFFECTS)
+    effects: A[frozenset[str], "members of the effect set"] = frozenset(EFFECTS)
 
     @property
     def anything(self) -> bool:

@@ -61,8 +61,3 @@ class Irregularity:
             yield f"path is missing; kind {self.kind!r} needs the path of a CSV file"
         if self.kind not in MEASURED and self.path is not None:
             yield f"path is {str(self.path)!r}; it goes with kind {' or '.join(map(repr, MEASURED))}"
-
-    @property
-    def has_alignment(self) -> bool:
-        """Whether its source has a lateral irregularity too; for a file this is known once it is read."""
-        return self.kind not in (*VERTICAL_ONLY, "none")

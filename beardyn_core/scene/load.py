@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,25 +13,22 @@ WRENCH_AXES = ("fx", "fy", "fz", "mx", "my", "mz")
 
 @dataclass(frozen=True)
 class LoadHistory:
-    """Samples of the load on the journal and the shaft speed; linear in between.
+    """Samples of the load on the journal and the shaft speed; linear in between."""
 
-    Parameters
-    ----------
-    time_ns : int64 array, shape [sample]
-        Simulated time, strictly increasing, [ns].
-    wrench : float64 array, shape [sample, 6]
-        Force and moment on the journal at the bearing centre, [N, N m]: the wheel-rail
-        reaction less the static weight of the half wheelset.
-    shaft_speed : float64 array, shape [sample]
-        Speed of the shaft about +y, positive when rolling forward, [rad/s].
-    bogie : float64 array, shape [sample, 3]
-        Displacement of the bogie end of the suspension from its static place, [m].
-    """
-
-    time_ns: NDArray[np.int64]
-    wrench: NDArray[np.float64]
-    shaft_speed: NDArray[np.float64]
-    bogie: NDArray[np.float64]
+    time_ns: A[NDArray[np.int64], "shape [sample], simulated time, strictly increasing, [ns]"]
+    wrench: A[
+        NDArray[np.float64],
+        "shape [sample, 6], force and moment on the journal at the bearing centre, [N, N m]: the wheel-rail "
+        "reaction less the static weight of the half wheelset",
+    ]
+    shaft_speed: A[
+        NDArray[np.float64],
+        "shape [sample], speed of the shaft about +y, positive when rolling forward, [rad/s]",
+    ]
+    bogie: A[
+        NDArray[np.float64],
+        "shape [sample, 3], displacement of the bogie end of the suspension from its static place, [m]",
+    ]
 
     def __len__(self) -> int:
         return len(self.time_ns)

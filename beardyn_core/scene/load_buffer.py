@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,18 +79,10 @@ def speed_jump(time_ns: NDArray[np.int64], shaft_speed: NDArray[np.float64]) -> 
 
 @dataclass
 class LoadBuffer:
-    """Samples that have arrived and are still needed.
+    """Samples that have arrived and are still needed."""
 
-    Parameters
-    ----------
-    refused : int
-        Pieces that were refused.
-    reason : str
-        Why the last one was.
-    """
-
-    refused: int = 0
-    reason: str = ""
+    refused: A[int, "pieces that were refused"] = 0
+    reason: A[str, "why the last one was"] = ""
     _parts: list[LoadHistory] = field(default_factory=list)
 
     @property

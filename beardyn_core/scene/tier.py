@@ -3,42 +3,31 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 
 @dataclass(frozen=True)
 class TierLimits:
-    """Abilities and limits of a tier.
-
-    Parameters
-    ----------
-    name : str
-    states : str
-        What moves by its own equations of motion.
-    represented : frozenset of str or None
-        Effects it computes or reports; ``None``: all of them.
-    steps_per_sample : int
-        Time steps per waveform sample when the scene does not say; `choice.fast_step` may take fewer.
-    needs_rib : bool
-        Whether nothing but the rib holds the rollers axially.
-    smallest_laminae : int
-        Fewest laminae it can work with.
-    absent : tuple of str
-        Channels of a block that it leaves at zero or without content.
-    blocks_at_once : int
-        Blocks of 20 ms that are worth computing in one go where nobody waits for each.
-    long_steps : tuple of float
-        Steps per sample that it may take where a step is longer than a sample.
-    """
+    """Abilities and limits of a tier."""
 
     name: str
-    states: str
-    represented: frozenset[str] | None
-    steps_per_sample: int
-    needs_rib: bool
-    smallest_laminae: int
-    absent: tuple[str, ...]
-    blocks_at_once: int = 1
-    long_steps: tuple[float, ...] = ()
+    states: A[str, "what moves by its own equations of motion"]
+    represented: A[frozenset[str] | None, "effects it computes or reports; ``None``: all of them"]
+    steps_per_sample: A[
+        int,
+        "time steps per waveform sample when the scene does not say; `choice.fast_step` may take fewer",
+    ]
+    needs_rib: A[bool, "whether nothing but the rib holds the rollers axially"]
+    smallest_laminae: A[int, "fewest laminae it can work with"]
+    absent: A[tuple[str, ...], "channels of a block that it leaves at zero or without content"]
+    blocks_at_once: A[
+        int,
+        "blocks of 20 ms that are worth computing in one go where nobody waits for each",
+    ] = 1
+    long_steps: A[
+        tuple[float, ...],
+        "steps per sample that it may take where a step is longer than a sample",
+    ] = ()
 
 
 _FAST = frozenset(

@@ -42,32 +42,16 @@ class Spall:
 
 @dataclass(frozen=True)
 class Cell:
-    """One run of a trial.
+    """One run of a trial."""
 
-    Parameters
-    ----------
-    fault : str
-        ``none``, or the part that is spalled.
-    size : float
-        Width of the spall, 0 without, [m].
-    speed : float
-        Of the train, [m/s].
-    track, wheel : str
-    repeat : int
-        Which of the runs that differ by their seed alone.
-    tier : str
-    checks : bool
-        Whether it repeats a run of the matrix in the tier of the check.
-    """
-
-    fault: str
-    size: float
-    speed: float
+    fault: A[str, "``none``, or the part that is spalled"]
+    size: A[float, "width of the spall, 0 without, [m]"]
+    speed: A[float, "of the train, [m/s]"]
     track: str
     wheel: str
-    repeat: int
+    repeat: A[int, "which of the runs that differ by their seed alone"]
     tier: str
-    checks: bool = False
+    checks: A[bool, "whether it repeats a run of the matrix in the tier of the check"] = False
 
     @property
     def conditions(self) -> str:

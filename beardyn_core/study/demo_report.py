@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 
 import numpy as np
 
@@ -31,21 +32,14 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Pace:
-    """How fast a demonstration went.
+    """How fast a demonstration went."""
 
-    Parameters
-    ----------
-    simulated : float
-        [s].
-    real_time_factor : float
-        Simulated time over the time spent in the twin.
-    overall : float or None
-        Simulated time over wall time with everything else running; ``None``: not measured.
-    """
-
-    simulated: float
-    real_time_factor: float
-    overall: float | None = None
+    simulated: A[float, "[s]"]
+    real_time_factor: A[float, "simulated time over the time spent in the twin"]
+    overall: A[
+        float | None,
+        "simulated time over wall time with everything else running; ``None``: not measured",
+    ] = None
 
 
 def demo_folder(folder: Path, *, force: bool = False) -> Path:

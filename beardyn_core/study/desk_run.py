@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.integrate.rating_life import RatingLife, scene_life
 from beardyn_core.integrate.status import describe
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
@@ -23,9 +22,9 @@ from beardyn_core.observe.stage_clock import REST, SINKS, StageClock
 from beardyn_core.observe.summary import COMPLETE, RunSummary, TrendMeans, trend_means
 from beardyn_core.observe.torque_budget import TorqueBudget, torque_budget
 from beardyn_core.record.description import RunDescription
+from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import MemorySink, Sink
 from beardyn_core.run import start
-from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 
@@ -99,19 +98,6 @@ def run(
         life=life_of(scene, load.until(trend.end_ns)) if life else None,
         stages=twin.stages.times(),
     )
-
-
-def life_of(scene: Scene, load: LoadHistory) -> RatingLife | None:
-    """Rate the life under the load of a run; ``None`` under a load that nothing can carry.
-
-    The standards rate the whole bearing: neither has one that lacks rollers.
-    """
-    if scene.rows != 2 or scene.missing_rollers:
-        return None
-    try:
-        return scene_life(scene, load)
-    except ValidityError:
-        return None
 
 
 def _close(sinks: Sequence[Sink], status: str) -> list[str]:

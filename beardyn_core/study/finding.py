@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from math import isfinite, nan
+from typing import Annotated as A
 
 from beardyn_core.observe.chain import MonitorResult
 from beardyn_core.record.messages import Diagnostic
@@ -17,59 +18,30 @@ FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
 
 @dataclass(frozen=True)
 class Finding:
-    """One result of the monitor, without its spectrum.
+    """One result of the monitor, without its spectrum."""
 
-    Parameters
-    ----------
-    verdict : str
-        ``waiting``, ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``.
-    reason : str
-        The verdict in a sentence.
-    time : float
-        Simulated time of the last sample analysed, [s].
-    found_frequency, expected_frequency : float
-        Line found and the same from geometry; NaN without a fault, [Hz].
-    found_order, expected_order : float
-        Per shaft revolution, [-].
-    signal_to_background : float
-        Of the fundamental line; without a fault of the strongest line, [dB].
-    score : float
-        What the alarm threshold is compared with, [dB].
-    shaft_frequency : float
-        [Hz].
-    load : float
-        Mean vertical load, [N].
-    rms, kurtosis, crest : float
-        Of the band-passed vibration, [m/s^2], [-], [-].
-    threshold : float
-        Score from which a fault is called, [dB].
-    band_low, band_high : float
-        Of the envelope, [Hz].
-    rms_rise : float
-        Over earlier results at a like speed, [dB].
-    temperature : float
-        Of the axlebox, [K].
-    """
-
-    verdict: str
-    reason: str
-    time: float
-    found_frequency: float = nan
-    expected_frequency: float = nan
-    found_order: float = nan
-    expected_order: float = nan
-    signal_to_background: float = nan
-    score: float = 0.0
-    shaft_frequency: float = nan
-    load: float = nan
-    rms: float = nan
-    kurtosis: float = nan
-    crest: float = nan
-    threshold: float = nan
-    band_low: float = nan
-    band_high: float = nan
-    rms_rise: float = nan
-    temperature: float = nan
+    verdict: A[str, "``waiting``, ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``"]
+    reason: A[str, "the verdict in a sentence"]
+    time: A[float, "simulated time of the last sample analysed, [s]"]
+    found_frequency: A[float, "line found; NaN without a fault, [Hz]"] = nan
+    expected_frequency: A[float, "the same from geometry, [Hz]"] = nan
+    found_order: A[float, "line found, per shaft revolution, [-]"] = nan
+    expected_order: A[float, "the same from geometry, [-]"] = nan
+    signal_to_background: A[
+        float,
+        "of the fundamental line; without a fault of the strongest line, [dB]",
+    ] = nan
+    score: A[float, "what the alarm threshold is compared with, [dB]"] = 0.0
+    shaft_frequency: A[float, "[Hz]"] = nan
+    load: A[float, "mean vertical load, [N]"] = nan
+    rms: A[float, "of the band-passed vibration, [m/s^2]"] = nan
+    kurtosis: A[float, "of the band-passed vibration, [-]"] = nan
+    crest: A[float, "of the band-passed vibration, [-]"] = nan
+    threshold: A[float, "score from which a fault is called, [dB]"] = nan
+    band_low: A[float, "lower end of the band of the envelope, [Hz]"] = nan
+    band_high: A[float, "upper end, [Hz]"] = nan
+    rms_rise: A[float, "over earlier results at a like speed, [dB]"] = nan
+    temperature: A[float, "of the axlebox, [K]"] = nan
 
     @classmethod
     def of(cls, result: MonitorResult) -> Finding:
@@ -133,19 +105,14 @@ class Finding:
 
 @dataclass(frozen=True)
 class Conclusion:
-    """Results of a monitor over a whole run, summed up.
+    """Results of a monitor over a whole run, summed up."""
 
-    Parameters
-    ----------
-    finding : Finding or None
-        Latest of the most frequent verdict; ``None`` when there never was enough signal.
-    agreeing, analyses : int
-        Results with that verdict, and results at all.
-    """
-
-    finding: Finding | None
-    agreeing: int
-    analyses: int
+    finding: A[
+        Finding | None,
+        "latest of the most frequent verdict; ``None`` when there never was enough signal",
+    ]
+    agreeing: A[int, "results with that verdict"]
+    analyses: A[int, "results at all"]
 
     @property
     def verdict(self) -> str:

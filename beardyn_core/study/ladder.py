@@ -10,6 +10,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -45,47 +46,23 @@ _VARIED_END_PLAY, _VARIED_SPEED = 1.0e-9, 1.0e-4
 
 @dataclass(frozen=True)
 class Plan:
-    """Load of every run of a ladder, and the windows in which runs are compared.
-
-    Parameters
-    ----------
-    scene : Scene
-    load : LoadHistory
-        Made once, felt by all levels.
-    settling : float
-        [s].
-    edges : tuple of float
-        Ends of the windows, [s].
-    revolutions : int
-        Whole cage revolutions that the windows cover; 0 when there is none.
-    block_count : int
-    fault_line : FaultLine or None
-    """
+    """Load of every run of a ladder, and the windows in which runs are compared."""
 
     scene: Scene
-    load: LoadHistory
-    settling: float
-    edges: tuple[float, ...]
-    revolutions: int
+    load: A[LoadHistory, "made once, felt by all levels"]
+    settling: A[float, "[s]"]
+    edges: A[tuple[float, ...], "ends of the windows, [s]"]
+    revolutions: A[int, "whole cage revolutions that the windows cover; 0 when there is none"]
     block_count: int
     fault_line: FaultLine | None
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run of a level.
+    """One run of a level."""
 
-    Parameters
-    ----------
-    outcome : Outcome or None
-        ``None`` when it left the model's validity.
-    walls : float64 array, shape [block]
-        Wall time per simulated second of each block after settling, [-].
-    status : str
-    """
-
-    outcome: Outcome | None
-    walls: Float
+    outcome: A[Outcome | None, "``None`` when it left the model's validity"]
+    walls: A[Float, "shape [block], wall time per simulated second of each block after settling, [-]"]
     status: str
 
 

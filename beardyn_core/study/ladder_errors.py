@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,20 +28,11 @@ BAND_LIMIT_DB = 1.5
 
 @dataclass(frozen=True)
 class Part:
-    """Error of one component.
-
-    Parameters
-    ----------
-    name : str
-    error : float
-        Signed; a share, or dB. NaN where the component does not exist.
-    band : float
-        Half-width of the run-to-run band, in the same unit.
-    """
+    """Error of one component."""
 
     name: str
-    error: float
-    band: float
+    error: A[float, "signed; a share, or dB. NaN where the component does not exist"]
+    band: A[float, "half-width of the run-to-run band, in the same unit"]
 
     @property
     def resolved(self) -> bool:
@@ -56,20 +48,11 @@ class Part:
 
 @dataclass(frozen=True)
 class QuantityError:
-    """Errors of the components of one quantity.
-
-    Parameters
-    ----------
-    quantity : str
-    unit : str
-        ``%`` (errors are shares) or ``dB``.
-    parts : tuple of Part
-        Components that exist; empty when the scene has none.
-    """
+    """Errors of the components of one quantity."""
 
     quantity: str
-    unit: str
-    parts: tuple[Part, ...]
+    unit: A[str, "``%`` (errors are shares) or ``dB``"]
+    parts: A[tuple[Part, ...], "components that exist; empty when the scene has none"]
 
     @property
     def worst(self) -> Part | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from typing import Annotated as A
 
 from beardyn_core.choice.choose import choose
 from beardyn_core.choice.outcome import Choice
@@ -27,29 +28,14 @@ _MANY_EFFECTS, _MANY_EFFECTS_FACTOR = 10, 1.8
 
 @dataclass(frozen=True)
 class Level:
-    """Tier, effects, laminae and step with which a scene is computed.
+    """Tier, effects, laminae and step with which a scene is computed."""
 
-    Parameters
-    ----------
-    name : str
-        Names the level in tables and pictures.
-    tier : str
-        Name of a tier, see `scene.tier`.
-    effects_name : str
-        What the set of effects is called.
-    effects : EffectSet
-    laminae : int
-        Of each roller.
-    steps_per_sample : float
-        Time steps per waveform sample (25.6 kHz), [-].
-    """
-
-    name: str
-    tier: str
-    effects_name: str
+    name: A[str, "names the level in tables and pictures"]
+    tier: A[str, "name of a tier, see `scene.tier`"]
+    effects_name: A[str, "what the set of effects is called"]
     effects: EffectSet
-    laminae: int
-    steps_per_sample: float
+    laminae: A[int, "of each roller"]
+    steps_per_sample: A[float, "time steps per waveform sample (25.6 kHz), [-]"]
 
     def applied(self, scene: Scene) -> Scene:
         """Apply this choice to a scene; bearing, load, faults and seed stay, all sensors run at 25.6 kHz.
@@ -69,21 +55,11 @@ class Level:
 
 @dataclass(frozen=True)
 class LevelList:
-    """The reference, its coarser neighbour, and the levels to be judged.
+    """The reference, its coarser neighbour, and the levels to be judged."""
 
-    Parameters
-    ----------
-    reference : Level
-        Every effect, many laminae, a small step.
-    neighbour : Level
-        Half of the reference's laminae and twice its step.
-    levels : tuple of Level
-        The cheapest first.
-    """
-
-    reference: Level
-    neighbour: Level
-    levels: tuple[Level, ...]
+    reference: A[Level, "every effect, many laminae, a small step"]
+    neighbour: A[Level, "half of the reference's laminae and twice its step"]
+    levels: A[tuple[Level, ...], "the cheapest first"]
 
     def including(self, *more: Level) -> LevelList:
         """Add further levels to those to be judged."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,35 +21,20 @@ _WORTH_IT = 0.1
 
 @dataclass(frozen=True)
 class Cost:
-    """Wall time per simulated second, kernel and observation, compiling apart; over blocks.
+    """Wall time per simulated second, kernel and observation, compiling apart; over blocks."""
 
-    Parameters
-    ----------
-    median, lower, upper : float
-        Median and quartiles, [-].
-    """
-
-    median: float
-    lower: float
-    upper: float
+    median: A[float, "[-]"]
+    lower: A[float, "quartile, [-]"]
+    upper: A[float, "quartile, [-]"]
 
 
 @dataclass(frozen=True)
 class Score:
-    """The worst of the asked errors in units of its limit.
-
-    Parameters
-    ----------
-    quantity : str
-    value : float
-        1 is just good enough, [-].
-    bar : float
-        Run-to-run band in the same unit, [-].
-    """
+    """The worst of the asked errors in units of its limit."""
 
     quantity: str
-    value: float
-    bar: float
+    value: A[float, "1 is just good enough, [-]"]
+    bar: A[float, "run-to-run band in the same unit, [-]"]
 
     @property
     def resolved(self) -> bool:
@@ -58,28 +44,17 @@ class Score:
 
 @dataclass(frozen=True)
 class LevelResult:
-    """A level with its cost and its errors.
-
-    Parameters
-    ----------
-    level : Level
-    runs : int
-        How often it was run.
-    cost : Cost
-    errors : tuple of QuantityError
-        Empty when a run left the model's validity.
-    values : tuple of float64 arrays, one of `measures.MEASURES` each
-        Means over the runs of what the errors are made of; empty likewise.
-    status : str
-        ``complete``, with warnings if there were any, or how a run ended.
-    """
+    """A level with its cost and its errors."""
 
     level: Level
-    runs: int
+    runs: A[int, "how often it was run"]
     cost: Cost
-    errors: tuple[QuantityError, ...]
-    values: tuple[Float, ...]
-    status: str
+    errors: A[tuple[QuantityError, ...], "empty when a run left the model's validity"]
+    values: A[
+        tuple[Float, ...],
+        "one of `measures.MEASURES` each, means over the runs of what the errors are made of; empty likewise",
+    ]
+    status: A[str, "``complete``, with warnings if there were any, or how a run ended"]
 
     def of(self, quantity: str) -> QuantityError | None:
         """Return the error of one quantity; ``None`` when there is none."""
@@ -113,44 +88,23 @@ class LevelResult:
 
 @dataclass(frozen=True)
 class Ladder:
-    """The levels of a scene against its reference.
-
-    Parameters
-    ----------
-    scene, purpose : str
-    accuracy : float
-        Asked for, a share.
-    asked : tuple of str
-        Quantities that it is asked of.
-    settling : float
-        Before the comparison begins, [s].
-    edges : tuple of float
-        Ends of the windows that are compared, [s].
-    revolutions : int
-        Whole cage revolutions from the first to the last edge; 0 when there is none.
-    fault_line : FaultLine or None
-    reference : LevelResult
-        Its errors are those of its first run against the mean of all.
-    neighbour : LevelResult
-        The reference with half of its laminae and twice its step: how far the reference is converged.
-    rows : tuple of LevelResult
-        The levels in the order in which they were run.
-    interrupted : bool
-        Whether levels are missing.
-    """
+    """The levels of a scene against its reference."""
 
     scene: str
     purpose: str
-    accuracy: float
-    asked: tuple[str, ...]
-    settling: float
-    edges: tuple[float, ...]
-    revolutions: int
+    accuracy: A[float, "asked for, a share"]
+    asked: A[tuple[str, ...], "quantities that it is asked of"]
+    settling: A[float, "before the comparison begins, [s]"]
+    edges: A[tuple[float, ...], "ends of the windows that are compared, [s]"]
+    revolutions: A[int, "whole cage revolutions from the first to the last edge; 0 when there is none"]
     fault_line: FaultLine | None
-    reference: LevelResult
-    neighbour: LevelResult | None
-    rows: tuple[LevelResult, ...]
-    interrupted: bool = False
+    reference: A[LevelResult, "its errors are those of its first run against the mean of all"]
+    neighbour: A[
+        LevelResult | None,
+        "the reference with half of its laminae and twice its step: how far the reference is converged",
+    ]
+    rows: A[tuple[LevelResult, ...], "the levels in the order in which they were run"]
+    interrupted: A[bool, "whether levels are missing"] = False
 
     def score(self, row: LevelResult) -> Score | None:
         """Return the worst of the asked errors of a row."""

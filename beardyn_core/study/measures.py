@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,18 +38,10 @@ _TINY = 1e-300
 
 @dataclass(frozen=True)
 class FaultLine:
-    """The line of a scene's fault in the envelope order spectrum.
+    """The line of a scene's fault in the envelope order spectrum."""
 
-    Parameters
-    ----------
-    name : str
-        Such as ``BPFO``.
-    order : float
-        Per shaft revolution, [-].
-    """
-
-    name: str
-    order: float
+    name: A[str, "such as ``BPFO``"]
+    order: A[float, "per shaft revolution, [-]"]
 
 
 def fault_line_of(scene: Scene) -> FaultLine | None:
@@ -156,27 +149,22 @@ def line_level(signals: Signals, order: float) -> float:
 
 @dataclass(frozen=True)
 class Measure:
-    """One number, or one family of numbers, of a run.
+    """One number, or one family of numbers, of a run."""
 
-    Parameters
-    ----------
-    quantity : str
-        What it belongs to: a column of the ladder.
-    parts : tuple of str
-        Names of its components; a single one when they are folded.
-    take : callable
-        Components from the signals and the scene's fault line.
-    scale : callable or None
-        What an error is relative to, from the reference's components; ``None``: levels in dB.
-    weighed : callable or None
-        Which components count, from the reference's; with it the error is their root mean square.
-    """
-
-    quantity: str
-    parts: tuple[str, ...]
-    take: Callable[[Signals, FaultLine | None], Float]
-    scale: Callable[[Float], Float] | None
-    weighed: Callable[[Float], NDArray[np.bool_]] | None = None
+    quantity: A[str, "what it belongs to: a column of the ladder"]
+    parts: A[tuple[str, ...], "names of its components; a single one when they are folded"]
+    take: A[
+        Callable[[Signals, FaultLine | None], Float],
+        "components from the signals and the scene's fault line",
+    ]
+    scale: A[
+        Callable[[Float], Float] | None,
+        "what an error is relative to, from the reference's components; ``None``: levels in dB",
+    ]
+    weighed: A[
+        Callable[[Float], NDArray[np.bool_]] | None,
+        "which components count, from the reference's; with it the error is their root mean square",
+    ] = None
 
 
 def _length(reference: Float) -> Float:
@@ -234,18 +222,10 @@ UNITS = {measure.quantity: "dB" if measure.scale is None else "%" for measure in
 
 @dataclass(frozen=True)
 class Outcome:
-    """Numbers of one run.
+    """Numbers of one run."""
 
-    Parameters
-    ----------
-    whole : tuple of float64 arrays, one of `MEASURES` each
-        Over all windows together.
-    windows : tuple of such tuples
-        Over each window.
-    """
-
-    whole: tuple[Float, ...]
-    windows: tuple[tuple[Float, ...], ...]
+    whole: A[tuple[Float, ...], "one of `MEASURES` each, over all windows together"]
+    windows: A[tuple[tuple[Float, ...], ...], "such tuples, over each window"]
 
 
 def measured(signals: Signals, line: FaultLine | None) -> tuple[Float, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -19,45 +20,19 @@ _FORCE = slice(3, 6)  # of `CONTACT_FIELDS`
 
 @dataclass(frozen=True)
 class Signals:
-    """Channels of a stretch of a run.
+    """Channels of a stretch of a run."""
 
-    Parameters
-    ----------
-    trend_time : float64 array, shape [trend]
-        Of the channels at 400 Hz, [s].
-    force : float64 array, shape [trend, 3]
-        Of the rollers on the cup, [N].
-    torque : float64 array, shape [trend]
-        Of the bearing on the shaft, [N m].
-    shaft_angle : float64 array, shape [trend]
-        [rad].
-    cage_speed : float64 array, shape [trend, row]
-        [rad/s].
-    snapshot_time : float64 array, shape [snapshot]
-        Of the channels at 200 Hz, [s].
-    deflection : float64 array, shape [snapshot, 3]
-        Of the cone against the cup, [m].
-    roller_azimuth : float64 array, shape [snapshot, row, roller]
-        From +z towards +x, [rad].
-    roller_load : float64 array, shape [snapshot, row, roller]
-        Between cup and roller, [N].
-    wave_time : float64 array, shape [sample]
-        Of the acceleration, [s].
-    acceleration : float64 array, shape [sample, 3]
-        Read by the first accelerometer, [m/s^2].
-    """
-
-    trend_time: Float
-    force: Float
-    torque: Float
-    shaft_angle: Float
-    cage_speed: Float
-    snapshot_time: Float
-    deflection: Float
-    roller_azimuth: Float
-    roller_load: Float
-    wave_time: Float
-    acceleration: Float
+    trend_time: A[Float, "shape [trend], of the channels at 400 Hz, [s]"]
+    force: A[Float, "shape [trend, 3], of the rollers on the cup, [N]"]
+    torque: A[Float, "shape [trend], of the bearing on the shaft, [N m]"]
+    shaft_angle: A[Float, "shape [trend], [rad]"]
+    cage_speed: A[Float, "shape [trend, row], [rad/s]"]
+    snapshot_time: A[Float, "shape [snapshot], of the channels at 200 Hz, [s]"]
+    deflection: A[Float, "shape [snapshot, 3], of the cone against the cup, [m]"]
+    roller_azimuth: A[Float, "shape [snapshot, row, roller], from +z towards +x, [rad]"]
+    roller_load: A[Float, "shape [snapshot, row, roller], between cup and roller, [N]"]
+    wave_time: A[Float, "shape [sample], of the acceleration, [s]"]
+    acceleration: A[Float, "shape [sample, 3], read by the first accelerometer, [m/s^2]"]
 
     def between(self, start: float, end: float) -> Signals:
         """Cut out the samples from a time to before another one, [s]."""

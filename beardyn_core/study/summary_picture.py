@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -23,64 +24,29 @@ _HARMONICS = 4
 
 @dataclass(frozen=True)
 class FaultMarker:
-    """A fault frequency to mark in the envelope spectrum.
+    """A fault frequency to mark in the envelope spectrum."""
 
-    Parameters
-    ----------
-    name : str
-        ``BPFO``, ``BPFI``, ``2 BSF`` or ``FTF``.
-    order : float
-        Per shaft revolution, [-].
-    """
-
-    name: str
-    order: float
+    name: A[str, "``BPFO``, ``BPFI``, ``2 BSF`` or ``FTF``"]
+    order: A[float, "per shaft revolution, [-]"]
 
 
 @dataclass(frozen=True)
 class SummaryData:
-    """Arrays of a run that the picture shows.
+    """Arrays of a run that the picture shows."""
 
-    Parameters
-    ----------
-    title, verdict : str
-        Name of the scene; what the monitor says, in a sentence.
-    time : float64 array, shape [sample]
-        [s].
-    force : float64 array, shape [sample, 3]
-        Of the rollers on the cup, world axes, [N].
-    load : float64 array, shape [sample, 3]
-        On the journal, [N].
-    shaft_speed : float64 array, shape [sample]
-        [rad/s].
-    cage_speed : float64 array, shape [sample, row]
-        [rad/s].
-    roller_azimuth : float64 array, shape [row, roller] or [moment, row, roller]
-        From +z towards +x, [rad].
-    roller_load : float64 array, the shape of ``roller_azimuth``
-        Normal load between cup and roller, [N].
-    envelope_order : float64 array, shape [line]
-        Cycles per shaft revolution, [-].
-    envelope_amplitude : float64 array, shape [line]
-        Amplitude of the envelope, [m/s^2].
-    markers : tuple of FaultMarker
-    shaft_frequency : float
-        Mean during the analysis, for the frequency scale, [Hz].
-    """
-
-    title: str
-    verdict: str
-    time: Float
-    force: Float
-    load: Float
-    shaft_speed: Float
-    cage_speed: Float
-    roller_azimuth: Float
-    roller_load: Float
-    envelope_order: Float
-    envelope_amplitude: Float
+    title: A[str, "name of the scene"]
+    verdict: A[str, "what the monitor says, in a sentence"]
+    time: A[Float, "shape [sample], [s]"]
+    force: A[Float, "shape [sample, 3], of the rollers on the cup, world axes, [N]"]
+    load: A[Float, "shape [sample, 3], on the journal, [N]"]
+    shaft_speed: A[Float, "shape [sample], [rad/s]"]
+    cage_speed: A[Float, "shape [sample, row], [rad/s]"]
+    roller_azimuth: A[Float, "shape [row, roller] or [moment, row, roller], from +z towards +x, [rad]"]
+    roller_load: A[Float, "the shape of ``roller_azimuth``, normal load between cup and roller, [N]"]
+    envelope_order: A[Float, "shape [line], cycles per shaft revolution, [-]"]
+    envelope_amplitude: A[Float, "shape [line], amplitude of the envelope, [m/s^2]"]
     markers: tuple[FaultMarker, ...]
-    shaft_frequency: float
+    shaft_frequency: A[float, "mean during the analysis, for the frequency scale, [Hz]"]
 
 
 def summary_picture(data: SummaryData, path: Path) -> None:

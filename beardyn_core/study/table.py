@@ -8,15 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Table:
-    """A table with a title and remarks.
-
-    Parameters
-    ----------
-    title : str
-    head : tuple of str
-    rows : tuple of tuples of str
-    remarks : tuple of str
-    """
+    """A table with a title and remarks."""
 
     title: str
     head: tuple[str, ...]

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from multiprocessing import connection, get_context, parent_process
 from pathlib import Path
+from typing import Annotated as A
 from typing import Any, BinaryIO
 
 from beardyn_core.choice import trial_scene
@@ -32,30 +33,18 @@ Progress = Callable[[TrialRun], None]
 
 @dataclass(frozen=True)
 class Plan:
-    """Runs of a trial that are done, outdated or still to do.
-
-    Parameters
-    ----------
-    trial : Trial
-    algorithm : str
-        ``module:function``, '' for ours.
-    digests : dict
-        Of every run, by the key of its cell.
-    kept : dict of TrialRun
-        Runs of an earlier go whose digest is still the same, by key.
-    outdated : int
-        Runs of an earlier go whose code or files have changed since; they are run again, and stay in the
-        folder until then.
-    fresh : bool
-        Whether the folder starts over.
-    """
+    """Runs of a trial that are done, outdated or still to do."""
 
     trial: Trial
-    algorithm: str
-    digests: dict[str, str]
-    kept: dict[str, TrialRun]
-    outdated: int = 0
-    fresh: bool = False
+    algorithm: A[str, "``module:function``, '' for ours"]
+    digests: A[dict[str, str], "of every run, by the key of its cell"]
+    kept: A[dict[str, TrialRun], "runs of an earlier go whose digest is still the same, by key"]
+    outdated: A[
+        int,
+        "runs of an earlier go whose code or files have changed since; they are run again, and stay in the "
+        "folder until then",
+    ] = 0
+    fresh: A[bool, "whether the folder starts over"] = False
 
     @property
     def missing(self) -> tuple[Cell, ...]:

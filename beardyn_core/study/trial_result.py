@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import median
+from typing import Annotated as A
 
 from scipy.stats import binomtest
 
@@ -20,12 +21,6 @@ FOUND_AT = 0.9  # detection rate from which a size counts as found
 class Rate:
     """Share of runs, with the confidence interval of its probability.
 
-    Parameters
-    ----------
-    count, total : int
-    low, high : float
-        95 % interval, [-].
-
     References
     ----------
     Clopper, Pearson (1934), The use of confidence or fiducial limits illustrated in the case of the
@@ -34,8 +29,8 @@ class Rate:
 
     count: int
     total: int
-    low: float
-    high: float
+    low: A[float, "of the 95 % interval, [-]"]
+    high: A[float, "of the 95 % interval, [-]"]
 
     @classmethod
     def of(cls, count: int, total: int) -> Rate:
@@ -53,26 +48,13 @@ class Rate:
 
 @dataclass(frozen=True)
 class SizeRow:
-    """Runs with a spall of one size on one part.
-
-    Parameters
-    ----------
-    fault : str
-    size : float
-        [m].
-    found : Rate
-        The right part named.
-    wrong : int
-        Another part named.
-    score : tuple of 3 floats
-        Smallest, median and largest of the part's own score, [dB].
-    """
+    """Runs with a spall of one size on one part."""
 
     fault: str
-    size: float
-    found: Rate
-    wrong: int
-    score: tuple[float, float, float]
+    size: A[float, "[m]"]
+    found: A[Rate, "the right part named"]
+    wrong: A[int, "another part named"]
+    score: A[tuple[float, float, float], "smallest, median and largest of the part's own score, [dB]"]
 
 
 @dataclass(frozen=True)
@@ -97,22 +79,12 @@ class Smallest:
 
 @dataclass(frozen=True)
 class TrialResult:
-    """Result of a trial.
-
-    Parameters
-    ----------
-    trial : Trial
-    algorithm : str
-    runs : tuple of (Cell, TrialRun)
-        Those of the matrix.
-    checks : tuple of (Cell, TrialRun)
-        Those in the tier of the check.
-    """
+    """Result of a trial."""
 
     trial: Trial
     algorithm: str
-    runs: tuple[tuple[Cell, TrialRun], ...]
-    checks: tuple[tuple[Cell, TrialRun], ...]
+    runs: A[tuple[tuple[Cell, TrialRun], ...], "those of the matrix"]
+    checks: A[tuple[tuple[Cell, TrialRun], ...], "those in the tier of the check"]
 
     @classmethod
     def of(cls, trial: Trial, algorithm: str, runs: Sequence[TrialRun]) -> TrialResult:

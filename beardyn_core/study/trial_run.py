@@ -7,6 +7,7 @@ import time
 from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
+from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.bearing.kinematics import fault_frequencies
@@ -25,42 +26,18 @@ VALID = "complete"
 
 @dataclass(frozen=True)
 class TrialRun:
-    """Result of one run.
+    """Result of one run."""
 
-    Parameters
-    ----------
-    key : str
-        Of its cell.
-    digest : str
-        Of all that the run depends on: scene, monitor, interval.
-    verdict : str
-        The most frequent one of its analyses; ``waiting`` when there never was one.
-    analyses : int
-        Analyses with a verdict.
-    alarms : int
-        Those among them that called a fault of whatever part.
-    scores : tuple of 3 floats
-        Of cup, cone and roller, medians over the analyses, [dB].
-    threshold : float
-        Of the part that led, median, [dB].
-    shaft_frequency : float
-        [Hz].
-    status : str
-        ``complete``, or how the run left the model's validity.
-    wall : float
-        Simulating and monitoring, [s].
-    """
-
-    key: str
-    digest: str
-    verdict: str
-    analyses: int
-    alarms: int
-    scores: tuple[float, ...]
-    threshold: float
-    shaft_frequency: float
-    status: str
-    wall: float
+    key: A[str, "of its cell"]
+    digest: A[str, "of all that the run depends on: scene, monitor, interval"]
+    verdict: A[str, "the most frequent one of its analyses; ``waiting`` when there never was one"]
+    analyses: A[int, "analyses with a verdict"]
+    alarms: A[int, "those among them that called a fault of whatever part"]
+    scores: A[tuple[float, ...], "of cup, cone and roller, medians over the analyses, [dB]"]
+    threshold: A[float, "of the part that led, median, [dB]"]
+    shaft_frequency: A[float, "[Hz]"]
+    status: A[str, "``complete``, or how the run left the model's validity"]
+    wall: A[float, "simulating and monitoring, [s]"]
 
     @property
     def complete(self) -> bool:

@@ -6,6 +6,8 @@ module           responsibility
 anchor           a published number or trend, and ours
 statics          load zones, static equilibrium, stiffness, roller bounce
 zhang            the bearing and the model of Zhang et al. (2023)
+load_zone        load-zone integrals of one row under rigid rings
+ball_contact     films, rolling couples and curvatures of ball contacts
 contact          closed-form contact points against a search
 films            film thickness, mixed friction, inlet heating, traction
 losses           rolling resistance, torque, heat

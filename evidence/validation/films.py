@@ -14,10 +14,6 @@ import numpy as np
 
 from beardyn_core.bearing.film_thickness import (
     line_film,
-    point_film_central,
-    point_film_minimum,
-    starvation_central,
-    starvation_minimum,
     thermal_factor,
     thermal_loading,
 )
@@ -34,6 +30,12 @@ from beardyn_core.model.layout import LAMINA_PRESSURE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.traction import LoadSharingParams, aihara_params
 from evidence.validation.anchor import Anchor
+from evidence.validation.ball_contact import (
+    point_film_central,
+    point_film_minimum,
+    starvation_central,
+    starvation_minimum,
+)
 from test.kernels.casting import through
 from test.kernels.entries import frictions
 

@@ -10,15 +10,13 @@ from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.rolling_resistance import (
     RollingContact,
-    aihara_point,
-    fujiwara_point,
-    houpert_point,
     thermal_reduction,
 )
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.torque import running_torque
 from evidence.validation.anchor import Anchor
+from evidence.validation.ball_contact import aihara_point, fujiwara_point, houpert_point
 
 D_BRAIN = "D-BRAIN unit tests (NSK core technology), RollingResistance0"
 WINGERTSZAHN = (

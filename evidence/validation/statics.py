@@ -8,15 +8,14 @@ from functools import lru_cache, partial
 
 from beardyn_core.bearing.contact_law import (
     PointContact,
-    curvature_difference,
-    curvature_sum,
     line_contact_factor,
 )
 from beardyn_core.bearing.force_triangle import roller_forces
-from beardyn_core.bearing.load_zone import axial_integral, radial_integral
 from beardyn_core.config import load_bearing
 from beardyn_core.integrate.static import StaticSolution, solve
 from evidence.validation.anchor import Anchor
+from evidence.validation.ball_contact import curvature_difference, curvature_sum
+from evidence.validation.load_zone import axial_integral, radial_integral
 from evidence.validation.zhang import published_model, solved_model
 
 ZHANG = "Zhang, Lv, Han, Li 2023, Sensors 23:4967, Table 3"

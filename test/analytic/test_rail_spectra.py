@@ -85,7 +85,6 @@ def test_alignment_is_another_profile_of_the_same_seed():
     assert np.array_equal(lateral.height, again.height)
     for kind in VERTICAL_ONLY:
         assert not rail_profile(Irregularity(kind), 100.0, 4, "lateral").height.any()
-        assert not Irregularity(kind).has_alignment
 
 
 def test_the_roughness_limit_has_its_level_in_each_third_octave():

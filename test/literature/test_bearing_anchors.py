@@ -10,19 +10,17 @@ from scipy.special import ellipe, ellipk
 
 from beardyn_core.bearing.contact_law import (
     PointContact,
-    curvature_difference,
-    curvature_sum,
     line_contact_factor,
-    point_contact_factor,
     rib_contact,
 )
 from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_forces
 from beardyn_core.bearing.kinematics import fault_frequencies, frequencies
 from beardyn_core.bearing.life import dynamic_rating, rating_factor
-from beardyn_core.bearing.load_zone import axial_integral, radial_integral
 from beardyn_core.bearing.lubricant import gold_pressure_viscosity
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing, load_lubricant, shipped_names
+from evidence.validation.ball_contact import curvature_difference, curvature_sum
+from evidence.validation.load_zone import axial_integral, radial_integral
 
 # Closed geometry and fault frequencies of the shipped bearings, derived: cone, cup and half angle
 # [deg], apex distance, large end, small end, sphere radius [mm], rib angle [deg], roller mass [kg], Jx, Jy
@@ -137,7 +135,7 @@ def test_hertz_fit_is_9_percent_too_stiff_for_a_circular_contact():
     hertz = 4.0 / 3.0 * 113.2e9 * math.sqrt(0.01)
     assert exact_point_factor(sphere) == pytest.approx(hertz, rel=1e-6)
     assert sphere.factor / hertz == pytest.approx(1.087, abs=1e-3)
-    assert point_contact_factor(0.02, 0.01, 226.4e9) == point_contact_factor(0.01, 0.02, 226.4e9)
+    assert PointContact(0.02, 0.01, 226.4e9).factor == PointContact(0.01, 0.02, 226.4e9).factor
 
 
 def exact_point_factor(contact: PointContact) -> float:

@@ -8,12 +8,11 @@ import pytest
 
 from beardyn_core.bearing.film_thickness import (
     LINE_FORMULAS,
-    gupta_cheng_factor,
     line_film,
     rigid_line_film,
-    starvation_central,
     thermal_factor,
 )
+from evidence.validation.ball_contact import gupta_cheng_factor, starvation_central
 from evidence.validation.films import HALF_WIDTH, ball_on_inner_ring
 
 

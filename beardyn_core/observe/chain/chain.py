@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,30 +28,23 @@ Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorR
 class Chain:
     """A monitoring algorithm in five steps; calling it analyses a stretch.
 
-    Parameters
-    ----------
-    select_band : function (stretch, settings) -> Band
-        Where to listen.
-    envelope : function (stretch, band) -> float64 array, shape [sample]
-        How loud it is there.
-    track : function (power, stretch, settings) -> float64 array, shape [step]
-        The same evenly over the angle of the shaft.
-    score : function (tracked, orders, roller_count, shaft_frequency, settings) -> FaultLines
-        How much of it is on the lines of each fault.
-    decide : function (found, stretch, settings) -> Verdict
-        What to call.
-
     References
     ----------
     Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
     Process. 25: the same order of steps.
     """
 
-    select_band: Callable[[Stretch, MonitorSettings], Band] = by_kurtogram
-    envelope: Callable[[Stretch, Band], Float] = squared_envelope
-    track: Callable[[Float, Stretch, MonitorSettings], Float] = by_angle
-    score: Callable[[Float, FaultFrequencies, int, float, MonitorSettings], FaultLines] = comb_score
-    decide: Callable[[FaultLines, Stretch, MonitorSettings], Verdict] = strongest_pattern
+    select_band: A[Callable[[Stretch, MonitorSettings], Band], "where to listen"] = by_kurtogram
+    envelope: A[Callable[[Stretch, Band], Float], "shape [sample], how loud it is there"] = squared_envelope
+    track: A[
+        Callable[[Float, Stretch, MonitorSettings], Float],
+        "shape [step], the same evenly over the angle of the shaft",
+    ] = by_angle
+    score: A[
+        Callable[[Float, FaultFrequencies, int, float, MonitorSettings], FaultLines],
+        "how much of it is on the lines of each fault",
+    ] = comb_score
+    decide: A[Callable[[FaultLines, Stretch, MonitorSettings], Verdict], "what to call"] = strongest_pattern
 
     def __call__(
         self, stretch: Stretch, orders: FaultFrequencies, roller_count: int, settings: MonitorSettings

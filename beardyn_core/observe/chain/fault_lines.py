@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cache
 from math import log, sqrt
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,52 +39,26 @@ _MEDIAN_OVER_MEAN = np.log(2.0)  # of an exponential distribution
 
 @dataclass(frozen=True)
 class Line:
-    """A line that was looked for and found in the envelope order spectrum.
+    """A line that was looked for and found in the envelope order spectrum."""
 
-    Parameters
-    ----------
-    name : str
-        Such as ``2 x BPFO`` or ``BPFI - shaft``.
-    order, expected_order : float
-        Cycles per shaft revolution, found and from geometry, [-].
-    frequency : float
-        At the mean shaft speed, [Hz].
-    level : float
-        Over the background, [dB].
-    """
-
-    name: str
-    order: float
-    expected_order: float
-    frequency: float
-    level: float
+    name: A[str, "such as ``2 x BPFO`` or ``BPFI - shaft``"]
+    order: A[float, "found, cycles per shaft revolution, [-]"]
+    expected_order: A[float, "from geometry, [-]"]
+    frequency: A[float, "at the mean shaft speed, [Hz]"]
+    level: A[float, "over the background, [dB]"]
 
 
 @dataclass(frozen=True)
 class Pattern:
-    """Lines of a fault: harmonics of one order, with sidebands.
-
-    Parameters
-    ----------
-    fault, symbol : str
-    order : float
-        [-].
-    sideband : float
-        Distance of the sidebands, [-].
-    sideband_symbol : str
-    sidebands : int
-        How many on each side are added up.
-    explained : int
-        How many on each side may belong to the fault.
-    """
+    """Lines of a fault: harmonics of one order, with sidebands."""
 
     fault: str
     symbol: str
-    order: float
-    sideband: float
+    order: A[float, "[-]"]
+    sideband: A[float, "distance of the sidebands, [-]"]
     sideband_symbol: str
-    sidebands: int
-    explained: int
+    sidebands: A[int, "how many on each side are added up"]
+    explained: A[int, "how many on each side may belong to the fault"]
 
     def lines(self, harmonics: int) -> list[tuple[int, int]]:
         """List harmonic and sideband number of each line."""
@@ -93,51 +68,28 @@ class Pattern:
 
 @dataclass(frozen=True)
 class Candidate:
-    """A pattern at its best place in a spectrum.
-
-    Parameters
-    ----------
-    pattern : Pattern
-    order : float
-        Where its fundamental fits best, [-].
-    score : float
-        Mean power of its lines but the strongest, over that of noise, not below 0, [dB].
-    threshold : float
-        Score that noise passes with the stated rate, [dB].
-    strongest : float
-        Level of its strongest line, [dB].
-    lines : tuple of Line
-        Those that stand out one by one.
-    """
+    """A pattern at its best place in a spectrum."""
 
     pattern: Pattern
-    order: float
-    score: float
-    threshold: float
-    strongest: float
-    lines: tuple[Line, ...]
+    order: A[float, "where its fundamental fits best, [-]"]
+    score: A[float, "mean power of its lines but the strongest, over that of noise, not below 0, [dB]"]
+    threshold: A[float, "score that noise passes with the stated rate, [dB]"]
+    strongest: A[float, "level of its strongest line, [dB]"]
+    lines: A[tuple[Line, ...], "those that stand out one by one"]
 
 
 @dataclass(frozen=True)
 class FaultLines:
-    """Lines of faults in a spectrum, with their scores.
-
-    Parameters
-    ----------
-    spectrum : OrderSpectrum
-    candidates : tuple of Candidate
-        One for each of `FAULTS`.
-    strongest_order, strongest_level : float
-        Strongest line in the band of the fault lines, beside the whole orders, [-], [dB].
-    chance_level : float
-        Level that the strongest line of noise passes with the stated rate, [dB].
-    """
+    """Lines of faults in a spectrum, with their scores."""
 
     spectrum: OrderSpectrum
-    candidates: tuple[Candidate, ...]
-    strongest_order: float
-    strongest_level: float
-    chance_level: float
+    candidates: A[tuple[Candidate, ...], "one for each of `FAULTS`"]
+    strongest_order: A[
+        float,
+        "of the strongest line in the band of the fault lines, beside the whole orders, [-]",
+    ]
+    strongest_level: A[float, "of that line, [dB]"]
+    chance_level: A[float, "level that the strongest line of noise passes with the stated rate, [dB]"]
 
 
 def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:

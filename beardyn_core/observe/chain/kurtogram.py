@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,22 +22,12 @@ _STANDS_OUT = 5.0  # standard deviations; of some 20 bands none does so by chanc
 
 @dataclass(frozen=True)
 class Band:
-    """A band of frequency, and how impulsive the signal is in it.
+    """A band of frequency, and how impulsive the signal is in it."""
 
-    Parameters
-    ----------
-    low, high : float
-        [Hz].
-    kurtosis : float
-        Spectral kurtosis, 0 for stationary Gaussian noise, [-].
-    scatter : float
-        Standard deviation of that kurtosis in noise, [-].
-    """
-
-    low: float
-    high: float
-    kurtosis: float = np.nan
-    scatter: float = np.nan
+    low: A[float, "[Hz]"]
+    high: A[float, "[Hz]"]
+    kurtosis: A[float, "spectral kurtosis, 0 for stationary Gaussian noise, [-]"] = np.nan
+    scatter: A[float, "standard deviation of that kurtosis in noise, [-]"] = np.nan
 
 
 def by_kurtogram(stretch: Stretch, settings: MonitorSettings) -> Band:

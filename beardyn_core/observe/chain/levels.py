@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,24 +16,12 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Levels:
-    """Levels of the vibration in a fixed band.
+    """Levels of the vibration in a fixed band."""
 
-    Parameters
-    ----------
-    rms : float
-        Of all axes together, [m/s^2].
-    kurtosis : float
-        The largest of the axes, 3 for noise, [-].
-    crest : float
-        Peak over RMS, the largest of the axes, [-].
-    shaft_frequency : float
-        Mean, [Hz].
-    """
-
-    rms: float = np.nan
-    kurtosis: float = np.nan
-    crest: float = np.nan
-    shaft_frequency: float = np.nan
+    rms: A[float, "of all axes together, [m/s^2]"] = np.nan
+    kurtosis: A[float, "the largest of the axes, 3 for noise, [-]"] = np.nan
+    crest: A[float, "peak over RMS, the largest of the axes, [-]"] = np.nan
+    shaft_frequency: A[float, "mean, [Hz]"] = np.nan
 
 
 def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], speed: float) -> Levels:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,36 +15,16 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Stretch:
-    """A stretch of signal to analyse.
+    """A stretch of signal to analyse."""
 
-    Parameters
-    ----------
-    rate : float
-        [Hz].
-    acceleration : float64 array, shape [sample, axis]
-        [m/s^2].
-    shaft_angle : float64 array, shape [sample]
-        Increasing, [rad].
-    load : float
-        Mean vertical load, NaN when unknown, [N].
-    end_ns : int
-        Time of the last sample, [ns].
-    temperature : float
-        Of the axlebox at the end, NaN when unknown, [K].
-    heating : float
-        Rise of that temperature, NaN when unknown, [K/s].
-    earlier : tuple of Levels
-        Of the stretches before, the oldest first.
-    """
-
-    rate: float
-    acceleration: Float
-    shaft_angle: Float
-    load: float
-    end_ns: int
-    temperature: float = np.nan
-    heating: float = np.nan
-    earlier: tuple[Levels, ...] = ()
+    rate: A[float, "[Hz]"]
+    acceleration: A[Float, "shape [sample, axis], [m/s^2]"]
+    shaft_angle: A[Float, "shape [sample], increasing, [rad]"]
+    load: A[float, "mean vertical load, NaN when unknown, [N]"]
+    end_ns: A[int, "time of the last sample, [ns]"]
+    temperature: A[float, "of the axlebox at the end, NaN when unknown, [K]"] = np.nan
+    heating: A[float, "rise of that temperature, NaN when unknown, [K/s]"] = np.nan
+    earlier: A[tuple[Levels, ...], "of the stretches before, the oldest first"] = ()
 
     @property
     def revolutions(self) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated as A
 
 from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines, explains
 from beardyn_core.observe.chain.hot_box import HOT, UNKNOWN, temperature_state
@@ -15,24 +16,12 @@ _ZERO_CELSIUS = 273.15
 
 @dataclass(frozen=True)
 class Verdict:
-    """Fault that is reported, with its reason.
+    """Fault that is reported, with its reason."""
 
-    Parameters
-    ----------
-    name : str
-        ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``.
-    reason : str
-        In a sentence.
-    best : Candidate
-        The strongest candidate, or the one that is called.
-    temperature_state : str
-        ``unknown``, ``normal``, ``warm`` or ``hot``.
-    """
-
-    name: str
-    reason: str
-    best: Candidate
-    temperature_state: str = UNKNOWN
+    name: A[str, "``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``"]
+    reason: A[str, "in a sentence"]
+    best: A[Candidate, "the strongest candidate, or the one that is called"]
+    temperature_state: A[str, "``unknown``, ``normal``, ``warm`` or ``hot``"] = UNKNOWN
 
 
 def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
