@@ -40,6 +40,20 @@ def unseal() -> None:
         _raise_pending()
 
 
+@contextmanager
+def sealed() -> Iterator[None]:
+    """Hold Ctrl-C back while compiled code is called: what it has begun is done, or the process ends.
+
+    Between a call from C into Python and its return nobody expects an exception: numba's dispatcher crashes
+    when one comes while it loads a kernel.
+    """
+    seal()
+    try:
+        yield
+    finally:
+        unseal()
+
+
 def _raise_pending() -> None:
     global _pending
     if _pending and not _sealed:

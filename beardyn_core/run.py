@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated as A
 
+from beardyn_core.interrupts import sealed
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
@@ -40,7 +41,9 @@ class Simulation:
             The model left its range of validity; the last block is in the error's ``block``.
         """
         for first in range(0, self.block_count, at_once):
-            yield self.twin.advance(min(at_once, self.block_count - first))
+            with sealed():
+                block = self.twin.advance(min(at_once, self.block_count - first))
+            yield block
 
 
 def start(scene: Scene, duration: float | None = None) -> Simulation:
@@ -59,13 +62,14 @@ def start(scene: Scene, duration: float | None = None) -> Simulation:
     ValidityError
         There is no equilibrium under it.
     """
-    twin = Twin(scene)
-    seconds = scene.duration if duration is None else duration
-    count = max(1, math.ceil(seconds * 1e9 / twin.block_ns - 1e-6))
-    load = load_history(scene.operation, scene.mounting, count * twin.block_ns * 1e-9, scene.seed)
-    twin.warm()
-    twin.start(load)
-    return Simulation(twin, load, count)
+    with sealed():
+        twin = Twin(scene)
+        seconds = scene.duration if duration is None else duration
+        count = max(1, math.ceil(seconds * 1e9 / twin.block_ns - 1e-6))
+        load = load_history(scene.operation, scene.mounting, count * twin.block_ns * 1e-9, scene.seed)
+        twin.warm()
+        twin.start(load)
+        return Simulation(twin, load, count)
 
 
 def blocks(scene: Scene, duration: float | None = None, at_once: int = 1) -> Iterator[Block]:

@@ -10,7 +10,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 
@@ -65,7 +65,7 @@ class Processes:
 
     def start(self, name: str, *words: str) -> subprocess.Popen[bytes]:
         """Start ``python <words>`` under a name."""
-        with self.log_path(name).open("wb") as log:
+        with self.log_path(name).open("wb") as log, _no_interrupt_while_forking():
             child = subprocess.Popen(
                 [sys.executable, *words],
                 stdin=subprocess.DEVNULL,
@@ -131,6 +131,19 @@ def _signal_group(child: subprocess.Popen[bytes], number: signal.Signals) -> Non
             os.killpg(child.pid, number)
 
 
+@contextlib.contextmanager
+def _no_interrupt_while_forking() -> Iterator[None]:
+    """Hold SIGINT back while a child begins: between fork and exec it would be the parent's traceback."""
+    if not sys.platform.startswith("linux"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _end_with_parent() -> Callable[[], None] | None:
     """Ask the kernel, on Linux, to end the child when its parent is gone, however that happened."""
     if not sys.platform.startswith("linux"):
@@ -139,5 +152,6 @@ def _end_with_parent() -> Callable[[], None] | None:
 
     def ask_kernel() -> None:
         library.prctl(PR_SET_PDEATHSIG, int(signal.SIGTERM))
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
     return ask_kernel

@@ -191,8 +191,8 @@ def test_running_backwards_is_analysed_alike():
 
 def test_another_algorithm_takes_the_place_of_the_example():
     def mine(stretch, orders, roller_count, settings):
-        return MonitorResult("cage", f"{len(stretch.acceleration)}", stretch.end_ns)
+        return MonitorResult("roller", f"{len(stretch.acceleration)}", stretch.end_ns)
 
     results = _feed(Monitor(ORDERS, ROLLERS, algorithm=mine), _signal(None, 12, duration=2.0))
-    assert results[-1].verdict == "cage"
+    assert results[-1].verdict == "roller"
     assert all(two.end_ns > one.end_ns for one, two in itertools.pairwise(results))

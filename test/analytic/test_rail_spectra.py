@@ -233,9 +233,9 @@ def test_everything_wrong_with_a_measured_rail_is_told_at_once(tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"kind": "csv"}, "needs? one"),
+        ({"kind": "csv"}, "needs the path"),
         ({"kind": "fra_7"}, "allowed are german_low"),
-        ({"path": Path("rail.csv")}, "a path is for csv and density_csv"),
+        ({"path": Path("rail.csv")}, "it goes with kind 'csv' or 'density_csv'"),
         ({"short_waves": "smooth"}, "allowed are iso_3095"),
     ],
 )

@@ -26,8 +26,8 @@ def test_all_mistakes_are_named_at_once_and_nothing_is_written(tmp_path, capsys)
 
 def test_an_animation_in_the_folder_to_be_made_is_no_mistake(tmp_path) -> None:
     folder = tmp_path / "new"
-    assert option_problems(argparse.Namespace(output=folder, rrd=folder / "a.rrd")) == []
-    assert len(option_problems(argparse.Namespace(output=None, rrd=folder / "a.rrd"))) == 1
+    assert option_problems(argparse.Namespace(output=folder, rrd=folder / "a.rrd", force=False)) == []
+    assert len(option_problems(argparse.Namespace(output=None, rrd=folder / "a.rrd", force=False))) == 1
 
 
 def test_table_lines_up_and_makes_markdown() -> None:
