@@ -95,13 +95,19 @@ def run(args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
     again = "the same command goes on from here" if folder else "with -o a trial can be taken up again"
-    if plan.missing:
-        with last_words(lambda: f"{len(plan.kept)} runs are kept; {again}"):
-            warm(trial)
     progress = _Bar(trial, len(plan.kept))
+
+    def kept() -> str:
+        done = len(plan.kept) + len(progress.runs)
+        return f"{done} of {len(trial.cells())} runs are done; {again}"
+
     interrupted = False
+    if plan.missing:
+        with last_words(kept):
+            warm(trial)
     try:
-        runs = conduct(plan, folder, jobs, progress)
+        with last_words(kept):
+            runs = conduct(plan, folder, jobs, progress)
     except KeyboardInterrupt:
         interrupted = True
         runs = [*plan.kept.values(), *progress.runs]
@@ -113,9 +119,7 @@ def run(args: argparse.Namespace) -> int:
         _write(result, found, folder, drawn=not interrupted)
     print(json_text("trial", found) if args.json else table(result))
     if interrupted:
-        print(
-            f"beardyn: interrupted after {len(runs)} of {len(trial.cells())} runs; {again}", file=sys.stderr
-        )
+        print(f"beardyn: interrupted; {kept()}", file=sys.stderr)
     return INTERRUPTED if interrupted else DONE
 
 

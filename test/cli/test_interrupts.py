@@ -194,9 +194,10 @@ def test_an_interrupted_trial_keeps_every_run_that_was_done(
             started.wait_for(lambda wanted=before + least: count() >= wanted)  # type: ignore[misc]
             time.sleep(0.3)
             took = started.interrupt()
-            check(started, took, f"interrupted after {count()} of 24 runs; the same command goes on")
-        told = json.loads((tmp_path / "out" / "trial.json").read_text())
-        assert told["complete"] is False
+            check(started, took, f"interrupted; {count()} of 24 runs are done; the same command goes on")
+        summary = tmp_path / "out" / "trial.json"
+        if least or summary.exists():  # the process is ended at once while it compiles before the first run
+            assert json.loads(summary.read_text())["complete"] is False
         assert count() >= before + least
 
 

@@ -52,7 +52,7 @@ def test_a_trial_is_stopped_taken_up_and_written(
     words = ["trial", "quick", "--jobs", "1", "--json", "-o", str(tmp_path)]
     assert command.main(words) == command.INTERRUPTED
     told = capsys.readouterr()
-    assert "interrupted after 7 of 51 runs; the same command goes on" in told.err
+    assert "interrupted; 7 of 51 runs are done; the same command goes on" in told.err
     assert json.loads((tmp_path / "trial.json").read_text())["complete"] is False
     assert not (tmp_path / "trial.png").exists()
     assert command.main(words) == command.DONE
