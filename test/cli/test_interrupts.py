@@ -116,7 +116,7 @@ def check(stopped: Command, took: float, *words: str) -> None:
     [
         (["warmup", "static_5kN", "static_80kN"], "0 of 2 are ready, and kept"),
         (["simulate", "static_5kN", "-o", "run.mcap"], "nothing has been written"),
-        (["trial", "quick", "-o", "out"], "0 runs are kept; the same command goes on"),
+        (["trial", "quick", "-o", "out"], "0 of 51 runs are done; the same command goes on"),
         (["ladder", "static_5kN", "--quick", "-o", "out"], "no level has been run"),
         (["demo", "--out", "out"], "nothing has been written"),
         (["contacts", "--quick", "-o", "out"], "nothing has been written"),
