@@ -336,7 +336,6 @@ class NounError(InputError):
     ----------
     owner : str
         What the noun is called.
-    found : list of Problem
     """
 
     def __init__(self, owner: str, found: list[Problem]) -> None:
@@ -411,7 +410,6 @@ def refuse(noun: Any, owner: str) -> None:
 
     Parameters
     ----------
-    noun : dataclass
     owner : str
         What to call it.
     """
@@ -428,7 +426,6 @@ class WorkedOut(tuple):
 
     Parameters
     ----------
-    values : iterable
     source : object
         What stands in the file instead of the values.
     """

@@ -46,10 +46,6 @@ def source_hash(source: Path) -> str:
     ----------
     source : Path
         File of an entry point.
-
-    Returns
-    -------
-    str
     """
     waiting = [source.resolve()]
     reached: set[Path] = set()

@@ -151,7 +151,6 @@ def open_to_write(path: Path, *, replace: bool = False) -> BinaryIO:
 
     Parameters
     ----------
-    path : Path
     replace : bool
         Whether an existing file is replaced.
 
@@ -239,7 +238,6 @@ def write_whole(path: Path, text: str) -> None:
     ----------
     path : Path
         Replaced when it exists.
-    text : str
 
     Raises
     ------

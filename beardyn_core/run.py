@@ -31,10 +31,6 @@ class Simulation:
         at_once : int
             Blocks of 20 ms in one, up to ``twin.blocks_at_once``: the same bits in less time.
 
-        Yields
-        ------
-        Block
-
         Raises
         ------
         ValidityError
@@ -51,7 +47,6 @@ def start(scene: Scene, duration: float | None = None) -> Simulation:
 
     Parameters
     ----------
-    scene : Scene
     duration : float, optional
         Simulated time in place of the scene's own; rounded up to whole blocks, [s].
 
@@ -77,15 +72,10 @@ def blocks(scene: Scene, duration: float | None = None, at_once: int = 1) -> Ite
 
     Parameters
     ----------
-    scene : Scene
     duration : float, optional
         In place of the scene's own, [s].
     at_once : int
         See `Simulation.blocks`.
-
-    Yields
-    ------
-    Block
 
     Raises
     ------

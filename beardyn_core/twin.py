@@ -25,11 +25,7 @@ from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
 from beardyn_core.model.faults import grow, roller_oversize
-from beardyn_core.model.layout import (
-    ENERGY_TERMS,
-    SIGNAL_CHANNELS,
-    SIGNAL_FORCE,
-)
+from beardyn_core.model.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
 from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.absence import absence_of
 from beardyn_core.observe.block import Block, EnergyAudit, body_names
@@ -54,10 +50,6 @@ log = logging.getLogger("beardyn")
 
 class Twin:
     """A scene that advances in blocks of 20 ms.
-
-    Parameters
-    ----------
-    scene : Scene
 
     Attributes
     ----------
@@ -240,10 +232,6 @@ class Twin:
             Blocks of 20 ms in one, up to `blocks_at_once`: the same bits as one after the other, in less
             time.
 
-        Returns
-        -------
-        Block
-
         Raises
         ------
         ValidityError
@@ -263,10 +251,7 @@ class Twin:
         wall = time.perf_counter() - began
         self.stages.lap_kernel(stage_cycles(self._parameters.effects.timers))
         status = assess(
-            self._state,
-            len(signals),
-            self.scene.bearing.large_end_radius,
-            self._parameters.effects.rib,
+            self._state, len(signals), self.scene.bearing.large_end_radius, self._parameters.effects.rib
         )
         audit = self._energy_audit()
         temperature = None if self._warmth is None else self._warm_up(loads)

@@ -71,7 +71,6 @@ def find(kind: str, name: str, beside: Path | None = None) -> Path:
     ----------
     kind : str
         One of `KINDS`.
-    name : str
     beside : Path, optional
         Folder of the file that mentions the name.
 

@@ -20,7 +20,6 @@ def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[P
     ----------
     scene : mapping
         A scene as written; entries with other mistakes are left out.
-    bearing : Bearing
 
     Returns
     -------

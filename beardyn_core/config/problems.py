@@ -25,12 +25,7 @@ class Origin:
     keys: A[Place, "keys of the part in that file"] = ()
 
 
-_LIMITS = {
-    "greater_than": "gt",
-    "greater_than_equal": "ge",
-    "less_than": "lt",
-    "less_than_equal": "le",
-}
+_LIMITS = {"greater_than": "gt", "greater_than_equal": "ge", "less_than": "lt", "less_than_equal": "le"}
 
 
 def key_path(place: Sequence[str | int]) -> str:
@@ -125,13 +120,7 @@ def _complaint(key: str, found: Any, unit: str | None) -> str:
 
 
 def sentences(error: ValidationError, origins: Sequence[Origin]) -> list[str]:
-    """Write one sentence for each mistake.
-
-    Parameters
-    ----------
-    error : ValidationError
-    origins : sequence of Origin
-    """
+    """Write one sentence for each mistake."""
     found = []
     short_lists: set[Place] = set()
     for mistake in error.errors():

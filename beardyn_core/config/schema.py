@@ -36,8 +36,4 @@ def json_schema(kind: str = "scene") -> dict[str, Any]:
     for name, part in {model.__name__: schema, **schema.get("$defs", {})}.items():
         if "properties" in part:
             part["properties"] = {key: part["properties"][key] for key in in_order(name, part["properties"])}
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        **schema,
-        "title": f"beardyn {kind}",
-    }
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema, "title": f"beardyn {kind}"}

@@ -10,10 +10,6 @@ from beardyn_core.scene.scene import Scene
 def scene_text(scene: Scene) -> str:
     """Write a scene as YAML: edge units, every reference resolved, every number.
 
-    Parameters
-    ----------
-    scene : Scene
-
     Returns
     -------
     str

@@ -16,7 +16,6 @@ def read_trial(name: str | Path, *, tier: str | None = None, seed: int | None = 
 
     Parameters
     ----------
-    name : str or Path
     tier, seed : optional
         Instead of the file's; with another tier the check falls away where it is the same one.
 

@@ -79,7 +79,6 @@ def read_mapping(text: str, label: str) -> dict[str, Any]:
 
     Parameters
     ----------
-    text : str
     label : str
         What to call the text in a complaint, usually the file's path.
 

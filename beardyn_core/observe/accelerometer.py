@@ -92,7 +92,6 @@ def white_noise(seed: int, sensor: int, first_sample: int, count: int) -> Float:
     ----------
     seed, sensor : int
         Of the run; running number of the sensor.
-    first_sample, count : int
 
     Returns
     -------
@@ -103,10 +102,6 @@ def white_noise(seed: int, sensor: int, first_sample: int, count: int) -> Float:
 
 class NoiseStream:
     """White noise of one sensor; see `white_noise`.
-
-    Parameters
-    ----------
-    seed, sensor : int
 
     References
     ----------
@@ -164,7 +159,6 @@ def reading(
 
     Parameters
     ----------
-    sensor : Accelerometer
     signal : float64 array, shape [sample, 3]
         At the output rate, [m/s^2].
     rate : float

@@ -114,8 +114,7 @@ class Block:
         "compensated, [ns]",
     ]
     force_waveform: A[
-        Float,
-        "shape [sample, 6], force and moment of the rollers on the cup at the bearing centre, [N, N m]",
+        Float, "shape [sample, 6], force and moment of the rollers on the cup at the bearing centre, [N, N m]"
     ]
     vibration: A[tuple[Vibration, ...], "of each accelerometer, in the order of the scene"]
     trend_sample: A[int, "running index of the first trend sample (400 Hz)"]
@@ -133,8 +132,7 @@ class Block:
     snapshot_sample: A[int, "running index of the first snapshot (200 Hz)"]
     snapshot_time_ns: A[Int, "shape [snapshot], [ns]"]
     pictures: A[
-        Pictures,
-        "bodies and contacts at the snapshots: look at `body_pose`, `body_twist` and `contacts`",
+        Pictures, "bodies and contacts at the snapshots: look at `body_pose`, `body_twist` and `contacts`"
     ]
     status: A[int, "bit flags of `integrate.status`"]
     audit: EnergyAudit | None

@@ -10,14 +10,7 @@ from numpy.typing import NDArray
 from beardyn_core.jit import entry
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, SAMPLES_PER_BLOCK, WAVEFORM_RATE
-from beardyn_core.model.layout import (
-    ANGULAR,
-    CUP_BODY,
-    SIGNAL_CHANNELS,
-    SIGNAL_FORCE,
-    SIGNAL_TORQUE,
-    TILT,
-)
+from beardyn_core.model.layout import ANGULAR, CUP_BODY, SIGNAL_CHANNELS, SIGNAL_FORCE, SIGNAL_TORQUE, TILT
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.decimate import DELAY, Decimator, TwoStageDecimator
@@ -53,9 +46,6 @@ class Observer:
 
     Parameters
     ----------
-    scene : Scene
-    arrangement : Arrangement
-    parameters : Parameters
     signal : float64 array, shape [SIGNAL_CHANNELS]
         Signals at rest, which fill the filters.
     """
@@ -131,15 +121,8 @@ class Observer:
         loads : float64 array, shape [step + 1, 10]
         rollers, bodies : float64 arrays, shape [trend, ...]
             Copies of the state at 400 Hz, or for the rollers what makes them; the block keeps them.
-        status : int
-        audit : EnergyAudit or None
-        wall_s : float
         temperature : float64 array or None, shape [node]
             [K].
-
-        Returns
-        -------
-        Block
         """
         waves = self._waveforms.push(signals)
         first_wave = index * SAMPLES_PER_BLOCK - self._waveform_delay

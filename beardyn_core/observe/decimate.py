@@ -35,7 +35,6 @@ class Decimator:
     ----------
     factor : int
         Old over new rate, 1 to 512. With 1 the stream passes unchanged, without delay.
-    channels : int
     initial : array, shape [channel], optional
         What the stream held before its first sample; 0 by default.
     held_back : int, optional

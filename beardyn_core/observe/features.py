@@ -77,7 +77,6 @@ def resample_by_angle(signal: Float, angle: Float, samples_per_revolution: int) 
     signal : float64 array, shape [sample]
     angle : float64 array, shape [sample]
         Shaft angle at each sample, increasing, [rad].
-    samples_per_revolution : int
 
     Returns
     -------
@@ -108,15 +107,10 @@ def order_spectrum(
     Parameters
     ----------
     signal : float64 array, shape [step]
-    samples_per_revolution : int
     highest_order : float
         Where the result ends, [-].
     background_width : float
         Width of the neighbourhood whose median is the background, [-].
-
-    Returns
-    -------
-    OrderSpectrum
     """
     count = len(signal)
     window = np.hanning(count + 1)[:-1]
@@ -157,7 +151,6 @@ def line_at(spectrum: OrderSpectrum, order: float, tolerance: float) -> tuple[fl
 
     Parameters
     ----------
-    spectrum : OrderSpectrum
     order : float
         Where to look, [-].
     tolerance : float

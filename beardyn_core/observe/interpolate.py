@@ -44,7 +44,6 @@ class Interpolator:
     ----------
     factor : int
         New over old rate, out of `FACTORS`.
-    channels : int
     initial : array, shape [channel]
         What the stream held before its first sample.
 

@@ -70,7 +70,6 @@ class Snapshots:
         Nobody changes them any more.
     count : int
         Rollers of a row.
-    roller : RollerParams
     cage_place : float
         Axial place of a cage's centre of mass from the middle plane, [m].
     """

@@ -22,10 +22,6 @@ Float = NDArray[np.float64]
 def scene_labels(scene: Scene) -> dict[str, Any]:
     """Label a scene by the facts that are known before the run.
 
-    Parameters
-    ----------
-    scene : Scene
-
     Returns
     -------
     dict

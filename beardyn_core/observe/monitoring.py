@@ -60,7 +60,6 @@ def listen(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[Monitor
 
     Parameters
     ----------
-    monitor : Monitor
     inputs : iterable of MonitorInput
         Such as ``map(MonitorInput.of_block, blocks)`` or ``run.monitor_inputs()``.
     """
@@ -81,7 +80,6 @@ class Monitor:
         Rollers of one row.
     rate : float, optional
         Of the vibration, by default as its first block is stamped, [Hz].
-    settings : MonitorSettings, optional
     algorithm : function, optional
         In place of the reference chain.
 

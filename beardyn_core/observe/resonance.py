@@ -23,7 +23,6 @@ def resonance_gain(frequency: Float, resonance: float, damping_ratio: float) -> 
         [Hz].
     resonance : float
         Undamped, [Hz].
-    damping_ratio : float
 
     Notes
     -----

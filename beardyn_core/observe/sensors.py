@@ -40,7 +40,6 @@ class Sensors:
 
     Parameters
     ----------
-    scene : Scene
     delay : int
         Samples by which the decimated box motion comes late.
 

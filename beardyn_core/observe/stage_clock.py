@@ -81,7 +81,6 @@ def stage_lines(times: tuple[StageTime, ...], simulated: float) -> list[str]:
 
     Parameters
     ----------
-    times : tuple of StageTime
     simulated : float
         Simulated time, [s].
     """

@@ -28,8 +28,7 @@ class RunSummary:
     tier: str
     effects: A[tuple[str, ...], "names of the effects that were present"]
     not_in_tier: A[
-        tuple[str, ...],
-        "names of the effects that the scene asks for and the tier does not represent",
+        tuple[str, ...], "names of the effects that the scene asks for and the tier does not represent"
     ]
     duration: A[float, "simulated, [s]"]
     wall_time: A[float, "spent in the simulation itself, without compiling, recording and drawing, [s]"]
@@ -42,13 +41,11 @@ class RunSummary:
     ]
     energy_residual: A[float | None, "of the audit at the end; ``None`` without audit"]
     budget: A[
-        TorqueBudget | None,
-        "losses by source over the whole blocks of the means; ``None`` without audit",
+        TorqueBudget | None, "losses by source over the whole blocks of the means; ``None`` without audit"
     ]
     averaged: A[tuple[float, float], "first and last time of the means, [s]"]
     cage_revolutions: A[
-        int,
-        "whole revolutions of the cage that the means cover; 0 when the run was shorter than one",
+        int, "whole revolutions of the cage that the means cover; 0 when the run was shorter than one"
     ]
     life: A[
         RatingLife | None,
@@ -56,8 +53,7 @@ class RunSummary:
     ] = None
     faults: A[tuple[str, ...], "defects and waviness of the scene in words"] = ()
     temperatures: A[
-        tuple[tuple[str, float], ...],
-        "(part, temperature) pairs, at the end, with the thermal effect, [K]",
+        tuple[tuple[str, float], ...], "(part, temperature) pairs, at the end, with the thermal effect, [K]"
     ] = ()
     clipped: A[
         tuple[tuple[str, int, int], ...],

@@ -41,7 +41,6 @@ class CloudTemplate:
     ----------
     dtype : numpy structured dtype
         Layout of a point.
-    frame : str
     """
 
     def __init__(self, dtype: np.dtype[Any], frame: str) -> None:
@@ -78,7 +77,6 @@ def points_of(
 
     Parameters
     ----------
-    dtype : numpy structured dtype
     first_sample : int
         Running index of the first point.
     time_ns : int64 array, shape [point], [ns]
@@ -98,10 +96,6 @@ def encode_points(points: NDArray[Any], stamp_ns: int, frame: str) -> bytes:
 
 def cloud_to_arrays(cdr: bytes) -> NDArray[Any]:
     """Read any ``sensor_msgs/PointCloud2`` as a structured array, one column per field.
-
-    Parameters
-    ----------
-    cdr : bytes
 
     Returns
     -------

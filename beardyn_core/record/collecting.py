@@ -45,7 +45,6 @@ class BlockSource:
     ----------
     blocks : sequence of Block
         In the order of time.
-    description : RunDescription or None
     """
 
     def __init__(self, blocks: Sequence[Block], description: RunDescription | None) -> None:

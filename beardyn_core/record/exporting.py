@@ -32,18 +32,12 @@ _BESIDE = ("csv", "wav")  # they cannot carry the truth: it goes to a JSON file 
 
 
 def export(
-    run: Run,
-    path: Path | str,
-    *,
-    kind: str | None = None,
-    signals: Iterable[str] = (),
-    force: bool = False,
+    run: Run, path: Path | str, *, kind: str | None = None, signals: Iterable[str] = (), force: bool = False
 ) -> list[Path]:
     """Write signals of a run to a file.
 
     Parameters
     ----------
-    run : Run
     path : Path
         With several signals in Parquet, CSV or WAV, which hold one table, each goes to
         ``<name>_<signal>.<ending>``.

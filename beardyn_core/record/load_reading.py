@@ -38,10 +38,6 @@ def read_recorded_load(path: Path, take: str = "both") -> Measurement:
     take : str
         ``both``, ``force`` or ``speed``.
 
-    Returns
-    -------
-    Measurement
-
     Raises
     ------
     InputError

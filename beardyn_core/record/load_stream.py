@@ -23,7 +23,6 @@ def encode_load(history: LoadHistory, first_sample: int, frame: str = FRAME) -> 
         At most 4.29 s, which is what ``t`` can count.
     first_sample : int
         Running index of the first sample since the start of the stream.
-    frame : str
     """
     if len(history) and history.time_ns[-1] - history.time_ns[0] > LONGEST_NS:
         raise ValueError("one message of load/blocks holds at most 4.29 s: send the history in parts")

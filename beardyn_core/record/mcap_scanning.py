@@ -55,16 +55,8 @@ class RecordedMessage:
 class McapScan:
     """A pass over a file from the front; iterate `messages`, then read the attributes.
 
-    Parameters
-    ----------
-    path : Path
-
     Attributes
     ----------
-    attachments : dict of str to bytes
-    metadata : dict of str to dict of str to str
-    channels : dict of int to Channel
-    schemas : dict of int to Schema
     size_bytes, usable_bytes : int
         Of the file, and up to the end of the last record that could be used.
     complete : bool
@@ -183,7 +175,6 @@ def recover(path: Path | str, target: Path | str | None = None, *, replace: bool
 
     Parameters
     ----------
-    path : Path
     target : Path, optional
         `recovered_name` by default.
     replace : bool
@@ -261,10 +252,6 @@ def trim(path: Path) -> str:
 
     Its index would need space that is not there, so it stays a cut-off file, which everything here reads. A
     file without any message goes altogether.
-
-    Parameters
-    ----------
-    path : Path
     """
     if not path.is_file():
         return "nothing of the run has been kept"

@@ -41,7 +41,6 @@ class McapWriter:
 
     Parameters
     ----------
-    path : Path
     namespace : str
         Of the topics with relative names.
     replace : bool
@@ -91,7 +90,6 @@ class McapWriter:
         stamp_ns : int
             Stamp of its header, which becomes the log time, [ns]. Times before zero are logged as 0:
             MCAP does not know them; the header keeps the true one.
-        cdr : bytes
         """
         log_time = max(int(stamp_ns), 0)
         with self._disk():

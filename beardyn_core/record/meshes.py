@@ -134,14 +134,10 @@ def cup(shape: BearingShape) -> Mesh:
         (max(middle + inner_small[0], 0.0), inner_small[1]),
     ]
     left = [(-y, r) for y, r in reversed(right)]
-    profile = np.array(
-        [*left, (-edge + chamfer, outer), (edge - chamfer, outer), *right, left[0]],
-    )
+    profile = np.array([*left, (-edge + chamfer, outer), (edge - chamfer, outer), *right, left[0]])
     azimuth = np.linspace(CUT_OPEN[1], CUT_OPEN[0] + 2.0 * pi, 121)
     return joined(
-        revolve(profile, azimuth),
-        section(profile, CUT_OPEN[1], -1.0),
-        section(profile, CUT_OPEN[0], 1.0),
+        revolve(profile, azimuth), section(profile, CUT_OPEN[1], -1.0), section(profile, CUT_OPEN[0], 1.0)
     )
 
 

@@ -65,7 +65,6 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
 
     Parameters
     ----------
-    path : Path
     namespace : str, optional
         Of the axlebox to read; by default the first one in the file.
 

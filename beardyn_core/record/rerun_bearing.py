@@ -73,11 +73,7 @@ def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defec
     inner = shape.pitch_diameter / 2.0
     outer = (1.66 if defect.on == "cup" else 1.25) * shape.outer_diameter / 2.0
     ends = _polar(np.full(2, defect.azimuth), np.array([inner, outer]), axial).astype(np.float32)
-    stream.log(
-        entity,
-        rr.LineStrips3D([ends], radii=[0.0008], colors=[SPALL_COLOUR]),
-        static=True,
-    )
+    stream.log(entity, rr.LineStrips3D([ends], radii=[0.0008], colors=[SPALL_COLOUR]), static=True)
     stream.log(
         f"{entity}/name",
         rr.Points3D(
@@ -118,8 +114,6 @@ def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None
 
     Parameters
     ----------
-    stream : rerun.RecordingStream
-    run : Run
     largest : float, optional
         Roller load that has the last colour and the longest arrow, [N]; by default the largest of the
         run, and then the outline of the load zone over the whole run is drawn too.

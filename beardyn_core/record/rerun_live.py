@@ -29,10 +29,6 @@ class LiveView:
     The caller has connected the stream to where it goes (``spawn``, ``serve_grpc``, ``save``) and calls
     `feed` with every message, and `flush` at the end or from a timer. Messages before the first
     ``truth`` are dropped: without it the bearing is not known.
-
-    Parameters
-    ----------
-    stream : rerun.RecordingStream
     """
 
     def __init__(self, stream: rr.RecordingStream) -> None:
@@ -51,7 +47,6 @@ class LiveView:
         ----------
         name : str
             Name in the topic table.
-        cdr : bytes
         """
         if name == "truth":
             self._describe(RunDescription.from_json(decode_string(cdr)))

@@ -31,7 +31,6 @@ def save_rolling(runs: Sequence[Rolling], target: Path) -> Path:
     ----------
     runs : sequence of Rolling
         Each in a trough of its own, side by side.
-    target : Path
 
     Raises
     ------

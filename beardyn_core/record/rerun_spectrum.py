@@ -42,8 +42,6 @@ def log_spectrum(stream: rr.RecordingStream, spectrum: OrderSpectrum, frequencie
 
     Parameters
     ----------
-    stream : rerun.RecordingStream
-    spectrum : OrderSpectrum
     frequencies : dict
         FTF, BPFO, BPFI, BSF per shaft revolution.
     """

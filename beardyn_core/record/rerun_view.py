@@ -24,11 +24,6 @@ PLAYBACK_SPEED = 0.05
 def log_run(stream: rr.RecordingStream, run: Run) -> None:
     """Log a whole recording.
 
-    Parameters
-    ----------
-    stream : rerun.RecordingStream
-    run : Run
-
     Raises
     ------
     InputError

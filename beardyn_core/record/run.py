@@ -47,8 +47,6 @@ class Run:
 
     Parameters
     ----------
-    source : Source
-    description : RunDescription or None
     path : Path, optional
         Of the recording; ``None`` for a run in memory.
     complete : bool

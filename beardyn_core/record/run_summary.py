@@ -26,10 +26,6 @@ Float = NDArray[np.float64]
 def summary_of(run: Run) -> RunSummary:
     """Summarise a run as ``beardyn simulate`` does, as far as its arrays allow.
 
-    Parameters
-    ----------
-    run : Run
-
     Raises
     ------
     InputError

@@ -39,8 +39,6 @@ class MemorySink:
 
     Attributes
     ----------
-    run : RunDescription or None
-    blocks : list of Block
     status : str or None
         ``None`` until closed.
     """
@@ -73,7 +71,6 @@ class McapSink:
 
     Parameters
     ----------
-    path : Path
     namespace : str
         Of the topics.
     frame : str
@@ -83,12 +80,7 @@ class McapSink:
     """
 
     def __init__(
-        self,
-        path: Path | str,
-        namespace: str = NAMESPACE,
-        frame: str = FRAME,
-        *,
-        replace: bool = False,
+        self, path: Path | str, namespace: str = NAMESPACE, frame: str = FRAME, *, replace: bool = False
     ) -> None:
         self._path = Path(path)
         self._replace = replace

@@ -147,7 +147,6 @@ def to_pandas(run: Run, signal: str = VIBRATION) -> Any:
 
     Parameters
     ----------
-    run : Run
     signal : str
         One of `signal_names`; see `columns_of` for the columns.
 

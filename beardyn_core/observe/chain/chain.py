@@ -53,16 +53,10 @@ class Chain:
 
         Parameters
         ----------
-        stretch : Stretch
         orders : FaultFrequencies
             Of one row, per shaft revolution, from geometry.
         roller_count : int
             Rollers of one row.
-        settings : MonitorSettings
-
-        Returns
-        -------
-        MonitorResult
         """
         speed = stretch.shaft_frequency
         band = self.select_band(stretch, settings)

@@ -85,8 +85,7 @@ class FaultLines:
     spectrum: OrderSpectrum
     candidates: A[tuple[Candidate, ...], "one for each of `FAULTS`"]
     strongest_order: A[
-        float,
-        "of the strongest line in the band of the fault lines, beside the whole orders, [-]",
+        float, "of the strongest line in the band of the fault lines, beside the whole orders, [-]"
     ]
     strongest_level: A[float, "of that line, [dB]"]
     chance_level: A[float, "level that the strongest line of noise passes with the stated rate, [dB]"]
@@ -122,14 +121,8 @@ def comb_score(
         Evenly in angle.
     orders : FaultFrequencies
         Of one row, per shaft revolution, from geometry.
-    roller_count : int
     shaft_frequency : float
         [Hz].
-    settings : MonitorSettings
-
-    Returns
-    -------
-    FaultLines
     """
     patterns = fault_patterns(orders)
     rate = settings.false_alarm_rate / len(patterns)

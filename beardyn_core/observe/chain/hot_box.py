@@ -18,7 +18,6 @@ def temperature_state(temperature: float, heating: float, settings: MonitorSetti
         Of the axlebox, NaN when unknown, [K].
     heating : float
         Its rise, NaN when unknown, [K/s].
-    settings : MonitorSettings
 
     References
     ----------

@@ -31,17 +31,7 @@ class Band:
 
 
 def by_kurtogram(stretch: Stretch, settings: MonitorSettings) -> Band:
-    """Choose the band of largest spectral kurtosis, or the default one when none exceeds noise.
-
-    Parameters
-    ----------
-    stretch : Stretch
-    settings : MonitorSettings
-
-    Returns
-    -------
-    Band
-    """
+    """Choose the band of largest spectral kurtosis, or the default one when none exceeds noise."""
     narrowest = max(settings.narrowest_band, settings.orders_in_band * stretch.shaft_frequency)
     bands = [
         band
@@ -58,10 +48,8 @@ def fast_kurtogram(stretch: Stretch, narrowest: float, settings: MonitorSettings
 
     Parameters
     ----------
-    stretch : Stretch
     narrowest : float
         Width below which nothing is divided further, [Hz].
-    settings : MonitorSettings
 
     Returns
     -------

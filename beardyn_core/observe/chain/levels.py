@@ -37,10 +37,6 @@ def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], 
         [Hz].
     speed : float
         Of the shaft, [Hz].
-
-    Returns
-    -------
-    Levels
     """
     passed = analytic_band(acceleration, rate, band).real
     power = np.mean(passed**2, axis=0)
@@ -58,8 +54,6 @@ def rise(levels: Levels, earlier: Sequence[Levels], like: float = 0.1) -> float:
 
     Parameters
     ----------
-    levels : Levels
-    earlier : sequence of Levels
     like : float
         Difference of speed within which stretches are compared, [-].
     """

@@ -72,7 +72,6 @@ def answer_of(
 
     Parameters
     ----------
-    algorithm : function
     stretch, orders, roller_count, settings
         Its arguments.
 

@@ -18,8 +18,7 @@ class MonitorResult:
     """Result of the monitor at one time; an algorithm sets the fields that it computes."""
 
     verdict: A[
-        str,
-        "``waiting`` (not enough signal yet), ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``",
+        str, "``waiting`` (not enough signal yet), ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``"
     ]
     reason: A[str, "the verdict in a sentence"]
     end_ns: A[int, "simulated time of the last sample analysed, [ns]"]

@@ -17,11 +17,6 @@ Float = NDArray[np.float64]
 def squared_envelope(stretch: Stretch, band: Band) -> Float:
     """Compute the squared envelope of the band, summed over the axes.
 
-    Parameters
-    ----------
-    stretch : Stretch
-    band : Band
-
     Returns
     -------
     float64 array, shape [sample]
@@ -42,8 +37,6 @@ def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float
     ----------
     power : float64 array, shape [sample]
         Squared envelope.
-    stretch : Stretch
-    settings : MonitorSettings
 
     Returns
     -------

@@ -29,16 +29,6 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
 
     A contradiction is a line that is no chance, stronger than all of the fault's and not one of them: then
     something else is periodic. A hot box is called whatever the lines say; it leaves a fault its name.
-
-    Parameters
-    ----------
-    found : FaultLines
-    stretch : Stretch
-    settings : MonitorSettings
-
-    Returns
-    -------
-    Verdict
     """
     best = max(found.candidates, key=lambda candidate: candidate.score - candidate.threshold)
     contradicted = found.strongest_level > max(found.chance_level, best.strongest) and not explains(

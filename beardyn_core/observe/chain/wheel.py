@@ -21,11 +21,6 @@ _LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
 def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     """Find the sectors of the wheel in which it strikes the rail in three of four revolutions.
 
-    Parameters
-    ----------
-    stretch : Stretch
-    settings : MonitorSettings
-
     Returns
     -------
     bool array, shape [sector]
