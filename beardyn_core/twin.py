@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
+from copy import deepcopy
 from dataclasses import asdict
 from typing import Any
 
@@ -357,7 +358,7 @@ class Twin:
             self._state.copy(),
             self._parameters,
             self.load.copy(),
-            self._observer.snapshot(),
+            deepcopy(self._observer),
             None if self._first_audit is None else self._first_audit.copy(),
             self._warmth,
         )
@@ -371,11 +372,7 @@ class Twin:
         self._warmth = snapshot.warmth
         self.load = snapshot.load.copy()
         self._first_audit = None if snapshot.first_audit is None else snapshot.first_audit.copy()
-        if self._observer is None:
-            self._observer = Observer(
-                self.scene, self._arrangement, self._parameters, np.zeros(SIGNAL_CHANNELS)
-            )
-        self._observer.restore(snapshot.observer)
+        self._observer = deepcopy(snapshot.observer)
 
 
 def _at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:

@@ -25,8 +25,8 @@ class Snapshot:
     state : State
     parameters : Parameters
     load : LoadBuffer
-    observer : tuple
-        From ``Observer.snapshot``.
+    observer : Observer
+        A copy, with the states of all filters.
     first_audit : float64 array or None, shape [ENERGY_TERMS]
         Energies at the start of the run, [J].
     warmth : Warmth or None
@@ -36,6 +36,6 @@ class Snapshot:
     state: State
     parameters: Parameters
     load: LoadBuffer
-    observer: tuple[Any, ...]
+    observer: Any
     first_audit: NDArray[np.float64] | None
     warmth: Warmth | None = None

@@ -20,57 +20,18 @@ _TWO_PI = 6.283185307179586
 _PIECE = 256
 
 
-def specific_force(
-    position: tuple[float, float, float],
-    acceleration: Float,
-    angular_velocity: Float,
-    angular_acceleration: Float,
-    rotation: Float,
-) -> Float:
-    """Compute the specific force at the sensor, in the sensor's own axes: +g on z at rest.
+@inline
+def force_at(position, acceleration, angular_acceleration, angular_velocity, rotation, force):
+    """Compute the specific force at the sensor, in its own axes: +g on z at rest; one sample, in `force`.
 
-    Parameters
-    ----------
-    position : tuple of 3 floats
-        Of the sensor from the point whose acceleration is given, box axes, [m].
-    acceleration : float64 array, shape [sample, 3]
-        Of the box at that point, world axes, without gravity, [m/s^2].
-    angular_velocity : float64 array, shape [sample, 3]
-        [rad/s].
-    angular_acceleration : float64 array, shape [sample, 3]
-        [rad/s^2].
-    rotation : float64 array, shape [sample, 3]
-        Small rotation of the box from the world axes, [rad].
-
-    Returns
-    -------
-    float64 array, shape [sample, 3]
-        [m/s^2].
+    `position` is that of the sensor from the point whose acceleration is given, box axes, [m]; motion in
+    world axes without gravity, [m/s^2], [rad/s^2], [rad/s]; `rotation` is small, from the world axes, [rad].
 
     Notes
     -----
     First order in the rotation (1 mrad turns 10 mm/s^2 of gravity into x or y; the neglected second
     order is 5e-6 m/s^2). Sign convention of REP-145.
     """
-    force = np.empty(acceleration.shape)
-    _specific_force(
-        np.array(position, dtype=np.float64), acceleration, angular_velocity, angular_acceleration, rotation,
-        force,
-    )  # fmt: skip
-    return force
-
-
-@entry
-def _specific_force(position, acceleration, angular_velocity, angular_acceleration, rotation, force):
-    for i in range(len(force)):
-        force_at(
-            position, acceleration[i], angular_acceleration[i], angular_velocity[i], rotation[i], force[i]
-        )
-
-
-@inline
-def force_at(position, acceleration, angular_acceleration, angular_velocity, rotation, force):
-    """Compute one sample of `specific_force` and write it to `force`."""
     px, py, pz = position[0], position[1], position[2]
     ax, ay, az = rotation[0], rotation[1], rotation[2]
     wx, wy, wz = angular_velocity[0], angular_velocity[1], angular_velocity[2]
@@ -85,23 +46,8 @@ def force_at(position, acceleration, angular_acceleration, angular_velocity, rot
     force[2] = fz - (ax * fy - ay * fx)
 
 
-def white_noise(seed: int, sensor: int, first_sample: int, count: int) -> Float:
-    """Draw standard normal numbers that depend on the sample index only, not on the cut into blocks.
-
-    Parameters
-    ----------
-    seed, sensor : int
-        Of the run; running number of the sensor.
-
-    Returns
-    -------
-    float64 array, shape [count, 3]
-    """
-    return NoiseStream(seed, sensor).at(first_sample, count)
-
-
 class NoiseStream:
-    """White noise of one sensor; see `white_noise`.
+    """White noise of one sensor: it depends on the sample index only, not on the cut into blocks.
 
     References
     ----------
@@ -115,7 +61,7 @@ class NoiseStream:
         self._next = 0
 
     def at(self, first_sample: int, count: int) -> Float:
-        """Draw the numbers of some samples, shape [count, 3]; consecutive samples are the fastest."""
+        """Draw standard normal numbers, shape [count, 3]; consecutive samples are the fastest."""
         if first_sample != self._next:
             self._bits = np.random.Philox(key=self._key, counter=first_sample)
         self._next = first_sample + count

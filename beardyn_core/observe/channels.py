@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -212,24 +210,6 @@ class Observer:
         motion[2:, 3:] = bodies[:, CUP_BODY, ANGULAR : ANGULAR + 3]
         self._box_motion = motion[-2:]
         return motion
-
-    def snapshot(self) -> tuple[Any, ...]:
-        """Copy everything that the next block depends on."""
-        fast = None if self._fast_decimator is None else self._fast_decimator.state
-        slow = None if self._slow_decimator is None else self._slow_decimator.state
-        decimators = (self._waveforms.state, self._trend_decimator.state, slow, fast)
-        return *decimators, self._sensors.state, self._instants, self._box_motion
-
-    def restore(self, snapshot: tuple[Any, ...]) -> None:
-        """Go back to a `snapshot`."""
-        waveforms, trend_decimator, slow, fast, sensors, self._instants, self._box_motion = snapshot
-        self._waveforms.restore(waveforms)
-        self._trend_decimator.restore(trend_decimator)
-        if self._slow_decimator is not None:
-            self._slow_decimator.restore(slow)
-        if self._fast_decimator is not None:
-            self._fast_decimator.restore(fast)
-        self._sensors.restore(sensors)
 
 
 @entry

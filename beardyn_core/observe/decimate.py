@@ -67,18 +67,6 @@ class Decimator:
         """Delay in input samples: output m belongs to input m x factor - delay_samples."""
         return self._kept - (len(self._kernel) - 1) // 2
 
-    @property
-    def state(self) -> Float:
-        """Copy of the state of the filter, shape [channel, past]."""
-        return self._stretch[:, : self._kept].copy()
-
-    def restore(self, state: Float) -> None:
-        """Go back to a `state`."""
-        shape = (self.channels, self._kept)
-        if state.shape != shape:
-            raise ValueError(f"state has shape {state.shape}; this decimator's is {shape}")
-        self._stretch[:, : self._kept] = state
-
     def push(self, block: Float) -> Float:
         """Filter a block and return the output so far.
 
@@ -139,16 +127,6 @@ class TwoStageDecimator:
     def delay_samples(self) -> int:
         """See `Decimator.delay_samples`."""
         return self._first.delay_samples + self._first.factor * self._second.delay_samples
-
-    @property
-    def state(self) -> tuple[Float, Float]:
-        """Copy of the state of the filter."""
-        return self._first.state, self._second.state
-
-    def restore(self, state: tuple[Float, Float]) -> None:
-        """Go back to a `state`."""
-        self._first.restore(state[0])
-        self._second.restore(state[1])
 
     def push(self, block: Float) -> Float:
         """See `Decimator.push`."""

@@ -68,17 +68,6 @@ class Interpolator:
         assert all(len(stream) == channels for stream in self._streams)
         self._kept = kept
 
-    @property
-    def state(self) -> tuple[Float, ...]:
-        """Copy of the state of the filter."""
-        kept = zip(self._streams, self._kept, strict=True)
-        return tuple(stream[:, :count].copy() for stream, count in kept)
-
-    def restore(self, state: tuple[Float, ...]) -> None:
-        """Go back to a `state`."""
-        for stream, count, values in zip(self._streams, self._kept, state, strict=True):
-            stream[:, :count] = values
-
     def push(self, block: Float) -> Float:
         """Filter a block and return the output so far.
 

@@ -89,15 +89,6 @@ class Resonance:
         self._inputs = np.tile(initial, (2 * LOOKAHEAD, 1))
         self._outputs = np.tile(initial, (2, 1))
 
-    @property
-    def state(self) -> tuple[Float, Float]:
-        """State of the filter, in arrays that are not changed afterwards."""
-        return self._inputs, self._outputs
-
-    def restore(self, state: tuple[Float, Float]) -> None:
-        """Go back to a `state`."""
-        self._inputs, self._outputs = state
-
     def push(self, block: Float) -> Float:
         """Filter a block, shape [step, channel], and return as many steps."""
         stretch = np.concatenate((self._inputs, block))

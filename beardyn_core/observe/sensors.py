@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -106,17 +104,6 @@ class Sensors:
     def _first(index: int, sensor: Accelerometer, delay: int) -> int:
         return index * round(sensor.rate / BLOCKS_PER_SECOND) - delay
 
-    @property
-    def state(self) -> tuple[Any, ...]:
-        """State of all filters, from which the next block continues."""
-        return tuple(None if chain is None else chain.state for chain in self._chains)
-
-    def restore(self, state: tuple[Any, ...]) -> None:
-        """Go back to a `state`."""
-        for chain, kept in zip(self._chains, state, strict=True):
-            if chain is not None:
-                chain.restore(kept)
-
 
 class _Chain:
     """From the steps to the samples of one accelerometer."""
@@ -142,18 +129,9 @@ class _Chain:
         force = box_force(self._position, signals, motion, -1)
         return self._decimator.push(force if self._resonance is None else self._resonance.push(force))
 
-    @property
-    def state(self) -> tuple[Any, ...]:
-        return self._decimator.state, None if self._resonance is None else self._resonance.state
-
-    def restore(self, state: tuple[Any, ...]) -> None:
-        self._decimator.restore(state[0])
-        if self._resonance is not None:
-            self._resonance.restore(state[1])
-
 
 def box_force(position: tuple[float, float, float], signals: Float, motion: Float, delay: int) -> Float:
-    """Compute the specific force at a place of the box, see `specific_force`.
+    """Compute the specific force at a place of the box, see `force_at`.
 
     Parameters
     ----------

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 from typing import Annotated as A
 
 import numpy as np
@@ -159,70 +159,6 @@ class Load(Timed):
     def __repr__(self) -> str:
         """Give the number of samples and the rate."""
         return f"Load: wrench [N, N m], shaft_speed [rad/s], {len(self)} samples at {self.rate:g} Hz"
-
-
-class Source(Protocol):
-    """Source of the arrays of a run; each is read once, when it is first used."""
-
-    def force(self) -> Signal:
-        """Give `Run.force`."""
-        ...
-
-    def force_waveform(self) -> Signal:
-        """Give `Run.force_waveform`."""
-        ...
-
-    def sensors(self) -> dict[str, Signal]:
-        """Give `Run.sensors`."""
-        ...
-
-    def specific_force(self) -> Signal:
-        """Give `Run.specific_force`."""
-        ...
-
-    def shaft(self) -> Turning:
-        """Give `Run.shaft`."""
-        ...
-
-    def torque(self) -> Signal:
-        """Give `Run.torque`."""
-        ...
-
-    def cages(self) -> Turning:
-        """Give `Run.cages`."""
-        ...
-
-    def rollers(self) -> Turning:
-        """Give `Run.rollers`."""
-        ...
-
-    def bodies(self) -> Bodies:
-        """Give `Run.bodies`."""
-        ...
-
-    def contacts(self) -> Contacts:
-        """Give `Run.contacts`."""
-        ...
-
-    def load(self) -> Load:
-        """Give `Run.load`."""
-        ...
-
-    def temperature(self) -> Signal:
-        """Give `Run.temperature`."""
-        ...
-
-    def diagnostics(self) -> Diagnostics:
-        """Give `Run.diagnostics`."""
-        ...
-
-    def results(self) -> Diagnostics:
-        """Give `Run.results`."""
-        ...
-
-    def duration(self) -> float:
-        """Give `Run.duration`."""
-        ...
 
 
 def no_signal(components: tuple[str, ...], unit: str) -> Signal:

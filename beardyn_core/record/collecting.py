@@ -17,12 +17,10 @@ from beardyn_core.record.arrays import (
     Diagnostics,
     Load,
     Signal,
-    Source,
     Turning,
 )
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import DIAGNOSTICS_EVERY, TEMPERATURE_EVERY, block_diagnostic
-from beardyn_core.record.reading import MessageSource
 from beardyn_core.scene.load import WRENCH_AXES
 
 Float = NDArray[np.float64]
@@ -31,11 +29,6 @@ Int = NDArray[np.int64]
 Number = TypeVar("Number", bound=np.generic)
 
 _NOTHING = np.zeros(0, np.int64)
-
-
-def source_of_blocks(blocks: Sequence[Block], description: RunDescription | None) -> Source:
-    """Give the source of a run that consists of blocks; without any it has no samples."""
-    return BlockSource(blocks, description) if blocks else MessageSource({}, description)
 
 
 class BlockSource:

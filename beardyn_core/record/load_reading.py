@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +12,10 @@ from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import GAP, Measurement
-from beardyn_core.record.load_stream import decode_load
+from beardyn_core.record.load_stream import decode_load, joined_load
 from beardyn_core.record.mcap_scanning import McapScan
-from beardyn_core.record.messages import decode
+from beardyn_core.record.messages import decode, header_stamp
+from beardyn_core.record.reading import wrench_values
 from beardyn_core.record.topics import JOINTS, TWIST, WRENCH, namespace_of, relative_name
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import problem_with
@@ -97,13 +99,8 @@ def _stream(path: Path, cdrs: list[bytes]) -> LoadHistory:
             expected = int(samples[-1]) + 1
     if not parts:
         raise InputError(f"{path}: load/blocks has no sample in it; record the topic while a load is sent")
-    start = parts[0].time_ns[0]
-    return LoadHistory(
-        np.concatenate([part.time_ns for part in parts]) - start,
-        np.concatenate([part.wrench for part in parts]),
-        np.concatenate([part.shaft_speed for part in parts]),
-        np.concatenate([part.bogie for part in parts]),
-    )
+    load = joined_load(parts)
+    return replace(load, time_ns=load.time_ns - load.time_ns[0])
 
 
 def _of_pair(found: dict[str, list[bytes]], force: str, speed: str, take: str) -> Measurement:
@@ -130,26 +127,17 @@ def _column(samples: Iterator[tuple[int, list[float]]]) -> tuple[Int, Float]:
     return np.array(times, dtype=np.int64), np.array(values, dtype=np.float64)
 
 
-def _stamp(message: object) -> int:
-    stamp = message.header.stamp  # type: ignore[attr-defined]
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
-
-
 def _wrenches(cdrs: list[bytes]) -> Iterator[tuple[int, list[float]]]:
     for cdr in cdrs:
-        message = decode(WRENCH, cdr)
-        force, torque = message.wrench.force, message.wrench.torque
-        yield _stamp(message), [force.x, force.y, force.z, torque.x, torque.y, torque.z]
+        yield header_stamp(cdr), wrench_values(decode(WRENCH, cdr))
 
 
 def _speeds(cdrs: list[bytes], topic: str) -> Iterator[tuple[int, list[float]]]:
     for cdr in cdrs:
         if topic == "load/shaft":
-            message = decode(TWIST, cdr)
-            yield _stamp(message), [message.twist.angular.y]
+            yield header_stamp(cdr), [decode(TWIST, cdr).twist.angular.y]
         else:
-            message = decode(JOINTS, cdr)
-            yield _stamp(message), [float(message.velocity[0])]
+            yield header_stamp(cdr), [float(decode(JOINTS, cdr).velocity[0])]
 
 
 def _checked(path: Path, measured: Measurement) -> Measurement:

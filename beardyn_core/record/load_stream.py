@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -51,3 +53,10 @@ def decode_load(cdr: bytes) -> tuple[LoadHistory, NDArray[np.int64]]:
         np.stack([points[a].astype(float) if a in names else zero for a in BOGIE_AXES], axis=1),
     )
     return history, points["sample"].astype(np.int64)
+
+
+def joined_load(parts: Sequence[LoadHistory]) -> LoadHistory:
+    """Join the load of several messages."""
+    empty = LoadHistory(np.zeros(0, np.int64), np.zeros((0, 6)), np.zeros(0), np.zeros((0, 3)))
+    fields = ("time_ns", "wrench", "shaft_speed", "bogie")
+    return LoadHistory(*(np.concatenate([getattr(part, f) for part in (empty, *parts)]) for f in fields))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from time import monotonic
 
@@ -19,6 +18,7 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import END_RECORD, trim
 from beardyn_core.record.messages import typestore
 from beardyn_core.record.topics import NAMESPACE, Topic, topic
+from beardyn_core.versions import versions
 
 CHUNK_BYTES = 128 * 1024
 FLUSH_SECONDS = 0.5
@@ -27,6 +27,7 @@ SCENE_FILE = "scene.yaml"
 SUMMARY_RECORD = "beardyn"
 COMPLETE = "complete"
 
+_VERSION = versions()["beardyn"]
 _FOREVER = {"sec": 9223372036, "nsec": 854775807}
 
 
@@ -68,12 +69,14 @@ class McapWriter:
         self._failure: InputError | None = None
         self._closed = False
         with self._disk():
-            self._writer.start(profile="ros2", library=f"beardyn {_package_version()}")
+            self._writer.start(profile="ros2", library=f"beardyn {_VERSION}")
 
     def describe(self, run: RunDescription) -> None:
         """Store the resolved scene and the description as attachments, the main facts as metadata."""
-        facts = {"scene": run.scene, "bearing": run.shape.name, "beardyn": _package_version()}
-        facts.update({key: _text(value) for key, value in run.truth.items()})
+        facts = {"scene": run.scene, "bearing": run.shape.name, "beardyn": _VERSION}
+        facts.update(
+            {key: value if isinstance(value, str) else json.dumps(value) for key, value in run.truth.items()}
+        )
         with self._disk():
             self._writer.add_attachment(0, 0, SCENE_FILE, "application/yaml", run.scene_text.encode())
             self._writer.add_attachment(0, 0, DESCRIPTION_FILE, "application/json", run.to_json().encode())
@@ -230,16 +233,3 @@ def _qos_profile(entry: Topic) -> dict[str, object]:
         "liveliness_lease_duration": dict(_FOREVER),
         "avoid_ros_namespace_conventions": False,
     }
-
-
-def _package_version() -> str:
-    try:
-        return version("beardyn")
-    except PackageNotFoundError:
-        return "source"
-
-
-def _text(value: object) -> str:
-    if isinstance(value, str):
-        return value
-    return json.dumps(value)

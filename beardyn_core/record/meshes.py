@@ -34,10 +34,6 @@ class Mesh:
     triangles: A[NDArray[np.int64], "shape [triangle, 3]"]
     shades: A[Float, "shape [vertex, 3], factor on the part's colour, 0 to 1"]
 
-    def moved(self, offset: Float) -> Mesh:
-        """Shift the mesh by a vector, [m]."""
-        return Mesh(self.vertices + offset, self.normals, self.triangles, self.shades)
-
 
 def joined(*meshes: Mesh) -> Mesh:
     """Join several meshes to one."""

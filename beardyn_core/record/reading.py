@@ -37,10 +37,16 @@ from beardyn_core.record.encoding import (
     imu_template,
     joint_template,
 )
-from beardyn_core.record.load_stream import decode_load
+from beardyn_core.record.load_stream import decode_load, joined_load
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, SCENE_FILE
-from beardyn_core.record.messages import Template, decode, decode_diagnostics, decode_string
+from beardyn_core.record.messages import (
+    Template,
+    decode,
+    decode_diagnostics,
+    decode_string,
+    header_stamp,
+)
 from beardyn_core.record.run import Run
 from beardyn_core.record.topics import (
     IMU,
@@ -140,7 +146,7 @@ class MessageSource:
     def force(self) -> Signal:
         """Give `Run.force`."""
         return _stamped(
-            self._of("force"), WRENCH, force_template, "wrench", _wrench_values, WRENCH_AXES, "N, N m"
+            self._of("force"), WRENCH, force_template, "wrench", wrench_values, WRENCH_AXES, "N, N m"
         )
 
     def force_waveform(self) -> Signal:
@@ -243,16 +249,9 @@ class MessageSource:
     def load(self) -> Load:
         """Give `Run.load`."""
         parts = [decode_load(cdr) for cdr in self._of("load/blocks")]
-        if not parts:
-            nothing = np.zeros(0, np.int64)
-            return Load(nothing, np.zeros((0, 6)), np.zeros(0), np.zeros((0, 3)), nothing)
-        return Load(
-            np.concatenate([part.time_ns for part, _ in parts]),
-            np.concatenate([part.wrench for part, _ in parts]),
-            np.concatenate([part.shaft_speed for part, _ in parts]),
-            np.concatenate([part.bogie for part, _ in parts]),
-            np.concatenate([sample for _, sample in parts]),
-        )
+        load = joined_load([part for part, _ in parts])
+        sample = np.concatenate([np.zeros(0, np.int64), *(sample for _, sample in parts)])
+        return Load(load.time_ns, load.wrench, load.shaft_speed, load.bogie, sample)
 
     def temperature(self) -> Signal:
         """Give `Run.temperature`: one sample where all parts have one."""
@@ -260,7 +259,7 @@ class MessageSource:
         for cdr in self._of("temperature"):
             message = decode(TEMPERATURE, cdr)
             part = message.header.frame_id.rpartition("/")[2]
-            found[_stamp(message)][part] = float(message.temperature) + ZERO_CELSIUS
+            found[header_stamp(cdr)][part] = float(message.temperature) + ZERO_CELSIUS
         rows = {stamp: parts for stamp, parts in sorted(found.items()) if all(n in parts for n in NODES)}
         values = np.array([[parts[name] for name in NODES] for parts in rows.values()]).reshape(
             -1, len(NODES)
@@ -324,11 +323,8 @@ def _times(rows: NDArray[Any]) -> Int:
     return rows["sec"].astype(np.int64) * 1_000_000_000 + rows["nanosec"]
 
 
-def _stamp(message: Any) -> int:
-    return int(message.header.stamp.sec) * 1_000_000_000 + int(message.header.stamp.nanosec)
-
-
-def _wrench_values(message: Any) -> list[float]:
+def wrench_values(message: Any) -> list[float]:
+    """List force and moment of a ``geometry_msgs/WrenchStamped``, [N, N m]."""
     force, torque = message.wrench.force, message.wrench.torque
     return [force.x, force.y, force.z, torque.x, torque.y, torque.z]
 
@@ -354,9 +350,9 @@ def _stamped(
     rows = maker.decode(cdrs)
     if rows is not None:
         return Signal(_times(rows), rows[slot].astype(np.float64), names, unit, nothing)
-    messages = [decode(msgtype, cdr) for cdr in cdrs]
-    times = np.array([_stamp(message) for message in messages], np.int64)
-    return Signal(times, np.array([numbers(message) for message in messages], float), names, unit, nothing)
+    times = np.array([header_stamp(cdr) for cdr in cdrs], np.int64)
+    values = np.array([numbers(decode(msgtype, cdr)) for cdr in cdrs], float)
+    return Signal(times, values, names, unit, nothing)
 
 
 def _joints(cdrs: Sequence[bytes]) -> _Joints:
@@ -368,12 +364,10 @@ def _joints(cdrs: Sequence[bytes]) -> _Joints:
     if rows is not None:
         effort = rows["effort"] if "effort" in (rows.dtype.names or ()) else np.zeros((len(rows), 0))
         return _Joints(names, _times(rows), rows["position"].copy(), rows["velocity"].copy(), effort.copy())
-    messages = [decode(JOINTS, cdr) for cdr in cdrs]
-    messages = [message for message in messages if tuple(message.name) == names]
-    return _Joints(
-        names,
-        np.array([_stamp(message) for message in messages], np.int64),
-        np.array([message.position for message in messages], float),
-        np.array([message.velocity for message in messages], float),
-        np.array([message.effort for message in messages], float),
+    stamped = [(header_stamp(cdr), decode(JOINTS, cdr)) for cdr in cdrs]
+    stamped = [(stamp, message) for stamp, message in stamped if tuple(message.name) == names]
+    parts = (
+        [getattr(message, part) for _, message in stamped] for part in ("position", "velocity", "effort")
     )
+    times = np.array([stamp for stamp, _ in stamped], np.int64)
+    return _Joints(names, times, *(np.array(part, float) for part in parts))

@@ -7,10 +7,8 @@ from time import monotonic
 
 import rerun as rr
 
-from beardyn_core.observe.block import Block
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.encoding import BlockEncoder
-from beardyn_core.record.messages import decode_diagnostics, decode_string, encode_string, header_stamp
+from beardyn_core.record.messages import decode_diagnostics, decode_string, header_stamp
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.rerun_bearing import log_loads, log_motion, log_parts, roller_loads
 from beardyn_core.record.rerun_plots import log_curves, log_styles, order_spectrum
@@ -108,34 +106,3 @@ class LiveView:
         lines = [f"## {status.name}\n\n{status.message}" for status in statuses]
         document = rr.TextDocument("\n\n".join(lines), media_type=rr.MediaType.MARKDOWN)
         self._stream.log("about", document, static=True)
-
-
-class RerunSink:
-    """Draws a run while it is computed.
-
-    Parameters
-    ----------
-    stream : rerun.RecordingStream
-        Connected to where it goes.
-    """
-
-    def __init__(self, stream: rr.RecordingStream) -> None:
-        self._stream = stream
-        self._view = LiveView(stream)
-
-    def open(self, run: RunDescription) -> None:
-        """Draw the bearing."""
-        self._encoder = BlockEncoder(run.roller_count, run.sensor_names)
-        self._view.feed("truth", encode_string(run.to_json()))
-
-    def write(self, block: Block) -> None:
-        """Take a block; it is drawn with the next batch."""
-        for name, _, cdr in self._encoder.encode(block):
-            self._view.feed(name, cdr)
-
-    def close(self, status: str = "") -> None:
-        """Draw the rest."""
-        self._view.flush()
-        if status:
-            self._stream.log("about", rr.TextDocument(status), static=True)
-        self._stream.flush()

@@ -10,11 +10,10 @@ import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
-from beardyn_core.errors import InputError
 from beardyn_core.laboratory.rolling import ATTITUDE, FIRST_CONTACT, PLACE, Rolling
 from beardyn_core.laboratory.search import SURFACE_LINE
+from beardyn_core.record.rerun_stream import rerun_file
 
-APPLICATION = "beardyn"
 TIMELINE = "time"
 _FLOOR_COLOUR, _BODY_COLOUR, _POINT_COLOUR = (122, 136, 160), (255, 196, 64), (255, 60, 255)
 _PATH_COLOUR = (96, 190, 255)
@@ -37,17 +36,10 @@ def save_rolling(runs: Sequence[Rolling], target: Path) -> Path:
     InputError
         The file cannot be written.
     """
-    try:
-        target.open("ab").close()
-    except OSError as error:
-        raise InputError(f"{target}: cannot write the rerun file ({error.strerror})") from error
-    stream = rr.RecordingStream(APPLICATION, recording_id="contacts")
-    stream.save(target, default_blueprint=_blueprint(runs))
-    stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Y_UP, static=True)
-    for number, run in enumerate(runs):
-        _log_run(stream, f"trough_{number}", run, number * _SPACING)
-    stream.flush()
-    stream.disconnect()
+    with rerun_file(target, "contacts", _blueprint(runs)) as stream:
+        stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Y_UP, static=True)
+        for number, run in enumerate(runs):
+            _log_run(stream, f"trough_{number}", run, number * _SPACING)
     return target
 
 

@@ -7,6 +7,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
+from typing import Any
 
 import rerun as rr
 
@@ -53,7 +54,10 @@ def live_stream(target: str, path: Path | None = None, port: int = 0) -> Iterato
             stream.connect_grpc(page.stream_url)
             where = page.url
         else:
-            where = str(_writable(path))
+            if path is None:
+                raise InputError("a live view into a file needs the path of an .rrd file")
+            _check_writable(path)
+            where = str(path)
             stream.save(where)
         try:
             yield LiveStream(stream, where)
@@ -62,11 +66,25 @@ def live_stream(target: str, path: Path | None = None, port: int = 0) -> Iterato
             stream.disconnect()
 
 
-def _writable(path: Path | None) -> Path:
-    if path is None:
-        raise InputError("a live view into a file needs the path of an .rrd file")
+@contextmanager
+def rerun_file(path: Path, name: str, layout: Any) -> Iterator[rr.RecordingStream]:
+    """Open a recording into an ``.rrd`` file, with its blueprint, for as long as the context lasts.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
+    _check_writable(path)
+    stream = rr.RecordingStream(APPLICATION, recording_id=name)
+    stream.save(path, default_blueprint=layout)
+    yield stream
+    stream.flush()
+    stream.disconnect()
+
+
+def _check_writable(path: Path) -> None:
     try:
         path.open("ab").close()
     except OSError as error:
         raise InputError(f"{path}: cannot write the rerun file ({error.strerror})") from error
-    return path

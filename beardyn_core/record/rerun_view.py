@@ -8,14 +8,13 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from beardyn_core.errors import InputError
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
 from beardyn_core.record.rerun_plots import log_plots
 from beardyn_core.record.rerun_spectrum import bounds
+from beardyn_core.record.rerun_stream import rerun_file
 from beardyn_core.record.run import Run
 
-APPLICATION = "beardyn"
 BACKGROUND = (16, 19, 26)
 CLOSE_WINDOW = 0.2
 PLAYBACK_SPEED = 0.05
@@ -147,16 +146,8 @@ def save(run: Run, target: Path | str) -> Path:
         The recording does not describe its bearing, or the file cannot be written.
     """
     target = Path(target)
-    layout = run_blueprint(run)
-    try:
-        target.open("ab").close()
-    except OSError as error:
-        raise InputError(f"{target}: cannot write the rerun file ({error.strerror})") from error
-    stream = rr.RecordingStream(APPLICATION, recording_id=Path(run.label).stem)
-    stream.save(target, default_blueprint=layout)
-    log_run(stream, run)
-    stream.flush()
-    stream.disconnect()
+    with rerun_file(target, Path(run.label).stem, run_blueprint(run)) as stream:
+        log_run(stream, run)
     return target
 
 

@@ -20,7 +20,6 @@ from beardyn_core.record.arrays import (
     Diagnostics,
     Load,
     Signal,
-    Source,
     Turning,
     decoding_checked,
     no_signal,
@@ -30,7 +29,9 @@ from beardyn_core.record.topics import vibration_topic
 if TYPE_CHECKING:
     from beardyn_core.observe.block import Block
     from beardyn_core.observe.summary import RunSummary
+    from beardyn_core.record.collecting import BlockSource
     from beardyn_core.record.description import RunDescription
+    from beardyn_core.record.reading import MessageSource
 
 Part = TypeVar("Part")
 
@@ -63,7 +64,7 @@ class Run:
 
     def __init__(
         self,
-        source: Source,
+        source: BlockSource | MessageSource,
         description: RunDescription | None,
         *,
         path: Path | None = None,
@@ -92,20 +93,25 @@ class Run:
     ) -> Run:
         """Make a run of blocks, such as `beardyn_core.blocks` or a live twin gives.
 
+        Blocks hold signals and no word on their scene: `truth` and `labels` are empty without a description,
+        which ``RunDescription.of(scene, twin.truth(), twin.body_names, load)`` makes.
+
         Parameters
         ----------
         blocks : iterable of Block
             In the order of time.
         description : RunDescription, optional
-            Gives names of sensors and bodies, truth, and the load if it is known.
+            Gives names of sensors and bodies, the truth, and the load if it is known.
         status : str, optional
             How the run ended.
         summary : callable, optional
             Gives the summary of the simulation.
         """
-        from beardyn_core.record.collecting import source_of_blocks
+        from beardyn_core.record.collecting import BlockSource
+        from beardyn_core.record.reading import MessageSource
 
-        source = source_of_blocks(tuple(blocks), description)
+        given = tuple(blocks)
+        source = BlockSource(given, description) if given else MessageSource({}, description)
         text = "" if description is None else description.scene_text
         return cls(source, description, status=status, scene_text=text, summary=summary)
 

@@ -6,16 +6,29 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from beardyn_core.observe.accelerometer import (
-    GRAVITY,
-    NoiseStream,
-    reading,
-    specific_force,
-    white_noise,
-)
+from beardyn_core.jit import entry
+from beardyn_core.observe.accelerometer import GRAVITY, NoiseStream, force_at, reading
 from beardyn_core.scene.sensor import Accelerometer
 
 NOTHING = np.zeros((1, 3))
+
+
+def specific_force(position, acceleration, angular_velocity, angular_acceleration, rotation):
+    force = np.empty(acceleration.shape)
+    all_forces(np.array(position), acceleration, angular_velocity, angular_acceleration, rotation, force)
+    return force
+
+
+@entry
+def all_forces(position, acceleration, angular_velocity, angular_acceleration, rotation, force):
+    for i in range(len(force)):
+        force_at(
+            position, acceleration[i], angular_acceleration[i], angular_velocity[i], rotation[i], force[i]
+        )
+
+
+def white_noise(seed, sensor, first_sample, count):
+    return NoiseStream(seed, sensor).at(first_sample, count)
 
 
 def test_at_rest_it_reads_plus_g_on_z():

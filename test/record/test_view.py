@@ -20,7 +20,7 @@ from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import encode_string
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.rerun_bearing import load_colours, log_parts, roller_loads
-from beardyn_core.record.rerun_live import LiveView, RerunSink
+from beardyn_core.record.rerun_live import LiveView
 from beardyn_core.record.rerun_plots import order_spectrum
 from beardyn_core.record.rerun_spectrum import nice_ticks
 from beardyn_core.record.rerun_stream import live_stream
@@ -259,11 +259,12 @@ def test_a_desk_run_can_be_watched(tmp_path: Path) -> None:
     target = tmp_path / "desk.rrd"
     stream = rr.RecordingStream("beardyn")
     stream.save(target)
-    sink = RerunSink(stream)
-    sink.open(description())
+    view, encoder = LiveView(stream), BlockEncoder(17, ("axlebox_top",))
+    view.feed("truth", encode_string(description().to_json()))
     for block in SyntheticRun().blocks(5):
-        sink.write(block)
-    sink.close("the run ended as a test")
+        for name, _, cdr in encoder.encode(block):
+            view.feed(name, cdr)
+    view.flush()
     stream.disconnect()
     assert target.stat().st_size > 100_000
 
