@@ -24,8 +24,6 @@ Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 Diagnostics = tuple[tuple[int, "tuple[Diagnostic, ...]"], ...]
 
-ACCELERATION_AXES = ("ax", "ay", "az")
-
 
 @contextmanager
 def decoding_checked(path: Path | str) -> Iterator[None]:

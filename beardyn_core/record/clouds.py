@@ -7,6 +7,7 @@ header's stamp.
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,7 @@ class CloudTemplate:
         self._head = bytearray(pattern[:-1])
         self._tail = pattern[-1:]
         frame_size = len(frame.encode()) + 1
-        self._width_at = 4 + _align(12 + frame_size, 4) + 4
+        self._width_at = 4 + -(-(12 + frame_size) // 4) * 4 + 4
 
     def encode(self, points: NDArray[Any], stamp_ns: int) -> bytes:
         """Encode a cloud as CDR.
@@ -87,6 +88,12 @@ def points_of(
     points["sample"] = np.arange(first_sample, first_sample + len(time_ns)) & 0xFFFFFFFF
     points["t"] = time_ns - stamp_ns
     return points
+
+
+def fill(points: NDArray[Any], names: Iterable[str], numbers: NDArray[np.float64]) -> None:
+    """Write the columns of an array, shape [point, column], to the columns of these names."""
+    for column, name in enumerate(names):
+        points[name] = numbers[:, column]
 
 
 def encode_points(points: NDArray[Any], stamp_ns: int, frame: str) -> bytes:
@@ -126,17 +133,11 @@ def cloud_times(cdr: bytes, points: NDArray[Any]) -> NDArray[np.int64]:
 
 def _cloud(points: NDArray[Any], stamp_ns: int, frame: str) -> Any:
     dtype = points.dtype
-    fields = []
-    for name, (member, offset, *_) in (dtype.fields or {}).items():
-        fields.append(
-            make(
-                "sensor_msgs/msg/PointField",
-                name=name,
-                offset=offset,
-                datatype=_DATATYPES[member.str[1:]],
-                count=1,
-            )
-        )
+    kind = "sensor_msgs/msg/PointField"
+    fields = [
+        make(kind, name=name, offset=offset, datatype=_DATATYPES[member.str[1:]], count=1)
+        for name, (member, offset, *_) in (dtype.fields or {}).items()
+    ]
     return make(
         CLOUD,
         header=header(stamp_ns, frame),
@@ -149,7 +150,3 @@ def _cloud(points: NDArray[Any], stamp_ns: int, frame: str) -> Any:
         data=np.frombuffer(points.tobytes(), np.uint8),
         is_dense=True,
     )
-
-
-def _align(size: int, to: int) -> int:
-    return -(-size // to) * to

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.model.heat import NODES
-from beardyn_core.observe.block import Block, body_names
+from beardyn_core.observe.block import Block, Vibration, body_names
 from beardyn_core.record.arrays import (
-    ACCELERATION_AXES,
     Bodies,
     Contacts,
     Diagnostics,
@@ -20,7 +19,12 @@ from beardyn_core.record.arrays import (
     Turning,
 )
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.encoding import DIAGNOSTICS_EVERY, TEMPERATURE_EVERY, block_diagnostic
+from beardyn_core.record.encoding import (
+    ACCELERATION_AXES,
+    DIAGNOSTICS_EVERY,
+    TEMPERATURE_EVERY,
+    block_diagnostic,
+)
 from beardyn_core.scene.load import WRENCH_AXES
 
 Float = NDArray[np.float64]
@@ -64,21 +68,10 @@ class BlockSource:
 
     def sensors(self) -> dict[str, Signal]:
         """Give `Run.sensors`."""
-        count = len(self._blocks[0].vibration) if self._blocks else 0
-        names = (
-            tuple(f"accelerometer_{k}" for k in range(count))
-            if self._description is None
-            else self._description.sensor_names
-        )
-        return {name: self._sensor(number) for number, name in enumerate(names[:count])}
-
-    def _sensor(self, number: int) -> Signal:
-        times = self._times(lambda block: block.vibration[number].time_ns)
-        values = self._joined(lambda block: block.vibration[number].acceleration)
-        sample = self._times(
-            lambda block: block.vibration[number].sample + np.arange(len(block.vibration[number].time_ns))
-        )
-        return Signal(times, values, ACCELERATION_AXES, "m/s^2", sample)
+        several = list(zip(*(block.vibration for block in self._blocks), strict=True))
+        known = self._description
+        names = [f"accelerometer_{k}" for k in range(len(several))] if known is None else known.sensor_names
+        return {name: _sensor(parts) for name, parts in zip(names, several, strict=False)}
 
     def specific_force(self) -> Signal:
         """Give `Run.specific_force`."""
@@ -90,37 +83,26 @@ class BlockSource:
 
     def shaft(self) -> Turning:
         """Give `Run.shaft`."""
-        return Turning(
-            self._times(lambda block: block.trend_time_ns),
-            self._joined(lambda block: block.shaft_angle),
-            self._joined(lambda block: block.shaft_speed),
-        )
+        times = self._times(lambda block: block.trend_time_ns)
+        angle = self._joined(lambda block: block.shaft_angle)
+        return Turning(times, angle, self._joined(lambda block: block.shaft_speed))
 
     def torque(self) -> Signal:
         """Give `Run.torque`."""
-        return Signal(
-            self._orbit_times(),
-            self._joined(lambda block: _every(block, block.shaft_torque)),
-            (),
-            "N m",
-            _NOTHING,
-        )
+        values = self._joined(lambda block: _every(block, block.shaft_torque))
+        return Signal(self._orbit_times(), values, (), "N m", _NOTHING)
 
     def cages(self) -> Turning:
         """Give `Run.cages`."""
-        return Turning(
-            self._orbit_times(),
-            self._joined(lambda block: _every(block, block.cage_angle)),
-            self._joined(lambda block: _every(block, block.cage_speed)),
-        )
+        angle = self._joined(lambda block: _every(block, block.cage_angle))
+        speed = self._joined(lambda block: _every(block, block.cage_speed))
+        return Turning(self._orbit_times(), angle, speed)
 
     def rollers(self) -> Turning:
         """Give `Run.rollers`."""
-        return Turning(
-            self._orbit_times(),
-            self._joined(lambda block: _every(block, block.roller_angle)),
-            self._joined(lambda block: _every(block, block.roller_speed)),
-        )
+        angle = self._joined(lambda block: _every(block, block.roller_angle))
+        speed = self._joined(lambda block: _every(block, block.roller_speed))
+        return Turning(self._orbit_times(), angle, speed)
 
     def _orbit_times(self) -> Int:
         return self._times(lambda block: _every(block, block.trend_time_ns))
@@ -128,15 +110,12 @@ class BlockSource:
     def bodies(self) -> Bodies:
         """Give `Run.bodies`."""
         pose = self._joined(lambda block: block.body_pose)
-        return Bodies(
-            self._times(lambda block: block.snapshot_time_ns),
-            body_names((pose.shape[1] - 4) // 2)
-            if self._description is None
-            else self._description.body_names,
-            pose,
-            self._joined(lambda block: block.body_twist),
-            self._times(lambda block: block.snapshot_sample + np.arange(len(block.snapshot_time_ns))),
-        )
+        twist = self._joined(lambda block: block.body_twist)
+        times = self._times(lambda block: block.snapshot_time_ns)
+        sample = self._times(lambda block: block.snapshot_sample + np.arange(len(block.snapshot_time_ns)))
+        known = self._description
+        names = body_names((pose.shape[1] - 4) // 2) if known is None else known.body_names
+        return Bodies(times, names, pose, twist, sample)
 
     def contacts(self) -> Contacts:
         """Give `Run.contacts`."""
@@ -184,6 +163,14 @@ class BlockSource:
     def duration(self) -> float:
         """Give `Run.duration`."""
         return (self._blocks[-1].end_ns - self._blocks[0].start_ns) * 1e-9
+
+
+def _sensor(parts: Sequence[Vibration]) -> Signal:
+    """Join the readings of one accelerometer."""
+    times = np.concatenate([part.time_ns for part in parts])
+    values = np.concatenate([part.acceleration for part in parts])
+    sample = np.concatenate([part.sample + np.arange(len(part.time_ns)) for part in parts])
+    return Signal(times, values, ACCELERATION_AXES, "m/s^2", sample)
 
 
 def _every(block: Block, values: NDArray[Number]) -> NDArray[Number]:

@@ -12,7 +12,7 @@ from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.block import CONTACT_FIELDS, Block, EnergyAudit
 from beardyn_core.observe.torque_budget import NUMERICAL
-from beardyn_core.record.clouds import CloudTemplate, column_dtype, points_of
+from beardyn_core.record.clouds import CloudTemplate, column_dtype, fill, points_of
 from beardyn_core.record.messages import Diagnostic, Template, header, make
 from beardyn_core.record.topics import FRAME, IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
@@ -21,9 +21,10 @@ ZERO_CELSIUS = 273.15
 TEMPERATURE_EVERY = 10  # blocks
 DIAGNOSTICS_EVERY = 10
 POSE_AXES = ("x", "y", "z", "qx", "qy", "qz", "qw")
+ACCELERATION_AXES = ("ax", "ay", "az")
 TWIST_AXES = ("vx", "vy", "vz", "wx", "wy", "wz")
 WAVEFORM = column_dtype(tuple((axis, "f4") for axis in WRENCH_AXES))
-VIBRATION = column_dtype((("ax", "f4"), ("ay", "f4"), ("az", "f4")))
+VIBRATION = column_dtype(tuple((axis, "f4") for axis in ACCELERATION_AXES))
 BODIES = column_dtype((("body", "u2"), *((n, "f4") for n in POSE_AXES + TWIST_AXES)))
 CONTACTS = column_dtype(
     (("row", "u1"), ("roller", "u1"), ("kind", "u1"), *((name, "f4") for name in CONTACT_FIELDS))
@@ -141,32 +142,21 @@ class BlockEncoder:
 
     def _trend(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
         times = block.trend_time_ns
+        turned, turning = block.shaft_angle[:, None], block.shaft_speed[:, None]
         for name, messages in (
             ("force", self._force.encode(times, wrench=block.force)),
             ("imu", self._imu.encode(times, acceleration=block.specific_force)),
-            (
-                "shaft",
-                self._shaft.encode(
-                    times, position=block.shaft_angle[:, None], velocity=block.shaft_speed[:, None]
-                ),
-            ),
+            ("shaft", self._shaft.encode(times, position=turned, velocity=turning)),
         ):
             for stamp, cdr in zip(times.tolist(), messages, strict=True):
                 yield name, stamp, cdr
         every = slice(block.trend_sample % 2, None, 2)
         count = len(times[every])
-        position = np.hstack(
-            (
-                block.cage_angle[every],
-                block.roller_angle[every].reshape(count, self._rollers),
-                block.shaft_angle[every, None],
-            )
-        )
-        velocity = np.hstack(
-            (
-                block.cage_speed[every],
-                block.roller_speed[every].reshape(count, self._rollers),
-                block.shaft_speed[every, None],
+        position, velocity = (
+            np.hstack((cages[every], rollers[every].reshape(count, self._rollers), shaft[every, None]))
+            for cages, rollers, shaft in (
+                (block.cage_angle, block.roller_angle, block.shaft_angle),
+                (block.cage_speed, block.roller_speed, block.shaft_speed),
             )
         )
         effort = np.zeros_like(position)
@@ -179,16 +169,14 @@ class BlockEncoder:
         times = block.waveform_time_ns
         stamp = int(times[0])
         points = points_of(WAVEFORM, block.waveform_sample, times, stamp)
-        for i, axis in enumerate(WRENCH_AXES):
-            points[axis] = block.force_waveform[:, i]
+        fill(points, WRENCH_AXES, block.force_waveform)
         yield "force_waveform", stamp, self._waveform.encode(points, stamp)
         for sensor, vibration in enumerate(block.vibration):
             if not len(vibration.time_ns):
                 continue
             stamp = int(vibration.time_ns[0])
             points = points_of(VIBRATION, vibration.sample, vibration.time_ns, stamp)
-            for i, axis in enumerate(("ax", "ay", "az")):
-                points[axis] = vibration.acceleration[:, i]
+            fill(points, ACCELERATION_AXES, vibration.acceleration)
             yield vibration_topic(sensor, self._sensor_names), stamp, self._vibration.encode(points, stamp)
 
     def _snapshots(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
@@ -200,17 +188,14 @@ class BlockEncoder:
         points["sample"] = np.repeat(samples, bodies)
         points["body"] = np.tile(np.arange(bodies), len(times))
         numbers = np.concatenate((block.body_pose, block.body_twist), axis=2).reshape(-1, 13)
-        for i, name in enumerate((BODIES.names or ())[3:]):
-            points[name] = numbers[:, i]
+        fill(points, POSE_AXES + TWIST_AXES, numbers)
         yield "bodies", stamp, self._bodies.encode(points, stamp)
 
         snapshot, row, roller, kind = np.nonzero(np.any(block.contacts[..., 3:6] != 0.0, axis=-1))
         points = points_of(CONTACTS, 0, times[snapshot], stamp)
         points["sample"] = samples[snapshot]
         points["row"], points["roller"], points["kind"] = row, roller, kind
-        numbers = block.contacts[snapshot, row, roller, kind]
-        for i, name in enumerate(CONTACT_FIELDS):
-            points[name] = numbers[:, i]
+        fill(points, CONTACT_FIELDS, block.contacts[snapshot, row, roller, kind])
         yield "contacts", stamp, self._contacts.encode(points, stamp)
 
 

@@ -72,9 +72,13 @@ def export(
         endings = ", ".join(f".{each}" for each in KINDS)
         problems.append(f"{path}: the format is not known by its ending; allowed are {endings}")
     elif kind == "wav":
-        problems += [_not_sound(run, name) for name in names if not name.startswith(VIBRATION)]
+        problems += [
+            f"signal {name!r} cannot be a WAV file, only vibration can; choose .parquet, .csv, .npz or .h5"
+            for name in names
+            if name in signal_names(run) and not name.startswith(VIBRATION)
+        ]
     if problems:
-        raise InputError([problem for problem in problems if problem])
+        raise InputError(problems)
     targets = dict.fromkeys(names, path)
     if kind in _TABLES and len(names) > 1:
         targets = {name: path.with_name(f"{path.stem}_{name}{path.suffix}") for name in names}
@@ -102,12 +106,6 @@ def _usual(run: Run, kind: str) -> tuple[str, ...]:
     return tuple(name for name in names if len(signal_of(run, name))) or (VIBRATION,)
 
 
-def _not_sound(run: Run, name: str) -> str:
-    if name not in signal_names(run):
-        return ""
-    return f"signal {name!r} cannot be a WAV file, only vibration can; choose .parquet, .csv, .npz or .h5"
-
-
 def refuse_to_write(files: Sequence[Path], *, force: bool, inputs: Sequence[Path] = ()) -> None:
     """Raise `InputError` for files that exist, unless `force`, and for files that are an input."""
     problems = [each for file in files for each in file_problems("", file, inputs=inputs, force=force)]
@@ -119,12 +117,9 @@ def _write_parquet(run: Run, path: Path, name: str) -> None:
     pyarrow = library("pyarrow", "Parquet")
     parquet = library("pyarrow.parquet", "Parquet")
     table = pyarrow.table(columns_of(run, name))
-    found = {"beardyn": json.dumps({"signal": name, "truth": run.truth}), **_texts(labels_of(run))}
+    labels = {key: str(value) for key, value in labels_of(run).items() if key != "truth"}
+    found = {"beardyn": json.dumps({"signal": name, "truth": run.truth}), **labels}
     parquet.write_table(table.replace_schema_metadata(found), path)
-
-
-def _texts(labels: dict[str, Any]) -> dict[str, str]:
-    return {key: str(value) for key, value in labels.items() if key != "truth"}
 
 
 def _write_csv(run: Run, path: Path, name: str) -> None:

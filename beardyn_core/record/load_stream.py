@@ -7,7 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.record.clouds import cloud_times, cloud_to_arrays, column_dtype, encode_points, points_of
+from beardyn_core.record.clouds import (
+    cloud_times,
+    cloud_to_arrays,
+    column_dtype,
+    encode_points,
+    fill,
+    points_of,
+)
 from beardyn_core.record.topics import FRAME
 from beardyn_core.scene.load import WRENCH_AXES, LoadHistory
 
@@ -30,11 +37,9 @@ def encode_load(history: LoadHistory, first_sample: int, frame: str = FRAME) -> 
         raise ValueError("one message of load/blocks holds at most 4.29 s: send the history in parts")
     stamp = int(history.time_ns[0]) if len(history) else 0
     points = points_of(LOAD, first_sample, history.time_ns, stamp)
-    for i, axis in enumerate(WRENCH_AXES):
-        points[axis] = history.wrench[:, i]
+    fill(points, WRENCH_AXES, history.wrench)
     points["shaft_speed"] = history.shaft_speed
-    for i, axis in enumerate(BOGIE_AXES):
-        points[axis] = history.bogie[:, i]
+    fill(points, BOGIE_AXES, history.bogie)
     return encode_points(points, stamp, frame)
 
 

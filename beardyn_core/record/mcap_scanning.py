@@ -31,14 +31,8 @@ MAGIC = b"\x89MCAP0\r\n"
 
 # What the mcap library and the decompressor raise on bytes that were cut or damaged.
 _DAMAGE = (
-    McapError,
-    zstandard.ZstdError,
-    struct.error,
-    ValueError,
-    KeyError,
-    IndexError,
-    EOFError,
-    MemoryError,
+    *(McapError, zstandard.ZstdError, struct.error),
+    *(ValueError, KeyError, IndexError, EOFError, MemoryError),
 )
 
 

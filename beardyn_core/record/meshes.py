@@ -7,7 +7,7 @@ towards the large end and z facing the cup.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import cos, pi, sin, tan
 from typing import Annotated as A
@@ -161,7 +161,7 @@ def cone(shape: BearingShape) -> Mesh:
     left = [(-y, r) for y, r in reversed(right)]
     azimuth = np.linspace(0.0, 2.0 * pi, 145)
     mesh = revolve(np.array([*left, *right, left[0]]), azimuth)
-    return marked(mesh, np.abs(np.mod(_azimuth(mesh.vertices) + pi, 2 * pi) - pi) < 0.06)
+    return marked(mesh, _in_sector(mesh, 0.06))
 
 
 def roller(shape: BearingShape, segments: int = 40) -> Mesh:
@@ -181,18 +181,17 @@ def roller(shape: BearingShape, segments: int = 40) -> Mesh:
         ]
     )
     mesh = revolve(profile, np.linspace(0.0, 2.0 * pi, segments + 1))
-    dark = np.abs(np.mod(_azimuth(mesh.vertices) + pi, 2 * pi) - pi) < 0.45
     at_end = np.abs(np.abs(mesh.vertices[:, 1]) - half) < 1e-9
     outside = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2]) > 0.3 * small
-    mesh = marked(mesh, dark & at_end & outside)
+    mesh = marked(mesh, _in_sector(mesh, 0.45) & at_end & outside)
     # y becomes the roller's own x; z stays, so the mark faces the cup at zero spin.
     turn = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    return Mesh(mesh.vertices @ turn.T, mesh.normals @ turn.T, mesh.triangles, mesh.shades)
+    return replace(mesh, vertices=mesh.vertices @ turn.T, normals=mesh.normals @ turn.T)
 
 
 def cage(shape: BearingShape, row: int) -> Mesh:
     """Build the cage of a row: a ring at either end of the rollers and a bar between every two."""
-    half, side = shape.roller_length / 2.0, ROW_SIDE[row]
+    half = shape.roller_length / 2.0
     gap = 2.0 * pi / shape.roller_count
     rings = []
     for at, radius in ((-half, shape.small_end_radius), (half, shape.large_end_radius)):
@@ -200,17 +199,9 @@ def cage(shape: BearingShape, row: int) -> Mesh:
         y0, r0 = _on_pitch_cone(shape, at + outwards * 0.0008)
         y1, r1 = _on_pitch_cone(shape, at + outwards * 0.0048)
         thick = 0.26 * radius
-        low, high = sorted(((y0, r0), (y1, r1)))
-        ring = np.array(
-            [
-                (low[0], low[1] - thick),
-                (low[0], low[1] + thick),
-                (high[0], high[1] + thick),
-                (high[0], high[1] - thick),
-                (low[0], low[1] - thick),
-            ]
-        )
-        rings.append(revolve(ring, np.linspace(0.0, 2.0 * pi, 121)))
+        (y0, r0), (y1, r1) = sorted(((y0, r0), (y1, r1)))
+        ring = [(y0, r0 - thick), (y0, r0 + thick), (y1, r1 + thick), (y1, r1 - thick), (y0, r0 - thick)]
+        rings.append(revolve(np.array(ring), np.linspace(0.0, 2.0 * pi, 121)))
     bars = []
     for k in range(shape.roller_count):
         # A roller's chord fills most of the pitch: the bar sits in what is left, outside the pitch cone.
@@ -222,44 +213,47 @@ def cage(shape: BearingShape, row: int) -> Mesh:
         width = max(0.8 * free, 0.12 * gap)
         middle = (k + 0.5) * gap
         closed = np.vstack((profile, profile[:1]))
-        azimuth = np.linspace(middle - width / 2.0, middle + width / 2.0, 4)
-        bars += [
-            revolve(closed, azimuth),
-            section(closed, azimuth[0], -1.0),
-            section(closed, azimuth[-1], 1.0),
-        ]
+        bars.append(_sector(closed, np.linspace(middle - width / 2.0, middle + width / 2.0, 4)))
     mesh = joined(*rings, *bars)
-    mirror = np.array([1.0, side, 1.0])
-    return Mesh(mesh.vertices * mirror, mesh.normals * mirror, mesh.triangles, np.ones_like(mesh.vertices))
+    return _on_side(replace(mesh, shades=np.ones_like(mesh.vertices)), row)
 
 
 def spall(shape: BearingShape, defect: Patch) -> Mesh:
     """Build a patch on a raceway of the cup or the cone, slightly raised so that it is visible."""
     angle = shape.cup_angle if defect.on == "cup" else shape.cone_angle
     lift = -4e-4 if defect.on == "cup" else 4e-4
-    side = ROW_SIDE[defect.row]
     ends = [raceway_radius(shape, angle, defect.offset + sign * defect.length / 2.0) for sign in (-1.0, 1.0)]
     profile = np.array([(shape.row_spacing / 2.0 + y, r + lift) for y, r in ends])
     half = max(defect.width / 2.0 / float(profile[:, 1].mean()), 0.004)
     mesh = revolve(profile, np.linspace(defect.azimuth - half, defect.azimuth + half, 12))
-    mirror = np.array([1.0, side, 1.0])
-    return Mesh(mesh.vertices * mirror, mesh.normals * mirror, mesh.triangles, mesh.shades)
+    return _on_side(mesh, defect.row)
 
 
 def marked(mesh: Mesh, where: NDArray[np.bool_]) -> Mesh:
     """Darken some vertices of a mesh."""
     shades = mesh.shades.copy()
     shades[where] *= np.array(MARK_COLOUR)
-    return Mesh(mesh.vertices, mesh.normals, mesh.triangles, shades)
+    return replace(mesh, shades=shades)
 
 
-def _azimuth(vertices: Float) -> Float:
-    return np.arctan2(vertices[:, 0], vertices[:, 2])
+def _sector(profile: Float, azimuth: Float) -> Mesh:
+    """Revolve a closed profile over a part of the circle, with both cuts."""
+    return joined(
+        revolve(profile, azimuth), section(profile, azimuth[0], -1.0), section(profile, azimuth[-1], 1.0)
+    )
+
+
+def _on_side(mesh: Mesh, row: int) -> Mesh:
+    """Mirror a mesh that is made for positive y to the side of a row."""
+    mirror = np.array([1.0, ROW_SIDE[row], 1.0])
+    return replace(mesh, vertices=mesh.vertices * mirror, normals=mesh.normals * mirror)
+
+
+def _in_sector(mesh: Mesh, half: float) -> NDArray[np.bool_]:
+    """Find the vertices of a mesh around azimuth 0."""
+    return np.asarray(np.abs(np.arctan2(mesh.vertices[:, 0], mesh.vertices[:, 2])) < half)
 
 
 def _on_pitch_cone(shape: BearingShape, distance: float) -> tuple[float, float]:
-    along = shape.apex_distance + distance
-    return (
-        along * cos(shape.contact_angle) - shape.apex_distance * cos(shape.contact_angle),
-        along * sin(shape.contact_angle),
-    )
+    along, angle = shape.apex_distance + distance, shape.contact_angle
+    return along * cos(angle) - shape.apex_distance * cos(angle), along * sin(angle)

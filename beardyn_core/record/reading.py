@@ -17,7 +17,6 @@ from beardyn_core.errors import InputError
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
 from beardyn_core.record.arrays import (
-    ACCELERATION_AXES,
     Bodies,
     Contacts,
     Diagnostics,
@@ -30,6 +29,7 @@ from beardyn_core.record.arrays import (
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import (
+    ACCELERATION_AXES,
     POSE_AXES,
     TWIST_AXES,
     ZERO_CELSIUS,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -83,8 +84,7 @@ class Report:
         """Give the content as a mapping for JSON."""
         content = asdict(replace(self, budget=None))
         del content["budget"]
-        content["torque_budget"] = None if self.budget is None else self.budget.to_json()
-        return content
+        return {**content, "torque_budget": None if self.budget is None else self.budget.to_json()}
 
     def to_text(self) -> str:
         """Write the content for a terminal."""
@@ -100,29 +100,21 @@ def report(path: Path | str) -> Report:
         The file is absent, not MCAP, or holds not one usable message.
     """
     scan = McapScan(path)
-    counts: dict[str, int] = {}
-    types: dict[str, str] = {}
-    spans: dict[str, tuple[int, int]] = {}
+    times: dict[tuple[str, str], list[int]] = defaultdict(list)
     for message in scan.messages():
-        counts[message.topic] = counts.get(message.topic, 0) + 1
-        types[message.topic] = message.type
-        begin, end = spans.get(message.topic, (message.log_time, message.log_time))
-        spans[message.topic] = (min(begin, message.log_time), max(end, message.log_time))
+        times[message.topic, message.type].append(message.log_time)
     run = read_run(path)
     with decoding_checked(scan.path):
-        return _report(scan, run, counts, types, spans)
+        return _report(scan, run, times)
 
 
-def _report(
-    scan: McapScan,
-    run: Run,
-    counts: Mapping[str, int],
-    types: Mapping[str, str],
-    spans: Mapping[str, tuple[int, int]],
-) -> Report:
-    begin, end = _twin_span(spans)
-    description = run.description
-    speed = run.shaft.speed
+def _report(scan: McapScan, run: Run, times: Mapping[tuple[str, str], list[int]]) -> Report:
+    """Report a file; `times` are the log times of each topic and its type, [ns]."""
+    # of everything when the twin has said nothing
+    own = [each for (topic, _), each in times.items() if not topic.endswith(NOT_OF_THE_TWIN)]
+    own = own or list(times.values())
+    description, speed = run.description, run.shaft.speed
+    factors, residuals = diagnosed(run, "real_time_factor"), diagnosed(run, "energy_residual")
     return Report(
         path=str(scan.path),
         size_bytes=scan.size_bytes,
@@ -130,10 +122,11 @@ def _report(
         complete=scan.complete,
         problem=scan.problem,
         status=run.status,
-        begin=begin * 1e-9,
-        end=end * 1e-9,
+        begin=min(map(min, own)) * 1e-9,
+        end=max(map(max, own)) * 1e-9,
         topics=tuple(
-            TopicCount(name, types[name], n, _rate(n, spans[name])) for name, n in sorted(counts.items())
+            TopicCount(name, its_type, len(each), _rate(each))
+            for (name, its_type), each in sorted(times.items())
         ),
         attachments={name: len(data) for name, data in scan.attachments.items()},
         gaps=gaps(run),
@@ -142,8 +135,8 @@ def _report(
         faults=[asdict(defect) for defect in description.defects] if description else [],
         fault_frequencies_per_rev=description.shape.fault_frequencies if description else {},
         mean_shaft_speed=float(speed.mean()) if len(speed) else None,
-        real_time_factor=_mean(diagnosed(run, "real_time_factor")),
-        energy_residual=_last(diagnosed(run, "energy_residual")),
+        real_time_factor=float(np.mean(factors)) if factors else None,
+        energy_residual=residuals[-1] if residuals else None,
         budget=recorded_budget(run),
         monitor=run.results[-1][1][0].message if run.results and run.results[-1][1] else None,
         sensor_rates_Hz=dict(zip(description.sensor_names, description.sensor_rates, strict=True))
@@ -152,17 +145,9 @@ def _report(
     )
 
 
-def _twin_span(spans: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
-    """Find first and last log time of the twin's own signals, [ns]; of everything when there are none."""
-    own = [span for topic, span in spans.items() if not topic.endswith(NOT_OF_THE_TWIN)] or list(
-        spans.values()
-    )
-    return min(begin for begin, _ in own), max(end for _, end in own)
-
-
-def _rate(count: int, span: tuple[int, int]) -> float | None:
-    begin, end = span
-    return (count - 1) * 1e9 / (end - begin) if end > begin else None
+def _rate(times: list[int]) -> float | None:
+    begin, end = min(times), max(times)
+    return (len(times) - 1) * 1e9 / (end - begin) if end > begin else None
 
 
 def gaps(run: Run) -> tuple[Gap, ...]:
@@ -196,25 +181,10 @@ def _time_gaps(name: str, time_ns: NDArray[np.int64]) -> list[Gap]:
     return [Gap(name, float(time_ns[i] * 1e-9), int(missing[i])) for i in np.flatnonzero(missing > 0)]
 
 
-def _mean(values: list[float]) -> float | None:
-    return float(np.mean(values)) if values else None
-
-
-def _last(values: list[float]) -> float | None:
-    return values[-1] if values else None
-
-
 def _lines(r: Report) -> list[str]:
     lines = [f"{r.path}: {r.size_bytes / 1e6:.2f} MB, {r.begin:.3f} s to {r.end:.3f} s"]
-    if r.complete:
-        lines.append(
-            "closed properly"
-            if r.status in (None, COMPLETE)
-            else f"closed properly; the run ended: {r.status}"
-        )
-    else:
-        lines.append(r.problem)
-    lines.append("")
+    ending = "" if r.status in (None, COMPLETE) else f"; the run ended: {r.status}"
+    lines += [f"closed properly{ending}" if r.complete else r.problem, ""]
     if r.scene is not None:
         lines.append(f"scene    {r.scene}, bearing {r.bearing}")
         faults = [defect_from(fault).described() for fault in r.faults]

@@ -14,6 +14,8 @@ from beardyn_core.record.meshes import Mesh
 from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Patch
 
+Float = NDArray[np.float64]
+
 TIMELINE = "time"
 ROOT = "bearing"
 CUP_COLOUR = (150, 164, 184)
@@ -74,17 +76,9 @@ def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defec
     outer = (1.66 if defect.on == "cup" else 1.25) * shape.outer_diameter / 2.0
     ends = _polar(np.full(2, defect.azimuth), np.array([inner, outer]), axial).astype(np.float32)
     stream.log(entity, rr.LineStrips3D([ends], radii=[0.0008], colors=[SPALL_COLOUR]), static=True)
-    stream.log(
-        f"{entity}/name",
-        rr.Points3D(
-            ends[1:],
-            radii=[0.0022],
-            colors=[SPALL_COLOUR],
-            labels=[f"{defect.on} {defect.kind}, {defect.width * 1e3:.0f} mm"],
-            show_labels=True,
-        ),
-        static=True,
-    )
+    label = f"{defect.on} {defect.kind}, {defect.width * 1e3:.0f} mm"
+    named = rr.Points3D(ends[1:], radii=[0.0022], colors=[SPALL_COLOUR], labels=[label], show_labels=True)
+    stream.log(f"{entity}/name", named, static=True)
 
 
 def body_entity(name: str) -> str:
@@ -94,14 +88,10 @@ def body_entity(name: str) -> str:
 
 def log_motion(stream: rr.RecordingStream, run: Run) -> None:
     """Log the pose of every body at every snapshot."""
-    time = times(run.bodies.time_ns)
     for body, name in enumerate(run.described().body_names):
         pose = run.bodies.pose[:, body].astype(np.float32)
-        stream.send_columns(
-            body_entity(name),
-            indexes=[time],
-            columns=rr.Transform3D.columns(translation=pose[:, :3], quaternion=pose[:, 3:]),
-        )
+        placed = rr.Transform3D.columns(translation=pose[:, :3], quaternion=pose[:, 3:])
+        send(stream, body_entity(name), run.bodies.time_ns, placed)
 
 
 def roller_loads(run: Run) -> NDArray[np.float64]:
@@ -122,19 +112,12 @@ def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None
     load = roller_loads(run)
     whole = largest is None
     if largest is None:
-        largest = float(load.max()) if load.size else 0.0
-    time = times(run.bodies.time_ns)
-    colours = load_colours(load, largest)
-    packed = _packed(colours)
-    for row in range(2):
-        for k in range(shape.roller_count):
-            if f"roller_{row}_{k}" in run.described().absent_bodies:
-                continue
-            stream.send_columns(
-                f"{ROOT}/rollers/roller_{row}_{k}",
-                indexes=[time],
-                columns=rr.Mesh3D.columns(albedo_factor=packed[:, row, k]),
-            )
+        largest = float(load.max(initial=0.0))
+    packed = _packed(load_colours(load, largest))
+    for row, k in np.ndindex(2, shape.roller_count):
+        if (name := f"roller_{row}_{k}") not in run.described().absent_bodies:
+            coloured = rr.Mesh3D.columns(albedo_factor=packed[:, row, k])
+            send(stream, body_entity(name), run.bodies.time_ns, coloured)
     if largest == 0.0:
         return
     _log_contacts(stream, run, LONGEST_ARROW / largest)
@@ -154,24 +137,15 @@ def _log_contacts(stream: rr.RecordingStream, run: Run, scale: float) -> None:
         origins = contacts.point[..., kind, :][here]
         # Forces the rollers exert on their partners: they point out of the rollers and stay visible.
         vectors = -scale * contacts.force[..., kind, :][here]
-        stream.log(
-            f"{ROOT}/contact_forces/{name}",
-            rr.Arrows3D.from_fields(colors=[ARROW_COLOURS[name]], radii=[0.0009]),
-            static=True,
-        )
-        stream.send_columns(
-            f"{ROOT}/contact_forces/{name}",
-            indexes=[times(run.bodies.time_ns)],
-            columns=rr.Arrows3D.columns(origins=origins, vectors=vectors).partition(per_snapshot),
-        )
+        entity = f"{ROOT}/contact_forces/{name}"
+        style = rr.Arrows3D.from_fields(colors=[ARROW_COLOURS[name]], radii=[0.0009])
+        stream.log(entity, style, static=True)
+        arrows = rr.Arrows3D.columns(origins=origins, vectors=vectors).partition(per_snapshot)
+        send(stream, entity, run.bodies.time_ns, arrows)
 
 
 def _log_zone(
-    stream: rr.RecordingStream,
-    run: Run,
-    load: NDArray[np.float64],
-    largest: float,
-    packed: NDArray[np.uint32],
+    stream: rr.RecordingStream, run: Run, load: Float, largest: float, packed: NDArray[np.uint32]
 ) -> None:
     """Draw bars on the outer face of each row: length is the load of the roller behind it."""
     shape = run.described().shape
@@ -183,21 +157,13 @@ def _log_zone(
         count, rollers = azimuth.shape
         entity = f"{ROOT}/load_zone/row_{row}"
         stream.log(entity, rr.LineStrips3D.from_fields(radii=[0.0020]), static=True)
-        per_snapshot = np.full(count, rollers)
-        stream.send_columns(
-            entity,
-            indexes=[times(run.bodies.time_ns)],
-            columns=[
-                *rr.LineStrips3D.columns(
-                    strips=strips.reshape(-1, 2, 3).astype(np.float32), colors=packed[:, row].reshape(-1)
-                ).partition(per_snapshot)
-            ],
+        bars = rr.LineStrips3D.columns(
+            strips=strips.reshape(-1, 2, 3).astype(np.float32), colors=packed[:, row].reshape(-1)
         )
+        send(stream, entity, run.bodies.time_ns, bars.partition(np.full(count, rollers)))
 
 
-def _log_zone_outline(
-    stream: rr.RecordingStream, run: Run, load: NDArray[np.float64], largest: float
-) -> None:
+def _log_zone_outline(stream: rr.RecordingStream, run: Run, load: Float, largest: float) -> None:
     """Draw the largest load at each azimuth over the whole run."""
     shape = run.described().shape
     inner = ZONE_RADIUS * shape.outer_diameter / 2.0
@@ -209,15 +175,12 @@ def _log_zone_outline(
         envelope = np.zeros(len(ring) - 1)
         np.maximum.at(envelope, bins, load[:, row].ravel())
         outline = inner + LONGEST_BAR * np.append(envelope, envelope[0]) / largest
-        stream.log(
-            f"{ROOT}/load_zone/outline_{row}",
-            rr.LineStrips3D(
-                [_polar(ring, np.full(len(ring), inner), axial), _polar(ring, outline, axial)],
-                radii=[0.0003, 0.0005],
-                colors=[(120, 126, 140), (230, 200, 140)],
-            ),
-            static=True,
+        lines = rr.LineStrips3D(
+            [_polar(ring, inner, axial), _polar(ring, outline, axial)],
+            radii=[0.0003, 0.0005],
+            colors=[(120, 126, 140), (230, 200, 140)],
         )
+        stream.log(f"{ROOT}/load_zone/outline_{row}", lines, static=True)
 
 
 def _azimuths(run: Run, row: int) -> NDArray[np.float64]:
@@ -232,29 +195,22 @@ def _log_resultant(stream: rr.RecordingStream, run: Run, largest_roller_load: fl
         return
     shape = run.described().shape
     origin = [0.0, max(shape.width, shape.outer_diameter / 2.0) / 2.0 + 0.006, 0.0]
-    stream.log(
-        f"{ROOT}/force_on_cup",
-        rr.Arrows3D.from_fields(colors=[RESULTANT_COLOUR], radii=[0.0022], origins=[origin]),
-        static=True,
-    )
+    style = rr.Arrows3D.from_fields(colors=[RESULTANT_COLOUR], radii=[0.0022], origins=[origin])
+    stream.log(f"{ROOT}/force_on_cup", style, static=True)
     scale = shape.bore / 2.0 / (6.0 * largest_roller_load)
-    stream.send_columns(
-        f"{ROOT}/force_on_cup",
-        indexes=[times(run.force.time_ns)],
-        columns=rr.Arrows3D.columns(vectors=(scale * run.force.values[:, :3]).astype(np.float32)),
-    )
+    arrows = rr.Arrows3D.columns(vectors=(scale * run.force.values[:, :3]).astype(np.float32))
+    send(stream, f"{ROOT}/force_on_cup", run.force.time_ns, arrows)
 
 
-def times(time_ns: NDArray[np.int64]) -> rr.TimeColumn:
-    """Write the simulated time as a rerun column."""
-    return rr.TimeColumn(TIMELINE, duration=time_ns.astype("timedelta64[ns]"))
+def send(stream: rr.RecordingStream, entity: str, time_ns: NDArray[np.int64], columns: Any) -> None:
+    """Send what an entity shows over the simulated time."""
+    time = rr.TimeColumn(TIMELINE, duration=time_ns.astype("timedelta64[ns]"))
+    stream.send_columns(entity, indexes=[time], columns=columns)
 
 
-def _polar(azimuth: NDArray[np.float64], radius: Any, axial: float) -> NDArray[np.float64]:
-    radius = np.broadcast_to(radius, azimuth.shape)
-    return np.stack(
-        (radius * np.sin(azimuth), np.full(azimuth.shape, axial), radius * np.cos(azimuth)), axis=-1
-    )
+def _polar(azimuth: Float, radius: Any, axial: float) -> Float:
+    places = (radius * np.sin(azimuth), np.full(azimuth.shape, axial), radius * np.cos(azimuth))
+    return np.stack(places, axis=-1)
 
 
 def _packed(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:
@@ -263,13 +219,10 @@ def _packed(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:
 
 
 def _log_mesh(stream: rr.RecordingStream, entity: str, mesh: Mesh, colour: tuple[int, int, int]) -> None:
-    stream.log(
-        entity,
-        rr.Mesh3D(
-            vertex_positions=mesh.vertices.astype(np.float32),
-            vertex_normals=mesh.normals.astype(np.float32),
-            triangle_indices=mesh.triangles.astype(np.uint32),
-            vertex_colors=(mesh.shades * np.array(colour)).astype(np.uint8),
-        ),
-        static=True,
+    shown = rr.Mesh3D(
+        vertex_positions=mesh.vertices.astype(np.float32),
+        vertex_normals=mesh.normals.astype(np.float32),
+        triangle_indices=mesh.triangles.astype(np.uint32),
+        vertex_colors=(mesh.shades * np.array(colour)).astype(np.uint8),
     )
+    stream.log(entity, shown, static=True)

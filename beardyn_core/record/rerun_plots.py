@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.observe.features import OrderSpectrum
 from beardyn_core.record.envelope import envelope_order_spectrum
-from beardyn_core.record.rerun_bearing import roller_loads, times
+from beardyn_core.record.rerun_bearing import roller_loads, send
 from beardyn_core.record.rerun_spectrum import log_spectrum
 from beardyn_core.record.run import Run
 from beardyn_core.record.topics import vibration_topic
@@ -100,4 +100,4 @@ def _send(
     stream: rr.RecordingStream, entity: str, time_ns: NDArray[np.int64], values: NDArray[np.float64]
 ) -> None:
     if len(time_ns):
-        stream.send_columns(entity, indexes=[times(time_ns)], columns=rr.Scalars.columns(scalars=values))
+        send(stream, entity, time_ns, rr.Scalars.columns(scalars=values))

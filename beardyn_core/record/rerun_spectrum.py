@@ -89,20 +89,10 @@ def _frame(stream: rr.RecordingStream, last: float, top: float) -> None:
         ),
         static=True,
     )
-    _labels(
-        stream,
-        "order",
-        np.stack((orders / last * WIDTH, np.full(len(orders), HEIGHT + 4.0)), axis=1),
-        [f"{order:g}" for order in orders],
-        FRAME_COLOUR,
-    )
-    _labels(
-        stream,
-        "level",
-        np.stack((np.full(len(levels), -30.0), HEIGHT * (1.0 - levels / top) - 8.0), axis=1),
-        [f"{level:.3g}" for level in levels],
-        FRAME_COLOUR,
-    )
+    below = np.stack((orders / last * WIDTH, np.full(len(orders), HEIGHT + 4.0)), axis=1)
+    beside = np.stack((np.full(len(levels), -30.0), HEIGHT * (1.0 - levels / top) - 8.0), axis=1)
+    _labels(stream, "order", below, [f"{order:g}" for order in orders], FRAME_COLOUR)
+    _labels(stream, "level", beside, [f"{level:.3g}" for level in levels], FRAME_COLOUR)
 
 
 def _marker(stream: rr.RecordingStream, name: str, order: float, last: float) -> None:

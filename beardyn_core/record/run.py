@@ -14,7 +14,6 @@ from beardyn_core.errors import InputError
 from beardyn_core.observe.labels import flat_labels, load_labels
 from beardyn_core.observe.monitoring import MonitorInput
 from beardyn_core.record.arrays import (
-    ACCELERATION_AXES,
     Bodies,
     Contacts,
     Diagnostics,
@@ -24,6 +23,7 @@ from beardyn_core.record.arrays import (
     decoding_checked,
     no_signal,
 )
+from beardyn_core.record.encoding import ACCELERATION_AXES
 from beardyn_core.record.topics import vibration_topic
 
 if TYPE_CHECKING:

@@ -100,11 +100,13 @@ class McapSink:
 
     def write(self, block: Block) -> None:
         """Append the messages of a block."""
-        writer = self._opened()
+        writer = self._writer
+        if writer is None:
+            raise RuntimeError("McapSink.write before McapSink.open")
         if self._first:
             self._first = False
             writer.add("truth", block.start_ns, encode_string(self._run.to_json()))
-        self._write_load(block.end_ns)
+        self._write_load(writer, block.end_ns)
         for name, stamp, cdr in self._encoder.encode(block):
             writer.add(name, stamp, cdr)
         if block.index % DIAGNOSTICS_EVERY == 0 or block.status != 0:
@@ -116,12 +118,7 @@ class McapSink:
         if self._writer is not None:
             self._writer.close(status)
 
-    def _opened(self) -> McapWriter:
-        if self._writer is None:
-            raise RuntimeError("McapSink.write before McapSink.open")
-        return self._writer
-
-    def _write_load(self, until_ns: int) -> None:
+    def _write_load(self, writer: McapWriter, until_ns: int) -> None:
         load = self._run.load
         if load is None:
             return
@@ -130,5 +127,5 @@ class McapSink:
         while self._load_written < last:
             part = load.part(self._load_written, min(self._load_written + LOAD_MESSAGE_SAMPLES, last))
             cdr = encode_load(part, self._load_written, self._frame)
-            self._opened().add("load/blocks", int(part.time_ns[0]), cdr)
+            writer.add("load/blocks", int(part.time_ns[0]), cdr)
             self._load_written += len(part)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.arrays import Timed
+from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
 from beardyn_core.scene.load import WRENCH_AXES
 
 if TYPE_CHECKING:
@@ -23,8 +24,28 @@ SIGNALS = (
     *(VIBRATION, "force", "force_waveform", "specific_force", "shaft", "torque", "cages", "rollers"),
     *("bodies", "contacts", "load", "temperature"),
 )
-_AXES = ("x", "y", "z")
-_POSE, _TWIST = (*_AXES, "qx", "qy", "qz", "qw"), ("vx", "vy", "vz", "wx", "wy", "wz")
+_AXES = POSE_AXES[:3]
+
+
+_CONTACT = ("row", "roller", "kind")
+# the arrays of a signal that has several: axes after the time, unit
+_PARTS: dict[str, dict[str, tuple[tuple[str, ...], str]]] = {
+    "shaft": {"angle": ((), "rad"), "speed": ((), "rad/s")},
+    "cages": {"angle": (("row",), "rad"), "speed": (("row",), "rad/s")},
+    "rollers": {"angle": (("row", "roller"), "rad"), "speed": (("row", "roller"), "rad/s")},
+    "bodies": {"pose": (("body", "coordinate"), "m, -"), "twist": (("body", "motion"), "m/s, rad/s")},
+    "contacts": {
+        "point": ((*_CONTACT, "axis"), "m"),
+        "force": ((*_CONTACT, "axis"), "N"),
+        "slip": (_CONTACT, "m/s"),
+        "film": (_CONTACT, "m"),
+    },
+    "load": {
+        "wrench": (("component",), "N, N m"),
+        "shaft_speed": ((), "rad/s"),
+        "bogie": (("axis",), "m"),
+    },
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,28 +83,8 @@ def signal_of(run: Run, name: str) -> Timed:
 def parts_of(run: Run, name: str) -> dict[str, Part]:
     """Give the arrays of a signal by their names, with the names of their axes and their units."""
     signal: Any = signal_of(run, name)
-    if name in ("shaft", "cages", "rollers"):
-        dims = {"shaft": (), "cages": ("row",), "rollers": ("row", "roller")}[name]
-        return {"angle": Part(signal.angle, dims, "rad"), "speed": Part(signal.speed, dims, "rad/s")}
-    if name == "bodies":
-        return {
-            "pose": Part(signal.pose, ("body", "coordinate"), "m, -"),
-            "twist": Part(signal.twist, ("body", "motion"), "m/s, rad/s"),
-        }
-    if name == "contacts":
-        dims = ("row", "roller", "kind")
-        return {
-            "point": Part(signal.point, (*dims, "axis"), "m"),
-            "force": Part(signal.force, (*dims, "axis"), "N"),
-            "slip": Part(signal.slip, dims, "m/s"),
-            "film": Part(signal.film, dims, "m"),
-        }
-    if name == "load":
-        return {
-            "wrench": Part(signal.wrench, ("component",), "N, N m"),
-            "shaft_speed": Part(signal.shaft_speed, (), "rad/s"),
-            "bogie": Part(signal.bogie, ("axis",), "m"),
-        }
+    if name in _PARTS:
+        return {part: Part(getattr(signal, part), *about) for part, about in _PARTS[name].items()}
     dims = {3: ("axis",), 0: (), len(WRENCH_AXES): ("component",)}[len(signal.components)]
     dims = ("part",) if name == "temperature" else dims
     return {"values": Part(signal.values, dims, signal.unit)}
@@ -99,8 +100,8 @@ def coordinates_of(run: Run) -> dict[str, tuple[Any, ...]]:
         "roller": tuple(range(rollers or run.contacts.slip.shape[2])),
         "kind": run.contacts.kinds,
         "body": run.bodies.names,
-        "coordinate": _POSE,
-        "motion": _TWIST,
+        "coordinate": POSE_AXES,
+        "motion": TWIST_AXES,
         "part": run.temperature.components,
     }
 

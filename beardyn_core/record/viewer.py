@@ -152,16 +152,8 @@ def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 9
     problem = picture_problem()
     if problem is not None:
         raise InputError(problem)
-    command = [
-        viewer_executable(),
-        str(recording),
-        "--port",
-        "auto",
-        "--window-size",
-        f"{size[0]}x{size[1]}",
-        "--screenshot-to",
-        str(target),
-    ]
+    command = [viewer_executable(), str(recording), "--port", "auto"]
+    command += ["--window-size", f"{size[0]}x{size[1]}", "--screenshot-to", str(target)]
     environment = dict(os.environ)
     if not has_display():
         # The pointer rests in the middle of the screen; on a wide one that is outside the window, where
