@@ -71,34 +71,10 @@ if TYPE_CHECKING:
 else:
     from beardyn_core import bearing, scene
 
-__all__ = [
-    "Bearing",
-    "Block",
-    "Chain",
-    "EffectSet",
-    "InputError",
-    "Lubricant",
-    "MonitorSettings",
-    "Run",
-    "RunSummary",
-    "Scene",
-    "Twin",
-    "ValidityError",
-    "bearing",
-    "blocks",
-    "equilibrium",
-    "fault_frequencies",
-    "film",
-    "life",
-    "load_distribution",
-    "lubricant",
-    "monitor",
-    "read",
-    "scene",
-    "simulate",
-    "stiffness",
-    "torque",
-]
+__all__ = ["Bearing", "Block", "Chain", "EffectSet", "InputError", "Lubricant", "MonitorSettings", "Run"]
+__all__ += ["RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks", "equilibrium"]
+__all__ += ["fault_frequencies", "film", "life", "load_distribution", "lubricant", "monitor", "read"]
+__all__ += ["scene", "simulate", "stiffness", "torque"]
 
 _MODULES = {
     "api.making": ("lubricant",),

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import operator
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -125,57 +126,29 @@ def stem_of(key: str) -> str:
 
 @dataclasses.dataclass(frozen=True)
 class At:
-    """How a field is written at the edge.
+    """How a field is written at the edge."""
 
-    Parameters
-    ----------
-    unit : str
-        Ending of the key, one of `UNITS` or ``percent``; empty for a number or text without a unit.
-    gt, ge, lt, le : float, optional
-        Limits in that unit, of every number in the field.
-    one_of : tuple of str
-        The texts that are allowed.
-    size : pair of int, optional
-        Fewest and most entries of a list.
-    entry : type, optional
-        Named tuple that each entry of a list of plain tuples is written as.
-    longest : int, optional
-        Most characters of a text, which then cannot be empty.
-    key : str, optional
-        Key without its unit where it is not the field's own name.
-    required : bool
-        The file must give the key although the field has a usual value.
-    optional : bool
-        The file may leave the key out although the field has no usual value; its reader fills it in.
-    usual : object, optional
-        Usual value, in the unit of the edge, of a key whose field has none.
-    pattern : str, optional
-        Regular expression that a text must fit.
-    absent : bool
-        The usual value stands for a key that is not given: the file has no number for it.
-    switch : bool
-        ``true`` stands for the usual options, ``false`` for none.
-    reference : bool
-        The name of a file may stand for the mapping.
-    """
-
-    unit: str = ""
+    unit: Annotated[str, "ending of the key, one of `UNITS` or ``percent``; empty for what has no unit"] = ""
+    # limits in that unit, of every number in the field
     gt: float | None = None
     ge: float | None = None
     lt: float | None = None
     le: float | None = None
-    one_of: tuple[str, ...] = ()
-    size: tuple[int, int | None] | None = None
-    entry: Any = None
-    longest: int | None = None
-    key: str | None = None
-    required: bool = False
+    one_of: Annotated[tuple[str, ...], "the texts that are allowed"] = ()
+    size: Annotated[tuple[int, int | None] | None, "fewest and most entries of a list"] = None
+    entry: Annotated[Any, "named tuple that each entry of a list of plain tuples is written as"] = None
+    longest: Annotated[int | None, "most characters of a text, which then cannot be empty"] = None
+    key: Annotated[str | None, "key without its unit where it is not the field's own name"] = None
+    required: Annotated[bool, "the file must give the key although the field has a usual value"] = False
+    # ... or may leave it out although the field has no usual value; its reader fills it in
     optional: bool = False
-    usual: Any = None
-    pattern: str | None = None
-    absent: bool = False
-    switch: bool = False
-    reference: bool = False
+    usual: Annotated[Any, "usual value, in the unit of the edge, of a key whose field has none"] = None
+    pattern: Annotated[str | None, "regular expression that a text must fit"] = None
+    absent: Annotated[bool, "the usual value stands for a key that is not given: the file has none"] = (
+        False
+    )
+    switch: Annotated[bool, "``true`` stands for the usual options, ``false`` for none"] = False
+    reference: Annotated[bool, "the name of a file may stand for the mapping"] = False
 
     @property
     def scale(self) -> Unit:
@@ -208,13 +181,9 @@ class Place(NamedTuple):
     default: Any  # `dataclasses.MISSING` where there is none
 
 
+@cache
 def places(noun: Any) -> tuple[Place, ...]:
     """List the fields of a noun (a dataclass or a named tuple) that a file can give, in their order."""
-    return _places(noun)
-
-
-@cache
-def _places(noun: Any) -> tuple[Place, ...]:
     hints = get_type_hints(noun, include_extras=True)
     found = []
     for name, default in _defaults(noun).items():
@@ -391,16 +360,10 @@ def _inside(part: Any, *place: str | int) -> Iterator[Problem]:
 
 
 def _number_outside(name: str, value: float, at: At) -> Iterator[Problem]:
-    edge, limits = at.scale.to_edge(value), at.limits
-    kept = {
-        "gt": edge > limits.get("gt", -math.inf),
-        "ge": edge >= limits.get("ge", -math.inf),
-        "lt": edge < limits.get("lt", math.inf),
-        "le": edge <= limits.get("le", math.inf),
-    }
-    broken = next((limit for limit in limits if not kept[limit]), None)
-    if broken is not None:
-        yield Problem(f"{name} is {edge:g}; it must be {LIMIT_WORDS[broken]} {limits[broken]:g}")
+    edge = at.scale.to_edge(value)
+    broken = next((name for name, limit in at.limits.items() if not getattr(operator, name)(edge, limit)), "")
+    if broken:
+        yield Problem(f"{name} is {edge:g}; it must be {LIMIT_WORDS[broken]} {at.limits[broken]:g}")
     elif not math.isfinite(edge):
         yield Problem(f"{name} is {edge:g}; it must be a finite number")
 

@@ -44,22 +44,9 @@ if TYPE_CHECKING:
     from beardyn_core.config.text import scene_text
     from beardyn_core.config.trial_file import read_trial
 
-__all__ = [
-    "SCHEMA_KINDS",
-    "OpenScene",
-    "config_folder",
-    "json_schema",
-    "load_bearing",
-    "load_effects",
-    "load_lubricant",
-    "load_vehicle",
-    "read_scene",
-    "read_scene_mapping",
-    "read_scene_text",
-    "read_trial",
-    "scene_text",
-    "shipped_names",
-]
+__all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_bearing", "load_effects"]
+__all__ += ["load_lubricant", "load_vehicle", "read_scene", "read_scene_mapping", "read_scene_text"]
+__all__ += ["read_trial", "scene_text", "shipped_names"]
 
 _MODULES = {
     "SCHEMA_KINDS": "schema",

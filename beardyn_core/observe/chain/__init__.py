@@ -27,19 +27,5 @@ from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
 from beardyn_core.observe.chain.verdict import Verdict
 
-__all__ = [
-    "FAULTS",
-    "REFERENCE",
-    "VERDICTS",
-    "Algorithm",
-    "Band",
-    "Chain",
-    "FaultLines",
-    "Line",
-    "MonitorResult",
-    "MonitorSettings",
-    "Stretch",
-    "Verdict",
-    "algorithm_named",
-    "answer_of",
-]
+__all__ = ["FAULTS", "REFERENCE", "VERDICTS", "Algorithm", "Band", "Chain", "FaultLines", "Line"]
+__all__ += ["MonitorResult", "MonitorSettings", "Stretch", "Verdict", "algorithm_named", "answer_of"]
