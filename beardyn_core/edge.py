@@ -144,9 +144,7 @@ class At:
     optional: bool = False
     usual: Annotated[Any, "usual value, in the unit of the edge, of a key whose field has none"] = None
     pattern: Annotated[str | None, "regular expression that a text must fit"] = None
-    absent: Annotated[bool, "the usual value stands for a key that is not given: the file has none"] = (
-        False
-    )
+    absent: Annotated[bool, "the usual value stands for a key that is not given: the file has none"] = False
     switch: Annotated[bool, "``true`` stands for the usual options, ``false`` for none"] = False
     reference: Annotated[bool, "the name of a file may stand for the mapping"] = False
 
@@ -181,9 +179,13 @@ class Place(NamedTuple):
     default: Any  # `dataclasses.MISSING` where there is none
 
 
-@cache
 def places(noun: Any) -> tuple[Place, ...]:
     """List the fields of a noun (a dataclass or a named tuple) that a file can give, in their order."""
+    return _places(noun)
+
+
+@cache
+def _places(noun: Any) -> tuple[Place, ...]:
     hints = get_type_hints(noun, include_extras=True)
     found = []
     for name, default in _defaults(noun).items():

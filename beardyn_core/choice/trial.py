@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.choice.load import scene_from_mapping
-from beardyn_core.config.effects_file import overlay
 from beardyn_core.config.folders import find
-from beardyn_core.config.trial_file import read_trial
+from beardyn_core.config.load import read_trial
+from beardyn_core.config.scene_file import overlay
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import UNITS, written
 from beardyn_core.errors import InputError

@@ -4,17 +4,14 @@
 module       responsibility, in the order of the data
 ============ ==================================================================
 folders      where configuration lies; a name becomes a file
-yaml_text    YAML text to a mapping and back
+yaml_text    YAML text to a mapping, and a scene back to YAML
 file_model   base of the models: unknown keys explained, all mistakes kept
 keys         from an annotated noun to the model of its file
-effects_file a preset of effects, and what changes it
-scene_file   what the parts of a scene say otherwise than their nouns
+scene_file   what the parts of a scene say otherwise than their nouns; presets of effects
 problems     refusals to sentences with file, key, value, what is allowed
 automatic    what `auto` leaves open
 missing      rows and rollers that are not there
-load         references resolved, nouns made
-text         a scene back to YAML
-trial_file   the trial file
+load         references resolved, nouns made: scenes, their parts, trials
 schema       JSON schema for editors
 ============ ==================================================================
 
@@ -39,10 +36,10 @@ if TYPE_CHECKING:
         read_scene,
         read_scene_mapping,
         read_scene_text,
+        read_trial,
     )
     from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
-    from beardyn_core.config.text import scene_text
-    from beardyn_core.config.trial_file import read_trial
+    from beardyn_core.config.yaml_text import scene_text
 
 __all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_bearing", "load_effects"]
 __all__ += ["load_lubricant", "load_vehicle", "read_scene", "read_scene_mapping", "read_scene_text"]
@@ -52,8 +49,7 @@ _MODULES = {
     "SCHEMA_KINDS": "schema",
     "config_folder": "folders",
     "json_schema": "schema",
-    "read_trial": "trial_file",
-    "scene_text": "text",
+    "scene_text": "yaml_text",
     "shipped_names": "folders",
 }
 

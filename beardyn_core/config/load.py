@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated as A
 from typing import Any
@@ -16,12 +16,11 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.automatic import take_auto
-from beardyn_core.config.effects_file import overlay
 from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of, valid
 from beardyn_core.config.missing import missing_problems
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
-from beardyn_core.config.scene_file import with_length
+from beardyn_core.config.scene_file import overlay, with_length
 from beardyn_core.config.yaml_text import read_file, read_mapping
 from beardyn_core.edge import UNITS, places, stem_of
 from beardyn_core.effects import EffectSet
@@ -38,6 +37,7 @@ from beardyn_core.scene.irregularity import MEASURED
 from beardyn_core.scene.operation import QuarterVehicleOperation, Vehicle
 from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.tier import TIER_NAMES, contradictions
+from beardyn_core.scene.trial import Trial
 from beardyn_core.scene.waviness import Waviness
 
 
@@ -94,7 +94,7 @@ def bearing_from_mapping(data: dict[str, Any], label: str) -> Bearing:
     """Make a bearing of the mapping in a bearing file; see `load_bearing`."""
     bearing: Bearing = read_noun(Bearing, data, label)
     if problems := check(bearing):
-        raise InputError([f"{label}: {_plain(problem)}" for problem in problems])
+        raise InputError([f"{label}: {problem.removesuffix('.')}" for problem in problems])
     return bearing
 
 
@@ -113,6 +113,31 @@ def load_effects(name: str | Path) -> EffectSet:
     return _load(EffectSet, find("effects", str(name)))
 
 
+def read_trial(name: str | Path, *, tier: str | None = None, seed: int | None = None) -> tuple[Trial, Path]:
+    """Read the trial of a shipped name or of a file, its sizes in order, and find its path.
+
+    Parameters
+    ----------
+    tier, seed : optional
+        Instead of the file's; with another tier the check falls away where it is the same one.
+
+    Raises
+    ------
+    InputError
+        With every mistake in the file.
+    """
+    path = find("trials", str(name))
+    data = read_file(path)
+    if tier is not None:
+        data["tier"] = tier
+        if isinstance(data.get("check"), dict) and data["check"].get("tier") == tier:
+            del data["check"]
+    if seed is not None:
+        data["seed"] = seed
+    trial: Trial = read_noun(Trial, data, str(path))
+    return replace(trial, folder=path.parent, sizes=tuple(sorted(trial.sizes))), path
+
+
 def _load(noun: type, path: Path) -> Any:
     return read_noun(noun, read_file(path), str(path))
 
@@ -129,10 +154,6 @@ def read_noun(noun: type, data: dict[str, Any], label: str) -> Any:
         return keys_of(noun).model_validate(data).noun()
     except ValidationError as error:
         raise InputError(sentences(error, [Origin((), label)])) from None
-
-
-def _plain(problem: str) -> str:
-    return problem.removesuffix(".")
 
 
 class _Reading:
@@ -254,12 +275,9 @@ class _Reading:
         bearing = valid(Bearing, self.data.get("bearing"))
         if bearing is None:
             return
-        label = max(
-            (origin for origin in self.origins if origin.place in ((), ("bearing",))),
-            key=lambda o: len(o.place),
-        ).label
+        label, _ = located(("bearing",), self.origins)
         problems = check(bearing)
-        self.problems += [f"{label}: {_plain(problem)}" for problem in problems]
+        self.problems += [f"{label}: {problem.removesuffix('.')}" for problem in problems]
         self._check_forces(bearing)
         faults: tuple[tuple[str, Any], ...] = (("defects", Defect), ("waviness", Waviness))
         for key, hint in faults:

@@ -6,9 +6,8 @@ from typing import Any
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.config.effects_file import EffectSet
 from beardyn_core.config.keys import in_order, keys_of
-from beardyn_core.config.scene_file import Scene
+from beardyn_core.config.scene_file import EffectSet, Scene
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.trial import Trial
 

@@ -5,12 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Hashable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
+from beardyn_core.edge import written
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import note_read
+
+if TYPE_CHECKING:
+    from beardyn_core.scene.scene import Scene
 
 
 def _float(text: str) -> float:
@@ -122,3 +126,15 @@ def write_mapping(data: dict[str, Any]) -> str:
     return yaml.dump(
         data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, default_flow_style=None, width=110
     )
+
+
+def scene_text(scene: Scene) -> str:
+    """Write a scene as YAML: edge units, every reference resolved, every number.
+
+    Returns
+    -------
+    str
+        `beardyn_core.choice.scene_from_text` makes the same scene of it. A number of which no decimal in edge
+        units is the exact value in SI comes back as its neighbour.
+    """
+    return write_mapping(written(scene))

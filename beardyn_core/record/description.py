@@ -116,7 +116,7 @@ class RunDescription:
         load: LoadHistory | None = None,
     ) -> RunDescription:
         """Describe a run of a scene; the truth gets labels of the load when the load is known."""
-        from beardyn_core.config.text import scene_text  # pydantic is not for readers of a recording
+        from beardyn_core.config.yaml_text import scene_text  # pydantic is not for readers of a recording
 
         if load is not None:
             truth = {**truth, **load_labels(load.time_ns, load.wrench, load.shaft_speed, truth)}
