@@ -80,6 +80,15 @@ class Lubricant:
     base_oil: A[str, At(one_of=BASE_OILS), "how the Barus coefficient changes with temperature"] = "mineral"
     sources: tuple[tuple[str, str], ...] = ()
 
+    def __repr__(self) -> str:
+        """Give the name, what it is and the viscosities, in one line."""
+        at_40, at_100 = self.kinematic_viscosity_40 / _MM2_PER_S, self.kinematic_viscosity_100 / _MM2_PER_S
+        about = f" ({self.description})" if self.description else ""
+        return (
+            f"Lubricant {self.name}{about}: {self.base_oil} oil, {at_40:.4g} mm2/s at 40 C, "
+            f"{at_100:.4g} mm2/s at 100 C"
+        )
+
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
         """Omit the Barus coefficient when it was derived from the viscosity."""
         viscosity = self.kinematic_viscosity(self.pressure_viscosity_temperature)

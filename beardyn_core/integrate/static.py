@@ -94,6 +94,15 @@ class StaticSolution:
         """Find the largest load between a roller and the cup, [N]."""
         return float(self.cup_load.max())
 
+    def __repr__(self) -> str:
+        """Give displacement and roller loads in one line."""
+        x, y, z = self.displacement * 1e6
+        return (
+            f"StaticSolution: cone displaced by {x:.4g}, {y:.4g}, {z:.4g} um along x, y, z; "
+            f"{sum(self.loaded_roller_count)} of {self.cup_load.size} rollers carry, at most "
+            f"{self.largest_roller_load * 1e-3:.4g} kN"
+        )
+
 
 def solve(
     bearing: Bearing,

@@ -100,9 +100,7 @@ class McapSink:
 
     def write(self, block: Block) -> None:
         """Append the messages of a block."""
-        writer = self._writer
-        if writer is None:
-            raise RuntimeError("McapSink.write before McapSink.open")
+        writer = self._opened()
         if self._first:
             self._first = False
             writer.add("truth", block.start_ns, encode_string(self._run.to_json()))
@@ -117,6 +115,11 @@ class McapSink:
         """Finish the file."""
         if self._writer is not None:
             self._writer.close(status)
+
+    def _opened(self) -> McapWriter:
+        if self._writer is None:
+            raise RuntimeError("McapSink.write before McapSink.open")
+        return self._writer
 
     def _write_load(self, writer: McapWriter, until_ns: int) -> None:
         load = self._run.load

@@ -224,6 +224,11 @@ def test_contradictions_of_a_scene_in_code_are_sentences() -> None:
 def test_representations_are_short() -> None:
     scene = bd.scene("cup_spall")
     block = next(bd.blocks(bd.scene("static_80kN", tier="lumped"), duration=0.02))
+    static = bd.equilibrium("HS130x230", 80.0)
+    summary = bd.simulate(bd.scene("static_80kN", tier="lumped"), duration=0.02).summary
+    for thing in (scene.lubricant, static, summary):
+        assert len(repr(thing)) < 200, repr(thing)
+        assert len(repr(thing).splitlines()) == 1
     for thing in (scene, scene.bearing, scene.effects, bd.EffectSet(), block):
         assert len(repr(thing)) < 400
         assert len(repr(thing).splitlines()) <= 2
