@@ -22,6 +22,7 @@ from beardyn_core.scene.scene import Scene
 
 USUAL_BEARING, USUAL_LUBRICANT = "HS130x230", "L055"
 USUAL_LOAD_KN, USUAL_SPEED_RPM = 80.0, 1000.0
+_NO_PATCH = ("diameter", "worn_pocket")  # kinds of faults without a depth
 _STEEL_DENSITY = 7830.0  # [kg/m^3]
 # what a bearing in code must say; see `_derived` for the rest
 _NEEDED = ("rollers", "pitch_diameter_mm", "roller_diameter_mm", "roller_length_mm", "contact_angle_deg")
@@ -244,9 +245,12 @@ def _mapping_of(source: str | Path | Mapping[str, Any] | Scene | None) -> tuple[
     if source is not None:
         path = find("scenes", str(source))
         return read_file(path), str(path), path.parent
-    operation = {"kind": "constant", "force_kN": [0.0, 0.0, USUAL_LOAD_KN], "speed_rpm": USUAL_SPEED_RPM}
     usual = {"scene": "scene", "bearing": USUAL_BEARING, "lubricant": USUAL_LUBRICANT}
-    return {**usual, "operation": operation}, "scene made in code", Path()
+    return {**usual, "operation": _usual_operation()}, "scene made in code", Path()
+
+
+def _usual_operation() -> dict[str, Any]:
+    return {"kind": "constant", "force_kN": [0.0, 0.0, USUAL_LOAD_KN], "speed_rpm": USUAL_SPEED_RPM}
 
 
 def _set_operation(
@@ -262,15 +266,10 @@ def _set_operation(
         if speed_kmh is not None:
             raise InputError("speed_kmh is given with load_kN or speed_rpm; a constant load has speed_rpm")
         if operation.get("kind") != "constant":
-            operation = {
-                "kind": "constant",
-                "force_kN": [0.0, 0.0, USUAL_LOAD_KN],
-                "speed_rpm": USUAL_SPEED_RPM,
-            }
+            operation = _usual_operation()
         if load_kN is not None:
-            operation["force_kN"] = (
-                [0.0, 0.0, _plain(load_kN)] if isinstance(load_kN, Real) else _plain(load_kN)
-            )
+            force = _plain(load_kN)
+            operation["force_kN"] = [0.0, 0.0, force] if isinstance(load_kN, Real) else force
         if speed_rpm is not None:
             operation["speed_rpm"] = _plain(speed_rpm)
         data["operation"] = operation
@@ -291,7 +290,11 @@ def _faults(given: Any) -> list[dict[str, Any]]:
             f"faults is {given!r}; it must be a list of mappings: "
             'faults=[{"on": "cup", "width_mm": 6}], or [] for none'
         )
-    return [_fault(each) for each in several]
+    # row 0, and 100 um deep when it is a patch
+    return [
+        {"row": 0, **({"depth_um": 100.0} if each.get("kind", "spall") not in _NO_PATCH else {}), **each}
+        for each in several
+    ]
 
 
 def _plain(value: Any) -> Any:
@@ -301,9 +304,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [_plain(each) for each in value]
     return value.tolist() if hasattr(value, "tolist") else value
-
-
-def _fault(given: Mapping[str, Any]) -> dict[str, Any]:
-    """Complete the keys of a fault: row 0, and 100 um deep when it is a patch."""
-    patch = given.get("kind", "spall") not in ("diameter", "worn_pocket")
-    return {"row": 0, **({"depth_um": 100.0} if patch else {}), **given}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from numbers import Real
 from typing import Any
 
@@ -112,9 +112,7 @@ def stiffness(
         found = equilibrium(bearing, load_kN, end_play_mm=play, tilt=tilt, laminae=laminae)
         return found.stiffness_tilt_free if tilt == "free" else found.stiffness_tilt_held
 
-    if end_play_mm is None or np.ndim(end_play_mm) == 0:
-        return one(None if end_play_mm is None else _number("end_play_mm", end_play_mm))
-    return np.array([one(_number("end_play_mm", play)) for play in _listed(end_play_mm)])
+    return one(None) if end_play_mm is None else _each("end_play_mm", end_play_mm, one)
 
 
 def torque(
@@ -156,9 +154,7 @@ def torque(
         static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=rpm)
         return running_torque(chosen, oil, kelvin, static, rpm * _RPM, rib_friction=rib_friction).total
 
-    if np.ndim(speed_rpm) == 0:
-        return one(_number("speed_rpm", speed_rpm))
-    return np.array([one(_number("speed_rpm", rpm)) for rpm in _listed(speed_rpm)])
+    return _each("speed_rpm", speed_rpm, one)
 
 
 def life(
@@ -305,16 +301,14 @@ def _force(bearing: Bearing, load_kN: Any) -> tuple[float, float, float]:
     return numbers[0], numbers[1], numbers[2]
 
 
-def _listed(values: Any) -> list[Any]:
-    """List the entries of a sequence or an array."""
-    return list(values)
-
-
-def _number(name: str, value: Any) -> float:
-    """Give a number as a float; refuse what is none."""
-    if not isinstance(value, Real):
-        raise InputError(f"{name} is {value!r}; give a number or a sequence of numbers")
-    return float(value)
+def _each(name: str, values: Any, answer: Callable[[float], Any]) -> Any:
+    """Answer for a number, or for each of a sequence; refuse what is no number."""
+    several = list(values) if np.ndim(values) else [values]
+    for value in several:
+        if not isinstance(value, Real):
+            raise InputError(f"{name} is {value!r}; give a number or a sequence of numbers")
+    answers = [answer(float(value)) for value in several]
+    return np.array(answers) if np.ndim(values) else answers[0]
 
 
 def _kelvin(temperature_C: float) -> float:

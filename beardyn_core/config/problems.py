@@ -49,6 +49,20 @@ def _value(value: Any) -> str:
 _INSTEAD_OF_KEYS = {"<inline>": "a name or ", "<options>": "true, false or "}
 
 
+# What is allowed where that depends on the kind of the mistake alone, with numbers of its context.
+_SIMPLE = {
+    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "it must be a whole number"),
+    **dict.fromkeys(("string_type", "string_too_short"), "it must be a text"),
+    "string_too_long": "it must be at most {max_length} characters",
+    # the only pattern there is
+    "string_pattern_mismatch": "it must begin with a letter, and consist of letters a to z, digits and "
+    "underscores",
+    **dict.fromkeys(("bool_type", "bool_parsing"), "it must be true or false"),
+    "too_short": "it must have at least {min_length} entries",
+    "too_long": "it must have at most {max_length} entries",
+}
+
+
 def _expectation(found: Any, unit: str | None) -> str:
     """Say what is allowed where a value was refused."""
     kind, context = found["type"], found.get("ctx", {})
@@ -57,37 +71,18 @@ def _expectation(found: Any, unit: str | None) -> str:
         limit = _LIMITS[kind]
         return f"it must be {LIMIT_WORDS[limit]} {context[limit]:g}"
     if kind in ("float_type", "float_parsing"):
-        plain = (
-            " (the unit is in the key, write the number alone)"
-            if unit and isinstance(found["input"], str)
-            else ""
-        )
-        return f"it must be a number{in_unit}{plain}"
-    if kind in ("int_type", "int_parsing", "int_from_float"):
-        return "it must be a whole number"
-    if kind == "finite_number":
-        return f"it must be a finite number{in_unit}"
-    if kind in ("string_type", "string_too_short"):
-        return "it must be a text"
-    if kind == "string_too_long":
-        return f"it must be at most {context['max_length']} characters"
-    if kind == "string_pattern_mismatch":  # the only pattern there is
-        return "it must begin with a letter, and consist of letters a to z, digits and underscores"
-    if kind in ("bool_type", "bool_parsing"):
-        return "it must be true or false"
+        text = unit and isinstance(found["input"], str)
+        hint = " (the unit is in the key, write the number alone)" if text else ""
+        return f"it must be a number{in_unit}{hint}"
+    if kind in ("finite_number", "tuple_type", "list_type"):
+        return f"it must be a {'finite number' if kind == 'finite_number' else 'list'}{in_unit}"
     if kind == "literal_error":
         allowed = context["expected"].replace(" or ", ", ")
         return f"allowed are {allowed}{_guess(found['input'], allowed)}"
     if kind in ("model_type", "model_attributes_type", "dict_type"):
         named = _INSTEAD_OF_KEYS.get(str(found["loc"][-1]) if found["loc"] else "", "")
         return f"it must be {named}a mapping of keys to values"
-    if kind in ("tuple_type", "list_type"):
-        return f"it must be a list{in_unit}"
-    if kind == "too_short":
-        return f"it must have at least {context['min_length']} entries"
-    if kind == "too_long":
-        return f"it must have at most {context['max_length']} entries"
-    return str(found["msg"])
+    return _SIMPLE[kind].format(**context) if kind in _SIMPLE else str(found["msg"])
 
 
 def _guess(value: Any, allowed: str) -> str:

@@ -76,15 +76,12 @@ class Pictures(Protocol):
 
     def pose(self) -> Float:
         """See `Block.body_pose`."""
-        ...
 
     def twist(self) -> Float:
         """See `Block.body_twist`."""
-        ...
 
     def contacts(self) -> Float:
         """See `Block.contacts`."""
-        ...
 
 
 @dataclass(frozen=True)

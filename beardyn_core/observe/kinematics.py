@@ -49,15 +49,12 @@ class Instants(Protocol):
 
     def __getitem__(self, times: slice) -> Instants:
         """Take some of the instants."""
-        ...
 
     def whole(self) -> Float:
         """Return the state of the kernel, shape [time, block, ROLLER_FIELDS, lane]."""
-        ...
 
     def orbits(self) -> Float:
         """Return the same state, with no more of it than `write_instants` needs."""
-        ...
 
 
 class Snapshots:

@@ -68,8 +68,8 @@ class RunSummary:
         """Give scene, length, torque, force and end of the run in one line."""
         fx, fy, fz = (each * 1e-3 for each in self.mean_force)
         return (
-            f"RunSummary of {self.scene}: {self.duration:.2f} s, tier {self.tier}, "
-            f"torque {self.shaft_torque:.4g} N m, force on the cup {fx:.4g}, {fy:.4g}, {fz:.4g} kN; {self.status}"
+            f"RunSummary of {self.scene}: {self.duration:.2f} s, tier {self.tier}, torque "
+            f"{self.shaft_torque:.4g} N m, force on the cup {fx:.4g}, {fy:.4g}, {fz:.4g} kN; {self.status}"
         )
 
     @property

@@ -133,14 +133,17 @@ class Run:
     @property
     def vibration(self) -> Signal:
         """Specific force that the first accelerometer reads, values [sample, 3], [m/s^2]; +g on z at rest."""
-        names = tuple(self.sensors) if self.description is None else self.description.sensor_names
-        return self.sensors.get(names[0], _SILENCE) if names else _SILENCE
+        return self.sensors.get(self._sensor_names[0], _SILENCE) if self._sensor_names else _SILENCE
 
     @property
     def sensor_topics(self) -> dict[str, Signal]:
         """`sensors` by the topic that each is recorded on."""
-        names = tuple(self.sensors) if self.description is None else self.description.sensor_names
+        names = self._sensor_names
         return {vibration_topic(names.index(name), names): signal for name, signal in self.sensors.items()}
+
+    @property
+    def _sensor_names(self) -> tuple[str, ...]:
+        return tuple(self.sensors) if self.description is None else self.description.sensor_names
 
     @cached_property
     def specific_force(self) -> Signal:
@@ -282,18 +285,16 @@ class Run:
 
     def __repr__(self) -> str:
         """Describe scene, length and end of the run in two lines."""
-        nameless = "blocks without a description" if self.path is None else "a recording without truth"
-        what = nameless if self.description is None else self._said()
+        what = "blocks without a description" if self.path is None else "a recording without truth"
+        if self.description is not None:
+            truth = self.truth
+            what = (
+                f"{truth.get('scene')}: bearing {truth.get('bearing')}, tier {truth.get('tier')}, "
+                f"condition {truth.get('condition')}"
+            )
         ending = self.status or self.problem or "how it ended is not known"
         sensors = ", ".join(f"{name} {signal.rate / 1e3:g} kHz" for name, signal in self.sensors.items())
         return f"Run of {what}\n  {self.duration:.2f} s, sensors: {sensors or 'none'}; {ending}"
-
-    def _said(self) -> str:
-        truth = self.truth
-        return (
-            f"{truth.get('scene')}: bearing {truth.get('bearing')}, tier {truth.get('tier')}, "
-            f"condition {truth.get('condition')}"
-        )
 
     def to_xarray(self) -> Any:
         """Give all signals as an ``xarray.Dataset``: see `record.tables.to_xarray`."""

@@ -11,9 +11,9 @@ from scipy.stats import binomtest
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
 from beardyn_core.observe.chain.fault_lines import comb_score, trimmed_tail
-from beardyn_core.observe.chain.hot_box import temperature_state
 from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram
 from beardyn_core.observe.chain.levels import levels_in_band, rise
+from beardyn_core.observe.chain.verdict import temperature_state
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors, without_wheel
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
 

@@ -10,8 +10,7 @@ tracking    envelope, and track: order tracking by the shaft angle
 wheel       takes out what turns with the wheel (flats, polygons)
 fault_lines score: power on the lines of each fault against noise, and the threshold
 levels      RMS, kurtosis, crest factor and their trend
-hot_box     the temperature rule
-verdict     decide: which fault is called, and why
+verdict     decide: which fault is called, and why; the temperature rule
 result      what an algorithm answers
 chain       `Chain`: the steps put together, each replaceable
 named       finds an algorithm by its name ``module:function``, and checks its answer

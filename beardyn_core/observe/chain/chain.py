@@ -65,6 +65,7 @@ class Chain:
         found = self.score(tracked, orders, roller_count, speed, settings)
         verdict = self.decide(found, stretch, settings)
         levels = levels_in_band(stretch.acceleration, stretch.rate, settings.band, speed)
+        cup, cone, roller = found.candidates
         best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
         return MonitorResult(
             verdict=verdict.name,
@@ -76,7 +77,7 @@ class Chain:
             expected_frequency=best.pattern.order * speed if called else np.nan,
             score=best.score,
             threshold=best.threshold,
-            scores=_three([candidate.score for candidate in found.candidates]),
+            scores=(cup.score, cone.score, roller.score),
             lines=best.lines,
             strongest_order=found.strongest_order,
             strongest_level=found.strongest_level,
@@ -92,11 +93,6 @@ class Chain:
             temperature_state=verdict.temperature_state,
             spectrum=found.spectrum,
         )
-
-
-def _three(scores: list[float]) -> tuple[float, float, float]:
-    cup, cone, roller = scores
-    return cup, cone, roller
 
 
 REFERENCE = Chain()

@@ -1,16 +1,17 @@
-"""The verdict: the fault that is reported, and the sentence that says why."""
+"""The verdict: the fault that is reported, and the sentence that says why; the temperature rule."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isnan
 from typing import Annotated as A
 
 from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines, explains
-from beardyn_core.observe.chain.hot_box import HOT, UNKNOWN, temperature_state
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
 
 HEALTHY, HOT_BOX = "healthy", "hot_box"
+UNKNOWN, NORMAL, WARM, HOT = "unknown", "normal", "warm", "hot"
 _ZERO_CELSIUS = 273.15
 
 
@@ -43,6 +44,30 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
         name = HOT_BOX if name == HEALTHY else name
         reason = f"{_hot_sentence(stretch)}; {reason}"
     return Verdict(name, reason, best, state)
+
+
+def temperature_state(temperature: float, heating: float, settings: MonitorSettings) -> str:
+    """Judge the temperature: ``unknown``, ``normal``, ``warm`` or ``hot``.
+
+    Parameters
+    ----------
+    temperature : float
+        Of the axlebox, NaN when unknown, [K].
+    heating : float
+        Its rise, NaN when unknown, [K/s].
+
+    References
+    ----------
+    EN 15437-2 (2012), Axlebox condition monitoring, part 2: on-board systems alarm on temperature, with
+    levels of the vehicle's own. Those of `MonitorSettings` are assumed.
+    """
+    if isnan(temperature):
+        return UNKNOWN
+    if temperature >= settings.hot:
+        return HOT
+    if temperature >= settings.heating_floor and heating >= settings.heating:
+        return HOT
+    return WARM if temperature >= settings.warm else NORMAL
 
 
 def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
