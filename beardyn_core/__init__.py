@@ -16,6 +16,7 @@ edge       unit, limits and words of a number, on the field that holds it
 outputs    files that a command writes: nothing is replaced unasked
 interrupts Ctrl-C, also while something is compiled
 versions   versions of what computed a run
+arrays     names of array types in signatures
 effects    the catalogue of effects and sets of them
 bearing    geometry, kinematics, materials, lubricants
 scene      one bearing under one operation: loads, mounting, defects, sensors

@@ -9,8 +9,8 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.restraint import tilt_restraint
@@ -41,7 +41,6 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 from beardyn_core.versions import versions
 
-Float = NDArray[np.float64]
 LANE_WIDTH = 8
 
 COMPILING = "compiling the kernels of these effects: once, about a minute"

@@ -18,7 +18,7 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.automatic import take_auto
 from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of, valid
-from beardyn_core.config.missing import missing_problems
+from beardyn_core.config.missing import entries_of, missing_problems
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
 from beardyn_core.config.scene_file import overlay, with_length
 from beardyn_core.config.yaml_text import read_file, read_mapping
@@ -281,11 +281,10 @@ class _Reading:
         self._check_forces(bearing)
         faults: tuple[tuple[str, Any], ...] = (("defects", Defect), ("waviness", Waviness))
         for key, hint in faults:
-            entries = self.data.get(key)
-            for index, given in enumerate(entries if isinstance(entries, list) and not problems else []):
+            for place, given in [] if problems else entries_of(self.data, key):
                 if fault := valid(hint, given):
                     for problem in with_length(fault, bearing.effective_length).contradictions(bearing):
-                        self.problems.append(f"{self.origins[0].label}: {key_path((key, index))}.{problem}")
+                        self.problems.append(f"{self.origins[0].label}: {key_path(place)}.{problem}")
         for place, problem in missing_problems(self.data, bearing):
             self._complain(place, [problem])
 
@@ -294,19 +293,13 @@ class _Reading:
         operation = self.data.get("operation")
         if not isinstance(operation, dict):
             return
-        steps = operation.get("steps")
-        given: list[tuple[Place, Any]] = [(("operation",), operation)]
-        given += [
-            (("operation", "steps", index), step)
-            for index, step in enumerate(steps if isinstance(steps, list) else [])
-        ]
-        for place, owner in given:
-            force = owner.get("force_kN") if isinstance(owner, dict) else None
+        for place, owner in [((), operation), *entries_of(operation, "steps")]:
+            force = owner.get("force_kN")
             if not isinstance(force, list) or not all(_is_number(each) for each in force):
                 continue
             problem, _ = load_doubts(bearing, [UNITS["kN"].to_si(float(each)) for each in force])
             if problem:
-                self._complain((*place, "force_kN"), [problem])
+                self._complain(("operation", *place, "force_kN"), [problem])
 
     def _check_wheel(self) -> None:
         operation = self.data.get("operation")
@@ -316,11 +309,10 @@ class _Reading:
         given = operation.get(place.key, place.at.scale.to_edge(place.default))
         if not isinstance(given, int | float) or not place.at.limits["ge"] <= given <= place.at.limits["le"]:
             return
-        entries = operation.get("wheel_defects")
-        for index, written in enumerate(entries if isinstance(entries, list) else []):
+        for where_in, written in entries_of(operation, "wheel_defects"):
             if defect := valid(WheelDefect, written):
                 for problem in defect.contradictions(0.5 * place.at.scale.to_si(float(given))):
-                    where = key_path(("operation", "wheel_defects", index))
+                    where = key_path(("operation", *where_in))
                     self.problems.append(f"{self.origins[0].label}: {where}.{problem}")
 
     def _check_tier(self, free: Free) -> None:
@@ -342,15 +334,13 @@ class _Reading:
             self._complain(("numerics", "integrator"), problems)
 
     def _check_pockets(self) -> None:
-        effects, entries = valid(EffectSet, self.data.get("effects")), self.data.get("defects")
-        if effects is None or effects.cage is not None or not isinstance(entries, list):
+        effects = valid(EffectSet, self.data.get("effects"))
+        if effects is None or effects.cage is not None:
             return
-        for index, given in enumerate(entries):
-            if isinstance(given, dict) and given.get("kind") == "worn_pocket":
-                self._complain(
-                    ("defects", index),
-                    ["a worn pocket needs the cage, which effects leave out: set effects.cage to true"],
-                )
+        needed = "a worn pocket needs the cage, which effects leave out: set effects.cage to true"
+        for place, given in entries_of(self.data, "defects"):
+            if given.get("kind") == "worn_pocket":
+                self._complain(place, [needed])
 
 
 def _is_number(value: Any) -> bool:

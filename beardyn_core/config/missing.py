@@ -31,7 +31,7 @@ def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[P
         return []
     problems: list[tuple[Place, str]] = []
     missing: list[tuple[int, int]] = []
-    for place, given in _entries(scene, "missing_rollers"):
+    for place, given in entries_of(scene, "missing_rollers"):
         found = valid(MissingRoller, given)
         if found is None:
             continue
@@ -51,7 +51,7 @@ def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[P
                 (("missing_rollers",), f"every roller of row {row} ({name}) is missing; leave one{hint}")
             )
     for key in ("defects", "waviness"):
-        for place, given in _entries(scene, key):
+        for place, given in entries_of(scene, key):
             its_row, on = given.get("row"), given.get("on")
             if its_row == 1 and rows == 1:
                 problems.append((place, _no_row(1)))
@@ -65,7 +65,8 @@ def _no_row(row: int) -> str:
     return f"row is {row}; with `rows: 1` there is row 0 alone"
 
 
-def _entries(scene: Mapping[str, Any], key: str) -> list[tuple[Place, dict[str, Any]]]:
+def entries_of(scene: Mapping[str, Any], key: str) -> list[tuple[Place, dict[str, Any]]]:
+    """List the mappings under a key with their places; what is none is reported elsewhere."""
     entries = scene.get(key)
     if not isinstance(entries, list):
         return []

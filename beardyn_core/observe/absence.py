@@ -11,12 +11,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.layout import ANGLE, ANGULAR, CAGE_BODY, CONTACT_OUTPUT, LINEAR, POSITION, TILT
-
-Float = NDArray[np.float64]
 
 
 class Absence:

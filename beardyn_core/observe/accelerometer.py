@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, log2
 from beardyn_core.scene.sensor import Accelerometer
-
-Float = NDArray[np.float64]
 
 GRAVITY = 9.80665
 _STREAM = 0x61636365  # keeps the sensors' random numbers apart from those of the rail

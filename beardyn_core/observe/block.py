@@ -8,8 +8,8 @@ from typing import Annotated as A
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float, Int
 from beardyn_core.model.layout import (
     ENERGY_ELASTIC,
     ENERGY_EXTERNAL,
@@ -19,9 +19,6 @@ from beardyn_core.model.layout import (
     LOSSES,
 )
 from beardyn_core.scene.sensor import RATES
-
-Float = NDArray[np.float64]
-Int = NDArray[np.int64]
 
 CONTACT_KINDS = ("cup", "cone", "rib", "pocket")
 CONTACT_FIELDS = ("x", "y", "z", "fx", "fy", "fz", "slip", "film")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, SAMPLES_PER_BLOCK, WAVEFORM_RATE
@@ -24,8 +24,6 @@ from beardyn_core.observe.kinematics import (
 from beardyn_core.observe.sensors import REST, Sensors, lookahead
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES
-
-Float = NDArray[np.float64]
 
 TREND_RATE = 400
 TRENDS_PER_BLOCK = BLOCK_NS * TREND_RATE // 1_000_000_000

@@ -5,12 +5,10 @@ from __future__ import annotations
 from functools import cache, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.rail.low_pass import low_pass
-
-Float = NDArray[np.float64]
 
 DELAY = 12  # output samples: the shortest that gives 70 dB with a passband to 0.4
 _KAISER_BETA = 7.2

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-Float = NDArray[np.float64]
+from beardyn_core.arrays import Float
 
 _EDGE = 0.1  # share of the band in each of its cosine edges
 

@@ -5,12 +5,10 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.rail.low_pass import low_pass
-
-Float = NDArray[np.float64]
 
 FACTORS = (2, 4)
 _PIECE = 64

@@ -6,8 +6,8 @@ import math
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale
 from beardyn_core.model.layout import (
@@ -35,8 +35,6 @@ from beardyn_core.model.layout import (
     VELOCITY,
 )
 from beardyn_core.model.parameters import RollerParams
-
-Float = NDArray[np.float64]
 
 BODIES = 4
 KINDS = 4

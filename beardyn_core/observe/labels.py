@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES
 
 HEALTHY = "healthy"
-
-Float = NDArray[np.float64]
 
 
 def scene_labels(scene: Scene) -> dict[str, Any]:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.model.heat import BOX_NODE
 from beardyn_core.observe.block import Block
@@ -21,9 +21,6 @@ from beardyn_core.observe.chain import (
     answer_of,
 )
 from beardyn_core.observe.chain.levels import Levels
-
-Float = NDArray[np.float64]
-Int = NDArray[np.int64]
 
 _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken

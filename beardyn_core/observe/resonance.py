@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
-
-Float = NDArray[np.float64]
 
 LOOKAHEAD = 12  # steps; with one step per sample the gain is still within 0.02 dB
 _HIGHEST_POLE = 0.475  # of the step rate; above that the gain over the band is smooth enough without poles

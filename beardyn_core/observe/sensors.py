@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION
@@ -14,8 +14,6 @@ from beardyn_core.observe.decimate import DELAY, Decimator
 from beardyn_core.observe.resonance import LOOKAHEAD, Resonance
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES, Accelerometer, steps_do_not_fit
-
-Float = NDArray[np.float64]
 
 REST = np.array([0.0, 0.0, GRAVITY])
 BLOCKS_PER_SECOND = 1_000_000_000 // BLOCK_NS

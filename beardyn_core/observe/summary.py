@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.integrate.rating_life import RatingLife
 from beardyn_core.observe.stage_clock import StageTime
 from beardyn_core.observe.torque_budget import TorqueBudget
@@ -16,8 +16,6 @@ from beardyn_core.observe.torque_budget import TorqueBudget
 COMPLETE = "complete"
 # Oscillations of the start have died away by then; shorter runs are averaged over their second half.
 SETTLING_S = 0.25
-
-Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

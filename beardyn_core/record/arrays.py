@@ -13,6 +13,7 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.observe.block import CONTACT_KINDS
 from beardyn_core.scene.load import WRENCH_AXES
@@ -20,8 +21,6 @@ from beardyn_core.scene.load import WRENCH_AXES
 if TYPE_CHECKING:
     from beardyn_core.record.messages import Diagnostic
 
-Float = NDArray[np.float64]
-Int = NDArray[np.int64]
 Diagnostics = tuple[tuple[int, "tuple[Diagnostic, ...]"], ...]
 
 

@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float, Int
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block, Vibration, body_names
 from beardyn_core.record.arrays import (
@@ -26,9 +27,6 @@ from beardyn_core.record.encoding import (
     block_diagnostic,
 )
 from beardyn_core.scene.load import WRENCH_AXES
-
-Float = NDArray[np.float64]
-Int = NDArray[np.int64]
 
 Number = TypeVar("Number", bound=np.generic)
 

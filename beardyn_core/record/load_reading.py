@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import GAP, Measurement
 from beardyn_core.record.load_stream import decode_load, joined_load
@@ -19,9 +19,6 @@ from beardyn_core.record.reading import wrench_values
 from beardyn_core.record.topics import JOINTS, TWIST, WRENCH, namespace_of, relative_name
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import problem_with
-
-Float = NDArray[np.float64]
-Int = NDArray[np.int64]
 
 # pairs of topics of force and of speed, the better first
 _PAIRS = (("load/wrench", "load/shaft"), ("force", "shaft"))

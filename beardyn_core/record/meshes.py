@@ -15,10 +15,9 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.record.description import BearingShape
 from beardyn_core.scene.defect import Patch
-
-Float = NDArray[np.float64]
 
 CUT_OPEN = (np.deg2rad(20.0), np.deg2rad(140.0))
 ROW_SIDE = (-1.0, 1.0)

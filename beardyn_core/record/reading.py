@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
@@ -59,9 +60,6 @@ from beardyn_core.record.topics import (
     vibration_topic,
 )
 from beardyn_core.scene.load import WRENCH_AXES
-
-Float = NDArray[np.float64]
-Int = NDArray[np.int64]
 
 ROWS = 2
 

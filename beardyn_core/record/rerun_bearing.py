@@ -8,13 +8,12 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.record import meshes
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.meshes import Mesh
 from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Patch
-
-Float = NDArray[np.float64]
 
 TIMELINE = "time"
 ROOT = "bearing"
@@ -39,7 +38,7 @@ LOAD_COLOURS = np.array(
 )
 
 
-def load_colours(load: NDArray[np.float64], largest: float) -> NDArray[np.uint8]:
+def load_colours(load: Float, largest: float) -> NDArray[np.uint8]:
     """Choose the colour of each load, shape [..., 3]; loads in [N]."""
     place = np.clip(load / max(largest, 1e-9), 0.0, 1.0) * (len(LOAD_COLOURS) - 1)
     stations = np.arange(len(LOAD_COLOURS))
@@ -94,7 +93,7 @@ def log_motion(stream: rr.RecordingStream, run: Run) -> None:
         send(stream, body_entity(name), run.bodies.time_ns, placed)
 
 
-def roller_loads(run: Run) -> NDArray[np.float64]:
+def roller_loads(run: Run) -> Float:
     """Give the cup-roller load at every snapshot, shape [snapshot, row, roller], [N]."""
     return run.contacts.load[..., run.contacts.of("cup")]
 
@@ -183,7 +182,7 @@ def _log_zone_outline(stream: rr.RecordingStream, run: Run, load: Float, largest
         stream.log(f"{ROOT}/load_zone/outline_{row}", lines, static=True)
 
 
-def _azimuths(run: Run, row: int) -> NDArray[np.float64]:
+def _azimuths(run: Run, row: int) -> Float:
     first = run.described().body_names.index(f"roller_{row}_0")
     place = run.bodies.pose[:, first : first + run.described().roller_count, :3]
     return np.arctan2(place[..., 0], place[..., 2])

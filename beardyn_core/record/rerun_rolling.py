@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.laboratory.rolling import ATTITUDE, FIRST_CONTACT, PLACE, Rolling
 from beardyn_core.laboratory.search import SURFACE_LINE
 from beardyn_core.record.rerun_stream import rerun_file
@@ -20,7 +20,6 @@ _PATH_COLOUR = (96, 190, 255)
 _FLOOR_HALF_ANGLE = np.radians(70.0)
 _SPACING = 0.15  # of the troughs along their axis, [m]
 _CIRCLE_POINTS = 49
-Float = NDArray[np.float64]
 
 
 def save_rolling(runs: Sequence[Rolling], target: Path) -> Path:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.rating_life import RatingLife, scene_life
@@ -19,8 +18,6 @@ from beardyn_core.scene.waviness import Waviness
 
 if TYPE_CHECKING:
     from beardyn_core.record.run import Run
-
-Float = NDArray[np.float64]
 
 
 def summary_of(run: Run) -> RunSummary:

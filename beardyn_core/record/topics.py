@@ -45,95 +45,40 @@ _LATCHED = ("reliable", "transient_local")
 
 TOPICS: tuple[Topic, ...] = (
     Topic("force", WRENCH, *_RELIABLE, 200, "400 Hz", "force and moment of the rollers on the cup, N, N m"),
-    Topic(
-        "force_waveform",
-        CLOUD,
-        *_RELIABLE,
-        50,
-        "every 20 ms",
-        "the same at full rate: sample, t, fx, fy, fz, mx, my, mz",
-    ),
-    Topic(
-        "vibration",
-        CLOUD,
-        *_RELIABLE,
-        50,
-        "every 20 ms",
-        "specific force of the first accelerometer at full rate, m/s^2: sample, t, ax, ay, az; "
-        "further accelerometers on vibration/<name>",
-    ),
+    Topic("force_waveform", CLOUD, *_RELIABLE, 50, "every 20 ms",
+          "the same at full rate: sample, t, fx, fy, fz, mx, my, mz"),
+    Topic("vibration", CLOUD, *_RELIABLE, 50, "every 20 ms",
+          "specific force of the first accelerometer at full rate, m/s^2: sample, t, ax, ay, az; further "
+          "accelerometers on vibration/<name>"),
     Topic("imu", IMU, *_SENSOR, 50, "400 Hz", "the first accelerometer decimated for plots; no orientation"),
     Topic("shaft", JOINTS, *_SENSOR, 50, "400 Hz", "tachometer: angle and speed of the shaft, rad, rad/s"),
-    Topic(
-        "joint_states",
-        JOINTS,
-        *_SENSOR,
-        50,
-        "200 Hz",
-        "orbit angle and speed of cage_<row> and roller_<row>_<k>; joint shaft with the torque of the "
-        "bearing on it as effort, N m",
-    ),
-    Topic(
-        "bodies",
-        CLOUD,
-        *_SENSOR,
-        20,
-        "every 20 ms, 200 snapshots a second",
-        "pose and twist of every body: sample, t, body, x, y, z, qx, qy, qz, qw, vx, vy, vz, wx, wy, wz",
-    ),
-    Topic(
-        "contacts",
-        CLOUD,
-        *_SENSOR,
-        20,
-        "every 20 ms, 200 snapshots a second",
-        "loaded contacts: sample, t, row, roller, kind (0 cup, 1 cone, 2 rib, 3 pocket), point, "
-        "force on the roller, slip, film",
-    ),
-    Topic(
-        "temperature",
-        TEMPERATURE,
-        *_RELIABLE,
-        50,
-        "every 0.2 s, with the thermal effect",
-        "temperature of one part, degrees Celsius; the frame names it: <frame>/axlebox, cup, cone, rollers, "
-        "cages or grease",
-    ),
-    Topic(
-        "truth", STRING, *_LATCHED, 1, "once", "JSON: scene, faults, fault frequencies, versions, description"
-    ),
-    Topic(
-        "load/blocks",
-        CLOUD,
-        *_RELIABLE,
-        0,
-        "as the horizon allows",
-        "load on the journal: sample, t, fx..mz, shaft_speed, ux, uy, uz, float64; empty ends the stream",
-    ),
-    Topic(
-        "load/truth",
-        STRING,
-        *_LATCHED,
-        1,
-        "when it changes",
-        "JSON: irregularity, events and seed of the load; which stamp stands where in the scenario; paused",
-    ),
+    Topic("joint_states", JOINTS, *_SENSOR, 50, "200 Hz",
+          "orbit angle and speed of cage_<row> and roller_<row>_<k>; joint shaft with the torque of the "
+          "bearing on it as effort, N m"),
+    Topic("bodies", CLOUD, *_SENSOR, 20, "every 20 ms, 200 snapshots a second",
+          "pose and twist of every body: sample, t, body, x, y, z, qx, qy, qz, qw, vx, vy, vz, wx, wy, wz"),
+    Topic("contacts", CLOUD, *_SENSOR, 20, "every 20 ms, 200 snapshots a second",
+          "loaded contacts: sample, t, row, roller, kind (0 cup, 1 cone, 2 rib, 3 pocket), point, force on "
+          "the roller, slip, film"),
+    Topic("temperature", TEMPERATURE, *_RELIABLE, 50, "every 0.2 s, with the thermal effect",
+          "temperature of one part, degrees Celsius; the frame names it: <frame>/axlebox, cup, cone, "
+          "rollers, cages or grease"),
+    Topic("truth", STRING, *_LATCHED, 1, "once",
+          "JSON: scene, faults, fault frequencies, versions, description"),
+    Topic("load/blocks", CLOUD, *_RELIABLE, 0, "as the horizon allows",
+          "load on the journal: sample, t, fx..mz, shaft_speed, ux, uy, uz, float64; empty ends the stream"),
+    Topic("load/truth", STRING, *_LATCHED, 1, "when it changes",
+          "JSON: irregularity, events and seed of the load; which stamp stands where in the scenario; "
+          "paused"),
     Topic("load/consumed", TIME, *_RELIABLE, 50, "every 0.2 s", "simulated time up to which load is used"),
     Topic("load/wrench", WRENCH, *_RELIABLE, 200, "live", "one load on the journal, N, N m"),
     Topic("load/shaft", TWIST, *_RELIABLE, 200, "live", "one shaft speed, twist.angular.y, rad/s"),
-    Topic(
-        "monitor/result", DIAGNOSTICS, *_RELIABLE, 50, "as the monitor decides", "verdict, lines and scores"
-    ),
-    Topic(
-        "/diagnostics",
-        DIAGNOSTICS,
-        *_RELIABLE,
-        50,
-        "every 0.2 s",
-        "real-time factor, status bits, energy residual, late and lost blocks",
-    ),
+    Topic("monitor/result", DIAGNOSTICS, *_RELIABLE, 50, "as the monitor decides",
+          "verdict, lines and scores"),
+    Topic("/diagnostics", DIAGNOSTICS, *_RELIABLE, 50, "every 0.2 s",
+          "real-time factor, status bits, energy residual, late and lost blocks"),
     Topic("/clock", CLOCK, *_RELIABLE, 10, "every 20 ms", "simulated time"),
-)
+)  # fmt: skip
 
 _BY_NAME = {topic.name: topic for topic in TOPICS}
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
@@ -18,8 +18,6 @@ from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
 from beardyn_core.observe.chain.tracking import by_angle, squared_envelope
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
-
-Float = NDArray[np.float64]
 
 Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorResult]
 

@@ -16,15 +16,13 @@ from math import log, sqrt
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.stats import norm
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.features import OrderSpectrum, line_at, order_spectrum
-
-Float = NDArray[np.float64]
 
 FAULTS = ("cup", "cone", "roller")
 LINE_LEVEL = 9.0  # over the median background, from which a single line is listed, [dB]

@@ -13,7 +13,6 @@ from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors
 
-Float = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _EDGE = 0.1  # share of the band in each of its cosine edges

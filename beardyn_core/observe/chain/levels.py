@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.observe.features import analytic_band, kurtosis
-
-Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

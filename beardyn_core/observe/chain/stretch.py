@@ -6,11 +6,9 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.observe.chain.levels import Levels
-
-Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
+from beardyn_core.arrays import Float
 from beardyn_core.observe.chain.kurtogram import Band
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
 from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
 from beardyn_core.observe.features import envelope, resample_by_angle
-
-Float = NDArray[np.float64]
 
 
 def squared_envelope(stretch: Stretch, band: Band) -> Float:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Bool, Float
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
 from beardyn_core.observe.features import envelope
-
-Float = NDArray[np.float64]
-Bool = NDArray[np.bool_]
 
 SECTORS = 64
 # power of a sector over that of the usual one: a strike, and its ringing beside
