@@ -67,6 +67,12 @@ def _answer(number: int, frame: FrameType | None) -> None:
     _raise_pending()
 
 
+def _answers() -> bool:
+    """Tell whether Ctrl-C comes to this thread and nobody else handles it."""
+    here = threading.current_thread() is threading.main_thread()
+    return here and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
 @contextmanager
 def may_be_left() -> Iterator[None]:
     """Mark a section that the process may be ended in: nothing is open, nothing is half written."""
@@ -82,10 +88,7 @@ def may_be_left() -> Iterator[None]:
 def held_back() -> Iterator[None]:
     """Answer Ctrl-C only outside of sealed sections, while the context lasts."""
     global _pending
-    if (
-        threading.current_thread() is not threading.main_thread()
-        or signal.getsignal(signal.SIGINT) is not signal.default_int_handler
-    ):
+    if not _answers():
         yield
         return
     _pending = False
@@ -132,10 +135,7 @@ def watching() -> Iterator[None]:
 
     Only the command line does so: in a library or a notebook the process belongs to somebody else.
     """
-    if (
-        threading.current_thread() is not threading.main_thread()
-        or signal.getsignal(signal.SIGINT) is not signal.default_int_handler
-    ):
+    if not _answers():
         yield
         return
     reader, writer = os.pipe()

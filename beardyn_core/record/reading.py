@@ -107,28 +107,13 @@ def _run(scan: McapScan, cdrs: Mapping[str, list[bytes]]) -> Run:
 
 
 def run_of_messages(
-    cdrs: Mapping[str, Sequence[bytes]],
-    description: RunDescription | None,
-    *,
-    path: Path | None = None,
-    complete: bool = True,
-    problem: str = "",
-    status: str | None = None,
-    scene_text: str = "",
+    cdrs: Mapping[str, Sequence[bytes]], description: RunDescription | None, **facts: Any
 ) -> Run:
     """Gather a run of messages by the name of their topic, from a file or from a live graph.
 
-    The messages are decoded when their array is first used.
+    The messages are decoded when their array is first used. What else is known goes to `Run`.
     """
-    return Run(
-        MessageSource(cdrs, description),
-        description,
-        path=path,
-        complete=complete,
-        problem=problem,
-        status=status,
-        scene_text=scene_text,
-    )
+    return Run(MessageSource(cdrs, description), description, **facts)
 
 
 class MessageSource:

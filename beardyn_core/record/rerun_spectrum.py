@@ -16,25 +16,14 @@ WIDTH, HEIGHT = 1000.0, 175.0
 SPECTRUM_COLOUR: Colour = (80, 145, 255)
 FRAME_COLOUR: Colour = (128, 134, 148)
 GRID_COLOUR = (128, 134, 148, 70)
-MARKER_COLOURS: dict[str, Colour] = {
-    "BPFO": (240, 70, 90),
-    "BPFI": (230, 155, 30),
-    "2 BSF": (70, 185, 90),
-    "FTF": (175, 110, 240),
+# colour, harmonics and row of the label of each marker
+MARKERS: dict[str, tuple[Colour, int, int]] = {
+    "BPFO": ((240, 70, 90), 3, 2),
+    "BPFI": ((230, 155, 30), 3, 1),
+    "2 BSF": ((70, 185, 90), 2, 0),
+    "FTF": ((175, 110, 240), 1, 1),
 }
-HARMONICS = {"BPFO": 3, "BPFI": 3, "2 BSF": 2, "FTF": 1}
-LABEL_ROW = {"BPFO": 2, "BPFI": 1, "2 BSF": 0, "FTF": 1}
 ROW_HEIGHT = 25.0
-
-
-def fault_orders(frequencies: dict[str, float]) -> dict[str, float]:
-    """List the orders at which each kind of fault shows first."""
-    return {
-        "BPFO": frequencies["BPFO"],
-        "BPFI": frequencies["BPFI"],
-        "2 BSF": 2.0 * frequencies["BSF"],
-        "FTF": frequencies["FTF"],
-    }
 
 
 def log_spectrum(stream: rr.RecordingStream, spectrum: OrderSpectrum, frequencies: dict[str, float]) -> None:
@@ -50,7 +39,8 @@ def log_spectrum(stream: rr.RecordingStream, spectrum: OrderSpectrum, frequencie
     searched = spectrum.order > 0.5 * frequencies["FTF"]
     top = max(float(spectrum.amplitude[searched].max()), 1e-12) * 1.08
     _frame(stream, last, top)
-    for name, order in fault_orders(frequencies).items():
+    for name in MARKERS:  # a roller fault shows at twice its frequency first
+        order = 2.0 * frequencies["BSF"] if name == "2 BSF" else frequencies[name]
         _marker(stream, name, order, last)
     shown = np.minimum(spectrum.amplitude, top)
     line = np.stack((spectrum.order / last * WIDTH, HEIGHT * (1.0 - shown / top)), axis=1)
@@ -96,13 +86,13 @@ def _frame(stream: rr.RecordingStream, last: float, top: float) -> None:
 
 
 def _marker(stream: rr.RecordingStream, name: str, order: float, last: float) -> None:
-    multiples = np.arange(1, HARMONICS[name] + 1)
+    colour, harmonics, row = MARKERS[name]
+    multiples = np.arange(1, harmonics + 1)
     multiples = multiples[multiples * order <= last]
     place = multiples * order / last * WIDTH
     if not len(place):
         return
-    heights = np.full(len(place), -ROW_HEIGHT * (0.8 + LABEL_ROW[name]))
-    colour = MARKER_COLOURS[name]
+    heights = np.full(len(place), -ROW_HEIGHT * (0.8 + row))
     stream.log(
         f"{ENTITY}/{name.replace(' ', '')}",
         rr.LineStrips2D(

@@ -3,8 +3,7 @@
 =========== ========================================================================
 module      responsibility
 =========== ========================================================================
-settings    what can be tuned
-stretch     what an algorithm gets: vibration, shaft angle, load, temperature
+inputs      what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
 kurtogram   select_band: where the spectral kurtosis is largest
 tracking    envelope, and track: order tracking by the shaft angle
 wheel       takes out what turns with the wheel (flats, polygons)
@@ -19,11 +18,10 @@ named       finds an algorithm by its name ``module:function``, and checks its a
 
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm, Chain
 from beardyn_core.observe.chain.fault_lines import FAULTS, FaultLines, Line
+from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band
 from beardyn_core.observe.chain.named import algorithm_named, answer_of
 from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
-from beardyn_core.observe.chain.settings import MonitorSettings
-from beardyn_core.observe.chain.stretch import Stretch
 from beardyn_core.observe.chain.verdict import Verdict
 
 __all__ = ["FAULTS", "REFERENCE", "VERDICTS", "Algorithm", "Band", "Chain", "FaultLines", "Line"]

@@ -11,11 +11,10 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
+from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
 from beardyn_core.observe.chain.levels import levels_in_band, rise
 from beardyn_core.observe.chain.result import MonitorResult
-from beardyn_core.observe.chain.settings import MonitorSettings
-from beardyn_core.observe.chain.stretch import Stretch
 from beardyn_core.observe.chain.tracking import by_angle, squared_envelope
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
 

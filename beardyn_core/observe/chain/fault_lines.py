@@ -21,7 +21,7 @@ from scipy.stats import norm
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain.settings import MonitorSettings
+from beardyn_core.observe.chain.inputs import MonitorSettings
 from beardyn_core.observe.features import OrderSpectrum, line_at, order_spectrum
 
 FAULTS = ("cup", "cone", "roller")

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import ifft, rfft
 
-from beardyn_core.observe.chain.settings import MonitorSettings
-from beardyn_core.observe.chain.stretch import Stretch
+from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors
 
 Complex = NDArray[np.complex128]

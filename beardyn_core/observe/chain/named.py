@@ -12,9 +12,8 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm
 from beardyn_core.observe.chain.fault_lines import FAULTS
+from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
-from beardyn_core.observe.chain.settings import MonitorSettings
-from beardyn_core.observe.chain.stretch import Stretch
 
 _CORE = Path(__file__).resolve().parents[2]
 OURS = "beardyn_core.observe.chain:REFERENCE"

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from beardyn_core.arrays import Float
+from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band
-from beardyn_core.observe.chain.settings import MonitorSettings
-from beardyn_core.observe.chain.stretch import Stretch
 from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
 from beardyn_core.observe.features import envelope, resample_by_angle
 

@@ -7,8 +7,7 @@ from math import isnan
 from typing import Annotated as A
 
 from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines, explains
-from beardyn_core.observe.chain.settings import MonitorSettings
-from beardyn_core.observe.chain.stretch import Stretch
+from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 
 HEALTHY, HOT_BOX = "healthy", "hot_box"
 UNKNOWN, NORMAL, WARM, HOT = "unknown", "normal", "warm", "hot"

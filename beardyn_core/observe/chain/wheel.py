@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beardyn_core.arrays import Bool, Float
-from beardyn_core.observe.chain.settings import MonitorSettings
-from beardyn_core.observe.chain.stretch import Stretch
+from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.features import envelope
 
 SECTORS = 64
