@@ -87,10 +87,7 @@ class Vibration:
 
     rate: A[float, "[Hz]"]
     sample: A[int, "running index of the first sample"]
-    time_ns: A[
-        Int,
-        "shape [sample], true time of each sample; the delay of the anti-alias filter is compensated, [ns]",
-    ]
+    time_ns: A[Int, "shape [sample], true time: the delay of the anti-alias filter is compensated, [ns]"]
     acceleration: A[Float, "shape [sample, 3], specific force: +g on z at rest, [m/s^2]"]
 
 
@@ -102,14 +99,8 @@ class Block:
     start_ns: A[int, "simulated time at its first step, [ns]"]
     end_ns: A[int, "after its last step, [ns]"]
     waveform_sample: A[int, "running index of the first waveform sample"]
-    waveform_time_ns: A[
-        Int,
-        "shape [sample], true time of each waveform sample; the delay of the anti-alias filter is "
-        "compensated, [ns]",
-    ]
-    force_waveform: A[
-        Float, "shape [sample, 6], force and moment of the rollers on the cup at the bearing centre, [N, N m]"
-    ]
+    waveform_time_ns: A[Int, "shape [sample], true time of the waveform samples, as of `Vibration`, [ns]"]
+    force_waveform: A[Float, "shape [sample, 6], rollers on the cup, at the bearing centre, [N, N m]"]
     vibration: A[tuple[Vibration, ...], "of each accelerometer, in the order of the scene"]
     trend_sample: A[int, "running index of the first trend sample (400 Hz)"]
     trend_time_ns: A[Int, "shape [trend], [ns]"]
@@ -125,9 +116,7 @@ class Block:
     roller_speed: A[Float, "shape [trend, row, roller], orbit speed, [rad/s]"]
     snapshot_sample: A[int, "running index of the first snapshot (200 Hz)"]
     snapshot_time_ns: A[Int, "shape [snapshot], [ns]"]
-    pictures: A[
-        Pictures, "bodies and contacts at the snapshots: look at `body_pose`, `body_twist` and `contacts`"
-    ]
+    pictures: A[Pictures, "bodies and contacts: see `body_pose`, `body_twist` and `contacts`"]
     status: A[int, "bit flags of `integrate.status`"]
     audit: EnergyAudit | None
     wall_s: A[float, "wall time the block took to compute, [s]"]

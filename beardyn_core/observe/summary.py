@@ -25,42 +25,28 @@ class RunSummary:
     scene: str
     tier: str
     effects: A[tuple[str, ...], "names of the effects that were present"]
-    not_in_tier: A[
-        tuple[str, ...], "names of the effects that the scene asks for and the tier does not represent"
-    ]
+    not_in_tier: A[tuple[str, ...], "names of effects of the scene that the tier does not represent"]
     duration: A[float, "simulated, [s]"]
     wall_time: A[float, "spent in the simulation itself, without compiling, recording and drawing, [s]"]
     status: A[str, "``complete``, or the sentence that says how the run left its validity"]
     mean_force: A[tuple[float, float, float], "of the rollers on the cup, world axes, [N]"]
     shaft_torque: A[float, "mean torque of the bearing on the shaft, [N m]"]
-    cage_speed_ratio: A[
-        tuple[float, ...],
-        "one a row, cage speed over FTF and shaft speed, nominal 1; NaN with the shaft at rest",
-    ]
+    cage_speed_ratio: A[tuple[float, ...], "one a row, over FTF and shaft speed, nominal 1; NaN at rest"]
     energy_residual: A[float | None, "of the audit at the end; ``None`` without audit"]
-    budget: A[
-        TorqueBudget | None, "losses by source over the whole blocks of the means; ``None`` without audit"
-    ]
+    budget: A[TorqueBudget | None, "losses by source over the time of the means; ``None`` without audit"]
     averaged: A[tuple[float, float], "first and last time of the means, [s]"]
-    cage_revolutions: A[
-        int, "whole revolutions of the cage that the means cover; 0 when the run was shorter than one"
-    ]
+    cage_revolutions: A[int, "whole revolutions of the cage in the means; 0 in a run shorter than one"]
     life: A[
         RatingLife | None,
         "under the run's load history; ``None`` when the shaft stood, or no equilibrium carries a load class",
     ] = None
     faults: A[tuple[str, ...], "defects and waviness of the scene in words"] = ()
-    temperatures: A[
-        tuple[tuple[str, float], ...], "(part, temperature) pairs, at the end, with the thermal effect, [K]"
-    ] = ()
+    temperatures: A[tuple[tuple[str, float], ...], "of each part at the end, with the effect, [K]"] = ()
     clipped: A[
         tuple[tuple[str, int, int], ...],
         "(sensor, samples, all samples), accelerometers that have read their largest value, and how often",
     ] = ()
-    stages: A[
-        tuple[StageTime, ...],
-        "where the wall time from the first block to the last went, recording and drawing included",
-    ] = ()
+    stages: A[tuple[StageTime, ...], "where the wall time went, recording and drawing included"] = ()
 
     def __repr__(self) -> str:
         """Give scene, length, torque, force and end of the run in one line."""

@@ -111,15 +111,8 @@ class Bodies(Timed):
 class Contacts(Timed):
     """Contacts of every roller with cup, cone, rib and pocket."""
 
-    point: A[
-        Float,
-        "shape [snapshot, row, roller, kind, 3], world axes, [m]; NaN without contact, like `slip` and "
-        "`film`",
-    ]
-    force: A[
-        Float,
-        "shape [snapshot, row, roller, kind, 3], of the partner on the roller, [N]; zero without contact",
-    ]
+    point: A[Float, "shape [snapshot, row, roller, kind, 3], [m]; NaN without contact, as `slip` and `film`"]
+    force: A[Float, "shape [snapshot, row, roller, kind, 3], of the partner on the roller, [N]; else zero"]
     slip: A[Float, "shape [snapshot, row, roller, kind], sliding speed, [m/s]"]
     film: A[Float, "shape [snapshot, row, roller, kind], film thickness, [m]"]
     kinds = CONTACT_KINDS

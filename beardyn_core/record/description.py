@@ -92,10 +92,7 @@ class RunDescription:
     body_names: A[tuple[str, ...], "order of the bodies in `Block.body_pose`"]
     sensor_names: A[tuple[str, ...], "order of the accelerometers in `Block.vibration`"]
     defects: tuple[Defect, ...]
-    truth: A[
-        Mapping[str, Any],
-        "what ``Twin.truth`` returns, JSON-able: faults, fault frequencies, versions, effects, seed",
-    ]
+    truth: A[Mapping[str, Any], "JSON-able, from ``Twin.truth``: faults, effects, versions, seed"]
     load: A[
         LoadHistory | None,
         "load on the journal when it is known in advance (desk run): written to the file as ``load/blocks``. "

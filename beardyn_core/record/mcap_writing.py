@@ -183,6 +183,7 @@ class McapWriter:
         start = self._first_ns or 0
         span = {"nanoseconds": self._last_ns - start}
         begin = {"nanoseconds_since_epoch": start}
+        whole = {"path": self.path.name, "starting_time": begin, "duration": span}
         return yaml.safe_dump(
             {
                 "version": 9,
@@ -206,14 +207,7 @@ class McapWriter:
                 "compression_format": "",
                 "compression_mode": "",
                 "relative_file_paths": [self.path.name],
-                "files": [
-                    {
-                        "path": self.path.name,
-                        "starting_time": begin,
-                        "duration": span,
-                        "message_count": self.message_count,
-                    }
-                ],
+                "files": [{**whole, "message_count": self.message_count}],
                 "custom_data": None,
                 "ros_distro": "",
             },

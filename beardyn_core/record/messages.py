@@ -197,8 +197,6 @@ class Template:
         if any(len(cdr) != size for cdr in cdrs):
             return None
         rows = np.frombuffer(b"".join(cdrs), np.uint8).reshape(-1, size)
-        if not np.array_equal(
-            rows[:, self._fixed], np.broadcast_to(self._row[self._fixed], (len(rows), int(self._fixed.sum())))
-        ):
+        if (rows[:, self._fixed] != self._row[self._fixed]).any():
             return None
         return rows.reshape(-1).view(self._dtype)

@@ -36,10 +36,7 @@ class TopicCount:
     name: str
     type: str
     count: A[int, "messages"]
-    rate: A[
-        float | None,
-        "messages per second between its first and its last one, [1/s]; ``None`` without such a span",
-    ]
+    rate: A[float | None, "messages between the first and the last, [1/s]; ``None`` without such a span"]
 
 
 @dataclass(frozen=True)
@@ -73,10 +70,7 @@ class Report:
     mean_shaft_speed: A[float | None, "[rad/s]"]
     real_time_factor: A[float | None, "mean"]
     energy_residual: A[float | None, "last value"]
-    budget: A[
-        TorqueBudget | None,
-        "losses by source after the start has settled; ``None`` when the recording does not say",
-    ]
+    budget: A[TorqueBudget | None, "losses by source after the start has settled, if the recording says"]
     monitor: A[str | None, "last verdict of the monitor"]
     sensor_rates_Hz: A[Mapping[str, float], "accelerometers by name"]
 

@@ -11,7 +11,6 @@ from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.rerun_bearing import roller_loads, send
 from beardyn_core.record.rerun_spectrum import log_spectrum
 from beardyn_core.record.run import Run
-from beardyn_core.record.topics import vibration_topic
 
 Colour = tuple[int, int, int]
 
@@ -47,14 +46,11 @@ def log_styles(stream: rr.RecordingStream, sensors: tuple[str, ...] = ()) -> Non
     for entity, names, colours in (
         (FORCE, ("fx", "fy", "fz"), AXIS_COLOURS),
         (VIBRATION, ("ax", "ay", "az"), AXIS_COLOURS),
-        *(
-            (vibration_entity(vibration_topic(number, sensors)), ("ax", "ay", "az"), AXIS_COLOURS)
-            for number in range(1, len(sensors))
-        ),
+        *((vibration_entity(f"vibration/{name}"), ("ax", "ay", "az"), AXIS_COLOURS) for name in sensors[1:]),
         (SPEED_RATIO, ("cage 0", "cage 1", "rollers 0, mean", "rollers 1, mean"), rows),
         (
             ROLLER_LOAD,
-            ("roller 0 of row 0", "roller 0 of row 1", "largest of row 0", "largest of row 1"),
+            tuple(f"{what} of row {row}" for what in ("roller 0", "largest") for row in (0, 1)),
             rows,
         ),
         (SHAFT_SPEED, ("shaft",), ((200, 200, 210),)),

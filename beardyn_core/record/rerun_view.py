@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import rerun as rr
@@ -61,23 +63,12 @@ def blueprint(
         look_target=np.array([0.0, 0.0, 0.08]) * outer_diameter,
         eye_up=(0.0, 0.0, 1.0),
     )
-    whole = None
-    if span is not None:
-        whole = _window(
-            rr.TimeRangeBoundary.absolute(seconds=span[0]), rr.TimeRangeBoundary.absolute(seconds=span[1])
-        )
-    close = _window(
-        rr.TimeRangeBoundary.cursor_relative(seconds=-CLOSE_WINDOW / 2),
-        rr.TimeRangeBoundary.cursor_relative(seconds=CLOSE_WINDOW / 2),
-    )
+    whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
+    close = _window(rr.TimeRangeBoundary.cursor_relative, -CLOSE_WINDOW / 2, CLOSE_WINDOW / 2)
 
     def curves(entity: str, name: str, axis: rrb.archetypes.TimeAxis | None = whole) -> rrb.TimeSeriesView:
-        return rrb.TimeSeriesView(
-            origin=f"plots/{entity}",
-            name=name,
-            axis_x=axis,
-            plot_legend=rrb.PlotLegend(rrb.Corner2D.RightTop),
-        )
+        legend = rrb.PlotLegend(rrb.Corner2D.RightTop)
+        return rrb.TimeSeriesView(origin=f"plots/{entity}", name=name, axis_x=axis, plot_legend=legend)
 
     bearing = rrb.Spatial3DView(
         origin="/",
@@ -87,11 +78,10 @@ def blueprint(
         line_grid=False,
         eye_controls=eye,
     )
+    readings = [curves("vibration", "vibration, m/s²", close)]
+    readings += [curves(f"vibration_{name}", f"vibration of {name}, m/s²", close) for name in sensors[1:]]
     right = rrb.Vertical(
-        _tabs(
-            curves("vibration", "vibration, m/s²", close),
-            *(curves(f"vibration_{name}", f"vibration of {name}, m/s²", close) for name in sensors[1:]),
-        ),
+        rrb.Tabs(*readings) if len(readings) > 1 else readings[0],
         rrb.Spatial2DView(
             origin="plots/envelope",
             name="envelope spectrum, m/s² over orders of the shaft",
@@ -106,27 +96,19 @@ def blueprint(
         ),
         row_shares=[1.0, 1.1, 1.0, 1.0],
     )
-    time_panel = (
-        rrb.TimePanel(state="collapsed", timeline=TIMELINE, play_state="following")
-        if follow
-        else rrb.TimePanel(state="collapsed", timeline=TIMELINE, playback_speed=PLAYBACK_SPEED)
-    )
+    play: dict[str, Any] = {"play_state": "following"} if follow else {"playback_speed": PLAYBACK_SPEED}
     return rrb.Blueprint(
         rrb.Horizontal(bearing, right, column_shares=[1.15, 1.0]),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
-        time_panel,
+        rrb.TimePanel(state="collapsed", timeline=TIMELINE, **play),
         auto_views=False,
     )
 
 
-def _tabs(first: rrb.TimeSeriesView, *others: rrb.TimeSeriesView) -> rrb.Tabs | rrb.TimeSeriesView:
-    """Show one view by itself, more of them behind each other."""
-    return rrb.Tabs(first, *others) if others else first
-
-
-def _window(start: rr.TimeRangeBoundary, end: rr.TimeRangeBoundary) -> rrb.archetypes.TimeAxis:
-    return rrb.archetypes.TimeAxis(view_range=rr.TimeRange(start=start, end=end))
+def _window(boundary: Callable[..., Any], start: float, end: float) -> rrb.archetypes.TimeAxis:
+    view_range = rr.TimeRange(start=boundary(seconds=start), end=boundary(seconds=end))
+    return rrb.archetypes.TimeAxis(view_range=view_range)
 
 
 def run_blueprint(run: Run) -> rrb.Blueprint:

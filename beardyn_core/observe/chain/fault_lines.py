@@ -82,9 +82,7 @@ class FaultLines:
 
     spectrum: OrderSpectrum
     candidates: A[tuple[Candidate, ...], "one for each of `FAULTS`"]
-    strongest_order: A[
-        float, "of the strongest line in the band of the fault lines, beside the whole orders, [-]"
-    ]
+    strongest_order: A[float, "of the strongest line in the band of the fault lines, no whole order, [-]"]
     strongest_level: A[float, "of that line, [dB]"]
     chance_level: A[float, "level that the strongest line of noise passes with the stated rate, [dB]"]
 

@@ -53,23 +53,16 @@ class MonitorSettings:
         "the spectrum of an envelope ends at the width of its band, which is at least this many times the "
         "shaft frequency: the last harmonics must fit, [-]",
     ] = 60.0
-    strike_band: A[tuple[float, float], "in which strikes of the wheel are looked for, [Hz]"] = (
-        1600.0,
-        3200.0,
-    )
+    strike_band: A[tuple[float, float], "where strikes of the wheel are sought, [Hz]"] = (1600.0, 3200.0)
     window_revolutions: A[float, "shaft revolutions in one analysis; 60 are some 25 of the cage, [-]"] = 60.0
     least_revolutions: A[float, "shaft revolutions before the first verdict, [-]"] = 15.0
     longest_window: A[float, "the window at slow speed, [s]"] = 20.0
     interval: A[float, "time between two analyses, [s]"] = 0.5
     samples_per_revolution: A[int, "angular grid of the order tracking"] = 1024
-    background_width: A[
-        float, "width of the neighbourhood whose median is the background, [shaft orders]"
-    ] = 3.0
+    background_width: A[float, "of the neighbourhood whose median is the background, [shaft orders]"] = 3.0
     tolerance: A[float, "of a fault frequency against geometry, [-]"] = 0.01
     harmonics: A[int, "multiples of a fault frequency that are added up, the fundamental included"] = 5
-    false_alarm_rate: A[
-        float, "probability that stationary noise alone passes the threshold of an analysis, [-]"
-    ] = 1e-4
+    false_alarm_rate: A[float, "probability that noise alone passes the threshold of an analysis, [-]"] = 1e-4
     warm: A[float, "temperature of the axlebox from which it is warm, [K]"] = 363.15
     hot: A[float, "and from which it is hot, [K]"] = 393.15
     heating: A[float, "rise of the temperature from which the box counts as hot, [K/s]"] = 5.0 / 60.0

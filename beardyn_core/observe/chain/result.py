@@ -17,9 +17,7 @@ VERDICTS = ("waiting", "healthy", "cup", "cone", "roller", "hot_box")
 class MonitorResult:
     """Result of the monitor at one time; an algorithm sets the fields that it computes."""
 
-    verdict: A[
-        str, "``waiting`` (not enough signal yet), ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``"
-    ]
+    verdict: A[str, "one of `VERDICTS`: ``waiting`` where there is not enough signal yet"]
     reason: A[str, "the verdict in a sentence"]
     end_ns: A[int, "simulated time of the last sample analysed, [ns]"]
     fault_order: A[float, "found, NaN without a fault, per shaft revolution"] = np.nan
