@@ -67,35 +67,18 @@ def _keys_of(noun: Any, usual_kind: str | None, part_of_sourced: bool) -> type[F
     made: dict[str, Any] = {}
     if is_kind(noun):
         kinds: Any = Literal[kinds_of(noun)]
-        words = "which of the kinds this is"
-        made["kind"] = (
-            kinds,
-            Field(usual_kind, description=words) if usual_kind else Field(description=words),
-        )
+        made["kind"] = (kinds, Field(usual_kind or ..., description="which of the kinds this is"))
     for place in places(noun):
         if place.key not in base.model_fields:
             made[place.key] = _field(place, sourced)
             if change := base.schema_changes.get(place.key):
                 annotation, field = made[place.key]
                 made[place.key] = (Annotated[annotation, Field(json_schema_extra=change)], field)
-    model = _for_noun(
-        noun,
-        create_model(
-            f"{noun.__name__}Keys",
-            __base__=base,
-            __doc__=(noun.__doc__ or "").split("\n")[0],
-            __module__=__name__,
-            **made,
-        ),
-    )
-    _MADE[model.__name__] = model
-    return model
-
-
-def _for_noun(noun: Any, model: Any) -> type[FileModel]:
+    name, words = f"{noun.__name__}Keys", (noun.__doc__ or "").split("\n")[0]
+    model: type[FileModel] = create_model(name, __base__=base, __doc__=words, __module__=__name__, **made)
     model.noun_type, model.places = noun, places(noun)
-    finished: type[FileModel] = model
-    return finished
+    _MADE[name] = model
+    return model
 
 
 def in_order(name: str, keys: Iterable[str]) -> list[str]:
@@ -158,19 +141,15 @@ def _annotation(hint: Any, at: At, sourced: bool) -> Any:
         return Literal[at.one_of]
     # strict: a text such as "3 mm" and `true` are not numbers; not-a-number and infinity are refused
     if hint is float:
-        return Annotated[float, Field(strict=True, allow_inf_nan=False, **_limits(at))]
+        return Annotated[float, Field(strict=True, allow_inf_nan=False, **at.limits)]
     if hint is int:
-        return Annotated[int, Field(strict=True, **_limits(at))]
+        return Annotated[int, Field(strict=True, **at.limits)]
     if hint is bool:
         return StrictBool
     if hint in (str, Path):
         limits: dict[str, Any] = {"min_length": 1, "max_length": at.longest} if at.longest else {}
         return Annotated[str, Field(strict=True, pattern=at.pattern, **limits)]
     return hint
-
-
-def _limits(at: At) -> dict[str, Any]:
-    return dict(at.limits)
 
 
 def _list(entries: tuple[Any, ...], at: At, sourced: bool) -> Any:

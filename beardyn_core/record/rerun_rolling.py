@@ -69,38 +69,23 @@ def _log_run(stream: rr.RecordingStream, entity: str, run: Rolling, shift: float
     half = 0.5 * body.thickness + 0.01
     rails = [np.column_stack([arc, np.full(len(arc), shift + side * half)]) for side in (-1.0, 1.0)]
     rungs = [np.stack([rails[0][i], rails[1][i]]) for i in range(0, len(arc), 6)]
-    stream.log(
-        f"{entity}/floor",
-        rr.LineStrips3D([*rails, *rungs], radii=[0.0006], colors=[_FLOOR_COLOUR]),
-        static=True,
-    )
-    stream.log(
-        f"{entity}/body/circles",
-        rr.LineStrips3D(_circles(run), radii=[0.0005], colors=[_BODY_COLOUR]),
-        static=True,
-    )
+    floor = rr.LineStrips3D([*rails, *rungs], radii=[0.0006], colors=[_FLOOR_COLOUR])
+    stream.log(f"{entity}/floor", floor, static=True)
+    circles = rr.LineStrips3D(_circles(run), radii=[0.0005], colors=[_BODY_COLOUR])
+    stream.log(f"{entity}/body/circles", circles, static=True)
     seconds = rr.TimeColumn(TIMELINE, duration=run.time)
     place = run.history[:, PLACE : PLACE + 3] + np.array([0.0, 0.0, shift])
     attitude = run.history[:, ATTITUDE : ATTITUDE + 4]
-    stream.send_columns(
-        f"{entity}/body",
-        indexes=[seconds],
-        columns=rr.Transform3D.columns(
-            translation=place.astype(np.float32), quaternion=np.roll(attitude, -1, axis=1).astype(np.float32)
-        ),
-    )
+    turned = np.roll(attitude, -1, axis=1).astype(np.float32)
+    placed = rr.Transform3D.columns(translation=place.astype(np.float32), quaternion=turned)
+    stream.send_columns(f"{entity}/body", indexes=[seconds], columns=placed)
     stream.log(f"{entity}/path", rr.LineStrips3D([place], radii=[0.0003], colors=[_PATH_COLOUR]), static=True)
-    stream.log(
-        f"{entity}/contacts", rr.Points3D.from_fields(radii=[0.0012], colors=[_POINT_COLOUR]), static=True
-    )
+    style = rr.Points3D.from_fields(radii=[0.0012], colors=[_POINT_COLOUR])
+    stream.log(f"{entity}/contacts", style, static=True)
     points = contact_points(run) + np.array([0.0, 0.0, shift])
-    stream.send_columns(
-        f"{entity}/contacts",
-        indexes=[seconds],
-        columns=rr.Points3D.columns(positions=points.reshape(-1, 3).astype(np.float32)).partition(
-            np.full(len(points), body.circles)
-        ),
-    )
+    shown = rr.Points3D.columns(positions=points.reshape(-1, 3).astype(np.float32))
+    per_sample = np.full(len(points), body.circles)
+    stream.send_columns(f"{entity}/contacts", indexes=[seconds], columns=shown.partition(per_sample))
     _log_curve(stream, f"{entity}/height", seconds, run.height * 1e3, body.name)
     for name, values in run.energies.items():
         _log_curve(stream, f"{entity}/energy/{name}", seconds, values, name)

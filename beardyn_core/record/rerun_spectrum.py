@@ -69,16 +69,10 @@ def _frame(stream: rr.RecordingStream, last: float, top: float) -> None:
     orders, levels = nice_ticks(last, 8), nice_ticks(top, 4)
     grid = [np.array([(x, 0.0), (x, HEIGHT)]) for x in orders / last * WIDTH]
     grid += [np.array([(0.0, y), (WIDTH, y)]) for y in HEIGHT * (1.0 - levels / top)]
-    stream.log(
-        f"{ENTITY}/grid",
-        rr.LineStrips2D(
-            [*grid, box],
-            colors=[GRID_COLOUR] * len(grid) + [(*FRAME_COLOUR, 255)],
-            radii=rr.Radius.ui_points(0.6),
-            draw_order=1.0,
-        ),
-        static=True,
-    )
+    colours = [GRID_COLOUR] * len(grid) + [(*FRAME_COLOUR, 255)]
+    width = rr.Radius.ui_points(0.6)
+    shown = rr.LineStrips2D([*grid, box], colors=colours, radii=width, draw_order=1.0)
+    stream.log(f"{ENTITY}/grid", shown, static=True)
     below = np.stack((orders / last * WIDTH, np.full(len(orders), HEIGHT + 4.0)), axis=1)
     beside = np.stack((np.full(len(levels), -30.0), HEIGHT * (1.0 - levels / top) - 8.0), axis=1)
     _labels(stream, "order", below, [f"{order:g}" for order in orders], FRAME_COLOUR)
@@ -93,16 +87,10 @@ def _marker(stream: rr.RecordingStream, name: str, order: float, last: float) ->
     if not len(place):
         return
     heights = np.full(len(place), -ROW_HEIGHT * (0.8 + row))
-    stream.log(
-        f"{ENTITY}/{name.replace(' ', '')}",
-        rr.LineStrips2D(
-            [np.array([(x, heights[0]), (x, HEIGHT)]) for x in place],
-            colors=[(*colour, 190)],
-            radii=rr.Radius.ui_points(0.9),
-            draw_order=10.0,
-        ),
-        static=True,
-    )
+    lines = [np.array([(x, heights[0]), (x, HEIGHT)]) for x in place]
+    width = rr.Radius.ui_points(0.9)
+    shown = rr.LineStrips2D(lines, colors=[(*colour, 190)], radii=width, draw_order=10.0)
+    stream.log(f"{ENTITY}/{name.replace(' ', '')}", shown, static=True)
     labels = [f"{name} {order:.2f}" if multiple == 1 else f"{multiple}x" for multiple in multiples]
     _labels(stream, name.replace(" ", ""), np.stack((place, heights), axis=1), labels, colour)
 
@@ -110,15 +98,6 @@ def _marker(stream: rr.RecordingStream, name: str, order: float, last: float) ->
 def _labels(
     stream: rr.RecordingStream, name: str, at: NDArray[np.float64], texts: list[str], colour: Colour
 ) -> None:
-    stream.log(
-        f"{ENTITY}/text/{name}",
-        rr.Points2D(
-            at,
-            labels=texts,
-            colors=[colour],
-            radii=rr.Radius.ui_points(0.01),
-            show_labels=True,
-            draw_order=30.0,
-        ),
-        static=True,
-    )
+    size = rr.Radius.ui_points(0.01)
+    shown = rr.Points2D(at, labels=texts, colors=[colour], radii=size, show_labels=True, draw_order=30.0)
+    stream.log(f"{ENTITY}/text/{name}", shown, static=True)
