@@ -154,7 +154,7 @@ class At:
         return _PERCENT if self.unit == "percent" else UNITS.get(self.unit, _PLAIN)
 
     @property
-    def limits(self) -> dict[str, float]:
+    def limits(self) -> dict[str, Any]:
         """Limits that are set, in the unit of the edge."""
         every = {"gt": self.gt, "ge": self.ge, "lt": self.lt, "le": self.le}
         return {name: limit for name, limit in every.items() if limit is not None}

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 
 
 def versions() -> dict[str, str]:
-    """By name: this package and what its numbers may depend on."""
-    return {name: _version(name) for name in ("beardyn", "numba", "numpy")}
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "source"
+    """By name: this package and what its numbers may depend on; ``source`` for what is not installed."""
+    found = dict.fromkeys(("beardyn", "numba", "numpy"), "source")
+    for name in found:
+        with suppress(PackageNotFoundError):
+            found[name] = version(name)
+    return found

@@ -75,10 +75,10 @@ def _keys_of(noun: Any, usual_kind: str | None, part_of_sourced: bool) -> type[F
                 annotation, field = made[place.key]
                 made[place.key] = (Annotated[annotation, Field(json_schema_extra=change)], field)
     name, words = f"{noun.__name__}Keys", (noun.__doc__ or "").split("\n")[0]
-    model: type[FileModel] = create_model(name, __base__=base, __doc__=words, __module__=__name__, **made)
+    model: Any = create_model(name, __base__=base, __doc__=words, __module__=__name__, **made)
     model.noun_type, model.places = noun, places(noun)
     _MADE[name] = model
-    return model
+    return _MADE[name]
 
 
 def in_order(name: str, keys: Iterable[str]) -> list[str]:

@@ -36,16 +36,11 @@ class RunSummary:
     budget: A[TorqueBudget | None, "losses by source over the time of the means; ``None`` without audit"]
     averaged: A[tuple[float, float], "first and last time of the means, [s]"]
     cage_revolutions: A[int, "whole revolutions of the cage in the means; 0 in a run shorter than one"]
-    life: A[
-        RatingLife | None,
-        "under the run's load history; ``None`` when the shaft stood, or no equilibrium carries a load class",
-    ] = None
+    life: A[RatingLife | None, "under the run's load; ``None`` at rest, or where nothing carries it"] = None
     faults: A[tuple[str, ...], "defects and waviness of the scene in words"] = ()
     temperatures: A[tuple[tuple[str, float], ...], "of each part at the end, with the effect, [K]"] = ()
-    clipped: A[
-        tuple[tuple[str, int, int], ...],
-        "(sensor, samples, all samples), accelerometers that have read their largest value, and how often",
-    ] = ()
+    # (sensor, samples, all samples): accelerometers that have read their largest value, and how often
+    clipped: tuple[tuple[str, int, int], ...] = ()
     stages: A[tuple[StageTime, ...], "where the wall time went, recording and drawing included"] = ()
 
     def __repr__(self) -> str:
@@ -76,10 +71,8 @@ class RunSummary:
 class TrendMeans:
     """Means of a run over its last whole cage revolutions."""
 
-    force: A[
-        tuple[float, float, float],
-        "of the rollers on the cup, [N]; NaN like the others when there is nothing to average",
-    ] = (math.nan, math.nan, math.nan)
+    # of the rollers on the cup, [N]; NaN like the others when there is nothing to average
+    force: tuple[float, float, float] = (math.nan, math.nan, math.nan)
     torque: A[float, "[N m]"] = math.nan
     shaft_speed: A[float, "[rad/s]"] = math.nan
     cage_speed: A[tuple[float, ...], "of each row, [rad/s]"] = (math.nan, math.nan)
