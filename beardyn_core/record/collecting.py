@@ -1,5 +1,7 @@
 """From the blocks of a run to its arrays, with the same names, rates and shapes as those of a recording."""
 
+# ruff: noqa: D102 (a method gives the array of `Run` of its name)
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -54,25 +56,21 @@ class BlockSource:
         return np.asarray(self._joined(part), np.int64)
 
     def force(self) -> Signal:
-        """Give `Run.force`."""
         return self._trend(lambda block: block.force, WRENCH_AXES, "N, N m")
 
     def force_waveform(self) -> Signal:
-        """Give `Run.force_waveform`."""
         times = self._times(lambda block: block.waveform_time_ns)
         values = self._joined(lambda block: block.force_waveform)
         sample = self._times(lambda block: block.waveform_sample + np.arange(len(block.waveform_time_ns)))
         return Signal(times, values, WRENCH_AXES, "N, N m", sample)
 
     def sensors(self) -> dict[str, Signal]:
-        """Give `Run.sensors`."""
         several = list(zip(*(block.vibration for block in self._blocks), strict=True))
         known = self._description
         names = [f"accelerometer_{k}" for k in range(len(several))] if known is None else known.sensor_names
         return {name: _sensor(parts) for name, parts in zip(names, several, strict=False)}
 
     def specific_force(self) -> Signal:
-        """Give `Run.specific_force`."""
         return self._trend(lambda block: block.specific_force, ACCELERATION_AXES, "m/s^2")
 
     def _trend(self, part: Callable[[Block], Float], components: tuple[str, ...], unit: str) -> Signal:
@@ -80,24 +78,20 @@ class BlockSource:
         return Signal(times, self._joined(part), components, unit, _NOTHING)
 
     def shaft(self) -> Turning:
-        """Give `Run.shaft`."""
         times = self._times(lambda block: block.trend_time_ns)
         angle = self._joined(lambda block: block.shaft_angle)
         return Turning(times, angle, self._joined(lambda block: block.shaft_speed))
 
     def torque(self) -> Signal:
-        """Give `Run.torque`."""
         values = self._joined(lambda block: _every(block, block.shaft_torque))
         return Signal(self._orbit_times(), values, (), "N m", _NOTHING)
 
     def cages(self) -> Turning:
-        """Give `Run.cages`."""
         angle = self._joined(lambda block: _every(block, block.cage_angle))
         speed = self._joined(lambda block: _every(block, block.cage_speed))
         return Turning(self._orbit_times(), angle, speed)
 
     def rollers(self) -> Turning:
-        """Give `Run.rollers`."""
         angle = self._joined(lambda block: _every(block, block.roller_angle))
         speed = self._joined(lambda block: _every(block, block.roller_speed))
         return Turning(self._orbit_times(), angle, speed)
@@ -106,7 +100,6 @@ class BlockSource:
         return self._times(lambda block: _every(block, block.trend_time_ns))
 
     def bodies(self) -> Bodies:
-        """Give `Run.bodies`."""
         pose = self._joined(lambda block: block.body_pose)
         twist = self._joined(lambda block: block.body_twist)
         times = self._times(lambda block: block.snapshot_time_ns)
@@ -116,7 +109,6 @@ class BlockSource:
         return Bodies(times, names, pose, twist, sample)
 
     def contacts(self) -> Contacts:
-        """Give `Run.contacts`."""
         numbers = self._joined(lambda block: block.contacts)
         force = numbers[..., 3:6]
         gone = ~np.any(force != 0.0, axis=-1)
@@ -137,7 +129,6 @@ class BlockSource:
         return Load(used.time_ns, used.wrench, used.shaft_speed, used.bogie, np.arange(len(used)))
 
     def temperature(self) -> Signal:
-        """Give `Run.temperature`."""
         found = [
             (block.end_ns, block.temperature)
             for block in self._blocks
@@ -147,7 +138,6 @@ class BlockSource:
         return Signal(np.array([stamp for stamp, _ in found], np.int64), values, NODES, "K", _NOTHING)
 
     def diagnostics(self) -> Diagnostics:
-        """Give `Run.diagnostics`."""
         return tuple(
             (block.end_ns, (block_diagnostic(block),))
             for block in self._blocks
@@ -159,7 +149,6 @@ class BlockSource:
         return ()
 
     def duration(self) -> float:
-        """Give `Run.duration`."""
         return (self._blocks[-1].end_ns - self._blocks[0].start_ns) * 1e-9
 
 

@@ -1,5 +1,7 @@
 """From the messages of a recording, or of a live graph, to a `Run`."""
 
+# ruff: noqa: D102 (a method gives the array of `Run` of its name)
+
 from __future__ import annotations
 
 from collections import defaultdict
@@ -127,17 +129,14 @@ class MessageSource:
         return self._cdrs.get(name, ())
 
     def force(self) -> Signal:
-        """Give `Run.force`."""
         return _stamped(
             self._of("force"), WRENCH, force_template, "wrench", wrench_values, WRENCH_AXES, "N, N m"
         )
 
     def force_waveform(self) -> Signal:
-        """Give `Run.force_waveform`."""
         return _waveform(self._of("force_waveform"), WRENCH_AXES, "N, N m")
 
     def sensors(self) -> dict[str, Signal]:
-        """Give `Run.sensors`."""
         known = () if self._description is None else self._description.sensor_names
         topics = {vibration_topic(number, known): name for number, name in enumerate(known)}
         found = sorted(n for n in self._cdrs if n == "vibration" or n.startswith("vibration/"))
@@ -149,13 +148,11 @@ class MessageSource:
         }
 
     def specific_force(self) -> Signal:
-        """Give `Run.specific_force`."""
         return _stamped(
             self._of("imu"), IMU, imu_template, "acceleration", _imu_values, ACCELERATION_AXES, "m/s^2"
         )
 
     def shaft(self) -> Turning:
-        """Give `Run.shaft`."""
         joints = _joints(self._of("shaft"))
         column = slice(0, 1) if joints.names else slice(0)
         return Turning(joints.time_ns, joints.position[:, column].ravel(), joints.velocity[:, column].ravel())
@@ -165,20 +162,17 @@ class MessageSource:
         return _joints(self._of("joint_states"))
 
     def torque(self) -> Signal:
-        """Give `Run.torque`."""
         orbit, nothing = self._orbit, np.zeros(0, np.int64)
         if "shaft" not in orbit.names or not orbit.effort.shape[1]:
             return no_signal((), "N m")
         return Signal(orbit.time_ns, orbit.effort[:, orbit.names.index("shaft")], (), "N m", nothing)
 
     def cages(self) -> Turning:
-        """Give `Run.cages`."""
         orbit = self._orbit
         columns = [orbit.names.index(name) for name in ("cage_0", "cage_1") if name in orbit.names]
         return Turning(orbit.time_ns, orbit.position[:, columns], orbit.velocity[:, columns])
 
     def rollers(self) -> Turning:
-        """Give `Run.rollers`."""
         orbit = self._orbit
         columns = [k for k, name in enumerate(orbit.names) if name.startswith("roller_")]
         shape = (len(orbit.time_ns), ROWS, len(columns) // ROWS)
@@ -206,7 +200,6 @@ class MessageSource:
         )
 
     def bodies(self) -> Bodies:
-        """Give `Run.bodies`."""
         return self._bodies
 
     def contacts(self) -> Contacts:
@@ -230,7 +223,6 @@ class MessageSource:
         return Contacts(times, numbers[..., :3], numbers[..., 3:6], numbers[..., 6], numbers[..., 7])
 
     def load(self) -> Load:
-        """Give `Run.load`."""
         parts = [decode_load(cdr) for cdr in self._of("load/blocks")]
         load = joined_load([part for part, _ in parts])
         sample = np.concatenate([np.zeros(0, np.int64), *(sample for _, sample in parts)])
@@ -250,11 +242,9 @@ class MessageSource:
         return Signal(np.array(list(rows), np.int64), values, NODES, "K", np.zeros(0, np.int64))
 
     def diagnostics(self) -> Diagnostics:
-        """Give `Run.diagnostics`."""
         return tuple(decode_diagnostics(cdr) for cdr in self._of("/diagnostics"))
 
     def results(self) -> Diagnostics:
-        """Give `Run.results`."""
         return tuple(decode_diagnostics(cdr) for cdr in self._of("monitor/result"))
 
     def duration(self) -> float:
