@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from functools import cache, reduce
 from operator import or_
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 
 from pydantic import Discriminator, Field, StrictBool, Tag, TypeAdapter, ValidationError, create_model
 
@@ -75,7 +75,7 @@ def _keys_of(noun: Any, usual_kind: str | None, part_of_sourced: bool) -> type[F
                 annotation, field = made[place.key]
                 made[place.key] = (Annotated[annotation, Field(json_schema_extra=change)], field)
     name, words = f"{noun.__name__}Keys", (noun.__doc__ or "").split("\n")[0]
-    model: Any = create_model(name, __base__=base, __doc__=words, __module__=__name__, **made)
+    model = cast(Any, create_model(name, __base__=base, __doc__=words, __module__=__name__, **made))
     model.noun_type, model.places = noun, places(noun)
     _MADE[name] = model
     return _MADE[name]
