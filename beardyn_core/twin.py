@@ -358,7 +358,7 @@ class Twin:
             self._parameters,
             self.load.copy(),
             deepcopy(self._observer),
-            None if self._first_audit is None else self._first_audit.copy(),
+            deepcopy(self._first_audit),
             self._warmth,
         )
 
@@ -370,7 +370,7 @@ class Twin:
         self._kernel_parameters = self._tier.parameters(self.scene, self._parameters)
         self._warmth = snapshot.warmth
         self.load = snapshot.load.copy()
-        self._first_audit = None if snapshot.first_audit is None else snapshot.first_audit.copy()
+        self._first_audit = deepcopy(snapshot.first_audit)
         self._observer = deepcopy(snapshot.observer)
 
 

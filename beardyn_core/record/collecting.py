@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +29,6 @@ from beardyn_core.record.encoding import (
     block_diagnostic,
 )
 from beardyn_core.scene.load import WRENCH_AXES
-
-Number = TypeVar("Number", bound=np.generic)
 
 _NOTHING = np.zeros(0, np.int64)
 
@@ -160,6 +158,6 @@ def _sensor(parts: Sequence[Vibration]) -> Signal:
     return Signal(times, values, ACCELERATION_AXES, "m/s^2", sample)
 
 
-def _every(block: Block, values: NDArray[Number]) -> NDArray[Number]:
+def _every(block: Block, values: NDArray[Any]) -> NDArray[Any]:
     """Take every second trend sample of a block, counted over the run: 200 Hz of 400."""
     return values[block.trend_sample % 2 :: 2]
