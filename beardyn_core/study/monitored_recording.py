@@ -80,17 +80,9 @@ def findings_of(
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
 ) -> list[Finding]:
-    """Let a monitor analyse a finished run, as it would have done beside it.
+    """Let a monitor, ours or another, analyse a finished run, as it would have done beside it.
 
-    Parameters
-    ----------
-    run : Run
-        Vibration, shaft, load and temperature of it are used.
-    bearing : Bearing
-        What the name plate says.
-    algorithm : function, optional
-        In place of the reference chain.
-    settings : MonitorSettings, optional
+    The bearing is what the name plate says.
 
     Raises
     ------
@@ -99,7 +91,6 @@ def findings_of(
     """
     if not len(run.vibration) or not len(run.shaft):
         raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
-    monitor = Monitor(
-        fault_frequencies(bearing), bearing.roller_count, settings=settings, algorithm=algorithm
-    )
+    orders, count = fault_frequencies(bearing), bearing.roller_count
+    monitor = Monitor(orders, count, settings=settings, algorithm=algorithm)
     return [Finding.of(result) for result in listen(monitor, run.monitor_inputs())]
