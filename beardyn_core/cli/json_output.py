@@ -48,14 +48,7 @@ def plain(value: Any) -> Any:
 
 
 def renamed(value: Any, names: Mapping[str, str]) -> Any:
-    """Rename the keys of mappings, nested ones and those in lists included; others keep their name.
-
-    Parameters
-    ----------
-    value : object
-    names : mapping
-        Name of a field to the key with its unit, such as ``"gap": "gap_m"``.
-    """
+    """Rename the keys of mappings, nested ones and those in lists included; others keep their name."""
     if isinstance(value, Mapping):
         return {names.get(key, key): renamed(each, names) for key, each in value.items()}
     if isinstance(value, (list, tuple)):
