@@ -66,10 +66,8 @@ class MonitoredRecording(McapSink):
             return
         finding = Finding.of(result)
         self.findings.append(finding)
-        status = finding.to_diagnostic(MONITOR_STATUS)
-        self._opened().add(
-            "monitor/result", result.end_ns, encode_diagnostics(result.end_ns, FRAME, [status])
-        )
+        message = encode_diagnostics(result.end_ns, FRAME, [finding.to_diagnostic(MONITOR_STATUS)])
+        self._opened().add("monitor/result", result.end_ns, message)
         if self._on_finding is not None:
             self._on_finding(finding)
 

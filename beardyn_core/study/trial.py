@@ -50,17 +50,9 @@ class Plan:
 
 
 def plan_of(trial: Trial, algorithm: str, folder: Path | None, *, force: bool = False) -> Plan:
-    """Plan the runs that a folder does not hold yet.
+    """Plan the runs that a folder does not hold yet; ``force``: it starts over, whatever it holds.
 
-    Parameters
-    ----------
-    trial : Trial
-    algorithm : str
-        ``module:function``, '' for ours.
-    folder : Path or None
-        Where runs are kept.
-    force : bool
-        Whether the folder starts over, whatever it holds.
+    The algorithm is ``module:function``, '' for ours.
 
     Raises
     ------
