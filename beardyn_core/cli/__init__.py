@@ -5,6 +5,7 @@ module      responsibility
 =========== ========================================================================
 main        the parser, the list of subcommands, exit codes, complaints
 json_output strict JSON with a version, for every ``--json``
+files       inputs and outputs of a command: all complaints at once, a folder to write
 quantities  numbers with units in options
 demo        the main job in one go
 scenes      what scenes, bearings, lubricants, vehicles, effects and trials there are

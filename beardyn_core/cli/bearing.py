@@ -89,17 +89,14 @@ def add_parser(subparsers: Any) -> None:
 
 
 @dataclass(frozen=True)
-class _Operation:
-    """What the bearing is solved for, from the options."""
+class _Case:
+    """A bearing and what it is solved for, from the options."""
 
+    args: argparse.Namespace
+    bearing: Bearing
     load: A[tuple[float, float, float], "on the cone, [N]"]
-    end_play: A[float | None, "[m]; ``None``: that of the bearing"]
+    end_play: A[float, "[m]"]
     speed: A[float, "of the shaft, [rad/s]"]
-
-    @property
-    def rpm(self) -> float:
-        """Speed of the shaft, [rpm]."""
-        return round(self.speed / _RPM, 9)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -110,35 +107,35 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.integrate.rating_life import life_lines, life_object
     from beardyn_core.integrate.static import solve
 
-    operation = _operation(args)
+    load, end_play, speed = _operation(args)
     bearing = load_bearing(args.bearing)
-    problem, doubt = load_doubts(bearing, operation.load)
+    problem, doubt = load_doubts(bearing, load)
     if problem:
         raise InputError(f"--load: {problem}")
     if doubt:
         print(f"beardyn: warning: --load: {doubt}", file=sys.stderr)
-    end_play = bearing.end_play if operation.end_play is None else operation.end_play
+    case = _Case(args, bearing, load, bearing.end_play if end_play is None else end_play, speed)
     solution = solve(
         bearing,
-        operation.load,
-        end_play=end_play,
+        load,
+        end_play=case.end_play,
         tilt=args.tilt,
         laminae=args.laminae,
-        speed=operation.speed,
+        speed=speed,
         coupling=LaminaCoupling() if args.coupled_laminae else None,
     )
-    life = _life(bearing, operation, end_play, args)
+    life = _life(case)
     if args.json:
-        report = _report(bearing, operation, end_play, args, solution)
+        report = _report(case, solution)
         print(json_text("bearing", {**report, "life": None if life is None else life_object(life)}))
     else:
-        print(_table(bearing, operation, end_play, args, solution))
+        print(_table(case, solution))
         if life is not None:
             print("\n".join(["", *life_lines(life)]))
     return 0
 
 
-def _operation(args: argparse.Namespace) -> _Operation:
+def _operation(args: argparse.Namespace) -> tuple[tuple[float, float, float], float | None, float]:
     """Read load, end play and speed; raise `InputError` with everything that makes no sense."""
     problems: list[str] = []
 
@@ -164,58 +161,50 @@ def _operation(args: argparse.Namespace) -> _Operation:
         problems.append("--lubricant is given, but --speed is 0; life needs a shaft that turns")
     if problems:
         raise InputError(problems)
-    return _Operation((fx, fy, fz), end_play, speed)
+    return (fx, fy, fz), end_play, speed
 
 
-def _life(
-    bearing: Bearing, operation: _Operation, end_play: float, args: argparse.Namespace
-) -> RatingLife | None:
+def _life(case: _Case) -> RatingLife | None:
     """Rate the life under the load of the command line; ``None`` without a lubricant."""
+    args = case.args
     if args.lubricant is None:
         return None
     from beardyn_core.config import load_lubricant
     from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
 
-    always = LoadClass(1.0, operation.load, (0.0, 0.0, 0.0), abs(operation.speed))
     return rating_life(
-        bearing,
-        (always,),
+        case.bearing,
+        (LoadClass(1.0, case.load, (0.0, 0.0, 0.0), abs(case.speed)),),
         load_lubricant(args.lubricant),
         args.temperature + _ZERO_CELSIUS,
-        end_play=end_play,
+        end_play=case.end_play,
         tilt=args.tilt,
         contamination=USUAL_CONTAMINATION if args.contamination is None else args.contamination,
     )
 
 
-def _report(
-    bearing: Bearing,
-    operation: _Operation,
-    end_play: float,
-    args: argparse.Namespace,
-    solution: StaticSolution,
-) -> dict[str, Any]:
+def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
     """Gather the content of the JSON object."""
     from beardyn_core.bearing.kinematics import fault_frequencies
 
     return {
-        "bearing": bearing.name,
-        "geometry": _geometry(bearing),
-        "fault_frequencies_per_rev": fault_frequencies(bearing).by_name,
+        "bearing": case.bearing.name,
+        "geometry": _geometry(case.bearing),
+        "fault_frequencies_per_rev": fault_frequencies(case.bearing).by_name,
         "static": {
-            "applied_force_N": operation.load,
-            "end_play_m": end_play,
-            "tilt": args.tilt,
-            "shaft_speed_rad_per_s": operation.speed,
-            "laminae": args.laminae,
-            "coupled_laminae": args.coupled_laminae,
+            "applied_force_N": case.load,
+            "end_play_m": case.end_play,
+            "tilt": case.args.tilt,
+            "shaft_speed_rad_per_s": case.speed,
+            "laminae": case.args.laminae,
+            "coupled_laminae": case.args.coupled_laminae,
             "displacement_m": solution.displacement,
             "tilt_rad": solution.tilt,
             "roller_load_N": solution.cup_load,
             "loaded_roller_count": sum(solution.loaded_roller_count),
             "loaded_roller_count_per_row": list(solution.loaded_roller_count),
             "largest_roller_load_N": solution.largest_roller_load,
-            "most_loaded_roller": _most_loaded_roller(bearing, solution),
+            "most_loaded_roller": _most_loaded_roller(case.bearing, solution),
             "stiffness_tilt_held_N_per_m": solution.stiffness_tilt_held,
             "stiffness_tilt_free_N_per_m": solution.stiffness_tilt_free,
         },
@@ -245,16 +234,31 @@ def _line_lines(roller: dict[str, Any]) -> list[str]:
         f"  along roller {roller['roller']} of row {roller['row']}, from its small to its large end",
         "  place mm    cup N/mm    cup MPa   cone N/mm   cone MPa",
     ]
-    columns = (
-        "cup_load_per_length_N_per_m",
-        "cup_pressure_Pa",
-        "cone_load_per_length_N_per_m",
-        "cone_pressure_Pa",
-    )
-    for k, place in enumerate(roller["place_m"]):
-        cells = [roller[name][k] / (1e3 if "length" in name else 1e6) for name in columns]
+    columns = [
+        values
+        for ring in ("cup", "cone")
+        for values in (roller[f"{ring}_load_per_length_N_per_m"] / 1e3, roller[f"{ring}_pressure_Pa"] / 1e6)
+    ]
+    for place, *cells in zip(roller["place_m"], *columns, strict=True):
         lines.append(f"  {place * 1e3:8.2f} " + " ".join(f"{value:11.1f}" for value in cells))
     return lines
+
+
+# properties of a bearing with their unit, in the order of the JSON object
+_GEOMETRY = (
+    *(("m", name) for name in ("bore", "outer_diameter", "width", "row_spacing", "pitch_diameter")),
+    *(("m", name) for name in ("roller_diameter", "effective_length", "roller_length")),
+    *(("rad", name) for name in ("contact_angle", "cup_angle", "cone_angle", "half_angle")),
+    *(("m", name) for name in ("apex_distance", "large_end_radius", "small_end_radius", "sphere_radius")),
+    *(
+        ("m", "rib_contact_height"),
+        ("rad", "rib_angle"),
+        ("m", "pressure_centre_spread"),
+        ("m", "roller_web"),
+    ),
+    *(("kg", "roller_mass"), ("kg_m2", "roller_axial_inertia"), ("kg_m2", "roller_transverse_inertia")),
+    ("m", "roller_mass_offset"),
+)
 
 
 def _geometry(bearing: Bearing) -> dict[str, float | int]:
@@ -263,60 +267,36 @@ def _geometry(bearing: Bearing) -> dict[str, float | int]:
     return {
         "roller_count": bearing.roller_count,
         "row_count": 2,
-        "bore_m": bearing.bore,
-        "outer_diameter_m": bearing.outer_diameter,
-        "width_m": bearing.width,
-        "row_spacing_m": bearing.row_spacing,
-        "pitch_diameter_m": bearing.pitch_diameter,
-        "roller_diameter_m": bearing.roller_diameter,
-        "effective_length_m": bearing.effective_length,
-        "roller_length_m": bearing.roller_length,
-        "contact_angle_rad": bearing.contact_angle,
-        "cup_angle_rad": bearing.cup_angle,
-        "cone_angle_rad": bearing.cone_angle,
-        "half_angle_rad": bearing.half_angle,
-        "apex_distance_m": bearing.apex_distance,
-        "large_end_radius_m": bearing.large_end_radius,
-        "small_end_radius_m": bearing.small_end_radius,
-        "sphere_radius_m": bearing.sphere_radius,
-        "rib_contact_height_m": bearing.rib_contact_height,
-        "rib_angle_rad": bearing.rib_angle,
-        "pressure_centre_spread_m": bearing.pressure_centre_spread,
-        "roller_web_m": bearing.roller_web,
-        "roller_mass_kg": bearing.roller_mass,
-        "roller_axial_inertia_kg_m2": bearing.roller_axial_inertia,
-        "roller_transverse_inertia_kg_m2": bearing.roller_transverse_inertia,
-        "roller_mass_offset_m": bearing.roller_mass_offset,
+        **{f"{name}_{unit}": getattr(bearing, name) for unit, name in _GEOMETRY},
         "gamma": bearing.gamma,
         "dynamic_load_rating_N": dynamic_rating(bearing).radial,
     }
 
 
-def _table(
-    bearing: Bearing,
-    operation: _Operation,
-    end_play: float,
-    args: argparse.Namespace,
-    solution: StaticSolution,
-) -> str:
+def _table(case: _Case, solution: StaticSolution) -> str:
     from beardyn_core.bearing.kinematics import fault_frequencies
 
-    lines = [f"{bearing.name}   {bearing.description}".rstrip(), "", "Geometry (closed on a common apex)"]
-    lines += _geometry_lines(bearing)
-    lines += ["", "Frequencies per shaft revolution"]
-    lines += _frequency_lines(fault_frequencies(bearing), operation.rpm)
-    force = ", ".join(f"{value / 1e3:g}" for value in operation.load)
+    bearing, args = case.bearing, case.args
+    rpm = round(case.speed / _RPM, 9)
+    force = ", ".join(f"{value / 1e3:g}" for value in case.load)
     chosen = " (default)" if args.load is None else ""
-    lines += [
-        "",
-        f"Static equilibrium under ({force}) kN on the cone{chosen}",
-        f"  end play {end_play * 1e3:g} mm, tilt {args.tilt}, {operation.rpm:g} rpm, laminae {args.laminae}",
-    ]
-    lines += _static_lines(solution)
-    lines += _rib_lines(bearing, float(solution.rib_load.max()), operation.rpm)
-    if args.laminae > 1:
-        lines += _line_lines(_most_loaded_roller(bearing, solution))
-    return "\n".join(lines)
+    return "\n".join(
+        [
+            f"{bearing.name}   {bearing.description}".rstrip(),
+            "",
+            "Geometry (closed on a common apex)",
+            *_geometry_lines(bearing),
+            "",
+            "Frequencies per shaft revolution",
+            *_frequency_lines(fault_frequencies(bearing), rpm),
+            "",
+            f"Static equilibrium under ({force}) kN on the cone{chosen}",
+            f"  end play {case.end_play * 1e3:g} mm, tilt {args.tilt}, {rpm:g} rpm, laminae {args.laminae}",
+            *_static_lines(solution),
+            *_rib_lines(bearing, float(solution.rib_load.max()), rpm),
+            *(_line_lines(_most_loaded_roller(bearing, solution)) if args.laminae > 1 else []),
+        ]
+    )
 
 
 def _geometry_lines(bearing: Bearing) -> list[str]:

@@ -7,20 +7,14 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words, may_be_left
-from beardyn_core.outputs import file_problems, files_read, folder_problems, write_whole
+from beardyn_core.outputs import file_problems, folder_problems, write_whole
 
 DONE = 0
 _BEARING = "HS130x230"
-FILES = (
-    "contacts.json",
-    "contacts_nine.png",
-    "contacts_sphere.png",
-    "contacts_rolling.png",
-    "contacts_barrel.png",
-)
+FILES = ("contacts.json", *(f"contacts_{name}.png" for name in ("nine", "sphere", "rolling", "barrel")))
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -63,15 +57,8 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import load_bearing
 
-    problems: list[str] = []
-    with files_read() as inputs:
-        try:
-            bearing = load_bearing(args.bearing)
-        except InputError as error:
-            problems = error.problems
-    problems = problems + option_problems(args, inputs)
-    if problems:
-        raise InputError(problems)
+    with checked(lambda inputs: option_problems(args, inputs)):
+        bearing = load_bearing(args.bearing)
 
     from beardyn_core.jit import when_compiling
     from beardyn_core.laboratory.findings import find
@@ -90,14 +77,9 @@ def run(args: argparse.Namespace) -> int:
     if args.output is not None:
         from beardyn_core.study.contacts_picture import write_pictures
 
-        try:
-            args.output.mkdir(exist_ok=True)
+        with made_folder(args.output):
             write_whole(args.output / FILES[0], json_text("contacts", result, indent=1) + "\n")
             write_pictures(found, args.output)
-        except OSError as error:
-            raise InputError(
-                f"--output {args.output}: cannot be written: {error.strerror or error}"
-            ) from None
     if args.rrd is not None:
         from beardyn_core.record.rerun_rolling import save_rolling
 

@@ -13,6 +13,7 @@ from beardyn_core.interrupts import last_words
 from beardyn_core.study.demo_console import Progress, add_arguments, say
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from beardyn_core.observe.block import Block
@@ -58,7 +59,7 @@ def run(args: argparse.Namespace) -> int:
 
     with last_words(kept):
         try:
-            summary = desk_run.run(scene, [recording], _BlockProgress(progress))
+            summary = desk_run.run(scene, [recording], _shown(progress))
         finally:
             progress.close()
         return _report(folder, summary, args)
@@ -75,14 +76,14 @@ def _report(folder: Path, summary: RunSummary, args: argparse.Namespace) -> int:
     return DONE if summary.complete else INVALID
 
 
-class _BlockProgress:
-    """Moves the progress with every block."""
+def _shown(progress: Progress) -> Callable[[Block], None]:
+    """Move the progress with every block."""
+    simulated = wall = 0.0
 
-    def __init__(self, progress: Progress) -> None:
-        self._progress = progress
-        self._wall = self._simulated = 0.0
+    def show(block: Block) -> None:
+        nonlocal simulated, wall
+        simulated += (block.end_ns - block.start_ns) * 1e-9
+        wall += block.wall_s
+        progress.show(simulated, simulated / max(wall, 1e-9))
 
-    def __call__(self, block: Block) -> None:
-        self._simulated += (block.end_ns - block.start_ns) * 1e-9
-        self._wall += block.wall_s
-        self._progress.show(self._simulated, self._simulated / max(self._wall, 1e-9))
+    return show

@@ -7,8 +7,8 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.files import checked
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.choice import Explanation
@@ -48,19 +48,15 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice import explain_scene
 
-    try:
+    quantities = None if args.quantities is None else [name.strip() for name in args.quantities.split(",")]
+    with checked():
         found = explain_scene(
             args.scene,
             effects=args.effects,
             tier=args.tier,
             accuracy_percent=args.accuracy,
-            quantities=None
-            if args.quantities is None
-            else [name.strip() for name in args.quantities.split(",")],
+            quantities=quantities,
         )
-    except InputError as error:
-        # the option is shorter than the key
-        raise InputError([p.replace("--accuracy_percent", "--accuracy") for p in error.problems]) from None
     print(json_text("explain", json_object(found)) if args.json else text(found))
     return DONE
 

@@ -17,16 +17,9 @@ SCHEMA_VERSION = 1
 
 
 def json_text(command: str, content: Mapping[str, Any], indent: int | None = None) -> str:
-    """Write what a command found as one strict JSON object.
+    """Write what a command found, under the keys of `docs/json.md`, as one strict JSON object.
 
-    Parameters
-    ----------
-    command : str
-        Name of the subcommand.
-    content : mapping
-        Keys of `docs/json.md`; arrays, tuples and paths are converted, NaN and infinity become null.
-    indent : int, optional
-        For files; a single line by default.
+    Arrays, tuples and paths are converted, NaN and infinity become null; files are indented.
     """
     whole = {"schema_version": SCHEMA_VERSION, "command": command, **content}
     return json.dumps(plain(whole), indent=indent, allow_nan=False)
@@ -48,14 +41,7 @@ def plain(value: Any) -> Any:
 
 
 def renamed(value: Any, names: Mapping[str, str]) -> Any:
-    """Rename the keys of mappings, nested ones and those in lists included; others keep their name.
-
-    Parameters
-    ----------
-    value : object
-    names : mapping
-        Name of a field to the key with its unit, such as ``"gap": "gap_m"``.
-    """
+    """Rename the keys of mappings, nested ones and those in lists included; others keep their name."""
     if isinstance(value, Mapping):
         return {names.get(key, key): renamed(each, names) for key, each in value.items()}
     if isinstance(value, (list, tuple)):

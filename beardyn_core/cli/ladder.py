@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 import logging
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import files_read, folder_problems, write_whole
+from beardyn_core.outputs import folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
@@ -76,22 +77,13 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.ladder_levels import automatic, levels_of
     from beardyn_core.study.ladder_report import json_object, table
 
-    problems: list[str] = []
-    with files_read() as inputs:
-        try:
-            scene = load_scene(args.scene)
-        except InputError as error:
-            problems = error.problems
-    problems = problems + option_problems(args, inputs)
-    if problems:
-        raise InputError(problems)
+    with checked(lambda inputs: option_problems(args, inputs)):
+        scene = load_scene(args.scene)
 
     plan = plan_of(scene, args.duration, args.settling)
     asked = _names(args.quantities) if args.quantities else scene.quantities
     _refuse_what_it_cannot_compare(scene, asked, plan.fault_line is not None)
-    accuracy = scene.accuracy or 0.01 * _USUAL_ACCURACY
-    if args.accuracy is not None:
-        accuracy = 0.01 * args.accuracy
+    accuracy = 0.01 * args.accuracy if args.accuracy else scene.accuracy or 0.01 * _USUAL_ACCURACY
     levels = levels_of(scene, quick=args.quick, each_effect=args.each_effect)
     levels = levels.including(automatic(scene, accuracy, asked))
     expected = expected_wall(levels, plan)
@@ -103,12 +95,12 @@ def run(args: argparse.Namespace) -> int:
     with _quiet():
         with (
             last_words(lambda: "no level has been run; what is compiled is kept for the next time"),
-            _Bar("compiled", "{n:.0f}/{total:.0f}", len(levels.levels) + 1) as bar,
+            _bar("compiled", "{n:.0f}/{total:.0f}", len(levels.levels) + 1) as bar,
         ):
             compile_levels(plan, levels, bar)
         with (
             last_words(lambda: "the reference was not done, so nothing has been written"),
-            _Bar("run", "{percentage:.0f} %", expected) as bar,
+            _bar("run", "{percentage:.0f} %", expected) as bar,
         ):
             ladder = climb(plan, levels, accuracy, asked, bar)
     found = json_object(ladder)
@@ -142,12 +134,9 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
     from beardyn_core.study.measures import QUANTITIES
 
     problems = [
-        f"{name} {value:g}: allowed is more than 0 and at most {most:g} {unit}"
-        for name, value, most, unit in (
-            ("--duration", args.duration, _LONGEST_S, "s"),
-            ("--settling", args.settling, _LONGEST_S, "s"),
-        )
-        if value is not None and not 0.0 < value <= most
+        f"{name} {value:g}: allowed is more than 0 and at most {_LONGEST_S:g} s"
+        for name, value in (("--duration", args.duration), ("--settling", args.settling))
+        if value is not None and not 0.0 < value <= _LONGEST_S
     ]
     accuracy = args.accuracy
     if accuracy is not None and not _FINEST_ACCURACY <= accuracy <= _COARSEST_ACCURACY:
@@ -165,12 +154,9 @@ def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
     """Write ladder.json and ladder.png."""
     from beardyn_core.study.ladder_picture import ladder_picture
 
-    try:
-        folder.mkdir(exist_ok=True)
+    with made_folder(folder):
         write_whole(folder / FILES[0], json_text("ladder", found, indent=1) + "\n")
         ladder_picture(ladder, folder / FILES[1])
-    except OSError as error:
-        raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None
 
 
 @contextmanager
@@ -185,21 +171,16 @@ def _quiet() -> Iterator[None]:
         logger.setLevel(before)
 
 
-class _Bar:
-    """Progress with the time left; it takes the level that runs and the share of the whole that is done."""
+@contextmanager
+def _bar(what: str, count: str, total: float) -> Iterator[Callable[[str, float], None]]:
+    """Show the time left; takes the level that runs and the share of the whole that is done."""
+    from tqdm import tqdm
 
-    def __init__(self, what: str, count: str, total: float) -> None:
-        from tqdm import tqdm
+    shown = f"{what:9}{{bar:30}} {count}{{postfix}} [{{elapsed}}<{{remaining}}]"
+    with tqdm(total=total, bar_format=shown, miniters=0, disable=None, leave=False) as bar:
 
-        shown = f"{what:9}{{bar:30}} {count}{{postfix}} [{{elapsed}}<{{remaining}}]"
-        self._bar = tqdm(total=total, bar_format=shown, miniters=0, disable=None, leave=False)
+        def move(name: str, done: float) -> None:
+            bar.set_postfix_str(name, refresh=False)
+            bar.update(min(done, max(bar.total - bar.n, 0.0)))
 
-    def __enter__(self) -> _Bar:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.close()
-
-    def __call__(self, name: str, done: float) -> None:
-        self._bar.set_postfix_str(name, refresh=False)
-        self._bar.update(min(done, max(self._bar.total - self._bar.n, 0.0)))
+        yield move

@@ -71,18 +71,7 @@ def build_parser() -> argparse.ArgumentParser:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command line.
-
-    Parameters
-    ----------
-    argv : sequence of str, optional
-        Words after the program's name; those of the process when left out.
-
-    Returns
-    -------
-    int
-        The exit code.
-    """
+    """Run a command line, that of the process when left out, and return the exit code."""
     try:
         with interrupts.watching():
             args = build_parser().parse_args(argv)

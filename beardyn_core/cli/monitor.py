@@ -12,21 +12,15 @@ from beardyn_core.cli.json_output import json_text, renamed
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
 
-_KEYS = {
-    "time": "time_s",
-    "found_frequency": "found_frequency_Hz",
-    "expected_frequency": "expected_frequency_Hz",
-    "signal_to_background": "signal_to_background_dB",
-    "score": "score_dB",
-    "shaft_frequency": "shaft_frequency_Hz",
-    "load": "load_N",
-    "rms": "rms_m_per_s2",
-    "threshold": "threshold_dB",
-    "band_low": "band_low_Hz",
-    "band_high": "band_high_Hz",
-    "rms_rise": "rms_rise_dB",
-    "temperature": "temperature_K",
+_UNITS = {
+    "s": ("time",),
+    "Hz": ("found_frequency", "expected_frequency", "shaft_frequency", "band_low", "band_high"),
+    "dB": ("signal_to_background", "score", "threshold", "rms_rise"),
+    "N": ("load",),
+    "m_per_s2": ("rms",),
+    "K": ("temperature",),
 }
+_KEYS = {name: f"{name}_{unit}" for unit, names in _UNITS.items() for name in names}
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -97,12 +91,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def other_bearing(given: Bearing, recorded: Bearing) -> str:
-    """Say how a bearing differs from the recorded one for a monitor; empty when it does not.
-
-    Parameters
-    ----------
-    given, recorded : Bearing
-    """
+    """Say how a bearing differs from the recorded one for a monitor; empty when it does not."""
     from dataclasses import astuple
 
     from beardyn_core.bearing.kinematics import fault_frequencies

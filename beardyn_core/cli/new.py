@@ -9,6 +9,7 @@ from typing import Any
 
 from beardyn_core.cli.scenes import KINDS
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import file_problems
 
 _NAME_KEY = {"scenes": "scene", "trials": "trial"}
 _HOW = {
@@ -90,22 +91,17 @@ def kind_of(name: str) -> str:
     from beardyn_core.config.folders import closest
 
     names = {kind: shipped_names(kind) for kind in KINDS}
-    for kind in KINDS:
-        if name in names[kind]:
-            return kind
+    if found := [kind for kind in KINDS if name in names[kind]]:
+        return found[0]
     guess = closest(name, [each for members in names.values() for each in members])
     hint = f"did you mean {guess}? " if guess else ""
     raise InputError(f"nothing shipped is called {name!r}; {hint}`beardyn scenes all` lists the names")
 
 
 def copied_text(kind: str, source: Path, target: Path) -> str:
-    """Write the copy: a heading, the shipped text under a name of its own, and what else may be said.
+    """Write the copy: a heading, the shipped text, and what else may be said.
 
-    Parameters
-    ----------
-    kind : str
-    source, target : Path
-        The shipped file, and the one to be written; its stem becomes the name where it is a plain word.
+    Its name is the stem of the target where that is a plain word.
     """
     text = source.read_text(encoding="utf-8")
     if _WORD.fullmatch(target.stem):
@@ -121,11 +117,8 @@ def copied_text(kind: str, source: Path, target: Path) -> str:
     ending = []
     if kind == "scenes":
         others = [what for key, what in POSSIBLE.items() if not re.search(rf"^{key}:", text, re.MULTILINE)]
-        ending = [
-            "",
-            "# Also possible; take the # away:",
-            *(f"# {line}" for what in others for line in what.split("\n")),
-        ]
+        comments = (f"# {line}" for what in others for line in what.split("\n"))
+        ending = ["", "# Also possible; take the # away:", *comments]
     return "\n".join([*heading, "", text.rstrip("\n"), *ending]) + "\n"
 
 
@@ -154,14 +147,10 @@ def _refuse(files: dict[Path, bytes], target: Path, source: Path, force: bool) -
     problems = []
     if target.suffix not in (".yaml", ".yml"):
         problems.append(f"--output {target}: give it the ending .yaml, by which commands know a file")
-    if not target.parent.is_dir():
-        problems.append(f"--output {target}: the folder {target.parent} does not exist; create it first")
     for path in files:
-        if path.is_dir():
-            problems.append(f"{path}: is a folder; give the name of a file")
-        elif path.exists() and path.resolve().parent == source.resolve().parent:
+        if path.exists() and path.resolve().parent == source.resolve().parent:
             problems.append(f"{path}: is a shipped file and stays; choose another name or folder")
-        elif path.exists() and not force:
-            problems.append(f"{path}: exists; choose another name, or replace it with --force")
+        else:
+            problems += file_problems("--output" if path == target else "", path, force=force)
     if problems:
         raise InputError(problems)

@@ -26,17 +26,8 @@ _KEYS = {
     "sensor_rates_Hz": "sensor_rate_Hz",
 }
 _GROWTH = {"start": "start_s", "end": "end_s", "width": "width_grows", "depth": "depth_grows"}
-_DEFECT = {
-    "azimuth": "azimuth_rad",
-    "width": "width_m",
-    "depth": "depth_m",
-    "length": "length_m",
-    "offset": "offset_m",
-    "rim_height": "rim_height_m",
-    "rim_width": "rim_width_m",
-    "diameter": "diameter_m",
-    "clearance": "clearance_m",
-}
+_LENGTHS = ("width", "depth", "length", "offset", "rim_height", "rim_width", "diameter", "clearance")
+_DEFECT = {"azimuth": "azimuth_rad", **{name: f"{name}_m" for name in _LENGTHS}}
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -55,13 +46,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(args: argparse.Namespace) -> int:
-    """Run the command.
-
-    Returns
-    -------
-    int
-        0 done, 2 bad input, or a cut-off file that could not be recovered.
-    """
+    """Run the command; gives the exit code."""
     from beardyn_core.record.mcap_scanning import recover, recovered_name
     from beardyn_core.record.reporting import report
 
@@ -92,14 +77,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def json_object(found: Report, recovery: Recovery | None) -> dict[str, Any]:
-    """Gather what ``--json`` prints.
-
-    Parameters
-    ----------
-    found : Report
-    recovery : Recovery or None
-        The copy of a file that was cut off.
-    """
+    """Gather what ``--json`` prints; the recovery is the copy of a file that was cut off."""
     from beardyn_core.scene.defect import defect_from
 
     content = found.to_json()

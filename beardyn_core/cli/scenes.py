@@ -60,18 +60,10 @@ def run(args: argparse.Namespace) -> int:
 
 
 def entries(kind: str) -> list[dict[str, Any]]:
-    """Describe the shipped things of a kind, in SI units.
+    """Describe the shipped things of one of `KINDS`, in SI units.
 
-    Parameters
-    ----------
-    kind : str
-        One of `KINDS`.
-
-    Returns
-    -------
-    list of dict
-        With ``name``, ``purpose`` and ``file``, and what tells one of the kind from another. A file with
-        mistakes has the first of them as its purpose, and the rest is None.
+    Each has ``name``, ``purpose`` and ``file``, and what tells one of the kind from another; a file with
+    mistakes has the first of them as its purpose, and no more.
     """
     from beardyn_core.config import shipped_names
     from beardyn_core.config.folders import find
@@ -115,16 +107,21 @@ def _speeds(scene: Scene) -> tuple[str | None, list[float] | None, list[float]]:
     from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation
 
     operation = scene.operation
-    if isinstance(operation, QuarterVehicleOperation):
-        speeds = [speed for _, speed in operation.speed_profile]
-        vehicle = [min(speeds), max(speeds)]
-        return operation.vehicle.name, vehicle, [2.0 * each / operation.wheel_diameter for each in vehicle]
-    if isinstance(operation, MeasuredOperation):
-        speeds = read_measurement(operation.path, operation.take).shaft_speed.tolist()
-        return None, None, [min(speeds), max(speeds)]
-    if isinstance(operation, ConstantOperation):
-        return None, None, [operation.speed] * 2
-    speeds = [step.speed for step in operation.steps]
+    match operation:
+        case QuarterVehicleOperation():
+            speeds = [speed for _, speed in operation.speed_profile]
+            vehicle = [min(speeds), max(speeds)]
+            return (
+                operation.vehicle.name,
+                vehicle,
+                [2.0 * each / operation.wheel_diameter for each in vehicle],
+            )
+        case MeasuredOperation():
+            speeds = read_measurement(operation.path, operation.take).shaft_speed.tolist()
+        case ConstantOperation():
+            speeds = [operation.speed]
+        case _:
+            speeds = [step.speed for step in operation.steps]
     return None, None, [min(speeds), max(speeds)]
 
 
@@ -251,11 +248,8 @@ def _scene_figures(entry: dict[str, Any]) -> list[str]:
 
 def _bearing_figures(entry: dict[str, Any]) -> list[str]:
     envelope = " x ".join(f"{entry[key] * 1e3:g}" for key in ("bore_m", "outer_diameter_m", "width_m"))
-    return [
-        f"{envelope} mm",
-        f"2 x {entry['roller_count']} rollers",
-        f"C {entry['dynamic_load_rating_N'] / 1e3:.0f} kN",
-    ]
+    rating = f"C {entry['dynamic_load_rating_N'] / 1e3:.0f} kN"
+    return [f"{envelope} mm", f"2 x {entry['roller_count']} rollers", rating]
 
 
 def _lubricant_figures(entry: dict[str, Any]) -> list[str]:

@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.cli.files import checked
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import file_problems, files_read
+from beardyn_core.outputs import file_problems
 
 if TYPE_CHECKING:
     from beardyn_core.observe.block import Block
@@ -66,24 +66,17 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice import load_scene
 
-    with files_read() as inputs:
-        try:
-            scene = load_scene(
-                args.scene,
-                effects=args.effects,
-                tier=args.tier,
-                duration=args.duration,
-                laminae=args.laminae,
-                seed=args.seed,
-                accuracy_percent=args.accuracy,
-                quantities=None if args.quantities is None else args.quantities.split(","),
-            )
-            problems = []
-        except InputError as error:
-            problems = [p.replace("--accuracy_percent", "--accuracy") for p in error.problems]
-    problems += file_problems("--output", args.output, inputs=inputs, force=args.force)
-    if problems:
-        raise InputError(problems)
+    with checked(lambda inputs: file_problems("--output", args.output, inputs=inputs, force=args.force)):
+        scene = load_scene(
+            args.scene,
+            effects=args.effects,
+            tier=args.tier,
+            duration=args.duration,
+            laminae=args.laminae,
+            seed=args.seed,
+            accuracy_percent=args.accuracy,
+            quantities=None if args.quantities is None else args.quantities.split(","),
+        )
 
     from tqdm import tqdm
 

@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import folder_problems, write_whole
 
@@ -76,15 +76,12 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.trial_report import json_object, table
     from beardyn_core.study.trial_result import TrialResult
 
-    problems = option_problems(args)
-    try:
+    with checked(lambda _: option_problems(args)):
         trial = load_trial(args.matrix, tier=args.tier, seed=args.seed)
-    except InputError as error:
-        raise InputError([*error.problems, *problems]) from None
-    if problems:
-        raise InputError(problems)
-    plan = plan_of(trial, args.monitor, args.output, force=args.force)
-    folder = _made(args.output)
+    folder = args.output
+    plan = plan_of(trial, args.monitor, folder, force=args.force)
+    if folder is not None:
+        folder.mkdir(exist_ok=True)
     jobs = args.jobs or len(os.sched_getaffinity(0))
     if plan.kept:
         print(f"beardyn: {len(plan.kept)} of {len(trial.cells())} runs were done before", file=sys.stderr)
@@ -131,15 +128,9 @@ def option_problems(args: argparse.Namespace) -> list[str]:
     return problems + folder_problems("--output", args.output)
 
 
-def _made(folder: Path | None) -> Path | None:
-    if folder is not None:
-        folder.mkdir(exist_ok=True)
-    return folder
-
-
 def _write(result: TrialResult, found: dict[str, object], folder: Path, *, drawn: bool) -> None:
     """Write trial.json of the runs there are, and trial.png, which only a complete trial has."""
-    try:
+    with made_folder(folder):
         write_whole(folder / "trial.json", json_text("trial", found, indent=1) + "\n")
         if drawn:
             from beardyn_core.study.trial_picture import trial_picture
@@ -147,8 +138,6 @@ def _write(result: TrialResult, found: dict[str, object], folder: Path, *, drawn
             trial_picture(result, folder / "trial.png")
         else:
             (folder / "trial.png").unlink(missing_ok=True)
-    except OSError as error:
-        raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None
 
 
 class _Bar:

@@ -20,7 +20,7 @@ from scipy.optimize import brentq, root
 
 from beardyn_core.bearing.hertz import ExactPointContact
 from beardyn_core.bearing.material import Material
-from beardyn_core.laboratory.compiled import Batch, batch
+from beardyn_core.laboratory.compiled import batch
 from beardyn_core.laboratory.search import SURFACES, Pair
 from beardyn_core.laboratory.shapes import Arc, placed
 
@@ -58,32 +58,18 @@ class BarrelBearing:
         return self.outer_sphere - self.centre_distance - 0.5 * self.roller_diameter
 
     @cached_property
-    def outer_contact(self) -> ExactPointContact:
-        """Roller and outer raceway."""
-        r, sphere = 0.5 * self.roller_diameter, self.outer_sphere
-        return ExactPointContact(
-            1.0 / (1.0 / r - 1.0 / sphere),
-            1.0 / (1.0 / self.roller_contour - 1.0 / sphere),
-            self.material.contact_modulus,
-        )
-
-    @cached_property
-    def inner_contact(self) -> ExactPointContact:
-        """Roller and inner raceway."""
-        r = 0.5 * self.roller_diameter
-        raceway = self.centre_distance - r
-        return ExactPointContact(
-            1.0 / (1.0 / r + 1.0 / raceway),
-            1.0 / (1.0 / self.roller_contour - 1.0 / self.inner_contour),
-            self.material.contact_modulus,
-        )
+    def factors(self) -> Float:
+        """K of the outer and of the inner contact, Q = K delta^1.5, [N/m^1.5]."""
+        r, sphere, modulus = 0.5 * self.roller_diameter, self.outer_sphere, self.material.contact_modulus
+        raceway, contour = self.centre_distance - r, self.roller_contour
+        outer = 1.0 / (1.0 / r - 1.0 / sphere), 1.0 / (1.0 / contour - 1.0 / sphere)
+        inner = 1.0 / (1.0 / r + 1.0 / raceway), 1.0 / (1.0 / contour - 1.0 / self.inner_contour)
+        return np.array([ExactPointContact(*radii, modulus).factor for radii in (outer, inner)])
 
     @cached_property
     def pair_factor(self) -> float:
-        """K of both contacts of a roller in series, Q = K delta^1.5, [N/m^1.5]."""
-        power = 1.0 / POINT_EXPONENT
-        soft = self.outer_contact.factor**-power + self.inner_contact.factor**-power
-        return float(soft**-POINT_EXPONENT)
+        """K of both contacts of a roller in series, [N/m^1.5]."""
+        return float((self.factors ** (-1.0 / POINT_EXPONENT)).sum() ** -POINT_EXPONENT)
 
     def roller(self, position: Float) -> Arc:
         """Displace the roller by ``position``: radial, axial [m], tilt [rad]."""
@@ -148,10 +134,7 @@ class BarrelLoads:
     formula: A[Float, "shape [roller], by the closed form, [N]"]
     formula_displacement: A[float, "[m]"]
     integral_largest: A[float, "largest load by the load-zone integral instead of the sum over rollers, [N]"]
-    contact_angle: A[
-        Float,
-        "shape [roller], under load at the outer raceway, nominal where a roller is free, [rad]",
-    ]
+    contact_angle: A[Float, "shape [roller], loaded, at the outer raceway; nominal where free, [rad]"]
     balance: A[float, "largest force that a roller's balance leaves over its load, [-]"]
     searches: A[int, "general searches it took"]
 
@@ -160,7 +143,7 @@ class _Row:
     def __init__(self, bearing: BarrelBearing) -> None:
         self.bearing = bearing
         self.azimuth = 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
-        self.factors = np.array([bearing.outer_contact.factor, bearing.inner_contact.factor])
+        self.factors = bearing.factors
         self.searches = 0
         self.balance = 0.0
         self.angles = np.full(bearing.roller_count, bearing.contact_angle)
@@ -169,30 +152,24 @@ class _Row:
     def gaps(self, position: Float, shift: Float) -> tuple[Float, list[Pair], Float]:
         """Search both contacts: gaps, pairs, and parameters."""
         pairs = self.bearing.pairs(position, shift)
-        prepared: Batch = batch(pairs, self._starts)
-        parameters, iterations, gap = prepared.solve()
+        parameters, iterations, gap = batch(pairs, self._starts).solve()
         self.searches += len(pairs)
         if (iterations < 0).any():
             raise ArithmeticError("no contact point of a barrel roller was found")
         return gap, pairs, parameters
 
-    def wrench(self, position: Float, shift: Float) -> tuple[Float, Float, Float, float]:
-        """Return force and moment on the roller, loads, radial force on the inner ring, angle."""
+    def wrench(self, position: Float, shift: Float) -> tuple[Float, float, float, float]:
+        """Return force and moment on the roller, outer load, radial force on the inner ring, angle."""
         gap, pairs, parameters = self.gaps(position, shift)
         loads = self.factors * np.maximum(-gap, 0.0) ** POINT_EXPONENT
-        centre = pairs[0].p.place.origin
-        total, inner, angle = np.zeros(3), 0.0, self.bearing.contact_angle
-        for i, pair in enumerate(pairs):
-            frame = pair.q.frame(parameters[i, 2:4])
-            push = loads[i] * frame.vectors[2]
-            arm = pair.p.frame(parameters[i, :2]).point - centre
+        total = np.zeros(3)
+        outer, inner = (pair.q.frame(parameters[i, 2:4]).vectors[2] for i, pair in enumerate(pairs))
+        for i, (pair, normal) in enumerate(zip(pairs, (outer, inner), strict=True)):
+            push = loads[i] * normal
+            arm = pair.p.frame(parameters[i, :2]).point - pair.p.place.origin
             # + tilt turns the small z towards x: about -y
             total += (push[0], push[2], -(arm[2] * push[0] - arm[0] * push[2]))
-            if i == 0:
-                angle = math.atan2(-frame.vectors[2, 2], -frame.vectors[2, 0])
-            else:
-                inner = -push[0]
-        return total, loads, np.array([inner]), angle
+        return total, float(loads[0]), float(-loads[1] * inner[0]), math.atan2(-outer[2], -outer[0])
 
     def roller_load(self, number: int, displacement: float) -> tuple[float, float]:
         """Return the outer load of a roller in balance, and the radial force it puts on the inner ring."""
@@ -215,10 +192,10 @@ class _Row:
         found = root(
             lambda y: self.wrench(y * scale, shift)[0] / force_scale, guess / scale, method="hybr", tol=1e-10
         )
-        left, loads, inner, angle = self.wrench(found.x * scale, shift)
+        left, load, inner, angle = self.wrench(found.x * scale, shift)
         self.angles[number] = angle
         self.balance = max(self.balance, float(np.abs(left[:2]).max() / unit_load))
-        return float(loads[0]), float(inner[0]) * math.cos(azimuth)
+        return load, inner * math.cos(azimuth)
 
     def loads(self, displacement: float) -> tuple[Float, float]:
         """Return the loads of the row, and the load the two rows carry."""
@@ -231,13 +208,7 @@ class _Row:
 
 
 def solve_barrel(bearing: BarrelBearing, force: float) -> BarrelLoads:
-    """Balance the inner ring under a radial load, and give the closed form beside it.
-
-    Parameters
-    ----------
-    bearing : BarrelBearing
-    force : float
-        [N].
+    """Balance the inner ring under a radial load [N], and give the closed form beside it.
 
     References
     ----------
@@ -245,25 +216,16 @@ def solve_barrel(bearing: BarrelBearing, force: float) -> BarrelLoads:
     with the free travel c along the contact line.
     """
     row = _Row(bearing)
-    formula_displacement = float(
-        brentq(lambda d: _formula_loads(bearing, row.azimuth, d)[1] - force, 1e-7, 1e-3, xtol=1e-12)
-    )
-    displacement = float(
-        brentq(
-            lambda d: row.loads(d)[1] - force,
-            0.9 * formula_displacement,
-            1.1 * formula_displacement,
-            xtol=1e-10,
-        )
-    )
+    near = float(brentq(lambda d: _formula_loads(bearing, row.azimuth, d)[1] - force, 1e-7, 1e-3, xtol=1e-12))
+    displacement = float(brentq(lambda d: row.loads(d)[1] - force, 0.9 * near, 1.1 * near, xtol=1e-10))
     load, _ = row.loads(displacement)
     return BarrelLoads(
         force=force,
         displacement=displacement,
         azimuth=row.azimuth,
         load=load,
-        formula=_formula_loads(bearing, row.azimuth, formula_displacement)[0],
-        formula_displacement=formula_displacement,
+        formula=_formula_loads(bearing, row.azimuth, near)[0],
+        formula_displacement=near,
         integral_largest=_integral_largest(bearing, force),
         contact_angle=row.angles.copy(),
         balance=row.balance,

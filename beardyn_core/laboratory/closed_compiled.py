@@ -7,6 +7,7 @@ Raceways: `kernels.generator_line.generator_line`, one evaluation for all discs 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -74,25 +75,20 @@ def closed_gaps(
     sizes: Any,
     out: Any,
 ) -> None:
-    """Return the gaps of all searches of many rollers.
+    """Write the gaps of all searches of many rollers.
 
     Parameters
     ----------
     poses : float64 array, shape [roller, 9]
         Centre, axis, displacement of the cone.
-    roller : RollerParams
-        With the mid-length as its centre.
-    cone, cup : RacewayParams
-    places : float64 array, shape [disc]
-    large, small : RibParams
-    end : RibEndParams
-        Edge of the small end.
+    roller, cone, cup, large, small, end : named tuples of the model
+        The centre of the roller is its mid-length; the end is the edge of the small one.
+    places : float64 array, shape [disc], [m]
     lines : float64 array, shape [4, 6]
         Origin and direction of the lines of C2.1, C3.1, C3.2, C4.
     sizes : float64 array, shape [4]
         Place of the sphere's centre, its radius, place and radius of the small end, [m].
-    out : float64 array, shape [roller, search]
-        [m].
+    out : float64 array, shape [roller, search], [m]
     """
     count = len(places)
     for i in range(len(poses)):
@@ -139,12 +135,7 @@ def rib_face_params(face: RibFace, sphere_radius: float, sphere_place: float) ->
 
 
 class ClosedForms:
-    """Compiled closed forms of a bearing.
-
-    Parameters
-    ----------
-    bearing : Bearing
-    """
+    """Compiled closed forms of a bearing."""
 
     def __init__(self, bearing: Bearing) -> None:
         half = 0.5 * bearing.roller_length
@@ -170,7 +161,7 @@ class ClosedForms:
             np.array([bearing.sphere_centre, bearing.sphere_radius, -half, bearing.small_end_radius]),
         )
 
-    def gaps(self, poses: list[RollerPose]) -> Float:
+    def gaps(self, poses: Sequence[RollerPose]) -> Float:
         """Return the gaps, shape [roller, search], [m]."""
         out = np.zeros((len(poses), SEARCHES_PER_ROLLER))
         self.gaps_into(pose_rows(poses), out)
@@ -181,6 +172,6 @@ class ClosedForms:
         closed_gaps(rows, *self._constants, out)
 
 
-def pose_rows(poses: list[RollerPose]) -> Float:
+def pose_rows(poses: Sequence[RollerPose]) -> Float:
     """Return poses as an array, shape [roller, 9]."""
     return np.array([np.concatenate([pose.centre, pose.axis, pose.cone]) for pose in poses])

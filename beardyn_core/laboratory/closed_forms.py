@@ -19,7 +19,7 @@ from beardyn_core.laboratory.nine_contacts import (
     pocket_line,
     small_rib,
 )
-from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Straight, unit
+from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Shape, Straight, unit
 
 Float = NDArray[np.float64]
 _ROUNDS = 4
@@ -43,13 +43,8 @@ def contact_gap(bearing: Bearing, pose: RollerPose, contact: Contact) -> float:
         return line_distance(line, centre) - bearing.sphere_radius
     if name in ("C3.1", "C3.2"):
         return disc_line_gap(pose.centre, pose.axis, disc_radius(bearing, 0.0), line)
-    return end_line_gap(
-        pose.centre - 0.5 * bearing.roller_length * pose.axis,
-        pose.axis,
-        bearing.small_end_radius,
-        line,
-        ahead=name == "C4.1",
-    )
+    end = pose.centre - 0.5 * bearing.roller_length * pose.axis
+    return end_line_gap(end, pose.axis, bearing.small_end_radius, line, ahead=name == "C4.1")
 
 
 def raceway_gap(bearing: Bearing, pose: RollerPose, name: str, abscissa: float) -> float:
@@ -96,8 +91,8 @@ def circle_rib_gap(centre: Float, axis: Float, radius: float, rib: RibFace) -> f
     return float(rib.distance - height)
 
 
-def line_distance(line: Straight, point: Float) -> float:
-    """Return the distance of a point from a straight line, [m]."""
+def line_distance(line: Shape, point: Float) -> float:
+    """Return the distance of a point from the pole of a shape, [m]."""
     arm = point - line.place.origin
     across = arm - (arm @ line.place.pole) * line.place.pole
     return float(np.sqrt(across @ across))
@@ -130,26 +125,26 @@ def sphere_sphere_gap(p: Arc, q: Arc) -> float:
 
 def sphere_cylinder_gap(p: Arc, q: Cone) -> float:
     """Return the gap of a sphere outside a cylinder."""
-    return line_distance(Straight(q.place), p.place.origin) - p.radius - q.radius
+    return line_distance(q, p.place.origin) - p.radius - q.radius
 
 
-def lines_gap(p: Straight, q: Straight) -> float:
-    """Return the least distance of two straight lines that are not parallel."""
+def lines_gap(p: Shape, q: Shape) -> float:
+    """Return the least distance of two poles that are not parallel."""
     normal = unit(np.cross(p.place.pole, q.place.pole))
     return float(abs((p.place.origin - q.place.origin) @ normal))
 
 
 def cylinders_gap(p: Cone, q: Cone) -> float:
     """Return the gap of two cylinders without ends, axes not parallel."""
-    return lines_gap(Straight(p.place), Straight(q.place)) - p.radius - q.radius
+    return lines_gap(p, q) - p.radius - q.radius
 
 
-def circle_sphere_gap(p: Circle, q: Arc) -> float:
-    """Return the gap of a circle outside a sphere."""
-    arm = q.place.origin - p.place.origin
-    along = float(arm @ p.place.pole)
-    across = arm - along * p.place.pole
-    return math.hypot(along, float(np.sqrt(across @ across)) - p.radius) - q.radius
+def circle_distance(circle: Circle, point: Float) -> float:
+    """Return the distance of a point from a circle, [m]."""
+    arm = point - circle.place.origin
+    along = float(arm @ circle.place.pole)
+    across = arm - along * circle.place.pole
+    return math.hypot(along, float(np.sqrt(across @ across)) - circle.radius)
 
 
 def least_along(p: Circle, distance: Callable[[Float], float], count: int = 360) -> float:

@@ -236,9 +236,7 @@ class Batch:
 
     def solve_into(self, x: Float, out: Float, *, analytic: bool) -> None:
         """Write the same into arrays that exist, for timing."""
-        solve_pairs(
-            self.p, self.q, self.cut, self.forms, self.counts, self.signed, self.start, analytic, x, out
-        )
+        solve_pairs(*vars(self).values(), analytic, x, out)
 
 
 def batch(pairs: Sequence[Pair], starts: Sequence[Float]) -> Batch:

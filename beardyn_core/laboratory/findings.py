@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated as A
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory import closed_forms
@@ -19,7 +20,6 @@ from beardyn_core.laboratory.rolling import COIN, ROLLER, Rolling, Trough, run_r
 from beardyn_core.laboratory.search import SURFACES, SURFACES_CROSSED, SURFACES_PRINTED, search
 from beardyn_core.laboratory.sphere_radius import SphereCase, sphere_cases
 from beardyn_core.laboratory.timing import (
-    METHODS,
     FormResult,
     MethodResult,
     RandomResult,
@@ -29,6 +29,8 @@ from beardyn_core.laboratory.timing import (
     random_results,
 )
 
+Float = NDArray[np.float64]
+
 # The run of Santos (2017): Runge-Kutta 4(5) made steps of 1.33 us in the mean on a copy of its model, six
 # evaluations each.
 RUN_SECONDS, MEAN_STEP, EVALUATIONS_PER_STEP = 0.03, 1.33e-6, 6
@@ -36,7 +38,7 @@ EVALUATIONS = round(RUN_SECONDS / MEAN_STEP * EVALUATIONS_PER_STEP)
 # Santos (2017), Table 1: hours of the whole run
 SANTOS_HOURS = {"fsolve": 24.0, "numeric Newton": 8.0, "analytic Newton": 9.5}
 CONTACT_SHARE = 0.8  # of that time, by its own estimate
-LOAD = 5.0e3
+LOAD = 5.0e3  # [N]
 BARREL_LOADS = (10.0e3, 25.0e3, 50.0e3, 100.0e3)
 GOOD_FRICTION = 2.0e-4  # transition speed of the run with little creep, [m/s]
 
@@ -50,8 +52,8 @@ class LocatedContact:
     gap: A[float, "by the general search, [m]"]
     plain_difference: A[float, "of the plain closed forms from it, [m]"]
     compiled_difference: A[float, "of the compiled ones, [m]"]
-    p: A[tuple[float, float, float], "point on P, in the frame of the roller's azimuth, [m]"]
-    q: A[tuple[float, float, float], "point on Q, [m]"]
+    p: A[Float, "shape [3], point on P, in the frame of the roller's azimuth, [m]"]
+    q: A[Float, "shape [3], point on Q, [m]"]
 
 
 @dataclass(frozen=True)
@@ -91,27 +93,10 @@ def locate(bearing: Bearing, pose: RollerPose) -> tuple[LocatedContact, ...]:
         here = search(contact.pair, contact.start)
         if not here.converged:
             raise ArithmeticError(f"{contact.name}: the general search found no contact point")
-        by_form = closed_forms.contact_gap(bearing, pose, contact)
-        found.append(
-            LocatedContact(
-                contact.name,
-                contact.abscissa,
-                here.gap,
-                by_form - here.gap,
-                float(by_kernel) - here.gap,
-                (float(here.p[0]), float(here.p[1]), float(here.p[2])),
-                (float(here.q[0]), float(here.q[1]), float(here.q[2])),
-            )
-        )
+        plain = closed_forms.contact_gap(bearing, pose, contact)
+        differences = plain - here.gap, float(by_kernel) - here.gap
+        found.append(LocatedContact(contact.name, contact.abscissa, here.gap, *differences, here.p, here.q))
     return tuple(found)
-
-
-def _row_difference(bearing: Bearing, row: list[RollerPose]) -> float:
-    return max(
-        max(abs(contact.plain_difference), abs(contact.compiled_difference))
-        for pose in row
-        for contact in locate(bearing, pose)
-    )
 
 
 def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = lambda _: None) -> Findings:
@@ -132,64 +117,44 @@ def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = 
     row = loaded_row(bearing, LOAD, 0.0)
     poses = list(random_rollers(bearing, 10 if quick else 40, seed=3))
     many = list(random_rollers(bearing, 100 if quick else 1000, seed=5))
-    located, difference = locate(bearing, row[0]), _row_difference(bearing, row)
+    located = [locate(bearing, pose) for pose in row]
     say("random rollers")
     by_contact = {
-        name: tuple(
-            compare(
-                bearing_setting(name, bearing, poses, warm=False, only=name),
-                blocks=max(3, blocks // 5),
-                sweeps=sweeps,
-            )
-        )
+        name: compare(bearing_setting(bearing, poses, only=name), blocks=max(3, blocks // 5), sweeps=sweeps)
         for name in NAMES
     }
-    together = compare(
-        bearing_setting("random rollers", bearing, poses, warm=False),
-        blocks=max(3, blocks // 7),
-        sweeps=sweeps,
-    )
+    together = compare(bearing_setting(bearing, poses), blocks=max(3, blocks // 7), sweeps=sweeps)
     say("a whole row of the bearing")
-    whole = compare(bearing_setting("first time step", bearing, row, warm=True), blocks=blocks, sweeps=sweeps)
+    whole = compare(bearing_setting(bearing, row, warm=True), blocks=blocks, sweeps=sweeps)
     forms = form_results(bearing, many, (SURFACES_PRINTED, SURFACES_CROSSED, SURFACES))
     say("random circles, spheres, cylinders")
     shapes = random_results(40 if quick else 200, blocks=3, sweeps=sweeps)
     say("roller ends of growing radius")
     spheres = sphere_cases(bearing)
     say("coin and roller in the trough")
-    trough = Trough()
-    little_creep = replace(trough, transition_speed=GOOD_FRICTION)
-    duration = 0.8 if quick else 1.5
-    rolling = [
-        run_rolling(COIN, trough, duration=duration),
-        run_rolling(COIN, little_creep, duration=duration),
-        run_rolling(ROLLER, trough, duration=duration),
-    ]
+    trough, duration = Trough(), 0.8 if quick else 1.5
+    runs = ((COIN, trough), (COIN, replace(trough, transition_speed=GOOD_FRICTION)), (ROLLER, trough))
+    rolling = tuple(run_rolling(body, floor, duration=duration) for body, floor in runs)
     say("barrel rollers")
-    loads = [solve_barrel(BARREL_22317, force) for force in (BARREL_LOADS[:2] if quick else BARREL_LOADS)]
+    forces = BARREL_LOADS[:2] if quick else BARREL_LOADS
+    loads = tuple(solve_barrel(BARREL_22317, force) for force in forces)
     return Findings(
         bearing=bearing,
         quick=quick,
-        located=located,
-        row_difference=difference,
+        located=located[0],
+        row_difference=max(
+            max(abs(contact.plain_difference), abs(contact.compiled_difference))
+            for contacts in located
+            for contact in contacts
+        ),
         by_contact=by_contact,
-        random_rollers=tuple(together),
-        whole_bearing=tuple(whole),
-        forms=tuple(forms),
-        shapes=tuple(shapes),
-        spheres=tuple(spheres),
-        rolling=tuple(rolling),
+        random_rollers=together,
+        whole_bearing=whole,
+        forms=forms,
+        shapes=shapes,
+        spheres=spheres,
+        rolling=rolling,
         barrel=BARREL_22317,
-        barrel_loads=tuple(loads),
+        barrel_loads=loads,
         seconds=time.perf_counter() - begun,
     )
-
-
-def santos_hours(method: str) -> float | None:
-    """Look up the hours of Santos (2017), Table 1, for a method."""
-    return SANTOS_HOURS.get(method.split(",")[0]) if method in METHODS else None
-
-
-def largest_lean(run: Rolling) -> float:
-    """Return the angle of a rolling body from the trough's axis, [rad]."""
-    return float(np.max(run.lean))

@@ -11,20 +11,14 @@ bearing's data do not give, leans by `SMALL_RIB_RELIEF` from the small end.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.laboratory.search import (
-    LINES_ALONG_NORMAL,
-    SURFACE_LINE,
-    SURFACES,
-    Form,
-    Pair,
-)
+from beardyn_core.laboratory.search import LINES_ALONG_NORMAL, SURFACE_LINE, SURFACES, Form, Pair
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, placed, unit
 
 Float = NDArray[np.float64]
@@ -143,20 +137,6 @@ def end_sphere(bearing: Bearing, pose: RollerPose) -> Arc:
     return Arc(placed(centre, pose.axis), 0.0, bearing.sphere_radius)
 
 
-def crown_sphere(bearing: Bearing, pose: RollerPose) -> Arc:
-    """Sweep the same sphere about an axis across the roller: at its crown the other has a pole."""
-    centre = pose.centre + bearing.sphere_centre * pose.axis
-    return Arc(placed(centre, (0.0, 1.0, 0.0), pose.axis), 0.0, bearing.sphere_radius)
-
-
-def raceway(bearing: Bearing, name: str, cone: Float) -> Cone:
-    """Build the raceway of the cone (``Inner``) or the cup (``Outer``)."""
-    angle, side = (bearing.cone_angle, 1.0) if name == "Inner" else (bearing.cup_angle, -1.0)
-    apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
-    origin = np.array([0.0, 0.0, apex]) + (cone if name == "Inner" else 0.0)
-    return Cone(placed(origin, (0, 0, 1)), 0.0, angle, side)
-
-
 def disc(bearing: Bearing, pose: RollerPose, abscissa: float) -> Circle:
     """Build the edge of a disc of the roller."""
     return Circle(placed(pose.centre + abscissa * pose.axis, pose.axis), disc_radius(bearing, abscissa))
@@ -178,55 +158,8 @@ def pocket_line(bearing: Bearing, name: str) -> Straight:
     return Straight(placed(centre - (0.5 * bearing.roller_length + play) * axis, ahead, axis))
 
 
-def pairs_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -> list[tuple[str, float, Pair]]:
-    """Name, abscissa and pair of all searches of a roller."""
-    found: list[tuple[str, float, Pair]] = []
-
-    def add(name: str, abscissa: float, p: Shape, q: Shape) -> None:
-        form = surfaces if name == "FR" else PAIRINGS[name][1]
-        found.append((name, abscissa, Pair(p, q, form)))
-
-    for name in ("Inner", "Outer"):
-        ring = raceway(bearing, name, pose.cone)
-        for abscissa in abscissae(bearing):
-            add(name, float(abscissa), disc(bearing, pose, float(abscissa)), ring)
-    add("FR", 0.0, end_sphere(bearing, pose), large_rib(bearing).shape(pose.cone))
-    end = pose.centre - 0.5 * bearing.roller_length * pose.axis
-    here = placed(end, pose.axis)
-    add("FL", 0.0, Circle(here, bearing.small_end_radius), small_rib(bearing).shape(pose.cone))
-    add("C2.1", 0.0, pocket_line(bearing, "C2.1"), crown_sphere(bearing, pose))
-    for name in ("C3.1", "C3.2"):
-        add(name, 0.0, pocket_line(bearing, name), disc(bearing, pose, 0.0))
-    for name in ("C4.1", "C4.2"):
-        # the end looks away from the large end
-        add(name, 0.0, pocket_line(bearing, name), FaceCircle(here, bearing.small_end_radius, -1.0))
-    return found
-
-
-def nominal_starts(bearing: Bearing) -> list[Float]:
-    """Return the parameters of the contacts of the nominal roller, in the order of `pairs_of`."""
-    apex, phi = bearing.apex_distance, bearing.half_angle
-    # the angle pi of a placement with east = x is the side of the bearing axis
-    raceways = [
-        np.array([angle, (apex + x) / math.cos(phi), 0.0])
-        for angle in (math.pi, 0.0)
-        for x in abscissae(bearing)
-    ]
-    polar = bearing.rib_polar_angle
-    return [
-        *raceways,
-        np.array([0.5 * math.pi - polar, math.pi, 0.0, 0.0]),
-        np.array([math.pi, 0.0, 0.0]),
-        np.array([0.0, 0.0, 0.0]),
-        np.array([0.0, 0.5 * math.pi]),
-        np.array([0.0, -0.5 * math.pi]),
-        np.array([bearing.small_end_radius, 0.5 * math.pi]),
-        np.array([-bearing.small_end_radius, -0.5 * math.pi]),
-    ]
-
-
 def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -> list[Contact]:
-    """Search all contacts of a roller from the starts of the nominal roller.
+    """List all contact searches of a roller, from the parameters of the nominal roller.
 
     Parameters
     ----------
@@ -235,12 +168,37 @@ def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -
     surfaces : Form
         Conditions for the one surface-surface contact, FR.
     """
-    return [
-        Contact(name, abscissa, pair, start)
-        for (name, abscissa, pair), start in zip(
-            pairs_of(bearing, pose, surfaces), nominal_starts(bearing), strict=True
-        )
-    ]
+    found: list[Contact] = []
+
+    def add(name: str, p: Shape, q: Shape, *start: float, abscissa: float = 0.0) -> None:
+        form = surfaces if name == "FR" else PAIRINGS[name][1]
+        found.append(Contact(name, abscissa, Pair(p, q, form), np.array(start)))
+
+    apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
+    # the angle pi of a placement with east = x is the side of the bearing axis
+    for name, slope, side, shift, azimuth in (
+        ("Inner", bearing.cone_angle, 1.0, pose.cone, math.pi),
+        ("Outer", bearing.cup_angle, -1.0, 0.0, 0.0),
+    ):
+        raceway = Cone(placed(np.array([0.0, 0.0, apex]) + shift, (0, 0, 1)), 0.0, slope, side)
+        for x in abscissae(bearing).tolist():
+            along = (bearing.apex_distance + x) / math.cos(bearing.half_angle)
+            add(name, disc(bearing, pose, x), raceway, azimuth, along, 0.0, abscissa=x)
+    sphere = end_sphere(bearing, pose)
+    polar = 0.5 * math.pi - bearing.rib_polar_angle
+    add("FR", sphere, large_rib(bearing).shape(pose.cone), polar, math.pi, 0.0, 0.0)
+    end = placed(pose.centre - 0.5 * bearing.roller_length * pose.axis, pose.axis)
+    radius = bearing.small_end_radius
+    add("FL", Circle(end, radius), small_rib(bearing).shape(pose.cone), math.pi, 0.0, 0.0)
+    # swept about an axis across the roller: at its crown the other sphere has a pole
+    crown = replace(sphere, place=placed(sphere.place.origin, (0.0, 1.0, 0.0), pose.axis))
+    add("C2.1", pocket_line(bearing, "C2.1"), crown, 0.0, 0.0, 0.0)
+    for name, side in (("C3.1", 1.0), ("C3.2", -1.0)):
+        add(name, pocket_line(bearing, name), disc(bearing, pose, 0.0), 0.0, side * 0.5 * math.pi)
+    for name, side in (("C4.1", 1.0), ("C4.2", -1.0)):
+        face = FaceCircle(end, radius, -1.0)  # the end looks away from the large end
+        add(name, pocket_line(bearing, name), face, side * radius, side * 0.5 * math.pi)
+    return found
 
 
 def turned(pose: RollerPose, tilt: float, skew: float) -> RollerPose:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Annotated as A
 
 import numpy as np
@@ -24,37 +25,26 @@ _SHIFT, _TURN = 50e-6, 2e-3  # of a roller at random: +-, [m] and [rad]
 _CONE_SHIFT = 30e-6
 
 
-def random_place(random: Random, reach: float = 0.0) -> Placement:
-    """Draw any direction, and an origin within a cube of twice ``reach``."""
-    return placed(random.uniform(-reach, reach, 3), random.normal(size=3), random.normal(size=3))
-
-
-def _apart(random: Random) -> Float:
-    """Draw a place 8 to 12 cm from the origin."""
-    direction = random.normal(size=3)
-    return random.uniform(0.08, 0.12) * direction / np.linalg.norm(direction)
+def _place(random: Random) -> Placement:
+    """Draw any direction at the origin."""
+    random.uniform(size=3)  # the same numbers as ever for the directions
+    return placed(np.zeros(3), random.normal(size=3), random.normal(size=3))
 
 
 def _sphere(random: Random) -> Arc:
-    return Arc(random_place(random), 0.0, random.uniform(0.01, 0.03))
+    return Arc(_place(random), 0.0, random.uniform(0.01, 0.03))
 
 
 def _circle(random: Random) -> Circle:
-    return Circle(random_place(random), random.uniform(0.01, 0.03))
+    return Circle(_place(random), random.uniform(0.01, 0.03))
 
 
 def _cylinder(random: Random) -> Cone:
-    return Cone(random_place(random), random.uniform(0.01, 0.03))
+    return Cone(_place(random), random.uniform(0.01, 0.03))
 
 
 def _line(random: Random) -> Straight:
-    return Straight(random_place(random))
-
-
-def _moved(shape: Shape, origin: Float) -> Shape:
-    from dataclasses import replace
-
-    return replace(shape, place=replace(shape.place, origin=origin))
+    return Straight(_place(random))
 
 
 @dataclass(frozen=True)
@@ -68,31 +58,30 @@ class RandomCase:
     truth: A[Callable[..., float], "of both shapes, least distance, [m]"]
 
     def draw(self, random: Random) -> Pair:
-        """Draw one placement."""
+        """Draw one placement: P any way round, 8 to 12 cm from the origin."""
         q = self.q(random)
-        return Pair(_moved(self.p(random), _apart(random)), q, self.form)
+        p, direction = self.p(random), random.normal(size=3)
+        origin = random.uniform(0.08, 0.12) * direction / np.linalg.norm(direction)
+        return Pair(replace(p, place=replace(p.place, origin=origin)), q, self.form)
 
 
 def _circle_cylinder_gap(p: Circle, q: Cone) -> float:
-    axis = Straight(q.place)
-    return closed_forms.least_along(p, lambda point: closed_forms.line_distance(axis, point)) - q.radius
+    return closed_forms.least_along(p, partial(closed_forms.line_distance, q)) - q.radius
+
+
+def _circle_sphere_gap(p: Circle, q: Arc) -> float:
+    return closed_forms.circle_distance(p, q.place.origin) - q.radius
 
 
 def _circles_gap(p: Circle, q: Circle) -> float:
-    def distance(point: Float) -> float:
-        arm = point - q.place.origin
-        along = float(arm @ q.place.pole)
-        across = arm - along * q.place.pole
-        return math.hypot(along, float(np.sqrt(across @ across)) - q.radius)
-
-    return closed_forms.least_along(p, distance)
+    return closed_forms.least_along(p, partial(closed_forms.circle_distance, q))
 
 
 RANDOM_CASES = (
     RandomCase("sphere, sphere", SURFACES, _sphere, _sphere, closed_forms.sphere_sphere_gap),
     RandomCase("sphere, cylinder", SURFACES, _sphere, _cylinder, closed_forms.sphere_cylinder_gap),
     RandomCase("cylinder, cylinder", SURFACES, _cylinder, _cylinder, closed_forms.cylinders_gap),
-    RandomCase("circle, sphere", SURFACE_LINE, _circle, _sphere, closed_forms.circle_sphere_gap),
+    RandomCase("circle, sphere", SURFACE_LINE, _circle, _sphere, _circle_sphere_gap),
     RandomCase("circle, cylinder", SURFACE_LINE, _circle, _cylinder, _circle_cylinder_gap),
     RandomCase("circle, circle", LINES, _circle, _circle, _circles_gap),
     RandomCase("line, line", LINES, _line, _line, closed_forms.lines_gap),
@@ -137,10 +126,8 @@ def loaded_row(bearing: Bearing, force: float, end_play: float) -> list[RollerPo
     Parameters
     ----------
     bearing : Bearing
-    force : float
-        Radial, on the cone, [N].
-    end_play : float
-        [m].
+    force, end_play : float
+        Radial on the cone [N], [m].
     """
     static = solve(bearing, (0.0, 0.0, force), end_play=end_play, laminae=6)
     nominal, poses = nominal_pose(bearing), []

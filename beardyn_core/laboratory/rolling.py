@@ -93,11 +93,7 @@ def _turned(q: Any, v0: Any, v1: Any, v2: Any) -> Any:
     """Return the matrix from body axes to world axes."""
     w, x, y, z = q
     t0, t1, t2 = 2.0 * (y * v2 - z * v1), 2.0 * (z * v0 - x * v2), 2.0 * (x * v1 - y * v0)
-    return (
-        v0 + w * t0 + y * t2 - z * t1,
-        v1 + w * t1 + z * t0 - x * t2,
-        v2 + w * t2 + x * t1 - y * t0,
-    )
+    return v0 + w * t0 + y * t2 - z * t1, v1 + w * t1 + z * t0 - x * t2, v2 + w * t2 + x * t1 - y * t0
 
 
 @inline
@@ -186,10 +182,7 @@ def roll(
     every: Any,
     out: Any,
 ) -> Any:
-    """Make Runge-Kutta steps; write state, energies and contact parameters every ``every`` steps.
-
-    Returns how many searches failed.
-    """
+    """Make Runge-Kutta steps, write state, energies, contacts at every so many; count failed searches."""
     w, circle = np.zeros(WORK_NUMBERS), np.zeros(16)
     r1, r2, r3, r4 = np.zeros(STATES), np.zeros(STATES), np.zeros(STATES), np.zeros(STATES)
     moved = np.zeros(STATES)
@@ -199,12 +192,10 @@ def roll(
             elastic, deepest, lost = _rates(state, body, places, floor, laws, form, circle, x, w, r1)
             failed += lost
             if sub == 0:
-                for i in range(STATES):
-                    out[sample, i] = state[i]
+                out[sample, :STATES] = state
                 out[sample, ELASTIC], out[sample, DEEPEST] = elastic, deepest
                 for k in range(len(places)):
-                    for i in range(3):
-                        out[sample, FIRST_CONTACT + 3 * k + i] = x[k, i]
+                    out[sample, FIRST_CONTACT + 3 * k : FIRST_CONTACT + 3 * k + 3] = x[k, :3]
             for i in range(STATES):
                 moved[i] = state[i] + 0.5 * step * r1[i]
             failed += _rates(moved, body, places, floor, laws, form, circle, x, w, r2)[2]
@@ -217,8 +208,7 @@ def roll(
             for i in range(STATES):
                 state[i] += step / 6.0 * (r1[i] + 2.0 * r2[i] + 2.0 * r3[i] + r4[i])
             norm = math.sqrt(state[3] ** 2 + state[4] ** 2 + state[5] ** 2 + state[6] ** 2)
-            for i in range(3, 7):
-                state[i] /= norm
+            state[3:7] /= norm
     return failed
 
 
@@ -229,11 +219,7 @@ class Rolling:
     body: RollingBody
     trough: Trough
     time: A[Float, "shape [sample], [s]"]
-    history: A[
-        Float,
-        "shape [sample, column], state, elastic energy, deepest penetration, three parameters of each "
-        "contact",
-    ]
+    history: A[Float, "[sample, column]: state, elastic energy, deepest penetration, parameters of contacts"]
     failed_searches: int
     searches: int
 
@@ -294,16 +280,10 @@ def run_rolling(
     ----------
     body : RollingBody
     trough : Trough, optional
-    duration, step : float
-        [s].
+    duration, step, interval : float
+        Simulated, of a step, and between the samples kept, [s].
     start_angle : float
         Of its place from the lowest line, towards -x, [rad].
-    interval : float
-        Of the samples kept, [s].
-
-    Returns
-    -------
-    Rolling
     """
     trough = trough or Trough()
     every = max(1, round(interval / step))

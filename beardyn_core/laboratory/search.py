@@ -6,7 +6,9 @@ suits a pair of shape kinds. Plain NumPy, one pair at a time; `compiled` holds t
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated as A
 from typing import Literal
 
@@ -14,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import fsolve
 
-from beardyn_core.laboratory.shapes import Shape
+from beardyn_core.laboratory.shapes import Frame, Shape
 
 Float = NDArray[np.float64]
 Method = Literal["fsolve", "numeric", "analytic"]
@@ -81,29 +83,26 @@ class Found:
     q: A[Float, "shape [3], point on Q, [m]"]
 
 
-def vectors(pair: Pair, parameters: Float) -> Float:
-    """Return the rows d, t_P, b_P, n_P, t_Q, b_Q, n_Q, shape [ROWS, 3]."""
+def _frames(pair: Pair, parameters: Float) -> tuple[Frame, Frame, Float]:
+    """Return the frames of P and Q, and the rows d, t_P, b_P, n_P, t_Q, b_Q, n_Q, shape [ROWS, 3]."""
     cut = pair.p.parameter_count
     p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
-    return np.concatenate([[p.point - q.point], p.vectors, q.vectors])
+    return p, q, np.concatenate([[p.point - q.point], p.vectors, q.vectors])
 
 
 def residual(pair: Pair, parameters: Float) -> Float:
     """Compute the scalar products that must vanish."""
-    table = vectors(pair, parameters)
+    *_, table = _frames(pair, parameters)
     return np.array([table[a] @ table[b] for a, b in pair.form.equations])
 
 
 def jacobian(pair: Pair, parameters: Float) -> Float:
     """Compute the derivatives of the residual, shape [equation, parameter]."""
     cut = pair.p.parameter_count
-    p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
-    table = np.concatenate([[p.point - q.point], p.vectors, q.vectors])
+    p, q, table = _frames(pair, parameters)
     slopes = np.zeros((len(parameters), ROWS, 3))
-    slopes[:cut, D] = p.point_slopes
-    slopes[:cut, T_P : N_P + 1] = p.vector_slopes
-    slopes[cut:, D] = -q.point_slopes
-    slopes[cut:, T_Q : N_Q + 1] = q.vector_slopes
+    slopes[:cut, D], slopes[:cut, T_P : N_P + 1] = p.point_slopes, p.vector_slopes
+    slopes[cut:, D], slopes[cut:, T_Q : N_Q + 1] = -q.point_slopes, q.vector_slopes
     return np.array([slopes[:, a] @ table[b] + slopes[:, b] @ table[a] for a, b in pair.form.equations])
 
 
@@ -127,10 +126,6 @@ def search(pair: Pair, start: ArrayLike, method: Method = "analytic") -> Found:
         Parameters of P, then of Q.
     method : str
         ``fsolve`` (SciPy's root finder, numeric Jacobian), ``numeric`` or ``analytic`` (Newton).
-
-    Returns
-    -------
-    Found
     """
     parameters = np.array(start, dtype=np.float64)
     if method == "fsolve":
@@ -140,36 +135,28 @@ def search(pair: Pair, start: ArrayLike, method: Method = "analytic") -> Found:
         if not np.isfinite(here).all():
             break
         if np.abs(here).max() < TOLERANCE:
-            return found_at(pair, parameters, iteration, True)
-        if method == "analytic":
-            slopes = jacobian(pair, parameters)
-        else:
-            slopes = numeric_jacobian(pair, parameters, here)
+            return _found_at(pair, parameters, iteration, True)
+        slopes = (
+            jacobian(pair, parameters) if method == "analytic" else numeric_jacobian(pair, parameters, here)
+        )
         try:
             parameters = parameters - np.linalg.solve(slopes, here)
         except np.linalg.LinAlgError:
-            return found_at(pair, parameters, iteration, False)
-    return found_at(pair, parameters, MOST_ITERATIONS, False)
+            return _found_at(pair, parameters, iteration, False)
+    return _found_at(pair, parameters, MOST_ITERATIONS, False)
 
 
 def _by_root_finder(pair: Pair, parameters: Float) -> Found:
-    import warnings
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # it warns of slow progress; `converged` says so here
-        root, info, _flag, _text = fsolve(
-            lambda x: residual(pair, x), parameters, full_output=True, xtol=1e-13
-        )
-    return found_at(pair, root, int(info["nfev"]), bool(np.abs(info["fvec"]).max() < 1e-9))
+        root, info, *_ = fsolve(partial(residual, pair), parameters, full_output=True, xtol=1e-13)
+    return _found_at(pair, root, int(info["nfev"]), bool(np.abs(info["fvec"]).max() < 1e-9))
 
 
-def found_at(pair: Pair, parameters: Float, iterations: int, converged: bool) -> Found:
-    """Return the points and gap at parameters."""
-    cut = pair.p.parameter_count
+def _found_at(pair: Pair, parameters: Float, iterations: int, converged: bool) -> Found:
     with np.errstate(all="ignore"):
-        p, q = pair.p.frame(parameters[:cut]), pair.q.frame(parameters[cut:])
-    between = p.point - q.point
-    gap = float(between @ q.vectors[2]) if pair.form.signed else float(np.sqrt(between @ between))
+        p, q, table = _frames(pair, parameters)
+    gap = float(table[D] @ table[N_Q]) if pair.form.signed else float(np.sqrt(table[D] @ table[D]))
     return Found(parameters, iterations, converged, gap, p.point, q.point)
 
 

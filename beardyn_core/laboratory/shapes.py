@@ -11,6 +11,7 @@ import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Annotated as A
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -66,11 +67,7 @@ class Shape(ABC):
     """A surface or a line in space."""
 
     place: Placement
-
-    @property
-    @abstractmethod
-    def parameter_count(self) -> int:
-        """2 for a surface, 1 for a line."""
+    parameter_count: ClassVar[int] = 1  # 2 of a surface
 
     @abstractmethod
     def frame(self, parameters: Float) -> Frame:
@@ -88,6 +85,12 @@ class Shape(ABC):
         place = self.place
         return np.concatenate([self._numbers(), place.origin, place.east, place.north, place.pole])
 
+    def _directions(self, v: float) -> tuple[Float, Float]:
+        """Return the radial and the circumferential direction at a sweep angle."""
+        cosine, sine = math.cos(v), math.sin(v)
+        here = self.place
+        return cosine * here.east + sine * here.north, cosine * here.north - sine * here.east
+
     def _local(self, point: Float) -> tuple[float, float, float]:
         """Return distance from the axis, angle and height of a point."""
         arm = point - self.place.origin
@@ -98,9 +101,7 @@ class Shape(ABC):
 class _Revolved(Shape):
     """What all surfaces of revolution share; a subclass describes the meridian."""
 
-    @property
-    def parameter_count(self) -> int:
-        return 2
+    parameter_count = 2
 
     @abstractmethod
     def _meridian(self, u: float) -> tuple[Float, Float, Float, Float, Float, Float]:
@@ -109,14 +110,11 @@ class _Revolved(Shape):
     def frame(self, parameters: Float) -> Frame:
         u, v = float(parameters[0]), float(parameters[1])
         place, tangent, normal, place_slope, tangent_slope, normal_slope = self._meridian(u)
-        cosine, sine = math.cos(v), math.sin(v)
-        here = self.place
-        out = cosine * here.east + sine * here.north
-        around = cosine * here.north - sine * here.east
-        basis = np.array([out, here.pole])
+        out, around = self._directions(v)
+        basis = np.array([out, self.place.pole])
         zero = np.zeros(3)
         return Frame(
-            point=here.origin + place @ basis,
+            point=self.place.origin + place @ basis,
             vectors=np.array([tangent @ basis, around, normal @ basis]),
             point_slopes=np.array([place_slope @ basis, place[0] * around]),
             vector_slopes=np.array(
@@ -174,14 +172,8 @@ class Arc(_Revolved):
         return np.array([math.atan2(height, distance - self.ring_radius), angle])
 
 
-class _Line(Shape):
-    @property
-    def parameter_count(self) -> int:
-        return 1
-
-
 @dataclass(frozen=True)
-class Circle(_Line):
+class Circle(Shape):
     """Circle about the pole, its centre in the origin; its normal is radial and its binormal axial."""
 
     radius: A[float, "[m]"]
@@ -195,11 +187,6 @@ class Circle(_Line):
             point_slopes=np.array([self.radius * around]),
             vector_slopes=np.array([[-out, np.zeros(3), around]]),
         )
-
-    def _directions(self, v: float) -> tuple[Float, Float]:
-        cosine, sine = math.cos(v), math.sin(v)
-        here = self.place
-        return cosine * here.east + sine * here.north, cosine * here.north - sine * here.east
 
     def _numbers(self) -> tuple[int, float, float, float]:
         return CIRCLE, self.radius, 0.0, 1.0
@@ -230,7 +217,7 @@ class FaceCircle(Circle):
 
 
 @dataclass(frozen=True)
-class Straight(_Line):
+class Straight(Shape):
     """Straight line along the pole through the origin; its normal is `east`."""
 
     def frame(self, parameters: Float) -> Frame:

@@ -48,10 +48,7 @@ class SphereCase:
     on_face: A[bool, "whether its contact lies on the rib face"]
     in_rim: A[bool, "whether it lies within the rim of the roller end"]
     bounded_depth: A[float, "penetration of the bounded closed form, [m]"]
-    carried_by: A[
-        str,
-        "part that bears in the bounded closed form: ``face``, ``edge of the face`` or ``rim``",
-    ]
+    carried_by: A[str, "what bears in the bounded closed form: ``face``, ``edge of the face`` or ``rim``"]
     refused: A[bool, "whether the consistency check of the bearing refuses this radius"]
 
 
@@ -64,11 +61,6 @@ def bounded_contact(centre: Any, axis: Any, rib: Any, window: Any, end: Any, out
     out[0] = depth
     for i in range(3):
         out[1 + i], out[4 + i] = normal[i], arm[i]
-
-
-def with_sphere(bearing: Bearing, ratio: float) -> Bearing:
-    """Put another sphere on the rollers; the rib would follow, so use the face of the first."""
-    return replace(bearing, sphere_ratio=ratio, forced=True)
 
 
 def _contact_height(bearing: Bearing, pose: RollerPose, point: Float) -> float:
@@ -98,17 +90,14 @@ def _end(bearing: Bearing, case: Bearing) -> RibEndParams:
     )
 
 
-def _moved(pose: RollerPose, along: float) -> RollerPose:
-    return RollerPose(pose.centre + along * pose.axis, pose.axis, pose.cone)
-
-
 def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
     """Compare what both methods find for one sphere on the rib of a sound bearing.
 
     The roller, skewed by `SKEW`, is moved along its axis until the bounded roller end just touches, then
     pushed in by `PUSH`.
     """
-    case = with_sphere(bearing, ratio)
+    # the rib would follow the sphere, so the face is that of the first bearing
+    case = replace(bearing, sphere_ratio=ratio, forced=True)
     face = large_rib(bearing)
     rib = rib_face_params(face, case.sphere_radius, case.sphere_centre)
     window, end = _window(bearing, face), _end(bearing, case)
@@ -117,13 +106,16 @@ def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
     nominal = RollerPose(nominal.centre, axis / np.linalg.norm(axis), nominal.cone)
     out = np.zeros(7)
 
+    def moved(along: float) -> RollerPose:
+        return RollerPose(nominal.centre + along * nominal.axis, nominal.axis, nominal.cone)
+
     def depth(along: float) -> float:
-        pose = _moved(nominal, along)
+        pose = moved(along)
         bounded_contact(pose.centre, pose.axis, rib, window, end, out)
         return float(out[0])
 
     touch = brentq(depth, -_LONGEST_MOVE, _LONGEST_MOVE, xtol=1e-15)
-    pose = _moved(nominal, float(touch) + PUSH)
+    pose = moved(float(touch) + PUSH)
     bounded = depth(float(touch) + PUSH)
     pair = Pair(end_sphere(case, pose), face.shape(pose.cone), SURFACES)
     found = search(pair, np.array([0.5 * math.pi - bearing.rib_polar_angle, math.pi, 0.0, 0.0]))
@@ -131,12 +123,9 @@ def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
     rim = bearing.large_end_radius - bearing.roller_chamfer
     arm = found.p - pose.centre
     off_axis = float(np.linalg.norm(arm - (arm @ pose.axis) * pose.axis))
-    outside = "face"
     normal, place = out[1:4], out[4:7]
-    if normal @ pose.axis < end.cosine:
-        outside = "rim"
-    elif abs(normal[2] - face.normal_axial) > 1e-4:
-        outside = "edge of the face"
+    at_edge = abs(normal[2] - face.normal_axial) > 1e-4
+    carrier = "rim" if normal @ pose.axis < end.cosine else "edge of the face" if at_edge else "face"
     return SphereCase(
         ratio=ratio,
         radius=case.sphere_radius,
@@ -148,11 +137,11 @@ def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
         on_face=found.converged and bearing.rib_undercut <= height <= bearing.rib_height,
         in_rim=found.converged and off_axis <= rim,
         bounded_depth=bounded,
-        carried_by=outside,
+        carried_by=carrier,
         refused=bool(check(replace(case, forced=False))),
     )
 
 
-def sphere_cases(bearing: Bearing) -> list[SphereCase]:
+def sphere_cases(bearing: Bearing) -> tuple[SphereCase, ...]:
     """Compare all of `SPHERE_RATIOS`."""
-    return [sphere_case(bearing, ratio) for ratio in SPHERE_RATIOS]
+    return tuple(sphere_case(bearing, ratio) for ratio in SPHERE_RATIOS)

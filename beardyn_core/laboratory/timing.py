@@ -7,6 +7,7 @@ machine disturbs little and disturbs all of them alike; medians.
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -28,7 +29,7 @@ from beardyn_core.laboratory.nine_contacts import (
     contacts_of,
     nominal_pose,
 )
-from beardyn_core.laboratory.placements import RANDOM_CASES, RandomCase, near_start, random_start
+from beardyn_core.laboratory.placements import RANDOM_CASES, near_start, random_start
 from beardyn_core.laboratory.search import SURFACES, Form, Pair, condition_number, search
 from beardyn_core.laboratory.shapes import Cone, Shape, Straight
 
@@ -65,37 +66,17 @@ class MethodResult:
 class Setting:
     """Pairs with starts and true gaps, for all methods."""
 
-    name: str
     pairs: tuple[Pair, ...]
     starts: tuple[Float, ...]
     truth: A[Float, "shape [pair], [m]"]
     plain_closed: A[Callable[[], Float] | None, "give all gaps by the closed forms"] = None
-    compiled_closed: A[Callable[[], Float] | None, "the same, compiled"] = None
-    closed_compiled_in_place: A[Callable[[], None] | None, "the same for timing"] = None
-
-
-def _rated(
-    method: str, seconds: list[float], count: int, found: tuple[Float, Float | None], truth: Float
-) -> MethodResult:
-    gaps, iterations = found
-    error = np.abs(gaps - truth)
-    good = error <= FAILURE
-    if iterations is not None:
-        good &= iterations >= 0
-    return MethodResult(
-        method,
-        1e6 * float(np.median(seconds)) / count,
-        None
-        if iterations is None or not (iterations >= 0).any()
-        else float(iterations[iterations >= 0].mean()),
-        float(1.0 - good.mean()),
-        float(error[good].max()) if good.any() else float("nan"),
-    )
+    compiled_closed: A[Callable[[], None] | None, "write the same, compiled, to ``compiled_gaps``"] = None
+    compiled_gaps: A[Float | None, "shape [pair], [m]"] = None
 
 
 def compare(
     setting: Setting, *, blocks: int, sweeps: int, methods: Sequence[str] = METHODS
-) -> list[MethodResult]:
+) -> tuple[MethodResult, ...]:
     """Run all methods on a setting.
 
     Parameters
@@ -106,45 +87,58 @@ def compare(
     sweeps : int
         Sweeps over all pairs in a block of a compiled method; plain methods make one.
     methods : sequence of str
-
-    Returns
-    -------
-    list of MethodResult
     """
     arrays = batch(setting.pairs, setting.starts)
-    x, out = np.zeros((len(setting.pairs), 4)), np.zeros((len(setting.pairs), 2))
-    jobs: dict[str, tuple[Callable[[], object], int]] = {}
-    results: dict[str, tuple[Float, Float | None]] = {}
-    for method in methods:
-        if method in _PLAIN_SOLVERS:
-            solver = _PLAIN_SOLVERS[method]
-            jobs[method] = (partial(_plain, setting, solver), 1)
-            results[method] = _plain(setting, solver)
-        elif method == METHODS[4]:
-            jobs[method] = (partial(_root_finder_compiled, setting, arrays), 1)
-            results[method] = _root_finder_compiled(setting, arrays)
-        elif method in (METHODS[5], METHODS[6]):
-            analytic = method == METHODS[6]
-            jobs[method] = (partial(arrays.solve_into, x, out, analytic=analytic), sweeps)
-            _, iterations, gaps = arrays.solve(analytic=analytic)
-            results[method] = gaps, iterations.astype(float)
-        elif method == METHODS[3] and setting.plain_closed is not None:
-            jobs[method] = (setting.plain_closed, 1)
-            results[method] = setting.plain_closed(), None
-        elif method == METHODS[7] and setting.compiled_closed is not None:
-            assert setting.closed_compiled_in_place is not None
-            jobs[method] = (setting.closed_compiled_in_place, 10 * sweeps)
-            results[method] = setting.compiled_closed(), None
+    jobs = {name: made for name in methods if (made := _job(setting, arrays, name, sweeps)) is not None}
     seconds: dict[str, list[float]] = {method: [] for method in jobs}
     for _ in range(blocks):
-        for method, (job, times) in jobs.items():
+        for method, (job, times, _, _) in jobs.items():
             begun = time.thread_time()
             for _ in range(times):
                 job()
             seconds[method].append((time.thread_time() - begun) / times)
-    return [
-        _rated(method, seconds[method], len(setting.pairs), results[method], setting.truth) for method in jobs
-    ]
+    found = []
+    for method, (_, _, gaps, iterations) in jobs.items():
+        error = np.abs(gaps - setting.truth)
+        good = error <= FAILURE
+        converged = np.zeros(0) if iterations is None else iterations[iterations >= 0]
+        if iterations is not None:
+            good &= iterations >= 0
+        found.append(
+            MethodResult(
+                method,
+                1e6 * float(np.median(seconds[method])) / len(setting.pairs),
+                float(converged.mean()) if converged.size else None,
+                float(1.0 - good.mean()),
+                float(error[good].max()) if good.any() else float("nan"),
+            )
+        )
+    return tuple(found)
+
+
+def _job(
+    setting: Setting, arrays: Batch, method: str, sweeps: int
+) -> tuple[Callable[[], object], int, Float, Float | None] | None:
+    """Return what is timed and how often in a block, gaps and iterations; ``None``: not for this setting."""
+    if method in _PLAIN_SOLVERS or method == METHODS[4]:
+        solve = (
+            partial(_root_finder_compiled, setting, arrays)
+            if method == METHODS[4]
+            else partial(_plain, setting, _PLAIN_SOLVERS[method])
+        )
+        return solve, 1, *solve()
+    if method in METHODS[5:7]:
+        analytic = method == METHODS[6]
+        x, out = np.zeros((len(setting.pairs), 4)), np.zeros((len(setting.pairs), 2))
+        _, iterations, gaps = arrays.solve(analytic=analytic)
+        job = partial(arrays.solve_into, x, out, analytic=analytic)
+        return job, sweeps, gaps, iterations.astype(float)
+    if method == METHODS[3] and setting.plain_closed is not None:
+        return setting.plain_closed, 1, setting.plain_closed(), None
+    if method == METHODS[7] and setting.compiled_closed is not None and setting.compiled_gaps is not None:
+        setting.compiled_closed()
+        return setting.compiled_closed, 10 * sweeps, setting.compiled_gaps, None
+    return None
 
 
 def _plain(setting: Setting, method: str) -> tuple[Float, Float]:
@@ -158,8 +152,6 @@ def _plain(setting: Setting, method: str) -> tuple[Float, Float]:
 
 def _root_finder_compiled(setting: Setting, arrays: Batch) -> tuple[Float, Float]:
     """Run SciPy's root finder with the compiled residual."""
-    import warnings
-
     gaps, iterations = np.empty(len(setting.pairs)), np.empty(len(setting.pairs))
     work, moved = np.zeros(WORK_NUMBERS), np.zeros(4)
     with warnings.catch_warnings():
@@ -167,9 +159,7 @@ def _root_finder_compiled(setting: Setting, arrays: Batch) -> tuple[Float, Float
         for i, start in enumerate(setting.starts):
             count = int(arrays.counts[i])
             constants = arrays.p[i], arrays.q[i], arrays.cut[i], arrays.forms[i], count
-            value = np.empty(count)
-
-            equations = partial(_compiled_residual, constants, moved, work, value)
+            equations = partial(_compiled_residual, constants, moved, work, np.empty(count))
             root, info, _, _ = fsolve(equations, start, full_output=True, xtol=1e-13)
             left = float(np.abs(equations(root)).max())
             gaps[i] = work[:3] @ work[18:21] if arrays.signed[i] else np.sqrt(work[:3] @ work[:3])
@@ -194,13 +184,12 @@ def warm_start(shape: Shape, parameters: Float, random: np.random.Generator) -> 
 
 
 def bearing_setting(
-    name: str, bearing: Bearing, poses: Sequence[RollerPose], *, warm: bool, only: str | None = None
+    bearing: Bearing, poses: Sequence[RollerPose], *, warm: bool = False, only: str | None = None
 ) -> Setting:
     """Collect all searches of many rollers, or those of one contact.
 
     Parameters
     ----------
-    name : str
     bearing : Bearing
     poses : sequence of RollerPose
     warm : bool
@@ -209,39 +198,32 @@ def bearing_setting(
         One of `NAMES`.
     """
     random = np.random.default_rng(7)
-    chosen: list[tuple[int, Contact]] = []
-    for i, pose in enumerate(poses):
-        chosen += [(i, contact) for contact in contacts_of(bearing, pose) if only in (None, contact.name)]
+    chosen = [
+        (pose, contact)
+        for pose in poses
+        for contact in contacts_of(bearing, pose)
+        if only in (None, contact.name)
+    ]
     pairs = tuple(contact.pair for _, contact in chosen)
     starts = tuple(contact.start for _, contact in chosen)
     if warm:
         solved, _, _ = batch(pairs, starts).solve()
         starts = tuple(
-            np.concatenate(
-                [
-                    warm_start(pair.p, solved[i, : pair.p.parameter_count], random),
-                    warm_start(pair.q, solved[i, pair.p.parameter_count : len(start)], random),
-                ]
+            np.concatenate([warm_start(pair.p, x[:cut], random), warm_start(pair.q, x[cut:], random)])
+            for pair, x, cut in (
+                (pair, solved[i, : len(start)], pair.p.parameter_count)
+                for i, (pair, start) in enumerate(zip(pairs, starts, strict=True))
             )
-            for i, (pair, start) in enumerate(zip(pairs, starts, strict=True))
         )
 
     def plain() -> Float:
-        return np.array([closed_forms.contact_gap(bearing, poses[i], contact) for i, contact in chosen])
+        return np.array([closed_forms.contact_gap(bearing, pose, contact) for pose, contact in chosen])
 
     if only is not None:
-        return Setting(name, pairs, starts, plain(), plain)
-    closed, rows = ClosedForms(bearing), pose_rows(list(poses))
+        return Setting(pairs, starts, plain(), plain)
+    closed, rows = ClosedForms(bearing), pose_rows(poses)
     out = np.zeros((len(poses), SEARCHES_PER_ROLLER))
-    return Setting(
-        name,
-        pairs,
-        starts,
-        plain(),
-        plain,
-        lambda: closed.gaps(list(poses)).ravel(),
-        lambda: closed.gaps_into(rows, out),
-    )
+    return Setting(pairs, starts, plain(), plain, lambda: closed.gaps_into(rows, out), out.ravel())
 
 
 @dataclass(frozen=True)
@@ -254,27 +236,23 @@ class RandomResult:
     elsewhere: A[float, "share that converged, but to another stationary pair of points, [-]"]
 
 
-def random_results(count: int, *, blocks: int, sweeps: int, seed: int = 11) -> list[RandomResult]:
+def random_results(count: int, *, blocks: int, sweeps: int, seed: int = 11) -> tuple[RandomResult, ...]:
     """Run all of `RANDOM_CASES` from both starts."""
     found = []
     for case in RANDOM_CASES:
-        pairs, truth, random = _drawn(case, count, seed)
+        random = np.random.default_rng(seed)
+        pairs = tuple(case.draw(random) for _ in range(count))
+        truth = np.array([case.truth(pair.p, pair.q) for pair in pairs])
         for start in ("near", "random"):
             starts = tuple(
                 near_start(pair) if start == "near" else random_start(pair, random) for pair in pairs
             )
-            setting = Setting(case.name, pairs, starts, truth)
+            setting = Setting(pairs, starts, truth)
             methods = compare(setting, blocks=blocks, sweeps=sweeps, methods=(*METHODS[:3], METHODS[6]))
             _, iterations, gaps = batch(pairs, starts).solve()
             elsewhere = (iterations >= 0) & (np.abs(gaps - truth) > FAILURE)
-            found.append(RandomResult(case.name, start, tuple(methods), float(elsewhere.mean())))
-    return found
-
-
-def _drawn(case: RandomCase, count: int, seed: int) -> tuple[tuple[Pair, ...], Float, np.random.Generator]:
-    random = np.random.default_rng(seed)
-    pairs = tuple(case.draw(random) for _ in range(count))
-    return pairs, np.array([case.truth(pair.p, pair.q) for pair in pairs]), random
+            found.append(RandomResult(case.name, start, methods, float(elsewhere.mean())))
+    return tuple(found)
 
 
 @dataclass(frozen=True)
@@ -285,23 +263,22 @@ class FormResult:
     failures: A[float, "[-]"]
     iterations: A[float | None, "mean, of those that converged"]
     condition: A[float, "median of the Jacobian at the true contact"]
-    even_condition: A[
-        float,
-        "the same for the roller in its place, whose axis and the bearing's lie in one plane",
-    ]
+    even_condition: A[float, "the same for the roller in its place, its axis and the bearing's in one plane"]
 
 
-def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[Form]) -> list[FormResult]:
+def form_results(
+    bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[Form]
+) -> tuple[FormResult, ...]:
     """Search the surface-surface contact FR with several forms, from the nominal roller."""
     found = []
     sound = [_of_rib(bearing, pose, SURFACES) for pose in poses]
     truth = np.array(
         [closed_forms.contact_gap(bearing, pose, contact) for pose, contact in zip(poses, sound, strict=True)]
     )
-    solved, reached, _ = batch([c.pair for c in sound], [c.start for c in sound]).solve()
+    solved, reached, _ = _searched(sound)
     for form in forms:
         contacts = [_of_rib(bearing, pose, form) for pose in poses]
-        _, iterations, gaps = batch([c.pair for c in contacts], [c.start for c in contacts]).solve()
+        _, iterations, gaps = _searched(contacts)
         good = iterations >= 0
         conditions = [condition_number(c.pair, solved[i]) for i, c in enumerate(contacts) if reached[i] >= 0]
         even = _of_rib(bearing, nominal_pose(bearing), form)
@@ -314,7 +291,11 @@ def form_results(bearing: Bearing, poses: Sequence[RollerPose], forms: Sequence[
                 condition_number(even.pair, even.start),
             )
         )
-    return found
+    return tuple(found)
+
+
+def _searched(contacts: Sequence[Contact]) -> tuple[Float, NDArray[np.int64], Float]:
+    return batch([contact.pair for contact in contacts], [contact.start for contact in contacts]).solve()
 
 
 def _of_rib(bearing: Bearing, pose: RollerPose, form: Form) -> Contact:

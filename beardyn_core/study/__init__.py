@@ -24,8 +24,7 @@ ladder_result       which levels meet an accuracy, which are efficient
 ladder_report       a ladder as table and JSON
 ladder_picture      accuracy against wall time in one picture
 table               tables for the terminal and for pages, numbers in few digits
-contacts_tables     results of the contact laboratory as tables
-contacts_report     the same for the terminal and as JSON
+contacts_report     results of the contact laboratory as tables and as JSON
 contacts_picture    pictures of the contact laboratory
 =================== =========================================================================
 """

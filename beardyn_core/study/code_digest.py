@@ -24,16 +24,8 @@ def monitor_digest(name: str) -> str:
     """Hash the code of a monitor: its module and every module that it imports, directly or not.
 
     Of Python's own modules and of installed packages only the version counts. Data that a monitor reads
-    from files is not seen.
-
-    Parameters
-    ----------
-    name : str
-        ``module:function``, '' for the reference chain, which is part of `simulator_digest`.
-
-    Returns
-    -------
-    str
+    from files is not seen. The name is ``module:function``, '' for the reference chain, which is part of
+    `simulator_digest`.
     """
     digest = hashlib.sha256(name.encode())
     if name:
@@ -59,11 +51,6 @@ def simulator_digest() -> str:
 
 def modules_of(name: str) -> tuple[dict[str, Path], set[str]]:
     """Find the files of a module and of all that it imports, also inside of its functions.
-
-    Parameters
-    ----------
-    name : str
-        Of a module that can be imported.
 
     Returns
     -------

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -21,7 +20,6 @@ from beardyn_core.laboratory.nine_contacts import (
     small_rib,
 )
 from beardyn_core.laboratory.rolling import PLACE, Rolling
-from beardyn_core.laboratory.sphere_radius import SphereCase
 
 Float = NDArray[np.float64]
 DPI = 100
@@ -31,9 +29,7 @@ _MM = 1e3
 
 
 def _figure(width: float, height: float) -> Figure:
-    figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
-    FigureCanvasAgg(figure)
-    return figure
+    return Figure(figsize=(width, height), dpi=DPI, layout="constrained")
 
 
 def write_pictures(found: Findings, folder: Path) -> list[Path]:
@@ -70,15 +66,18 @@ def nine_figure(found: Findings) -> Figure:
     return figure
 
 
-def _roller_outline(found: Findings) -> tuple[Float, Float]:
+def _roller(axes: Axes, found: Findings, label: str | None = None) -> float:
+    """Draw the outline of the roller; return its half height, [mm]."""
     bearing = found.bearing
     half, large, small = 0.5 * bearing.roller_length, bearing.large_end_radius, bearing.small_end_radius
     turn = np.linspace(-1.0, 1.0, 41) * math.asin(large / bearing.sphere_radius)
     along = bearing.sphere_centre + bearing.sphere_radius * np.cos(turn)
     across = bearing.sphere_radius * np.sin(turn)
-    x = np.concatenate([[-half], along, [-half, -half]])
-    y = np.concatenate([[-small], across, [small, -small]])
-    return _MM * x, _MM * y
+    x = _MM * np.concatenate([[-half], along, [-half, -half]])
+    y = _MM * np.concatenate([[-small], across, [small, -small]])
+    axes.fill(x, y, color=_ROLLER, alpha=0.25, lw=0)
+    axes.plot(x, y, color=_ROLLER, lw=1.5, label=label)
+    return float(y.max())
 
 
 def _draw_line(axes: Axes, found: Findings, points: Float, colour: str, label: str | None = None) -> None:
@@ -88,63 +87,48 @@ def _draw_line(axes: Axes, found: Findings, points: Float, colour: str, label: s
 
 def _meridian(axes: Axes, found: Findings) -> None:
     bearing = found.bearing
-    x, y = _roller_outline(found)
-    axes.fill(x, y, color=_ROLLER, alpha=0.25, lw=0)
-    axes.plot(x, y, color=_ROLLER, lw=1.5, label="roller")
+    top = _roller(axes, found, "roller")
     reach = np.linspace(-0.56, 0.56, 2)[:, None] * bearing.roller_length
     axis, centre = nominal_axis(bearing), nominal_centre(bearing)
     outward = np.array([axis[2], 0.0, -axis[0]])
     for side, colour, label in ((1.0, _CUP, "cup"), (-1.0, _CONE, "cone with ribs")):
         radius = (bearing.apex_distance + reach) * math.tan(bearing.half_angle)
         _draw_line(axes, found, centre + reach * axis + side * radius * outward, colour, label)
-    for face, height in (
-        (large_rib(bearing), bearing.rib_height),
-        (small_rib(bearing), bearing.small_rib_height),
+    # the face of the large rib is given at its contact height
+    for face, foot, height in (
+        (large_rib(bearing), -bearing.rib_contact_height, bearing.rib_height),
+        (small_rib(bearing), 0.0, bearing.small_rib_height),
     ):
         start = np.array([face.radial, 0.0, face.axial])
         along = np.array([face.normal_axial, 0.0, -face.normal_radial])
         along = along if along[0] > 0.0 else -along
-        # the face of the large rib is given at its contact height
-        foot = -bearing.rib_contact_height if height == bearing.rib_height else 0.0
         _draw_line(axes, found, start + np.array([[foot], [foot + height]]) * along, _CONE)
-    for number, name in enumerate(("C2.1", "C4.1")):
+    for name, entry in (("C2.1", "cage lines"), ("C4.1", None)):
         along_axis, _, _ = _along_roller(found, pocket_line(bearing, name).place.origin[None, :])
-        axes.plot(
-            along_axis, [0.0], marker="s", ms=8, color=_CAGE, ls="", label=None if number else "cage lines"
-        )
-    _mark(axes, found, 0, 1, ("Inner", "Outer", "FR", "FL", "C2.1"))
-    axes.set_xlabel("along the roller axis [mm]")
-    axes.set_ylabel("square to it, outwards [mm]")
+        axes.plot(along_axis, [0.0], marker="s", ms=8, color=_CAGE, ls="", label=entry)
+    _mark(axes, found, 1, ("Inner", "Outer", "FR", "FL", "C2.1"))
+    axes.set(xlabel="along the roller axis [mm]", ylabel="square to it, outwards [mm]", aspect="equal")
     axes.set_title("meridian plane", fontsize=10)
-    axes.set_aspect("equal")
-    axes.set_ylim(-1.75 * y.max(), 1.75 * y.max())
+    axes.set_ylim(-1.75 * top, 1.75 * top)
     axes.legend(loc="lower center", ncols=4, fontsize=8, frameon=False)
 
 
 def _from_outside(axes: Axes, found: Findings) -> None:
     bearing = found.bearing
-    x, y = _roller_outline(found)
-    axes.fill(x, y, color=_ROLLER, alpha=0.25, lw=0)
-    axes.plot(x, y, color=_ROLLER, lw=1.5)
-    reach = np.linspace(-0.5, 0.5, 2)[:, None] * bearing.roller_length
-    for name in ("C3.1", "C3.2"):
+    top = _roller(axes, found)
+    length, width = 0.5 * bearing.roller_length, bearing.large_end_radius
+    for name, half in (("C3.1", length), ("C3.2", length), ("C2.1", width), ("C4.1", width)):
         place = pocket_line(bearing, name).place
-        along, _, around = _along_roller(found, place.origin + reach * place.pole)
+        along, _, around = _along_roller(found, place.origin + np.array([[-half], [half]]) * place.pole)
         axes.plot(along, around, color=_CAGE, lw=2.5)
-    width = np.linspace(-1.0, 1.0, 2)[:, None] * bearing.large_end_radius
-    for name in ("C2.1", "C4.1"):
-        place = pocket_line(bearing, name).place
-        along, _, around = _along_roller(found, place.origin + width * place.pole)
-        axes.plot(along, around, color=_CAGE, lw=2.5)
-    _mark(axes, found, 0, 2, ("C2.1", "C3.1", "C3.2", "C4.1", "C4.2"))
-    axes.set_xlabel("along the roller axis [mm]")
-    axes.set_ylabel("around the bearing [mm]")
+    _mark(axes, found, 2, ("C2.1", "C3.1", "C3.2", "C4.1", "C4.2"))
+    axes.set(xlabel="along the roller axis [mm]", ylabel="around the bearing [mm]", aspect="equal")
     axes.set_title("seen from outside: cage pocket", fontsize=10)
-    axes.set_aspect("equal")
-    axes.set_ylim(-1.45 * y.max(), 1.45 * y.max())
+    axes.set_ylim(-1.45 * top, 1.45 * top)
 
 
-def _mark(axes: Axes, found: Findings, first: int, second: int, names: tuple[str, ...]) -> None:
+def _mark(axes: Axes, found: Findings, across: int, names: tuple[str, ...]) -> None:
+    """Mark and name contact points: along the roller, and a coordinate of `_along_roller` across it."""
     assert set(names) <= set(NAMES)
     labelled: set[str] = set()
     for contact in found.located:
@@ -152,7 +136,7 @@ def _mark(axes: Axes, found: Findings, first: int, second: int, names: tuple[str
             continue
         # points of both shapes lie microns apart; the mark is on the roller's neighbour or on the roller
         coordinates = _along_roller(found, np.array([contact.q]))
-        x, y = float(coordinates[first][0]), float(coordinates[second][0])
+        x, y = float(coordinates[0][0]), float(coordinates[across][0])
         axes.plot([x], [y], marker="o", ms=5, color=_POINT, zorder=5)
         if contact.name not in labelled:
             labelled.add(contact.name)
@@ -182,33 +166,21 @@ def sphere_figure(found: Findings) -> Figure:
             )
     bounded = _MM * np.array([case.bounded_height for case in found.spheres])
     left.plot(ratios, bounded, "s-", color=_CUP, ms=4, label="closed form with edges and rim")
-    left.set_xlabel("sphere radius over distance to the apex")
-    left.set_ylabel("height of the contact over the raceway [mm]")
-    left.legend(fontsize=8, frameon=False, loc="lower left")
-    width = 0.3
-    places = np.arange(len(ratios))
-    right.bar(
-        places - width / 2,
-        [1e6 * _real_depth(case) for case in found.spheres],
-        width,
-        color=_POINT,
-        label="general search",
-    )
-    right.bar(
-        places + width / 2, [1e6 * case.bounded_depth for case in found.spheres], width, color=_CUP,
-        label="closed form with edges and rim",
-    )  # fmt: skip
+    ratio_label = "sphere radius over distance to the apex"
+    left.set(xlabel=ratio_label, ylabel="height of the contact over the raceway [mm]")
+    # a contact point counts that lies on both parts
+    real = [case.search_gap if case.on_face and case.in_rim else 0.0 for case in found.spheres]
+    depths = [1e6 * max(-gap, 0.0) for gap in real]
+    bounded_depths = [1e6 * case.bounded_depth for case in found.spheres]
+    places, width = np.arange(len(ratios)), 0.3
+    right.bar(places - width / 2, depths, width, color=_POINT, label="general search")
+    right.bar(places + width / 2, bounded_depths, width, color=_CUP, label="closed form with edges and rim")
     right.set_xticks(places, [f"{ratio:.2f}" for ratio in ratios])
-    right.set_xlabel("sphere radius over distance to the apex")
-    right.set_ylabel("depth that makes a force on the part [µm]")
-    right.legend(fontsize=8, frameon=False, loc="lower left")
+    right.set(xlabel=ratio_label, ylabel="depth that makes a force on the part [µm]")
+    for axes in (left, right):
+        axes.legend(fontsize=8, frameon=False, loc="lower left")
     figure.suptitle("A roller end on a given rib, pushed in by 10 µm", fontsize=11)
     return figure
-
-
-def _real_depth(case: SphereCase) -> float:
-    """Return the depth of a contact point that lies on both parts."""
-    return max(-case.search_gap, 0.0) if case.on_face and case.in_rim else 0.0
 
 
 def rolling_figure(found: Findings) -> Figure:
@@ -221,42 +193,30 @@ def rolling_figure(found: Findings) -> Figure:
         label = f"{run.body.name.split(',')[0]}, v_r {run.trough.transition_speed * 1e3:g} mm/s"
         middle.plot(run.time, _MM * run.height, lw=1.2, label=label)
     middle.axhline(_MM * coin.height[0], color="0.6", lw=0.8, ls="--")
-    middle.set_xlabel("time [s]")
-    middle.set_ylabel("height of the centre [mm]")
-    middle.set_ylim(0.0, 1.35 * _MM * coin.height[0])
+    middle.set(xlabel="time [s]", ylabel="height of the centre [mm]", ylim=(0.0, 1.35 * _MM * coin.height[0]))
     middle.legend(fontsize=8, frameon=False, loc="upper center")
     energies = roller.energies
     motion = energies["kinetic"] + energies["potential"] + energies["elastic"]
-    right.plot(
-        roller.time, 1e6 * (motion[0] - motion), color=_CUP, lw=3.0, alpha=0.5, label="energy of motion lost"
-    )
-    both = energies["friction"] + energies["damping"]
+    lost, both = motion[0] - motion, energies["friction"] + energies["damping"]
+    right.plot(roller.time, 1e6 * lost, color=_CUP, lw=3.0, alpha=0.5, label="energy of motion lost")
     right.plot(roller.time, 1e6 * both, color=_POINT, lw=1.0, ls="--", label="friction and damping")
     right.plot(roller.time, 1e6 * energies["damping"], color=_CONE, lw=1.0, label="damping alone")
-    right.set_xlabel("time [s]")
-    right.set_ylabel("roller [µJ]")
+    right.set(xlabel="time [s]", ylabel="roller [µJ]")
     right.legend(fontsize=8, frameon=False, loc="upper left")
     figure.suptitle("Rolling down a cylindrical floor and up again", fontsize=11)
     return figure
 
 
 def _positions(axes: Axes, run: Rolling) -> None:
-    angles = np.linspace(-0.9, 0.9, 91)
-    axes.plot(
-        _MM * run.trough.radius * np.sin(angles), -_MM * run.trough.radius * np.cos(angles), color="0.35"
-    )
+    angles, floor = np.linspace(-0.9, 0.9, 91), _MM * run.trough.radius
+    axes.plot(floor * np.sin(angles), -floor * np.cos(angles), color="0.35")
     ring = np.linspace(0.0, 2.0 * math.pi, 49)
     last = run.turning_sample
     for sample in np.unique(np.linspace(0, last, 12).astype(int)):
         x, y = run.history[sample, PLACE : PLACE + 2]
-        shade = 0.25 + 0.75 * sample / max(last, 1)
-        axes.plot(
-            _MM * (x + run.body.radius * np.cos(ring)), _MM * (y + run.body.radius * np.sin(ring)),
-            color=_ROLLER, alpha=shade, lw=1.2,
-        )  # fmt: skip
-    axes.set_aspect("equal")
-    axes.set_xlabel("x [mm]")
-    axes.set_ylabel("y [mm]")
+        right, up = x + run.body.radius * np.cos(ring), y + run.body.radius * np.sin(ring)
+        axes.plot(_MM * right, _MM * up, color=_ROLLER, alpha=0.25 + 0.75 * sample / max(last, 1), lw=1.2)
+    axes.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
     axes.set_title("coin, evenly in time until it turns", fontsize=10)
 
 
@@ -268,17 +228,9 @@ def barrel_figure(found: Findings) -> Figure:
         azimuth = np.degrees((loads.azimuth + math.pi) % (2.0 * math.pi) - math.pi)
         order = np.argsort(azimuth)
         left.plot(azimuth[order], loads.formula[order] / 1e3, color=colour, lw=1.2)
-        left.plot(
-            azimuth[order],
-            loads.load[order] / 1e3,
-            "o",
-            color=colour,
-            ms=5,
-            label=f"{loads.force / 1e3:g} kN",
-        )
-    left.set_xlabel("azimuth from the load [deg]")
-    left.set_ylabel("roller load [kN]")
-    left.set_xlim(-95, 95)
+        name = f"{loads.force / 1e3:g} kN"
+        left.plot(azimuth[order], loads.load[order] / 1e3, "o", color=colour, ms=5, label=name)
+    left.set(xlabel="azimuth from the load [deg]", ylabel="roller load [kN]", xlim=(-95, 95))
     left.legend(fontsize=8, frameon=False, title="points: search, lines: formula", title_fontsize=8)
     _barrel_section(right, found)
     figure.suptitle(f"Spherical roller bearing {found.barrel.name}", fontsize=11)
@@ -288,31 +240,21 @@ def barrel_figure(found: Findings) -> Figure:
 def _barrel_section(axes: Axes, found: Findings) -> None:
     bearing = found.barrel
     angle, half = bearing.contact_angle, 0.5 * bearing.roller_length
+    spread = np.linspace(-half, half, 41) / bearing.roller_contour
+    roller, groove = bearing.roller(np.zeros(3)), bearing.inner_raceway(np.zeros(3))
+    upper = np.array([roller.frame(np.array([u, 0.0])).point for u in spread])
+    lower = np.array([roller.frame(np.array([u, math.pi])).point for u in spread[::-1]])
+    inner = np.array([groove.frame(np.array([math.pi + angle + u, 0.0])).point for u in spread])
+    outline = np.concatenate([upper, lower, upper[:1]])
+    reach = 1.22 * _MM * bearing.centre_distance
     for side in (-1.0, 1.0):
-        spread = np.linspace(-half, half, 41) / bearing.roller_contour
-        roller = bearing.roller(np.zeros(3))
-        upper = np.array([roller.frame(np.array([u, 0.0])).point for u in spread])
-        lower = np.array([roller.frame(np.array([u, math.pi])).point for u in spread[::-1]])
-        outline = np.concatenate([upper, lower, upper[:1]])
         axes.fill(side * _MM * outline[:, 2], _MM * outline[:, 0], color=_ROLLER, alpha=0.25, lw=0)
         axes.plot(side * _MM * outline[:, 2], _MM * outline[:, 0], color=_ROLLER, lw=1.5)
-        groove = bearing.inner_raceway(np.zeros(3))
-        inner = np.array([groove.frame(np.array([math.pi + angle + u, 0.0])).point for u in spread])
         axes.plot(side * _MM * inner[:, 2], _MM * inner[:, 0], color=_CONE, lw=2.5)
-        centre = bearing.centre_distance * np.array([math.sin(angle), math.cos(angle)])
-        axes.plot(
-            [0.0, side * _MM * centre[0] * 1.22], [0.0, _MM * centre[1] * 1.22], color="0.6", lw=0.8, ls="--"
-        )
+        line = [0.0, side * reach * math.sin(angle)], [0.0, reach * math.cos(angle)]
+        axes.plot(*line, color="0.6", lw=0.8, ls="--")
         for point in (upper[20], inner[20]):
             axes.plot([side * _MM * point[2]], [_MM * point[0]], "o", color=_POINT, ms=4)
-    sphere = np.linspace(-0.36, 0.36, 81)
-    axes.plot(
-        _MM * bearing.outer_sphere * np.sin(sphere),
-        _MM * bearing.outer_sphere * np.cos(sphere),
-        color=_CUP,
-        lw=2.5,
-    )
-    axes.set_aspect("equal")
-    axes.set_ylim(38.0, 88.0)
-    axes.set_xlabel("along the bearing axis [mm]")
-    axes.set_ylabel("radius [mm]")
+    turn, sphere = np.linspace(-0.36, 0.36, 81), _MM * bearing.outer_sphere
+    axes.plot(sphere * np.sin(turn), sphere * np.cos(turn), color=_CUP, lw=2.5)
+    axes.set(xlabel="along the bearing axis [mm]", ylabel="radius [mm]", aspect="equal", ylim=(38.0, 88.0))

@@ -28,13 +28,7 @@ def say(line: str) -> None:
 
 
 class Progress:
-    """One line that is overwritten on a terminal, one line a simulated second elsewhere.
-
-    Parameters
-    ----------
-    duration : float
-        Simulated time to come, [s].
-    """
+    """One line that is overwritten on a terminal, one line a simulated second elsewhere."""
 
     def __init__(self, duration: float) -> None:
         self._duration = duration
@@ -48,14 +42,7 @@ class Progress:
         self._monitor = {"waiting": "listening", "healthy": "no fault"}.get(verdict, f"{verdict} fault")
 
     def show(self, simulated: float, real_time_factor: float) -> None:
-        """Show where the run is.
-
-        Parameters
-        ----------
-        simulated : float
-            [s].
-        real_time_factor : float
-        """
+        """Show where the run is, in simulated seconds."""
         if not self._terminal and simulated - self._said < 1.0:
             return
         self._said = simulated

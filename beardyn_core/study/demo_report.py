@@ -17,7 +17,7 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Defect
 from beardyn_core.study.finding import HEALTHY, Conclusion, Finding, conclude
-from beardyn_core.study.summary_picture import FaultMarker, SummaryData, summary_picture
+from beardyn_core.study.summary_picture import SummaryData, summary_picture
 
 RECORDING_NAME = "run.mcap"
 RERUN_NAME = "run.rrd"
@@ -36,20 +36,11 @@ class Pace:
 
     simulated: A[float, "[s]"]
     real_time_factor: A[float, "simulated time over the time spent in the twin"]
-    overall: A[
-        float | None,
-        "simulated time over wall time with everything else running; ``None``: not measured",
-    ] = None
+    overall: A[float | None, "simulated time over wall time with all running; ``None``: not measured"] = None
 
 
 def demo_folder(folder: Path, *, force: bool = False) -> Path:
-    """Make the folder for the results when it is missing.
-
-    Parameters
-    ----------
-    folder : Path
-    force : bool
-        Whether the results of an earlier demonstration may be replaced.
+    """Make the folder for the results when it is missing; ``force`` replaces earlier ones.
 
     Raises
     ------
@@ -77,10 +68,6 @@ def report(folder: Path, pace: Pace, say: Say, picture_of_view: bool = True) -> 
         Prints one line.
     picture_of_view : bool
         Take a picture of the rerun view where that is possible.
-
-    Returns
-    -------
-    Conclusion
     """
     from beardyn_core.record.rerun_view import save
     from beardyn_core.record.viewer import picture_problem, take_picture
@@ -93,16 +80,14 @@ def report(folder: Path, pace: Pace, say: Say, picture_of_view: bool = True) -> 
     say("writing the rerun file ...")
     replay = save(run, folder / RERUN_NAME)
     view = "not made"
-    if picture_of_view:
-        problem = picture_problem()
-        if problem is None:
-            say("taking a picture of the rerun view ...")
-            try:
-                view = str(take_picture(replay, folder / VIEW_NAME))
-            except InputError as error:
-                problem = str(error)
-        if problem is not None:
-            view = f"not made: {problem}"
+    if picture_of_view and (problem := picture_problem()) is not None:
+        view = f"not made: {problem}"
+    elif picture_of_view:
+        say("taking a picture of the rerun view ...")
+        try:
+            view = str(take_picture(replay, folder / VIEW_NAME))
+        except InputError as error:
+            view = f"not made: {error}"
     say("")
     for line in result_lines(run, conclusion, pace):
         say(line)
@@ -118,13 +103,8 @@ def report(folder: Path, pace: Pace, say: Say, picture_of_view: bool = True) -> 
 
 def findings_of(run: Run) -> list[Finding]:
     """Read the results of the monitor in a recording, without its final summary."""
-    found = []
-    for _, statuses in run.results:
-        for status in statuses:
-            finding = Finding.from_diagnostic(status)
-            if finding is not None and status.value("final") != "true":
-                found.append(finding)
-    return found
+    statuses = [each for _, found in run.results for each in found if each.value("final") != "true"]
+    return [finding for status in statuses if (finding := Finding.from_diagnostic(status)) is not None]
 
 
 def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
@@ -193,11 +173,11 @@ def summary_data(run: Run, conclusion: Conclusion) -> SummaryData:
         roller_load=run.contacts.load[settled][..., run.contacts.of("cup")],
         envelope_order=spectrum.order if spectrum else np.zeros(0),
         envelope_amplitude=spectrum.amplitude if spectrum else np.zeros(0),
-        markers=(
-            FaultMarker("BPFO", orders["BPFO"]),
-            FaultMarker("BPFI", orders["BPFI"]),
-            FaultMarker("2 BSF", 2.0 * orders["BSF"]),
-            FaultMarker("FTF", orders["FTF"]),
-        ),
+        markers={
+            "BPFO": orders["BPFO"],
+            "BPFI": orders["BPFI"],
+            "2 BSF": 2.0 * orders["BSF"],
+            "FTF": orders["FTF"],
+        },
         shaft_frequency=float(np.mean(shaft_speed)) / (2.0 * np.pi),
     )

@@ -18,7 +18,7 @@ from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
-from beardyn_core.observe.stage_clock import REST, SINKS, StageClock
+from beardyn_core.observe.stage_clock import REST, SINKS
 from beardyn_core.observe.summary import COMPLETE, RunSummary, TrendMeans, trend_means
 from beardyn_core.observe.torque_budget import TorqueBudget, torque_budget
 from beardyn_core.record.description import RunDescription
@@ -63,6 +63,18 @@ def run(
     wall_time = 0.0
     status = COMPLETE
     opened: list[Sink] = []
+
+    def deliver(block: Block) -> None:
+        trend.add(block)
+        twin.stages.lap(REST)
+        for sink in opened:
+            sink.write(block)
+        if opened:
+            twin.stages.lap(SINKS)
+        if progress is not None:
+            progress(block)
+        twin.stages.lap(REST)
+
     closing = "the run was interrupted before its end"
     try:
         for sink in sinks:
@@ -75,13 +87,13 @@ def run(
         try:
             for block in simulation.blocks(twin.blocks_at_once if several else 1):
                 wall_time += clock() - began
-                _deliver(block, opened, trend, progress, twin.stages)
+                deliver(block)
                 began = clock()
         except ValidityError as error:
             wall_time += clock() - began
             status = str(error)
             if isinstance(error.block, Block):
-                _deliver(error.block, opened, trend, progress, twin.stages)
+                deliver(error.block)
         if status == COMPLETE and trend.warnings:
             status = f"{COMPLETE}, but {describe(trend.warnings)}"
         closing = "" if status.startswith(COMPLETE) else status
@@ -125,24 +137,6 @@ def _undisturbed() -> Iterator[None]:
         signal.signal(signal.SIGINT, before if before is not None else signal.SIG_DFL)
 
 
-def _deliver(
-    block: Block,
-    sinks: Sequence[Sink],
-    trend: _Trend,
-    progress: Callable[[Block], None] | None,
-    clock: StageClock,
-) -> None:
-    trend.add(block)
-    clock.lap(REST)
-    for sink in sinks:
-        sink.write(block)
-    if sinks:
-        clock.lap(SINKS)
-    if progress is not None:
-        progress(block)
-    clock.lap(REST)
-
-
 class _Trend:
     """The 400 Hz signals of a run that its means are taken from."""
 
@@ -170,15 +164,9 @@ class _Trend:
         self._residual = None if block.audit is None else block.audit.residual
         if block.audit is not None and block.audit.losses:
             self._lost.append((block.start_ns * 1e-9, *block.audit.losses, block.audit.numerical))
-        self._blocks.append(
-            (
-                block.trend_time_ns.astype(np.float64) * 1e-9,
-                block.force[:, :3],
-                block.shaft_torque,
-                block.shaft_speed,
-                block.cage_speed,
-            )
-        )
+        times = block.trend_time_ns.astype(np.float64) * 1e-9
+        channels = times, block.force[:, :3], block.shaft_torque, block.shaft_speed, block.cage_speed
+        self._blocks.append(channels)
 
     def summary(self, scene: Scene, wall_time: float, status: str) -> RunSummary:
         """Summarise the run so far."""

@@ -27,10 +27,7 @@ class Finding:
     expected_frequency: A[float, "the same from geometry, [Hz]"] = nan
     found_order: A[float, "line found, per shaft revolution, [-]"] = nan
     expected_order: A[float, "the same from geometry, [-]"] = nan
-    signal_to_background: A[
-        float,
-        "of the fundamental line; without a fault of the strongest line, [dB]",
-    ] = nan
+    signal_to_background: A[float, "of the fundamental line; without a fault of the strongest, [dB]"] = nan
     score: A[float, "what the alarm threshold is compared with, [dB]"] = 0.0
     shaft_frequency: A[float, "[Hz]"] = nan
     load: A[float, "mean vertical load, [N]"] = nan
@@ -47,26 +44,15 @@ class Finding:
     def of(cls, result: MonitorResult) -> Finding:
         """Make the finding of a monitor's result."""
         fundamental = [line.level for line in result.lines if line.expected_order == result.expected_order]
+        named = {member.name for member in fields(result)} & {member.name for member in fields(cls)}
         return cls(
-            verdict=result.verdict,
-            reason=result.reason,
+            **{name: getattr(result, name) for name in named},
             time=result.end_ns * 1e-9,
             found_frequency=result.fault_frequency,
-            expected_frequency=result.expected_frequency,
             found_order=result.fault_order,
-            expected_order=result.expected_order,
             signal_to_background=fundamental[0] if fundamental else result.strongest_level,
-            score=result.score,
-            shaft_frequency=result.shaft_frequency,
-            load=result.load,
-            rms=result.rms,
-            kurtosis=result.kurtosis,
-            crest=result.crest,
-            threshold=result.threshold,
             band_low=result.band[0],
             band_high=result.band[1],
-            rms_rise=result.rms_rise,
-            temperature=result.temperature,
         )
 
     @property
@@ -107,10 +93,7 @@ class Finding:
 class Conclusion:
     """Results of a monitor over a whole run, summed up."""
 
-    finding: A[
-        Finding | None,
-        "latest of the most frequent verdict; ``None`` when there never was enough signal",
-    ]
+    finding: A[Finding | None, "latest of the most frequent verdict; ``None``: never enough signal"]
     agreeing: A[int, "results with that verdict"]
     analyses: A[int, "results at all"]
 

@@ -76,10 +76,8 @@ def plan_of(scene: Scene, duration: float | None = None, settling: float | None 
     Parameters
     ----------
     scene : Scene
-    duration : float, optional
-        Compared after settling; a second or a few cage revolutions, not longer than the scene, [s].
-    settling : float, optional
-        [s].
+    duration, settling : float, optional
+        Compared (a second or a few cage revolutions, not longer than the scene), and before that, [s].
 
     Raises
     ------
@@ -140,14 +138,7 @@ def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> t
 
 
 def varied(scene: Scene, number: int) -> Scene:
-    """Change the start of a scene very slightly: end play by nanometres, cage speed by 1e-4.
-
-    Parameters
-    ----------
-    scene : Scene
-    number : int
-        0 is the scene itself.
-    """
+    """Change the start of a scene very slightly, 0 not at all: end play by nm, cage speed by 1e-4."""
     if number == 0:
         return scene
     cage: Any = scene.effects.cage
@@ -178,22 +169,14 @@ def simulate(scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
         return Run(None, np.array(walls), str(error))
     settled = math.ceil(plan.settling / (1e-9 * twin.block_ns))
     status = f"{COMPLETE}, but {describe(warnings)}" if warnings else COMPLETE
-    return Run(
-        outcome(collector.signals(), plan.edges, plan.fault_line),
-        np.array(walls[min(settled, len(walls) - 1) :]),
-        status,
-    )
+    found = outcome(collector.signals(), plan.edges, plan.fault_line)
+    return Run(found, np.array(walls[min(settled, len(walls) - 1) :]), status)
 
 
 def compile_levels(plan: Plan, levels: LevelList, progress: Progress = lambda _name, _count: None) -> None:
     """Compile the kernels of all levels, or load them from the cache, before anything is timed.
 
-    Parameters
-    ----------
-    plan : Plan
-    levels : LevelList
-    progress : callable, optional
-        Told before every level which one is next, and that one more (0 at first) is ready.
+    Before every level ``progress`` is told which one is next, and that one more (0 at first) is ready.
     """
     ready = set()
     for number, level in enumerate((levels.reference, *levels.levels)):
@@ -272,6 +255,7 @@ def climb(
         if len(truth) < 2:
             raise
         interrupted = True
+    reference = _result(levels.reference, truth, truth)
     return Ladder(
         scene=plan.scene.name,
         purpose=plan.scene.purpose,
@@ -281,9 +265,7 @@ def climb(
         edges=plan.edges,
         revolutions=plan.revolutions,
         fault_line=plan.fault_line,
-        reference=replace(
-            _result(levels.reference, truth, truth), errors=_result(levels.reference, truth[:1], truth).errors
-        ),
+        reference=replace(reference, errors=_result(levels.reference, truth[:1], truth).errors),
         neighbour=next((row for row in rows if row.level == levels.neighbour), None),
         rows=tuple(rows),
         interrupted=interrupted,
@@ -300,7 +282,5 @@ def _result(level: Level, runs: list[Run], truth: list[Run]) -> LevelResult:
     if len(outcomes) < len(runs):
         status = next(run.status for run in runs if run.outcome is None)
         return LevelResult(level, len(runs), cost, (), (), status)
-    values = tuple(
-        np.mean([found.whole[index] for found in outcomes], axis=0) for index in range(len(outcomes[0].whole))
-    )
+    values = tuple(np.mean(parts, axis=0) for parts in zip(*(found.whole for found in outcomes), strict=True))
     return LevelResult(level, len(runs), cost, errors(outcomes, reference), values, status)

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Annotated as A
 
 import numpy as np
@@ -84,15 +85,13 @@ def errors(found: Sequence[Outcome], reference: Sequence[Outcome]) -> tuple[Quan
     -------
     tuple of QuantityError, in the order of `QUANTITIES`
     """
-    parts: dict[str, list[Part]] = {quantity: [] for quantity in QUANTITIES}
-    counts = {
-        quantity: sum(len(measure.parts) for measure in MEASURES if measure.quantity == quantity)
-        for quantity in QUANTITIES
-    }
-    for index, measure in enumerate(MEASURES):
-        tail = 0.5 * (1.0 - CONFIDENCE) / counts[measure.quantity]
-        parts[measure.quantity] += _parts(measure, index, found, reference, tail)
-    return tuple(QuantityError(quantity, UNITS[quantity], tuple(parts[quantity])) for quantity in QUANTITIES)
+    results = []
+    for quantity in QUANTITIES:
+        own = [(index, each) for index, each in enumerate(MEASURES) if each.quantity == quantity]
+        tail = 0.5 * (1.0 - CONFIDENCE) / sum(len(measure.parts) for _, measure in own)
+        parts = (_parts(measure, index, found, reference, tail) for index, measure in own)
+        results.append(QuantityError(quantity, UNITS[quantity], tuple(chain.from_iterable(parts))))
+    return tuple(results)
 
 
 def _parts(
@@ -103,9 +102,8 @@ def _parts(
     if np.all(np.isnan(there)):
         return []
     scatterers = found if len(found) > 1 else reference
-    variances = np.array(
-        [variance(scatterers, index) / len(found), variance(reference, index) / len(reference)]
-    )
+    pairs = ((scatterers, found), (reference, reference))
+    variances = np.array([variance(scattered, index) / len(runs) for scattered, runs in pairs])
     windows = len(reference[0].windows)
     degrees = windows * np.array([[len(scatterers) - 1], [len(reference) - 1]])
     scale = np.ones(1) if measure.scale is None else measure.scale(there)
@@ -120,27 +118,14 @@ def _parts(
     with np.errstate(divide="ignore", invalid="ignore"):
         effective = np.where(total > 0.0, total**2 / (variances**2 / degrees).sum(axis=0), 1.0)
     band = student.isf(tail, effective) * np.sqrt(total)
-    return [
-        Part(name, float(e), float(b))
-        for name, e, b in zip(measure.parts, error, band, strict=True)
-        if math.isfinite(e)
-    ]
+    columns = zip(measure.parts, error, band, strict=True)
+    return [Part(name, float(e), float(b)) for name, e, b in columns if math.isfinite(e)]
 
 
 def variance(runs: Sequence[Outcome], index: int) -> Float:
-    """Return the variance of a component of a whole run among repeated runs.
+    """Return the variance of a measure's components among two or more runs, shape [component].
 
-    Parameters
-    ----------
-    runs : sequence of Outcome
-        Two or more.
-    index : int
-        Of the measure.
-
-    Returns
-    -------
-    float64 array, shape [component]
-        The larger of what whole runs and what equal windows of them say.
+    The larger of what whole runs and what equal windows of them say.
     """
     between = np.var(_stacked(runs, index), axis=0, ddof=1)
     windows = np.array([[window[index] for window in run.windows] for run in runs])

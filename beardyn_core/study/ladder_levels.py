@@ -38,16 +38,7 @@ class Level:
     steps_per_sample: A[float, "time steps per waveform sample (25.6 kHz), [-]"]
 
     def applied(self, scene: Scene) -> Scene:
-        """Apply this choice to a scene; bearing, load, faults and seed stay, all sensors run at 25.6 kHz.
-
-        Parameters
-        ----------
-        scene : Scene
-
-        Returns
-        -------
-        Scene
-        """
+        """Apply this choice to a scene; bearing, load, faults and seed stay, all sensors run at 25.6 kHz."""
         numerics = Numerics(self.laminae, self.steps_per_sample)
         sensors = tuple(replace(sensor, rate=RATES[0]) for sensor in scene.sensors)
         return replace(scene, tier=self.tier, effects=self.effects, numerics=numerics, sensors=sensors)
@@ -84,69 +75,41 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
         Few levels, and none with effects that the shipped presets do not have.
     each_effect : bool
         Also `full` less each of its effects in turn.
-
-    Returns
-    -------
-    LevelList
     """
     full, standard, dry = (load_effects(name) for name in ("full", "standard", "dry"))
     reference = replace(_level("full", "full", full, REFERENCE_LAMINAE, REFERENCE_STEPS), name="reference")
     neighbour = _level("full", "full", full, REFERENCE_LAMINAE // 2, REFERENCE_STEPS // 2)
     lumped, balanced, usual = (TIERS[name].steps_per_sample for name in ("lumped", "quasistatic", "full"))
-    fast: dict[str, tuple[tuple[int, int], ...]] = {"lumped": ((6, lumped),), "quasistatic": ((6, balanced),)}
-    steps: dict[str, tuple[EffectSet, tuple[tuple[int, int], ...]]] = {
-        "dry": (dry, ((6, usual_steps(dry, 6)),)),
-        "standard": (standard, ((6, usual),)),
-        "full": (full, ((6, usual),)),
+    fast: dict[str, list[tuple[int, int]]] = {"lumped": [(6, lumped)], "quasistatic": [(6, balanced)]}
+    steps: dict[str, tuple[EffectSet, list[tuple[int, int]]]] = {
+        "dry": (dry, [(6, usual_steps(dry, 6))]),
+        "standard": (standard, [(6, usual)]),
+        "full": (full, [(6, usual)]),
     }
     if not quick:
         fast = {
-            "lumped": ((1, lumped), (6, lumped), (6, 4 * lumped)),
-            "quasistatic": (
-                (3, balanced),
-                (6, balanced),
-                (6, 2 * balanced),
-                (6, 4 * balanced),
-                (20, balanced),
-            ),
+            "lumped": [(1, lumped), (6, lumped), (6, 4 * lumped)],
+            "quasistatic": [(3, balanced), *((6, count * balanced) for count in (1, 2, 4)), (20, balanced)],
         }
-        losses = {name: getattr(full, name) for name in ("rolling_resistance", "drag", "seal")}
-        lossy = replace(standard, **losses)
+        lossy = replace(
+            standard, **{name: getattr(full, name) for name in ("rolling_resistance", "drag", "seal")}
+        )
+        flexible = replace(lossy, ring_flexibility=full.ring_flexibility)
+        six = [(3, usual), (6, 2), (6, 3), (6, usual), (6, 2 * usual)]
         steps |= {
-            "standard": (
-                standard,
-                ((3, usual), (6, 2), (6, 3), (6, usual), (6, 2 * usual), (20, usual)),
-            ),
-            "standard + losses": (lossy, ((6, usual),)),
-            "standard + losses + ring_flexibility": (
-                replace(lossy, ring_flexibility=full.ring_flexibility),
-                ((6, usual),),
-            ),
-            "full - lamina_coupling": (replace(full, lamina_coupling=None), ((6, usual),)),
-            "full": (
-                full,
-                (
-                    (3, usual),
-                    (6, 2),
-                    (6, 3),
-                    (6, usual),
-                    (6, 2 * usual),
-                    (6, 4 * usual),
-                    (10, usual),
-                ),
-            ),
+            "standard": (standard, [*six, (20, usual)]),
+            "standard + losses": (lossy, [(6, usual)]),
+            "standard + losses + ring_flexibility": (flexible, [(6, usual)]),
+            "full - lamina_coupling": (replace(full, lamina_coupling=None), [(6, usual)]),
+            "full": (full, [*six, (6, 4 * usual), (10, usual)]),
         }
     if each_effect:
-        steps |= {f"full - {name}": (less, ((6, usual),)) for name, less in _one_less(full)}
+        steps |= {f"full - {name}": (less, [(6, usual)]) for name, less in _one_less(full)}
+    rows: list[tuple[str, str, EffectSet, list[tuple[int, int]]]] = []
+    rows += [(tier, _FAST_EFFECTS, standard, choices) for tier, choices in fast.items()]
+    rows += [("full", name, effects, choices) for name, (effects, choices) in steps.items()]
     found = [
-        _level(tier, _FAST_EFFECTS, standard, laminae, count)
-        for tier, choices in fast.items()
-        for laminae, count in choices
-    ]
-    found += [
-        _level("full", name, effects, laminae, count)
-        for name, (effects, choices) in steps.items()
-        for laminae, count in choices
+        _level(tier, name, effects, *choice) for tier, name, effects, choices in rows for choice in choices
     ]
     found.append(neighbour)
     known = {effects: name for name, (effects, _) in steps.items()}
@@ -157,16 +120,7 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
 
 
 def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
-    """Make a level of a scene's own tier, effects, laminae and step.
-
-    Parameters
-    ----------
-    scene : Scene
-    effects_name : str
-        What its effects are called.
-    name : str, optional
-        Of the level; from its choices when left out.
-    """
+    """Make a level of a scene's own tier, effects, laminae and step; its name says these when left out."""
     numerics = scene.numerics
     level = _level(scene.tier, effects_name, scene.effects, numerics.laminae, numerics.steps_per_sample)
     return replace(level, name=name) if name else level
@@ -175,13 +129,7 @@ def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
 def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
     """Choose for a scene as `effects: auto` does, whatever the scene is computed with itself.
 
-    Parameters
-    ----------
-    scene : Scene
-    accuracy : float
-        Asked for, [-].
-    asked : tuple of str
-        Quantities that it is asked of; a fault line is asked of the vibration.
+    The accuracy is a share; a fault line is asked of the vibration.
     """
     wanted = {_CHOSEN_AS.get(name, name) for name in asked}
     quantities = tuple(name for name in QUANTITIES if name in wanted)

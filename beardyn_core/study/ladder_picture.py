@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
@@ -38,15 +37,9 @@ class _Point:
 
 
 def ladder_picture(ladder: Ladder, path: Path) -> None:
-    """Draw the worst of the asked errors, in units of its limit, against wall time per simulated second.
+    """Draw the worst of the asked errors, in units of its limit, against wall time, to a PNG.
 
     Beside it each quantity alone, in its own unit.
-
-    Parameters
-    ----------
-    ladder : Ladder
-    path : Path
-        Where the PNG goes.
     """
     ladder_figure(ladder).savefig(path, dpi=DPI, format="png")
 
@@ -54,7 +47,6 @@ def ladder_picture(ladder: Ladder, path: Path) -> None:
 def ladder_figure(ladder: Ladder) -> Figure:
     """Draw the picture as a figure; its first axes are the main panel."""
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
-    FigureCanvasAgg(figure)
     left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.65, 1.0))[0]
     names = list(dict.fromkeys(row.level.effects_name for row in (*ladder.rows, ladder.reference)))
     colours = {name: _COLOURS[i % len(_COLOURS)] for i, name in enumerate(names)}
@@ -100,16 +92,10 @@ def _side_panel(axes: Axes, ladder: Ladder, quantity: str, colours: dict[str, st
 
 
 def _panel(
-    axes: Axes,
-    ladder: Ladder,
-    points: list[_Point],
-    limit: float,
-    colours: dict[str, str],
-    size: float = 8.0,
+    axes: Axes, ladder: Ladder, points: list[_Point], limit: float, colours: dict[str, str], size: float = 8.0
 ) -> None:
     """Draw points with their bands on logarithmic axes, the limit, and the good region below it."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     lowest = _LOWEST * limit
     heights = [max(point.value, lowest) for point in points] or [limit]
     bottom, top = min(0.5 * min(heights), 0.6 * limit), max(1.8 * max(heights), 2.0 * limit)
@@ -159,13 +145,12 @@ def _dress(axes: Axes, ladder: Ladder, points: list[_Point], colours: dict[str, 
     for name in dict.fromkeys(point.row.level.effects_name for point in points):
         axes.plot([], [], color=colours[name], lw=6, label=f"effects {name}")
     axes.plot([], [], color="0.4", marker="o", mfc="white", ls="none", label="not resolved")
-    axes.set_xlabel("wall time per simulated second [s]")
-    axes.set_ylabel("worst of the asked errors, in units of its limit")
-    asked = ", ".join(ladder.asked)
-    axes.set_title(
-        f"{ladder.scene}: accuracy against wall time\nasked: {asked}; bars: run-to-run band",
-        fontsize=11, loc="left",
-    )  # fmt: skip
+    axes.set(xlabel="wall time per simulated second [s]")
+    axes.set(ylabel="worst of the asked errors, in units of its limit")
+    title = (
+        f"{ladder.scene}: accuracy against wall time\nasked: {', '.join(ladder.asked)}; bars: run-to-run band"
+    )
+    axes.set_title(title, fontsize=11, loc="left")
     axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.09), frameon=False, ncols=4)
     _name(axes, efficient, ladder)
 

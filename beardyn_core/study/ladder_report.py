@@ -6,13 +6,14 @@ import math
 import os
 import platform
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from beardyn_core.model.build import WAVEFORM_RATE
-from beardyn_core.study.ladder_errors import BAND_LIMIT_DB, Part, QuantityError
+from beardyn_core.study.ladder_errors import BAND_LIMIT_DB, QuantityError
 from beardyn_core.study.ladder_levels import AUTO, OF_THE_SCENE, Level
 from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS
@@ -91,12 +92,8 @@ def convergence(ladder: Ladder) -> str:
     """Say how far the reference is converged; empty when its neighbour was not run."""
     if ladder.neighbour is None:
         return ""
-    differences = [
-        f"{error.quantity} {error_text(error)} {error.unit}"
-        for error in ladder.neighbour.errors
-        if error.worst is not None
-    ]
-    name = ladder.neighbour.level.name
+    name, errors = ladder.neighbour.level.name, ladder.neighbour.errors
+    differences = [f"{e.quantity} {error_text(e)} {e.unit}" for e in errors if e.worst is not None]
     sentence = f"the reference with half of its laminae and twice its step ({name}): {', '.join(differences)}"
     if ladder.unconverged:
         sentence += f"; not converged within {percent(ladder.accuracy)}: {', '.join(ladder.unconverged)}"
@@ -105,21 +102,17 @@ def convergence(ladder: Ladder) -> str:
 
 def closing(ladder: Ladder) -> list[str]:
     """Write the conclusion below the table."""
-    best = ladder.cheapest
+    best, rows = ladder.cheapest, (ladder.reference, *ladder.rows)
+    undecided = [row.level.name for row in ladder.rows if ladder.verdict(row) == "open"]
+    found = "none" + (f"; open: {'; '.join(undecided)}" if undecided else "")
     if best is not None:
         found = f"{best.level.name}, {best.cost.median:.2f} s for each simulated second"
-    else:
-        undecided = [row.level.name for row in ladder.rows if ladder.verdict(row) == "open"]
-        found = "none" + (f"; open: {'; '.join(undecided)}" if undecided else "")
-    lines = [f"cheapest level within {percent(ladder.accuracy)}: {found}", *choices(ladder)]
-    lines += [
-        f"{row.level.name}: {row.status}"
-        for row in (ladder.reference, *ladder.rows)
-        if row.status != "complete"
+    return [
+        f"cheapest level within {percent(ladder.accuracy)}: {found}",
+        *choices(ladder),
+        *(f"{row.level.name}: {row.status}" for row in rows if row.status != "complete"),
+        *(["interrupted: some levels are missing"] if ladder.interrupted else []),
     ]
-    if ladder.interrupted:
-        lines.append("interrupted: some levels are missing")
-    return lines
 
 
 def choices(ladder: Ladder) -> list[str]:
@@ -136,10 +129,9 @@ def choices(ladder: Ladder) -> list[str]:
 def _effects_text(ladder: Ladder, level: Level) -> str:
     """Name the effects, or their differences from those of the reference."""
     held, absent, other = _against_reference(ladder, level)
+    text = "full" + (f" less {', '.join(absent)}" if absent else "")
     if len(absent) > len(held):
         text = ", ".join(held)
-    else:
-        text = "full" + (f" less {', '.join(absent)}" if absent else "")
     return text + (f"; with other parameters than in full: {', '.join(other)}" if other else "")
 
 
@@ -153,13 +145,15 @@ def _against_reference(ladder: Ladder, level: Level) -> tuple[list[str], list[st
 
 def table(ladder: Ladder) -> str:
     """Write a readable table with heading and legend."""
-    names = [*(f"{quantity} {UNITS[quantity]}" for quantity in QUANTITIES)]
+    names = [f"{quantity} {UNITS[quantity]}" for quantity in QUANTITIES]
     widths = [len(name) + 2 for name in names]
     efficient = {row.level.name for row in ladder.efficient}
-    good = f"{percent(ladder.accuracy)}"
     wide = 2 + max(len(name) for name in (_BAND_ROW, *(row.level.name for row in ladder.rows)))
     head = f"{'level':{wide}}{'wall':>8}{'RTF':>8}"
-    head += "".join(f"{name:>{width}}" for name, width in zip(names, widths, strict=True)) + f"{good:>7}"
+    head += (
+        "".join(f"{name:>{width}}" for name, width in zip(names, widths, strict=True))
+        + f"{percent(ladder.accuracy):>7}"
+    )
 
     def line(row: LevelResult, name: str, texts: Sequence[str], verdict: str) -> str:
         wall = row.cost.median
@@ -189,9 +183,7 @@ def json_object(ladder: Ladder) -> dict[str, Any]:
             "settling_s": ladder.settling,
             "window_edges_s": ladder.edges,
             "cage_revolutions": ladder.revolutions,
-            "fault_line": None
-            if ladder.fault_line is None
-            else {"name": ladder.fault_line.name, "order": ladder.fault_line.order},
+            "fault_line": None if ladder.fault_line is None else asdict(ladder.fault_line),
         },
         "accuracy": ladder.accuracy,
         "quantities": ladder.asked,
@@ -234,24 +226,18 @@ def _row(ladder: Ladder, row: LevelResult) -> dict[str, Any]:
 
 
 def _error(error: QuantityError) -> dict[str, Any]:
-    worst = error.worst
-    assert worst is not None
-    return {
-        "unit": "share" if error.unit == "%" else error.unit,
-        "worst": _part(worst),
-        "parts": [_part(part) for part in error.parts],
-    }
-
-
-def _part(part: Part) -> dict[str, Any]:
-    return {"name": part.name, "error": part.error, "band": part.band, "resolved": part.resolved}
+    assert error.worst is not None
+    worst, *parts = (
+        {"name": part.name, "error": part.error, "band": part.band, "resolved": part.resolved}
+        for part in (error.worst, *error.parts)
+    )
+    return {"unit": "share" if error.unit == "%" else error.unit, "worst": worst, "parts": parts}
 
 
 def _version(name: str) -> str:
-    try:
+    with suppress(PackageNotFoundError):
         return version(name)
-    except PackageNotFoundError:
-        return "source"
+    return "source"
 
 
 def machine() -> dict[str, Any]:

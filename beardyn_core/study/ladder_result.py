@@ -50,10 +50,7 @@ class LevelResult:
     runs: A[int, "how often it was run"]
     cost: Cost
     errors: A[tuple[QuantityError, ...], "empty when a run left the model's validity"]
-    values: A[
-        tuple[Float, ...],
-        "one of `measures.MEASURES` each, means over the runs of what the errors are made of; empty likewise",
-    ]
+    values: A[tuple[Float, ...], "one of `measures.MEASURES` each, means over the runs; empty likewise"]
     status: A[str, "``complete``, with warnings if there were any, or how a run ended"]
 
     def of(self, quantity: str) -> QuantityError | None:
@@ -63,13 +60,9 @@ class LevelResult:
     def score(self, asked: tuple[str, ...], accuracy: float) -> Score | None:
         """Return the worst of the asked errors; ``None`` when a run left the model's validity."""
         found = [
-            Score(
-                error.quantity,
-                abs(error.worst.error) / error.limit(accuracy),
-                error.worst.band / error.limit(accuracy),
-            )
+            Score(error.quantity, abs(worst.error) / limit, worst.band / limit)
             for error in self.errors
-            if error.quantity in asked and error.worst is not None
+            if error.quantity in asked and (worst := error.worst) and (limit := error.limit(accuracy))
         ]
         return max(found, key=lambda score: score.value, default=None)
 
@@ -99,10 +92,7 @@ class Ladder:
     revolutions: A[int, "whole cage revolutions from the first to the last edge; 0 when there is none"]
     fault_line: FaultLine | None
     reference: A[LevelResult, "its errors are those of its first run against the mean of all"]
-    neighbour: A[
-        LevelResult | None,
-        "the reference with half of its laminae and twice its step: how far the reference is converged",
-    ]
+    neighbour: A[LevelResult | None, "the reference with half of its laminae and twice its step"]
     rows: A[tuple[LevelResult, ...], "the levels in the order in which they were run"]
     interrupted: A[bool, "whether levels are missing"] = False
 
@@ -132,10 +122,9 @@ class Ladder:
 
         As good is what is not worse by more than the run-to-run band and a tenth.
         """
-        scored = [(row.cost.median, row, score) for row in self.rows if (score := self.score(row))]
-        scored.sort(key=lambda item: item[0])
         kept: list[tuple[LevelResult, Score]] = []
-        for _, row, score in scored:
+        scored = [(row, score) for row in self.rows if (score := self.score(row))]
+        for row, score in sorted(scored, key=lambda pair: pair[0].cost.median):
             if all(_better(score, cheaper) for _, cheaper in kept):
                 kept.append((row, score))
         return tuple(row for row, _ in kept)

@@ -153,13 +153,9 @@ class Measure:
 
     quantity: A[str, "what it belongs to: a column of the ladder"]
     parts: A[tuple[str, ...], "names of its components; a single one when they are folded"]
-    take: A[
-        Callable[[Signals, FaultLine | None], Float],
-        "components from the signals and the scene's fault line",
-    ]
+    take: A[Callable[[Signals, FaultLine | None], Float], "components from the signals and the fault line"]
     scale: A[
-        Callable[[Float], Float] | None,
-        "what an error is relative to, from the reference's components; ``None``: levels in dB",
+        Callable[[Float], Float] | None, "of an error, from the reference's parts; ``None``: levels in dB"
     ]
     weighed: A[
         Callable[[Float], NDArray[np.bool_]] | None,
@@ -191,7 +187,12 @@ def _line(signals: Signals, line: FaultLine | None) -> Float:
     return np.array([np.nan if line is None else line_level(signals, line.order)])
 
 
+def _distribution(signals: Signals, _line: FaultLine | None) -> Float:
+    return load_distribution(signals.roller_azimuth, signals.roller_load).ravel()
+
+
 _AXES = ("mean x", "mean y", "mean z")
+_BANDS = tuple(f"{band:g} Hz" for band in NOMINAL_BANDS)
 MEASURES = (
     Measure("force", _AXES, lambda s, _: s.force.mean(axis=0), _length),
     Measure("force", ("99 %",), lambda s, _: _high(np.linalg.norm(s.force, axis=1)), _length),
@@ -199,20 +200,9 @@ MEASURES = (
     Measure("deflection", ("99 %",), lambda s, _: _high(np.linalg.norm(s.deflection, axis=1)), _length),
     Measure("roller_load", ("largest, mean",), lambda s, _: _largest_load(s).mean(keepdims=True), _length),
     Measure("roller_load", ("largest, 99 %",), lambda s, _: _high(_largest_load(s)), _length),
-    Measure(
-        "roller_load",
-        ("rms over the load zone",),
-        lambda s, _: load_distribution(s.roller_azimuth, s.roller_load).ravel(),
-        _largest,
-        _load_zone,
-    ),
+    Measure("roller_load", ("rms over the load zone",), _distribution, _largest, _load_zone),
     Measure("torque", ("mean",), lambda s, _: s.torque.mean(keepdims=True), _length),
-    Measure(
-        "vibration",
-        tuple(f"{band:g} Hz" for band in NOMINAL_BANDS),
-        lambda s, _: third_octave_levels(s.acceleration),
-        None,
-    ),
+    Measure("vibration", _BANDS, lambda s, _: third_octave_levels(s.acceleration), None),
     Measure("cage_speed", ("row 0", "row 1"), lambda s, _: s.cage_speed.mean(axis=0), np.abs),
     Measure("fault_line", ("envelope",), _line, None),
 )

@@ -66,10 +66,8 @@ class MonitoredRecording(McapSink):
             return
         finding = Finding.of(result)
         self.findings.append(finding)
-        status = finding.to_diagnostic(MONITOR_STATUS)
-        self._opened().add(
-            "monitor/result", result.end_ns, encode_diagnostics(result.end_ns, FRAME, [status])
-        )
+        message = encode_diagnostics(result.end_ns, FRAME, [finding.to_diagnostic(MONITOR_STATUS)])
+        self._opened().add("monitor/result", result.end_ns, message)
         if self._on_finding is not None:
             self._on_finding(finding)
 
@@ -80,17 +78,9 @@ def findings_of(
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
 ) -> list[Finding]:
-    """Let a monitor analyse a finished run, as it would have done beside it.
+    """Let a monitor, ours or another, analyse a finished run, as it would have done beside it.
 
-    Parameters
-    ----------
-    run : Run
-        Vibration, shaft, load and temperature of it are used.
-    bearing : Bearing
-        What the name plate says.
-    algorithm : function, optional
-        In place of the reference chain.
-    settings : MonitorSettings, optional
+    The bearing is what the name plate says.
 
     Raises
     ------
@@ -99,7 +89,6 @@ def findings_of(
     """
     if not len(run.vibration) or not len(run.shaft):
         raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
-    monitor = Monitor(
-        fault_frequencies(bearing), bearing.roller_count, settings=settings, algorithm=algorithm
-    )
+    orders, count = fault_frequencies(bearing), bearing.roller_count
+    monitor = Monitor(orders, count, settings=settings, algorithm=algorithm)
     return [Finding.of(result) for result in listen(monitor, run.monitor_inputs())]

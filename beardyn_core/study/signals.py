@@ -40,19 +40,8 @@ class Signals:
             slice(*np.searchsorted(times, (start - 1e-9, end - 1e-9)))
             for times in (self.trend_time, self.snapshot_time, self.wave_time)
         )
-        return Signals(
-            self.trend_time[trend],
-            self.force[trend],
-            self.torque[trend],
-            self.shaft_angle[trend],
-            self.cage_speed[trend],
-            self.snapshot_time[snapshot],
-            self.deflection[snapshot],
-            self.roller_azimuth[snapshot],
-            self.roller_load[snapshot],
-            self.wave_time[wave],
-            self.acceleration[wave],
-        )
+        cuts = 5 * [trend] + 4 * [snapshot] + 2 * [wave]  # in the order of the fields
+        return Signals(*(values[cut] for values, cut in zip(vars(self).values(), cuts, strict=True)))
 
 
 class SignalCollector:

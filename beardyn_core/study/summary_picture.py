@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
 
@@ -20,14 +20,6 @@ _AXIS_COLOURS = ("#4C72B0", "#55A868", "#C44E52")
 _ROW_COLOURS = ("#C44E52", "#4C72B0")
 _FAULT_COLOURS = {"BPFO": "#C44E52", "BPFI": "#4C72B0", "2 BSF": "#DD8452", "FTF": "#8172B3"}
 _HARMONICS = 4
-
-
-@dataclass(frozen=True)
-class FaultMarker:
-    """A fault frequency to mark in the envelope spectrum."""
-
-    name: A[str, "``BPFO``, ``BPFI``, ``2 BSF`` or ``FTF``"]
-    order: A[float, "per shaft revolution, [-]"]
 
 
 @dataclass(frozen=True)
@@ -45,21 +37,13 @@ class SummaryData:
     roller_load: A[Float, "the shape of ``roller_azimuth``, normal load between cup and roller, [N]"]
     envelope_order: A[Float, "shape [line], cycles per shaft revolution, [-]"]
     envelope_amplitude: A[Float, "shape [line], amplitude of the envelope, [m/s^2]"]
-    markers: tuple[FaultMarker, ...]
+    markers: A[Mapping[str, float], "``BPFO``, ``BPFI``, ``2 BSF``, ``FTF``: order per shaft revolution, [-]"]
     shaft_frequency: A[float, "mean during the analysis, for the frequency scale, [Hz]"]
 
 
 def summary_picture(data: SummaryData, path: Path) -> None:
-    """Draw the picture, 1600 x 1000 pixels.
-
-    Parameters
-    ----------
-    data : SummaryData
-    path : Path
-        Where the PNG goes.
-    """
+    """Draw the picture, 1600 x 1000 pixels, to a PNG."""
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
-    FigureCanvasAgg(figure)
     figure.suptitle(f"{data.title}\n{data.verdict}", fontsize=15)
     left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.75, 1.0))[0]
     forces, speeds, spectrum = left.subplots(3, 1, height_ratios=(1.0, 0.7, 1.3))
@@ -100,46 +84,36 @@ def _draw_speeds(axes: Axes, data: SummaryData) -> None:
 
 
 def _draw_spectrum(axes: Axes, data: SummaryData) -> None:
-    highest = (_HARMONICS + 0.5) * max((marker.order for marker in data.markers), default=10.0)
+    highest = (_HARMONICS + 0.5) * max(data.markers.values(), default=10.0)
     shown = (data.envelope_order <= highest) & (data.envelope_order > 0.1)
     order, amplitude = data.envelope_order[shown], data.envelope_amplitude[shown]
     axes.plot(order, amplitude, color="0.25", lw=0.8)
     top = 1.25 * float(amplitude.max(initial=0.0)) or 1.0
-    axes.set_ylim(0.0, top)
-    axes.set_xlim(0.0, highest)
-    for level, marker in enumerate(data.markers):
-        colour = _FAULT_COLOURS.get(marker.name, "0.5")
-        harmonics = 1 if marker.name == "FTF" else _HARMONICS
-        for h in range(1, harmonics + 1):
-            axes.axvline(
-                h * marker.order, color=colour, lw=1.1, ls="--", alpha=0.9 if h == 1 else 0.45, zorder=0
-            )
-            text = f" {marker.name}" if h == 1 else f" {h}x"
-            # one line of text a marker: neighbours such as 2 BSF and BPFO do not overlap
-            axes.text(
-                h * marker.order, top * (0.985 - 0.062 * level), text, color=colour, fontsize=8.5, va="top"
-            )
-    axes.set_xlabel("order [cycles per shaft revolution]")
-    axes.set_ylabel("envelope [m/s²]")
+    axes.set(xlim=(0.0, highest), ylim=(0.0, top))
+    for level, (name, marked) in enumerate(data.markers.items()):
+        colour = _FAULT_COLOURS.get(name, "0.5")
+        # one line of text a marker: neighbours such as 2 BSF and BPFO do not overlap
+        height = top * (0.985 - 0.062 * level)
+        for h in range(1, 1 + (1 if name == "FTF" else _HARMONICS)):
+            fade = 0.9 if h == 1 else 0.45
+            axes.axvline(h * marked, color=colour, lw=1.1, ls="--", alpha=fade, zorder=0)
+            text = f" {name}" if h == 1 else f" {h}x"
+            axes.text(h * marked, height, text, color=colour, fontsize=8.5, va="top")
+    axes.set(xlabel="order [cycles per shaft revolution]", ylabel="envelope [m/s²]")
     axes.set_title("Envelope spectrum of the axlebox vibration", fontsize=11, loc="left")
     axes.grid(alpha=0.3)
     if data.shaft_frequency > 0.0:
         rate = data.shaft_frequency
-
-        def frequency_of(order: ArrayLike) -> Float:
-            return np.asarray(order, dtype=np.float64) * rate
-
-        def order_of(frequency: ArrayLike) -> Float:
-            return np.asarray(frequency, dtype=np.float64) / rate
-
-        scale = axes.secondary_xaxis("top", functions=(frequency_of, order_of))
+        both_ways = (lambda order: np.asarray(order) * rate, lambda hertz: np.asarray(hertz) / rate)
+        scale = axes.secondary_xaxis("top", functions=both_ways)
         scale.set_xlabel(f"frequency [Hz] at {rate:.2f} Hz shaft speed", fontsize=9)
         scale.tick_params(labelsize=8)
 
 
 def _draw_load_zone(axes: PolarAxes, data: SummaryData) -> None:
-    azimuth = np.atleast_3d(data.roller_azimuth.T).T if data.roller_azimuth.ndim == 2 else data.roller_azimuth
-    load = np.atleast_3d(data.roller_load.T).T if data.roller_load.ndim == 2 else data.roller_load
+    azimuth, load = (
+        values[None] if values.ndim == 2 else values for values in (data.roller_azimuth, data.roller_load)
+    )
     # azimuth 0 is up (+z), and forward (+x) is drawn to the right
     axes.set_theta_zero_location("N")
     axes.set_theta_direction(-1)

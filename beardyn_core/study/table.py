@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import Any
+
+Column = tuple[str, Callable[[Any], str]]
 
 
 @dataclass(frozen=True)
@@ -14,6 +18,12 @@ class Table:
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     remarks: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, title: str, items: Iterable[Any], columns: Iterable[Column], *remarks: str) -> Table:
+        """Make a row of each item; a column is its heading and what writes the cell of an item."""
+        head, cells = zip(*columns, strict=True)
+        return cls(title, head, tuple(tuple(cell(item) for cell in cells) for item in items), remarks)
 
     def text(self) -> str:
         """Write for the terminal: first column to the left, the others to the right."""

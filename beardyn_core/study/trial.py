@@ -7,9 +7,9 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from contextlib import closing, contextmanager, suppress
 from dataclasses import asdict, dataclass
 from multiprocessing import connection, get_context, parent_process
 from pathlib import Path
@@ -39,11 +39,7 @@ class Plan:
     algorithm: A[str, "``module:function``, '' for ours"]
     digests: A[dict[str, str], "of every run, by the key of its cell"]
     kept: A[dict[str, TrialRun], "runs of an earlier go whose digest is still the same, by key"]
-    outdated: A[
-        int,
-        "runs of an earlier go whose code or files have changed since; they are run again, and stay in the "
-        "folder until then",
-    ] = 0
+    outdated: A[int, "runs of an earlier go, of other code or files; kept until they are run again"] = 0
     fresh: A[bool, "whether the folder starts over"] = False
 
     @property
@@ -54,17 +50,9 @@ class Plan:
 
 
 def plan_of(trial: Trial, algorithm: str, folder: Path | None, *, force: bool = False) -> Plan:
-    """Plan the runs that a folder does not hold yet.
+    """Plan the runs that a folder does not hold yet; ``force``: it starts over, whatever it holds.
 
-    Parameters
-    ----------
-    trial : Trial
-    algorithm : str
-        ``module:function``, '' for ours.
-    folder : Path or None
-        Where runs are kept.
-    force : bool
-        Whether the folder starts over, whatever it holds.
+    The algorithm is ``module:function``, '' for ours.
 
     Raises
     ------
@@ -93,14 +81,12 @@ def identity(trial: Trial, algorithm: str) -> dict[str, Any]:
 
 
 def read_runs(path: Path) -> list[TrialRun]:
-    """Read the runs in a file of JSON lines; a line that was cut off is ignored.
-
-    Parameters
-    ----------
-    path : Path
-        Need not exist.
-    """
-    return [run for run in map(_run_of, _lines(path)) if run is not None]
+    """Read the runs in a file of JSON lines, if it exists; a line that was cut off is ignored."""
+    found = []
+    for content in _lines(path):
+        with suppress(ValueError, TypeError, KeyError):
+            found.append(TrialRun.from_json(content))
+    return found
 
 
 def _lines(path: Path) -> list[dict[str, Any]]:
@@ -108,20 +94,9 @@ def _lines(path: Path) -> list[dict[str, Any]]:
         return []
     found = []
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
-        try:
-            content = json.loads(line)
-        except ValueError:
-            continue
-        if isinstance(content, dict):
-            found.append(content)
-    return found
-
-
-def _run_of(content: dict[str, Any]) -> TrialRun | None:
-    try:
-        return TrialRun.from_json(content)
-    except (ValueError, TypeError, KeyError):
-        return None
+        with suppress(ValueError):
+            found.append(json.loads(line))
+    return [content for content in found if isinstance(content, dict)]
 
 
 def _other_trial(
@@ -156,7 +131,7 @@ def warm(trial: Trial) -> None:
 
 
 def conduct(plan: Plan, folder: Path | None, jobs: int, progress: Progress) -> list[TrialRun]:
-    """Simulate the missing runs and save each as it ends.
+    """Simulate the missing runs, save each as it ends; return all in the order of the matrix.
 
     Parameters
     ----------
@@ -167,53 +142,41 @@ def conduct(plan: Plan, folder: Path | None, jobs: int, progress: Progress) -> l
         Processes.
     progress : callable
         Told of every run that ends.
-
-    Returns
-    -------
-    list of TrialRun
-        In the order of the matrix; those there are, when interrupted by `KeyboardInterrupt`.
     """
     runs = dict(plan.kept)
-    missing = plan.missing
-    if missing or plan.fresh:
+    if plan.missing or plan.fresh:
         keep = _Keeper(plan, folder)
         try:
-            if jobs == 1:
-                for cell in missing:
-                    run = conduct_run(plan.trial, cell, plan.algorithm, plan.digests[cell.key])
+            with closing(_in_turn(plan) if jobs == 1 else _at_once(plan, jobs)) as ended:
+                for run in ended:
                     runs[run.key] = keep(run)
                     progress(run)
-            elif missing:
-                _gather(plan, missing, jobs, runs, keep, progress)
             keep.tidy(runs)
         finally:
             keep.close()
     return [runs[cell.key] for cell in plan.trial.cells() if cell.key in runs]
 
 
-def _gather(
-    plan: Plan,
-    missing: Sequence[Cell],
-    jobs: int,
-    runs: dict[str, TrialRun],
-    keep: _Keeper,
-    progress: Progress,
-) -> None:
+def _in_turn(plan: Plan) -> Generator[TrialRun, None, None]:
+    for cell in plan.missing:
+        yield conduct_run(plan.trial, cell, plan.algorithm, plan.digests[cell.key])
+
+
+def _at_once(plan: Plan, jobs: int) -> Generator[TrialRun, None, None]:
     """Conduct runs on several processes, which end with the first failure or interrupt."""
+    if not plan.missing:
+        return
     others = set(multiprocessing.active_children())
     pool = ProcessPoolExecutor(jobs, get_context("spawn"), _quiet_worker, (os.getcwd(),))
     try:
-        waiting: set[Future[TrialRun]] = set()
         with _interrupts_held():  # the processes that begin here inherit it
-            for cell in missing:
-                digest = plan.digests[cell.key]
-                waiting.add(pool.submit(conduct_run, plan.trial, cell, plan.algorithm, digest))
+            waiting = {
+                pool.submit(conduct_run, plan.trial, cell, plan.algorithm, plan.digests[cell.key])
+                for cell in plan.missing
+            }
         while waiting:
             done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-            for future in done:
-                run = future.result()
-                runs[run.key] = keep(run)
-                progress(run)
+            yield from (future.result() for future in done)
     except BaseException:
         pool.shutdown(wait=False, cancel_futures=True)
         for process in set(multiprocessing.active_children()) - others:
@@ -250,14 +213,14 @@ class _Keeper:
     def __call__(self, run: TrialRun) -> TrialRun:
         if self._file is not None:
             with self._disk():
-                self._write(json.dumps(run.to_json()) + "\n")
+                self._write(json.dumps(asdict(run)) + "\n")
         self._kept += 1
         return run
 
     def tidy(self, runs: dict[str, TrialRun]) -> None:
         """Drop the outdated runs, now that each of them has been run again."""
         if self._path is not None and self._plan.outdated:
-            lines = [json.dumps(runs[cell.key].to_json()) + "\n" for cell in self._plan.trial.cells()]
+            lines = [json.dumps(asdict(runs[cell.key])) + "\n" for cell in self._plan.trial.cells()]
             with self._disk():
                 write_whole(self._path, "".join([self._about, *lines]))
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullLocator
 
@@ -20,21 +19,13 @@ _APART = 1.03  # by which neighbours are moved, so that their bars do not cover 
 
 
 def trial_picture(result: TrialResult, path: Path) -> None:
-    """Draw detection rates with their intervals, and every run's score.
-
-    Parameters
-    ----------
-    result : TrialResult
-    path : Path
-        Where the PNG goes.
-    """
+    """Draw detection rates with their intervals, and every run's score, to a PNG."""
     trial_figure(result).savefig(path, dpi=DPI, format="png")
 
 
 def trial_figure(result: TrialResult) -> Figure:
     """Draw a figure of two axes: rates, scores."""
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
-    FigureCanvasAgg(figure)
     rates, scores = figure.subplots(1, 2)
     _draw_rates(rates, result)
     _draw_scores(scores, result)
@@ -55,18 +46,10 @@ def _draw_rates(axes: Axes, result: TrialResult) -> None:
         value = [row.found.value for row in own]
         below = [max(0.0, row.found.value - row.found.low) for row in own]
         above = [max(0.0, row.found.high - row.found.value) for row in own]
-        axes.errorbar(
-            width,
-            value,
-            (below, above),
-            marker="o",
-            capsize=3,
-            color=_COLOURS[fault],
-            label=f"spall on {fault}",
-        )
+        label = f"spall on {fault}"
+        axes.errorbar(width, value, (below, above), marker="o", capsize=3, color=_COLOURS[fault], label=label)
     axes.axhline(FOUND_AT, color="0.6", linewidth=0.8, linestyle="--")
-    axes.set_ylim(-0.03, 1.03)
-    axes.set_ylabel("found and named right, with 95 % interval")
+    axes.set(ylim=(-0.03, 1.03), ylabel="found and named right, with 95 % interval")
     _size_axis(axes, result)
     axes.legend(loc="upper left")
 

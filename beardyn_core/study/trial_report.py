@@ -2,34 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
 from beardyn_core.observe.chain import MonitorSettings
-from beardyn_core.scene.trial import HEALTHY, Cell
-from beardyn_core.study.trial_result import CONFIDENCE, FOUND_AT, Rate, SizeRow, Smallest, TrialResult
-
-Where = Callable[[Cell], bool]
+from beardyn_core.scene.trial import HEALTHY
+from beardyn_core.study.trial_result import (
+    CONFIDENCE,
+    FOUND_AT,
+    Rate,
+    Smallest,
+    TrialResult,
+    Where,
+    everywhere,
+    false_alarms,
+)
 
 
 def table(result: TrialResult) -> str:
-    """Print the result for a terminal.
-
-    Parameters
-    ----------
-    result : TrialResult
-    """
+    """Write the result for the terminal."""
     return "\n".join(_lines(result))
 
 
 def slices(result: TrialResult) -> list[tuple[str, Where]]:
     """List speeds, tracks and wheels of the matrix: a name, and whether a cell belongs to it."""
+
+    def within(field: str, value: object) -> Where:
+        return lambda cell: getattr(cell, field) == value
+
     trial = result.trial
-    by_speed = [(f"{3.6 * speed:g} km/h", _at_speed(speed)) for speed in trial.speeds]
-    by_track = [(track, _on_track(track)) for track in trial.tracks]
-    by_wheel = [(f"{wheel.name} wheel", _on_wheel(wheel.name)) for wheel in trial.wheels]
-    return [*by_speed, *by_track, *by_wheel]
+    return [
+        *((f"{3.6 * speed:g} km/h", within("speed", speed)) for speed in trial.speeds),
+        *((track, within("track", track)) for track in trial.tracks),
+        *((f"{wheel.name} wheel", within("wheel", wheel.name)) for wheel in trial.wheels),
+    ]
 
 
 def rate_text(rate: Rate) -> str:
@@ -68,14 +75,16 @@ def _lines(result: TrialResult) -> Iterator[str]:
     yield ""
     yield f"{'spall on':10}{'width':>8}   {'found, named right (95 %)':32}{'wrong':>6}   score dB (range)"
     for row in result.sizes():
-        yield _size_line(row)
+        low, middle, high = row.score
+        scores = f"{middle:5.1f} ({low:.1f} to {high:.1f})" if isfinite(middle) else "-"
+        yield f"{row.fault:10}{1e3 * row.size:5g} mm   {rate_text(row.found):32}{row.wrong:6d}   {scores}"
     yield ""
     yield f"Smallest width found in {100.0 * FOUND_AT:g} % of the runs, and at every larger one (95 %):"
     for smallest in result.smallest():
         yield f"  {smallest_text(smallest)}"
     yield ""
     yield f"{'':24}{'found (95 %)':34}healthy runs with a false alarm (95 %)"
-    for name, where in [("all", _everywhere), *slices(result)]:
+    for name, where in [("all", everywhere), *slices(result)]:
         yield f"{name:24}{rate_text(result.detection(where)):34}{rate_text(result.false_alarms(where))}"
     analyses = result.false_analyses()
     yield f"Healthy analyses with an alarm: {rate_text(analyses)}"
@@ -106,23 +115,11 @@ def _check_lines(result: TrialResult) -> Iterator[str]:
 
 
 def _false_alarms_in_check(result: TrialResult) -> Rate:
-    healthy = [run for cell, _, run in result.pairs() if cell.fault == HEALTHY]
-    return Rate.of(sum(run.alarms > 0 for run in healthy), len(healthy))
-
-
-def _size_line(row: SizeRow) -> str:
-    low, middle, high = row.score
-    scores = f"{middle:5.1f} ({low:.1f} to {high:.1f})" if isfinite(middle) else "-"
-    return f"{row.fault:10}{1e3 * row.size:5g} mm   {rate_text(row.found):32}{row.wrong:6d}   {scores}"
+    return false_alarms([(cell, run) for cell, _, run in result.pairs()])
 
 
 def json_object(result: TrialResult) -> dict[str, Any]:
-    """Gather the result for JSON, in SI units, rates with their 95 % intervals.
-
-    Parameters
-    ----------
-    result : TrialResult
-    """
+    """Gather the result for JSON, in SI units, rates with their 95 % intervals."""
     trial = result.trial
     return {
         "trial": trial.name,
@@ -148,13 +145,8 @@ def json_object(result: TrialResult) -> dict[str, Any]:
             for row in result.sizes()
         ],
         "smallest": [
-            {
-                "fault": smallest.fault,
-                "width_m": smallest.size,
-                "low_m": smallest.low,
-                "high_m": smallest.high,
-            }
-            for smallest in result.smallest()
+            {"fault": each.fault, "width_m": each.size, "low_m": each.low, "high_m": each.high}
+            for each in result.smallest()
         ],
         "slices": [
             {
@@ -162,7 +154,7 @@ def json_object(result: TrialResult) -> dict[str, Any]:
                 "found": _rate(result.detection(where)),
                 "false_alarms": _rate(result.false_alarms(where)),
             }
-            for name, where in [("all", _everywhere), *slices(result)]
+            for name, where in [("all", everywhere), *slices(result)]
         ],
         "false_analyses": _rate(result.false_analyses()),
         "check": {
@@ -181,30 +173,8 @@ def json_object(result: TrialResult) -> dict[str, Any]:
 
 
 def _rate(rate: Rate) -> dict[str, Any]:
-    return {
-        "count": rate.count,
-        "total": rate.total,
-        "rate": rate.value,
-        "low": rate.low,
-        "high": rate.high,
-    }
+    return {"count": rate.count, "total": rate.total, "rate": rate.value, "low": rate.low, "high": rate.high}
 
 
 def _spread(values: tuple[float, float, float]) -> dict[str, float]:
     return dict(zip(("smallest", "median", "largest"), values, strict=True))
-
-
-def _everywhere(cell: Cell) -> bool:
-    return True
-
-
-def _at_speed(speed: float) -> Where:
-    return lambda cell: cell.speed == speed
-
-
-def _on_track(track: str) -> Where:
-    return lambda cell: cell.track == track
-
-
-def _on_wheel(wheel: str) -> Where:
-    return lambda cell: cell.wheel == wheel

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import product
+from math import nan
 from statistics import median
 from typing import Annotated as A
 
@@ -59,22 +61,21 @@ class SizeRow:
 
 @dataclass(frozen=True)
 class Smallest:
-    """Smallest size of a fault that is found.
-
-    Parameters
-    ----------
-    fault : str
-    size : float or None
-        From which on every size is found in at least 90 % of the runs, [m].
-    low, high : float or None
-        The same for the upper and the lower limits of the rates: the interval of the size, [m]; ``None``:
-        beyond the largest of the trial.
-    """
+    """Smallest size of a fault that is found; ``None``: beyond the largest of the trial."""
 
     fault: str
-    size: float | None
-    low: float | None
-    high: float | None
+    size: A[float | None, "from which on every size is found in at least 90 % of the runs, [m]"]
+    low: A[float | None, "the same for the upper limits of the rates: lower end of the interval, [m]"]
+    high: A[float | None, "the same for the lower limits, [m]"]
+
+
+Pairs = Sequence[tuple[Cell, TrialRun]]
+Where = Callable[[Cell], bool]
+
+
+def everywhere(_cell: Cell) -> bool:
+    """Take every cell of the matrix."""
+    return True
 
 
 @dataclass(frozen=True)
@@ -91,43 +92,47 @@ class TrialResult:
         """Compute the result from the runs."""
         by_key = {run.key: run for run in runs}
         pairs = [(cell, by_key[cell.key]) for cell in trial.cells() if cell.key in by_key]
-        return cls(
-            trial,
-            algorithm,
-            tuple(pair for pair in pairs if not pair[0].checks),
-            tuple(pair for pair in pairs if pair[0].checks),
+        own, checks = (
+            tuple(pair for pair in pairs if pair[0].checks == is_check) for is_check in (False, True)
         )
+        return cls(trial, algorithm, own, checks)
 
     @property
     def invalid(self) -> tuple[tuple[Cell, TrialRun], ...]:
         """Runs that left the model's validity; no rate counts them."""
         return tuple(pair for pair in (*self.runs, *self.checks) if not pair[1].complete)
 
-    def false_alarms(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
+    def false_alarms(self, where: Where = everywhere) -> Rate:
         """Count healthy runs in which at least one analysis reported a fault."""
         return false_alarms(_chosen(self.runs, where))
 
-    def false_analyses(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
+    def false_analyses(self, where: Where = everywhere) -> Rate:
         """Count analyses of healthy runs that reported a fault."""
         healthy = [run for cell, run in _chosen(self.runs, where) if cell.fault == HEALTHY]
         return Rate.of(sum(run.alarms for run in healthy), sum(run.analyses for run in healthy))
 
-    def detection(self, where: Callable[[Cell], bool] = lambda cell: True) -> Rate:
+    def detection(self, where: Where = everywhere) -> Rate:
         """Count faulty runs whose verdict names the faulty part."""
         return detection(_chosen(self.runs, where))
 
     def sizes(self) -> list[SizeRow]:
         """Make a row for every part and size."""
-        return [
-            _size_row(fault, size, [(c, r) for c, r in self.runs if (c.fault, c.size) == (fault, size)])
-            for fault in self.trial.faults
-            for size in self.trial.sizes
-        ]
+        rows = []
+        for fault, size in product(self.trial.faults, self.trial.sizes):
+            pairs = [(c, r) for c, r in self.runs if (c.fault, c.size) == (fault, size) and r.complete]
+            wrong = sum(run.verdict in PARTS and run.verdict != fault for _, run in pairs)
+            scores = _spread([own_score(cell, run) for cell, run in pairs])
+            rows.append(SizeRow(fault, size, detection(pairs), wrong, scores))
+        return rows
 
     def smallest(self) -> list[Smallest]:
         """Find the smallest size found of every part."""
         rows = self.sizes()
-        return [_smallest(fault, [row for row in rows if row.fault == fault]) for fault in self.trial.faults]
+        found = []
+        for fault in self.trial.faults:
+            own = sorted((row for row in rows if row.fault == fault), key=lambda row: -row.size)
+            found.append(Smallest(fault, *(_from_on(own, limit) for limit in ("value", "high", "low"))))
+        return found
 
     def agreement(self) -> Rate:
         """Count the checked runs with the same verdict in both tiers."""
@@ -153,9 +158,6 @@ class TrialResult:
         ]
 
 
-Pairs = Sequence[tuple[Cell, TrialRun]]
-
-
 def false_alarms(pairs: Pairs) -> Rate:
     """Count healthy runs in which at least one analysis reported a fault."""
     healthy = [run for cell, run in pairs if cell.fault == HEALTHY and run.complete]
@@ -177,39 +179,15 @@ def _chosen(pairs: Pairs, where: Callable[[Cell], bool]) -> list[tuple[Cell, Tri
     return [(cell, run) for cell, run in pairs if run.complete and where(cell)]
 
 
-def _size_row(fault: str, size: float, pairs: Pairs) -> SizeRow:
-    complete = [(cell, run) for cell, run in pairs if run.complete]
-    scores = [own_score(cell, run) for cell, run in complete]
-    return SizeRow(
-        fault,
-        size,
-        detection(complete),
-        sum(run.verdict in PARTS and run.verdict != fault for _, run in complete),
-        _spread(scores),
-    )
-
-
-def _smallest(fault: str, rows: Sequence[SizeRow]) -> Smallest:
-    return Smallest(
-        fault,
-        _from_on(rows, lambda rate: rate.value),
-        _from_on(rows, lambda rate: rate.high),
-        _from_on(rows, lambda rate: rate.low),
-    )
-
-
-def _from_on(rows: Sequence[SizeRow], limit: Callable[[Rate], float]) -> float | None:
-    """Find the smallest size from which on a limit of the rate stays at or above 90 %."""
+def _from_on(rows: Sequence[SizeRow], limit: str) -> float | None:
+    """Find the smallest size from which on a limit of the rate stays at or above 90 %; largest first."""
     size = None
-    for row in sorted(rows, key=lambda row: -row.size):
-        if not limit(row.found) >= FOUND_AT:
+    for row in rows:
+        if not getattr(row.found, limit) >= FOUND_AT:
             break
         size = row.size
     return size
 
 
 def _spread(values: Sequence[float]) -> tuple[float, float, float]:
-    if not values:
-        nan = float("nan")
-        return nan, nan, nan
-    return min(values), median(values), max(values)
+    return (min(values), median(values), max(values)) if values else (nan, nan, nan)

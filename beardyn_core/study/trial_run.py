@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Annotated as A
@@ -44,10 +44,6 @@ class TrialRun:
         """Whether the run came to its end inside the model's validity."""
         return self.status == VALID
 
-    def to_json(self) -> dict[str, Any]:
-        """Write as the object of a JSON line."""
-        return asdict(self)
-
     @classmethod
     def from_json(cls, found: dict[str, Any]) -> TrialRun:
         """Run of such an object."""
@@ -55,56 +51,30 @@ class TrialRun:
 
 
 def run_digest(scene: Scene, trial: Trial, code: str) -> str:
-    """Hash all that a run depends on: its scene with the files it names, the interval, the code.
-
-    Parameters
-    ----------
-    scene : Scene
-    trial : Trial
-    code : str
-        Digest of simulator and monitor.
-    """
+    """Hash all that a run depends on: scene with the files it names, interval, digest of the code."""
     digest = hashlib.sha256(f"{scene_text(scene)}\n{trial.interval}\n{code}".encode())
-    irregularity = getattr(scene.operation, "irregularity", None)
-    for owner in (scene.operation, irregularity):
-        path = getattr(owner, "path", None)
-        if path is not None:
+    for owner in (scene.operation, getattr(scene.operation, "irregularity", None)):
+        if (path := getattr(owner, "path", None)) is not None:
             digest.update(Path(path).read_bytes())
     return digest.hexdigest()[:16]
 
 
 def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialRun:
-    """Simulate a run with the monitor beside it.
-
-    Parameters
-    ----------
-    trial : Trial
-    cell : Cell
-    algorithm : str
-        ``module:function``, '' for ours.
-    digest : str
-        Kept with the result.
-    """
+    """Simulate a run beside a monitor, ``module:function`` or '' for ours; the digest goes to its result."""
     began = time.perf_counter()
     scene = trial_scene(trial, cell)
-    settings = MonitorSettings(interval=trial.interval)
-    monitor = Monitor(
-        fault_frequencies(scene.bearing),
-        scene.bearing.roller_count,
-        settings=settings,
-        algorithm=algorithm_named(algorithm),
-    )
+    settings, chosen = MonitorSettings(interval=trial.interval), algorithm_named(algorithm)
+    orders, count = fault_frequencies(scene.bearing), scene.bearing.roller_count
+    monitor = Monitor(orders, count, settings=settings, algorithm=chosen)
     try:
         results, status = results_over(scene, monitor)
     except InputError as error:
         raise InputError([f"{cell.key}: {problem}" for problem in error.problems]) from error
-    findings = [Finding.of(result) for result in results]
     judged = [result for result in results if result.verdict != WAITING]
-    conclusion = conclude(findings)
     return TrialRun(
         key=cell.key,
         digest=digest,
-        verdict=conclusion.verdict,
+        verdict=conclude([Finding.of(result) for result in results]).verdict,
         analyses=len(judged),
         alarms=sum(result.verdict in FAULTS for result in judged),
         scores=tuple(_middle([result.scores[part] for result in judged]) for part in range(len(FAULTS))),
@@ -116,13 +86,7 @@ def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialR
 
 
 def results_over(scene: Scene, monitor: Monitor) -> tuple[list[MonitorResult], str]:
-    """Simulate a scene with a monitor beside it: its results, and how the run ended.
-
-    Parameters
-    ----------
-    scene : Scene
-    monitor : Monitor
-    """
+    """Simulate a scene with a monitor beside it: its results, and how the run ended."""
     results: list[MonitorResult] = []
     try:
         results.extend(listen(monitor, map(MonitorInput.of_block, blocks(scene))))

@@ -124,10 +124,10 @@ def test_nothing_is_replaced_without_being_asked(
     mine = tmp_path / "mine.yaml"
     mine.write_text("precious")
     assert main(["new", "cup_spall", "-o", "mine.yaml"]) == BAD_INPUT
-    assert "mine.yaml: exists; choose another name, or replace it with --force" in capsys.readouterr().err
+    assert "--output mine.yaml: the file exists; --force replaces it" in capsys.readouterr().err
     (tmp_path / "measured_run.csv").write_text("precious")
     assert main(["new", "measured_run", "-o", "other.yaml"]) == BAD_INPUT
-    assert "measured_run.csv: exists" in capsys.readouterr().err
+    assert "measured_run.csv: the file exists" in capsys.readouterr().err
     assert mine.read_text() == (tmp_path / "measured_run.csv").read_text() == "precious"
     assert not (tmp_path / "other.yaml").exists()
     assert main(["new", "cup_spall", "-o", "mine.yaml", "--force"]) == DONE

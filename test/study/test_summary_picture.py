@@ -6,7 +6,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from beardyn_core.study.summary_picture import FaultMarker, SummaryData, summary_picture
+from beardyn_core.study.summary_picture import SummaryData, summary_picture
 
 
 def _data():
@@ -29,12 +29,7 @@ def _data():
         roller_load=9.8e3 * np.maximum(0.0, np.cos(azimuth)) ** (10 / 9),
         envelope_order=order,
         envelope_amplitude=amplitude,
-        markers=(
-            FaultMarker("BPFO", 7.294),
-            FaultMarker("BPFI", 9.706),
-            FaultMarker("2 BSF", 6.789),
-            FaultMarker("FTF", 0.429),
-        ),
+        markers={"BPFO": 7.294, "BPFI": 9.706, "2 BSF": 6.789, "FTF": 0.429},
         shaft_frequency=20.0,
     )
 

@@ -1,0 +1,37 @@
+"""Inputs and outputs of a command: all complaints at once, and a folder that can be written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from beardyn_core.errors import InputError
+from beardyn_core.outputs import files_read
+
+
+@contextmanager
+def checked(more: Callable[[list[Path]], list[str]] = lambda _: []) -> Iterator[None]:
+    """Read the inputs of a command in the context; raise `InputError` of them and of its options at once.
+
+    ``more`` lists what is wrong with the options, from the files that were read.
+    """
+    problems: list[str] = []
+    with files_read() as inputs:
+        try:
+            yield
+        except InputError as error:
+            # the option is shorter than the key
+            problems = [each.replace("--accuracy_percent", "--accuracy") for each in error.problems]
+    if problems := problems + more(inputs):
+        raise InputError(problems)
+
+
+@contextmanager
+def made_folder(folder: Path) -> Iterator[None]:
+    """Make the folder of ``--output``; raise `InputError` where a file of the context cannot be written."""
+    try:
+        folder.mkdir(exist_ok=True)
+        yield
+    except OSError as error:
+        raise InputError(f"--output {folder}: cannot be written: {error.strerror or error}") from None
