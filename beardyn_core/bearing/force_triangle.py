@@ -6,11 +6,7 @@ import math
 
 
 def roller_forces(
-    cup_load: float,
-    cup_angle: float,
-    cone_angle: float,
-    rib_angle: float,
-    centrifugal: float = 0.0,
+    cup_load: float, cup_angle: float, cone_angle: float, rib_angle: float, centrifugal: float = 0.0
 ) -> tuple[float, float]:
     """Compute the cone load and rib load that balance a cup load.
 

@@ -66,9 +66,7 @@ class Bearing:
     cone_mass: A[float, At("kg", gt=0.0), "both cones and the spacer"]
     sources: tuple[tuple[str, str], ...] = ()
     nominal_cup_angle: A[
-        float | None,
-        At("deg", gt=0.0, key="cup_angle"),
-        "catalogue value, only compared with the closed one",
+        float | None, At("deg", gt=0.0, key="cup_angle"), "catalogue value, only compared with the closed one"
     ] = None
     nominal_cone_angle: A[
         float | None,

@@ -37,8 +37,7 @@ class LaminaRoot:
 
     root: A[Float, "W, symmetric"]
     stiffness: A[
-        Float,
-        "W W, the normalised inverse of the influence matrix; no element off its diagonal is positive",
+        Float, "W W, the normalised inverse of the influence matrix; no element off its diagonal is positive"
     ]
 
 

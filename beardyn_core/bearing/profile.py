@@ -14,15 +14,7 @@ from beardyn_core.edge import At
 
 Float = NDArray[np.float64]
 
-PROFILE_KINDS = (
-    "straight",
-    "crowned",
-    "logarithmic",
-    "lundberg",
-    "johns_gohar",
-    "iso_16281",
-    "fujiwara",
-)
+PROFILE_KINDS = ("straight", "crowned", "logarithmic", "lundberg", "johns_gohar", "iso_16281", "fujiwara")
 # The logarithm is singular at the very end of the contact; the drop is held constant beyond this abscissa.
 _LARGEST_SQUARED_ABSCISSA = 1.0 - 1.0e-6
 # ISO/TS 16281: rollers longer than this many diameters have a straight middle.
@@ -108,11 +100,7 @@ class Profile:
             yield f"gives drop_um 0; a {self.kind} profile needs a drop above 0"
 
     def drop_at(
-        self,
-        x: ArrayLike,
-        half_length: float,
-        roller_diameter: float,
-        contact_modulus: float = 226.4e9,
+        self, x: ArrayLike, half_length: float, roller_diameter: float, contact_modulus: float = 226.4e9
     ) -> Float:
         """Compute the profile drop along the generator.
 

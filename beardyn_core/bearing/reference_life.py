@@ -36,8 +36,7 @@ class ReferenceLife:
     modified: A[float, "L_10mr with lubrication and contamination, [revolutions]"]
     equivalent_load: A[float, "P_ref,r = C_r / (L_10r / 10^6)^(3/10), [N]"]
     lamina_life: A[
-        Float,
-        "shape [row, lamina], basic life of each lamina of a row, both raceways, [revolutions]",
+        Float, "shape [row, lamina], basic life of each lamina of a row, both raceways, [revolutions]"
     ]
 
 
@@ -58,11 +57,7 @@ def contact_ratings(bearing: Bearing) -> tuple[float, float]:
 
 
 def reference_life(
-    bearing: Bearing,
-    cup_load: Float,
-    cone_load: Float,
-    viscosity_ratio: float,
-    contamination: float,
+    bearing: Bearing, cup_load: Float, cone_load: Float, viscosity_ratio: float, contamination: float
 ) -> ReferenceLife:
     """Compute the basic and modified reference rating life; the cone turns, the load direction is fixed.
 

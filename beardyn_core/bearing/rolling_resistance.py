@@ -77,11 +77,7 @@ def zhou_hoeprich_line(contact: RollingContact) -> float:
     twice their rolling force times R.
     """
     return _power_law(
-        contact,
-        contact.line_load_parameter,
-        ZHOU_HOEPRICH_FACTOR,
-        ZHOU_HOEPRICH_SPEED,
-        ZHOU_HOEPRICH_LOAD,
+        contact, contact.line_load_parameter, ZHOU_HOEPRICH_FACTOR, ZHOU_HOEPRICH_SPEED, ZHOU_HOEPRICH_LOAD
     )
 
 

@@ -68,10 +68,7 @@ def traction(evidence: Evidence) -> Rule:
             law_cost += costs.extra("traction load_sharing")
         found.append(
             alternative(
-                _word(effects.traction, effects.film),
-                effects.traction,
-                effects.film,
-                law_cost + thermal,
+                _word(effects.traction, effects.film), effects.traction, effects.film, law_cost + thermal
             )
         )
         if effects.film is not None and isinstance(effects.traction, LoadSharingTraction):

@@ -230,12 +230,7 @@ class Losses:
         return film.starvation * factor * thickness / scene.bearing.raceway_roughness
 
     def drive(
-        self,
-        traction: Traction | None,
-        film: LineFilm | None,
-        *,
-        rolling: bool = True,
-        drag: bool = True,
+        self, traction: Traction | None, film: LineFilm | None, *, rolling: bool = True, drag: bool = True
     ) -> Drive:
         """Compute the traction that the rollers need and what the law of friction gives."""
         loaded = self.static.cone_load > 0.0

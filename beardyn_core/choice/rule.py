@@ -27,8 +27,7 @@ class Alternative:
     members: A[Mapping[str, Any], "member of the effect set -> its options or ``None``"]
     reason: A[str, "a sentence with the number that speaks for or against it"]
     influence: A[
-        Influence,
-        "quantity -> what it makes wrong against the reference: a fraction, of vibration in dB",
+        Influence, "quantity -> what it makes wrong against the reference: a fraction, of vibration in dB"
     ] = field(default_factory=dict)
     cost: A[float, "added to the step, in steps of the standard set"] = 0.0
     tiers: A[frozenset[str], "tiers that can have it"] = frozenset({"lumped", "quasistatic", "full"})
@@ -53,8 +52,7 @@ class Decision:
     on: bool
     cost_share: A[float, "part of the step that it takes, [-]"]
     influence: A[
-        Influence,
-        "expected error of each asked quantity by this decision: a fraction, of vibration in dB",
+        Influence, "expected error of each asked quantity by this decision: a fraction, of vibration in dB"
     ]
 
     def sentence(self) -> str:

@@ -59,12 +59,7 @@ class Statics:
         return self._known[key]
 
     def _solved(
-        self,
-        case: LoadCase,
-        laminae: int,
-        coupling: LaminaCoupling | None,
-        bending: bool,
-        half_pitch: bool,
+        self, case: LoadCase, laminae: int, coupling: LaminaCoupling | None, bending: bool, half_pitch: bool
     ) -> StaticSolution | None:
         scene = self.scene
         free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"

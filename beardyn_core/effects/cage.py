@@ -61,9 +61,7 @@ class LandGuidance:
         "pitch diameter and half a roller diameter more (cup) or less (cone) if not given",
     ] = None
     land_offset: A[
-        float | None,
-        At("mm"),
-        "outward from the cage's centre; above the large roller ends if not given",
+        float | None, At("mm"), "outward from the cage's centre; above the large roller ends if not given"
     ] = None
     friction: A[float, SHARE, "coefficient of friction of the edges, when they touch"] = 0.1
     regularisation_speed: A[

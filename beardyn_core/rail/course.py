@@ -29,8 +29,7 @@ class Course:
         "shape [step], unbalanced lateral acceleration that the vehicle feels, positive to the left, [m/s^2]",
     ]
     press: A[
-        Float,
-        "shape [step], what it feels at right angles to the track beyond gravity, downwards, [m/s^2]",
+        Float, "shape [step], what it feels at right angles to the track beyond gravity, downwards, [m/s^2]"
     ]
 
 

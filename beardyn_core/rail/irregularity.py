@@ -104,11 +104,7 @@ class RailProfile:
 
 
 def rail_profile(
-    irregularity: Irregularity,
-    distance: float,
-    seed: int,
-    direction: str = "vertical",
-    patch: float = 0.0,
+    irregularity: Irregularity, distance: float, seed: int, direction: str = "vertical", patch: float = 0.0
 ) -> RailProfile:
     """Build a profile at least as long as the run: with random phases, or as measured.
 

@@ -31,8 +31,7 @@ class LateralVehicle:
     """Half a wheelset with its axlebox, a quarter of a bogie, an eighth of the body."""
 
     mass: A[
-        Float,
-        "shape [4], of `SIDEWAYS`, `YAW` (of the half wheelset, [kg m^2]), `FRAME` and `CAR`, [kg]",
+        Float, "shape [4], of `SIDEWAYS`, `YAW` (of the half wheelset, [kg m^2]), `FRAME` and `CAR`, [kg]"
     ]
     stiffness: A[Float, "shape [4, 4], of primary and secondary suspension, [N/m], in yaw [N m/rad]"]
     damping: A[Float, "shape [4, 4], the same, [N s/m], in yaw [N m s/rad]"]
@@ -43,8 +42,7 @@ class LateralVehicle:
     flange_stiffness: A[float, "half of one rail's, [N/m]"]
     flange_damping: A[float, "half of one rail's, [N s/m]"]
     journal_yaw: A[
-        float,
-        "moment of inertia of the half wheelset and the axlebox as masses at the bearing, [kg m^2]",
+        float, "moment of inertia of the half wheelset and the axlebox as masses at the bearing, [kg m^2]"
     ]
 
 

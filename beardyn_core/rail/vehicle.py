@@ -38,8 +38,7 @@ class QuarterVehicle:
     damping: A[Float, "shape [4, 4], the same, [N s/m]"]
     rail: A[RailWaves, "track under the wheel"]
     primary: A[
-        Float,
-        "shape [9] or [0], row of `suspension.law`; empty while the primary suspension is linear",
+        Float, "shape [9] or [0], row of `suspension.law`; empty while the primary suspension is linear"
     ]
     static_force: A[float, "wheel-rail force at rest, [N]"]
     journal_weight: A[float, "weight of the half wheelset, [N]"]

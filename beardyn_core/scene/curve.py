@@ -23,9 +23,7 @@ class Curve:
     length: A[float, At("m", gt=0.0, ge=2.0, le=1e5, required=True), "with both transitions"] = 100.0
     transition: A[float, At("m", gt=0.0, ge=1.0, le=1e4, required=True), "length of each"] = 30.0
     hand: A[
-        str,
-        At(one_of=HANDS),
-        "where it turns; a left axlebox is on the inner rail of a left-hand curve",
+        str, At(one_of=HANDS), "where it turns; a left axlebox is on the inner rail of a left-hand curve"
     ] = "left"
 
     def __post_init__(self) -> None:

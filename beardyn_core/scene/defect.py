@@ -76,11 +76,7 @@ class Patch:
     ]
     width: A[float, At("mm", gt=0.0, le=200.0), "in rolling direction"]
     depth: A[float, At("um", gt=0.0, le=5000.0), "below the sound surface"]
-    length: A[
-        float,
-        At("mm", gt=0.0, optional=True),
-        "along the roller; the whole contact when left out",
-    ]
+    length: A[float, At("mm", gt=0.0, optional=True), "along the roller; the whole contact when left out"]
     offset: A[float, At("mm"), "centre from mid-length, positive towards the large end"] = 0.0
     roller: A[int, At(ge=0), "which roller, with `on: roller`"] = 0
     kind: A[str, At(one_of=PATCH_KINDS), "shape of its floor"] = "spall"
@@ -164,9 +160,7 @@ class RollerError:
     row: A[int, ROW, "0 inboard, 1 outboard"]
     roller: A[int, At(ge=0), "which roller"]
     diameter: A[
-        float,
-        At("um", ge=-1000.0, le=200.0),
-        "difference to the nominal diameter, positive when too large",
+        float, At("um", ge=-1000.0, le=200.0), "difference to the nominal diameter, positive when too large"
     ]
     kind: A[str, At(one_of=("diameter",), required=True), "which of the kinds this is"] = "diameter"
 

@@ -44,15 +44,11 @@ class WheelFlat:
         "along the circumference; of a rounded flat with its rounded ends",
     ]
     depth: A[
-        float | None,
-        At("mm", ge=0.0),
-        "L^2 / (8 R) of a fresh, L^2 / (16 R) of a rounded flat when left out",
+        float | None, At("mm", ge=0.0), "L^2 / (8 R) of a fresh, L^2 / (16 R) of a rounded flat when left out"
     ] = None
     shape: A[str, At(one_of=FLAT_SHAPES), "a chord with sharp ends, or rolled round (haversine)"] = "fresh"
     azimuth: A[
-        float,
-        At("deg"),
-        "of its middle, from +z (the top) towards +x (forward) at the start of the run",
+        float, At("deg"), "of its middle, from +z (the top) towards +x (forward) at the start of the run"
     ] = 0.0
 
     def usual_depth(self, wheel_radius: float) -> float:
@@ -129,10 +125,7 @@ class WheelOutOfRound:
     kind: ClassVar[str] = "out_of_round"
 
     amplitudes: A[
-        tuple[float, ...],
-        AMPLITUDE,
-        At(size=(1, 100)),
-        "of the orders 1, 2, 3 ..., about the mean radius",
+        tuple[float, ...], AMPLITUDE, At(size=(1, 100)), "of the orders 1, 2, 3 ..., about the mean radius"
     ]
     seed: A[int, SEED, "of the azimuths of the waves"] = 1
 

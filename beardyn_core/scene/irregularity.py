@@ -30,9 +30,7 @@ class Irregularity:
     """Irregularity of the rail, drawn from a power spectral density or measured."""
 
     kind: A[
-        str,
-        At(one_of=IRREGULARITY_KINDS),
-        "a spectrum by name, or a file of a profile or of a density",
+        str, At(one_of=IRREGULARITY_KINDS), "a spectrum by name, or a file of a profile or of a density"
     ] = "german_low"
     shortest_wavelength: A[float, At("m", gt=0.0, ge=0.02, le=50.0), "of the band of the spectrum"] = 0.1
     longest_wavelength: A[float, At("m", gt=0.0, ge=1.0, le=1000.0), "of the band of the spectrum"] = 150.0

@@ -26,9 +26,7 @@ class MeasuredOperation:
         "recording load/blocks, load/wrench and load/shaft, or force and shaft",
     ]
     take: A[
-        str,
-        At(one_of=TAKES),
-        "force: the speed is modelled, speed_profile; speed: the load is, force_kN",
+        str, At(one_of=TAKES), "force: the speed is modelled, speed_profile; speed: the load is, force_kN"
     ] = "both"
     speed_profile: A[Profile, POINTS, "with take: force; linear in between, held before and after"] = ()
     wheel_diameter: A[

@@ -94,8 +94,7 @@ class Vehicle:
         "worn"
     )
     primary_suspension: A[
-        ProgressiveSuspension | None,
-        "of freight bogies; the vertical springs of the mounting when left out",
+        ProgressiveSuspension | None, "of freight bogies; the vertical springs of the mounting when left out"
     ] = None
     guidance: A[Guidance, "what the sideways motion depends on"] = Guidance()
     sources: tuple[tuple[str, str], ...] = ()
@@ -158,8 +157,7 @@ class QuarterVehicleOperation:
     track: A[Track, "under the rail; what is not given is the track of Zhai"] = Track()
     wheel_defects: A[tuple[WheelDefect, ...], "flats and polygons of the wheel"] = ()
     rail_defects: A[
-        tuple[RailDefect, ...],
-        "joints, welds, crossings and corrugation, besides the irregularity",
+        tuple[RailDefect, ...], "joints, welds, crossings and corrugation, besides the irregularity"
     ] = ()
     contact_patch: A[
         float,

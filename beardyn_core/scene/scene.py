@@ -64,13 +64,10 @@ class Scene:
         "full"
     )
     temperatures: A[
-        Temperatures | None,
-        "of the parts; with them end_play_mm is the one mounted at assembly_C",
+        Temperatures | None, "of the parts; with them end_play_mm is the one mounted at assembly_C"
     ] = None
     effects: A[
-        EffectSet,
-        At(reference=True, usual="standard"),
-        "a preset, a path, which effects are on, or auto",
+        EffectSet, At(reference=True, usual="standard"), "a preset, a path, which effects are on, or auto"
     ] = EffectSet()
     accuracy: A[
         float | None,

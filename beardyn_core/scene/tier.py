@@ -14,34 +14,21 @@ class TierLimits:
     states: A[str, "what moves by its own equations of motion"]
     represented: A[frozenset[str] | None, "effects it computes or reports; ``None``: all of them"]
     steps_per_sample: A[
-        int,
-        "time steps per waveform sample when the scene does not say; `choice.fast_step` may take fewer",
+        int, "time steps per waveform sample when the scene does not say; `choice.fast_step` may take fewer"
     ]
     needs_rib: A[bool, "whether nothing but the rib holds the rollers axially"]
     smallest_laminae: A[int, "fewest laminae it can work with"]
     absent: A[tuple[str, ...], "channels of a block that it leaves at zero or without content"]
     blocks_at_once: A[
-        int,
-        "blocks of 20 ms that are worth computing in one go where nobody waits for each",
+        int, "blocks of 20 ms that are worth computing in one go where nobody waits for each"
     ] = 1
     long_steps: A[
-        tuple[float, ...],
-        "steps per sample that it may take where a step is longer than a sample",
+        tuple[float, ...], "steps per sample that it may take where a step is longer than a sample"
     ] = ()
 
 
 _FAST = frozenset(
-    {
-        "contact_damping",
-        "film",
-        "rib",
-        "rolling_resistance",
-        "drag",
-        "seal",
-        "gravity",
-        "faults",
-        "waviness",
-    }
+    {"contact_damping", "film", "rib", "rolling_resistance", "drag", "seal", "gravity", "faults", "waviness"}
 )
 _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
 

@@ -88,25 +88,19 @@ class Trial:
 
     name: A[str, At(longest=80, key="trial"), "name of the trial"]
     purpose: A[str, "one line: what the trial is for"]
-    scene: A[
-        str,
-        At(longest=80),
-        "what every run starts from; its operation a quarter_vehicle",
-    ] = "smooth_run"
+    scene: A[str, At(longest=80), "what every run starts from; its operation a quarter_vehicle"] = (
+        "smooth_run"
+    )
     folder: A[Path, INTERNAL] = Path()
     tier: A[str, At(one_of=TIERS), "of the runs"] = "quasistatic"
     effects: A[str | dict[str, Any] | None, "as in a scene file; the scene's when left out"] = None
     faults: A[tuple[str, ...], At(one_of=FAULTS, size=(1, None)), "parts that are spalled"] = FAULTS
     sizes: A[
-        tuple[float, ...],
-        At("mm", gt=0.0, le=100.0, size=(1, None), required=True),
-        "widths of the spalls",
+        tuple[float, ...], At("mm", gt=0.0, le=100.0, size=(1, None), required=True), "widths of the spalls"
     ] = ()
     spall: A[Spall, "how a spall of a width looks"] = Spall()
     speeds: A[
-        tuple[float, ...],
-        At("kmh", gt=0.0, ge=5.0, le=400.0, size=(1, None), required=True),
-        "of the train",
+        tuple[float, ...], At("kmh", gt=0.0, ge=5.0, le=400.0, size=(1, None), required=True), "of the train"
     ] = ()
     tracks: A[tuple[str, ...], At(longest=80, size=(1, None), required=True), "kinds of irregularity"] = ()
     wheels: A[tuple[TrialWheel, ...], At(size=(1, None), required=True), "wheels of the matrix"] = ()
