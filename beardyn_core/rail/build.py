@@ -9,7 +9,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
 from beardyn_core.rail.low_pass import kaiser_order, low_pass
-from beardyn_core.rail.replay import replayed
+from beardyn_core.rail.measured import replayed
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift
 from beardyn_core.rail.suspension import equivalent_displacement
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
@@ -40,17 +40,12 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
 
     Parameters
     ----------
-    operation : Operation
     mounting : Mounting
         Wheelset, axlebox and primary suspension of the rail model.
     duration : float
         [s].
     seed : int
         Of the irregularity.
-
-    Returns
-    -------
-    LoadHistory
 
     Raises
     ------
@@ -59,7 +54,11 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
     """
     if not 0.0 < duration < 86_400.0:
         raise InputError(f"duration is {duration:g} s; allowed is more than 0 and less than 86 400 s")
-    sample_ns = _sample_ns(operation)
+    # shorter where wheel or rail strikes
+    strikes = isinstance(operation, QuarterVehicleOperation) and (
+        operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
+    )
+    sample_ns = STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
     rate = 1e9 / sample_ns
     count = int(np.ceil(round(duration * rate, 6))) + 1
     if isinstance(operation, ConstantOperation):
@@ -69,14 +68,6 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
     if isinstance(operation, QuarterVehicleOperation):
         return _quarter_vehicle(operation, mounting, count, rate, seed)
     return replayed(operation, count, rate, _thin)
-
-
-def _sample_ns(operation: Operation) -> int:
-    """Choose the time between samples of the load, [ns]: shorter where wheel or rail strikes."""
-    strikes = isinstance(operation, QuarterVehicleOperation) and (
-        operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
-    )
-    return STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
 
 
 def _history(
@@ -112,32 +103,10 @@ def _rise(time: Float, ramp: float) -> Float:
     return 0.5 - 0.5 * np.cos(np.pi * np.clip(time / ramp, 0.0, 1.0))
 
 
-def ride_of(
-    operation: QuarterVehicleOperation, mounting: Mounting, duration: float, seed: int
-) -> tuple[Ride, float]:
-    """Compute the motion of the rail model's own bodies behind a load history.
-
-    Parameters
-    ----------
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-    duration : float
-        [s].
-    seed : int
-
-    Returns
-    -------
-    Ride
-    step : float
-        Its time step, [s].
-    """
-    response, _ = _ride(operation, mounting, round(duration * RIDE_RATE) + 1, seed)
-    return response, 1.0 / RIDE_RATE
-
-
-def _ride(
+def ride_steps(
     operation: QuarterVehicleOperation, mounting: Mounting, steps: int, seed: int
 ) -> tuple[Ride, Running | None]:
+    """Compute the motion of the rail model's bodies, and what acts besides the profile, at `RIDE_RATE`."""
     time = np.arange(steps) / RIDE_RATE
     position = distance_at(operation.speed_profile, time)
     patch = operation.contact_patch
@@ -168,7 +137,7 @@ def _quarter_vehicle(
     kernel = _low_pass(factor)
     # run past the end by what the filter looks ahead
     steps = (count - 1) * factor + 1 + len(kernel) // 2
-    response, besides = _ride(operation, mounting, steps, seed)
+    response, besides = ride_steps(operation, mounting, steps, seed)
     vehicle = quarter_vehicle(operation, mounting)
     force, bogie = np.zeros((count, 3)), np.zeros((count, 3))
     if besides is not None:

@@ -65,15 +65,6 @@ class LateralMotion:
 def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> LateralVehicle:
     """Build the lateral model of one axlebox's share of the vehicle.
 
-    Parameters
-    ----------
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-
-    Returns
-    -------
-    LateralVehicle
-
     References
     ----------
     Creep coefficients in proportion to the contact area: Kalker (1967), as in Wickens (2003), Fundamentals
@@ -117,22 +108,8 @@ def lateral_motion(
 
     By the trapezoidal rule, each step linear: creep is reduced where the resultant comes near the friction
     limit, and flanges touch, as at the step's beginning. Stable at any speed, through standstill and
-    backwards.
-
-    Parameters
-    ----------
-    vehicle : LateralVehicle
-    speed : float64 array, shape [step]
-        [m/s].
-    plan : Course
-    alignment : float64 array, shape [step]
-        Of the track's middle under the axle, to the left, [m].
-    step : float
-        [s].
-
-    Returns
-    -------
-    LateralMotion
+    backwards. At each step [s] stand the speed [m/s] and the alignment of the track's middle under the axle,
+    to the left [m].
 
     Notes
     -----

@@ -44,18 +44,9 @@ def kaiser_order(ripple: float, width: float) -> tuple[int, float]:
 
 
 def first_order(signal: Float, steps: float) -> Float:
-    """Filter by a first-order lag whose time constant is a number of steps; it begins settled.
+    """Filter by a first-order lag whose time constant is a number of steps, 0 or more; it begins settled.
 
-    Parameters
-    ----------
-    signal : float64 array, shape [step]
-    steps : float
-        Time constant over the time step, 0 or more.
-
-    Returns
-    -------
-    float64 array, shape [step]
-        Exact for a signal that is held over each step.
+    Exact for a signal that is held over each step.
     """
     if steps == 0.0:
         return signal.copy()

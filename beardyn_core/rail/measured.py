@@ -1,4 +1,4 @@
-"""Load and speed from a CSV file or from a recording.
+"""Load and speed from a CSV file or from a recording, and the load history of a run that follows them.
 
 Columns of a CSV file, in any order, named in the first line:
 
@@ -33,6 +33,8 @@ from beardyn_core.errors import InputError
 from beardyn_core.outputs import note_read
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.measured import MeasuredOperation
+from beardyn_core.scene.speed import speed_at
 
 Float = NDArray[np.float64]
 
@@ -64,18 +66,13 @@ class Measurement:
 
 
 def read_measurement(path: Path, take: str = "both") -> Measurement:
-    """Read and check a file of load and speed.
+    """Read and check a file of load and speed: a recording when it ends in ``.mcap``, else a CSV file.
 
     Parameters
     ----------
     path : Path
-        A recording when it ends in ``.mcap``, else a CSV file.
     take : str
         ``both``, ``force`` or ``speed``: what must be there.
-
-    Returns
-    -------
-    Measurement
 
     Raises
     ------
@@ -101,10 +98,9 @@ def _read(path: Path, take: str, changed: int) -> Measurement:
     return _read_csv(path, take)
 
 
-def layout_of(take: str) -> Layout:
-    """List the columns of a CSV file from which force, speed or both are read."""
+def _read_csv(path: Path, take: str) -> Measurement:
     wanted = take != "speed"
-    return Layout(
+    layout = Layout(
         what="load and speed" if take == "both" else take,
         columns=(
             Column(TIME, "s"),
@@ -118,10 +114,7 @@ def layout_of(take: str) -> Layout:
         gap=GAP,
         one_of=() if take == "force" else (SPEEDS,),
     )
-
-
-def _read_csv(path: Path, take: str) -> Measurement:
-    table = read_table(path, layout_of(take))
+    table = read_table(path, layout)
     nothing = np.zeros(len(table[TIME]))
 
     def column(name: str) -> Float:
@@ -164,11 +157,8 @@ def speed_points(path: Path, wheel_diameter: float, spacing: float = 0.02) -> tu
 
     Parameters
     ----------
-    path : Path
-    wheel_diameter : float
-        [m].
-    spacing : float
-        Over which the measured speed is averaged, [s].
+    wheel_diameter, spacing : float
+        [m]; time over which the measured speed is averaged, [s].
 
     Returns
     -------
@@ -192,3 +182,45 @@ def speed_points(path: Path, wheel_diameter: float, spacing: float = 0.02) -> tu
     mean_time = np.add.reduceat(measured.time, first) / count
     mean_speed = np.add.reduceat(speed, first) / count
     return tuple(zip(mean_time.tolist(), mean_speed.tolist(), strict=True))
+
+
+def replayed(
+    operation: MeasuredOperation, count: int, rate: float, thin: Callable[[Float, int], Float]
+) -> LoadHistory:
+    """Read the load of a file in a number of samples at a rate [Hz], and add the parts that are modelled.
+
+    A recorded stream of load that is taken whole is passed on sample by sample, at its own rate. `thin`
+    takes every n-th sample of a signal after a low-pass. Raises `InputError` when the run is longer.
+    """
+    measured = read_measurement(operation.path, operation.take)
+    end = (count - 1) / rate
+    if measured.time[-1] < end - 1e-9:
+        raise InputError(
+            f"{operation.path}: covers {measured.time[-1]:g} s; the run needs {end:g} s: "
+            f"shorten the duration or give a longer file"
+        )
+    if operation.take == "both" and measured.stream is not None:
+        return measured.stream.until(round(end * 1e9))
+    signals = _resampled(measured, count, rate, thin)
+    time = np.arange(count) / rate
+    wrench, shaft_speed, bogie = signals[:, :6], signals[:, 6], signals[:, 7:]
+    if operation.take == "force":
+        shaft_speed = speed_at(operation.speed_profile, time) / (0.5 * operation.wheel_diameter)
+    if operation.take == "speed":
+        assert operation.force is not None
+        wrench = np.tile(np.array([*operation.force, 0.0, 0.0, 0.0]), (count, 1))
+        bogie = np.zeros((count, 3))
+    return LoadHistory(
+        time_ns=np.arange(count, dtype=np.int64) * round(1e9 / rate),
+        wrench=np.ascontiguousarray(wrench),
+        shaft_speed=np.ascontiguousarray(shaft_speed),
+        bogie=np.ascontiguousarray(bogie),
+    )
+
+
+def _resampled(measured: Measurement, count: int, rate: float, thin: Callable[[Float, int], Float]) -> Float:
+    signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
+    factor = int(np.ceil(round(1.0 / (rate * float(np.median(np.diff(measured.time)))), 6)))
+    grid = np.arange((count - 1) * factor + 1) / (rate * factor)
+    signals = np.column_stack([np.interp(grid, measured.time, column) for column in signals.T])
+    return np.column_stack([thin(column, factor) for column in signals.T]) if factor > 1 else signals

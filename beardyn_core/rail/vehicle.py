@@ -63,16 +63,8 @@ class Ride:
 def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> QuarterVehicle:
     """Build one axlebox's share: an eighth of the body, a quarter of a bogie, half a wheelset, one rail.
 
-    Parameters
-    ----------
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-        Gives wheelset, axlebox and, unless the vehicle has a progressive one, the primary suspension;
-        the bearing is a spring here.
-
-    Returns
-    -------
-    QuarterVehicle
+    The mounting gives wheelset, axlebox and, unless the vehicle has a progressive one, the primary
+    suspension; the bearing is a spring here.
     """
     vehicle = operation.vehicle
     journal, box = mounting.journal_mass, mounting.box_mass
@@ -84,8 +76,7 @@ def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> Q
         (BOGIE, BOX, mounting.stiffness[2], mounting.damping[2]),
         (BOX, WHEEL, _BEARING_STIFFNESS, _BEARING_DAMPING_RATIO * rattling),
     )
-    stiffness = np.zeros((4, 4))
-    damping = np.zeros((4, 4))
+    stiffness, damping = np.zeros((4, 4)), np.zeros((4, 4))
     for upper, lower, spring, damper in links:
         pull = np.zeros(4)
         pull[upper], pull[lower] = 1.0, -1.0
@@ -113,17 +104,12 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
 
     Parameters
     ----------
-    vehicle : QuarterVehicle
     height : float64 array, shape [step]
         Profile under the wheel at each step, upwards, [m]; should begin at 0.
     step : float
-        Time step, [s].
+        [s].
     push : float64 array, shape [step, 4], or None
         Further upward forces on body, bogie, wheel and axlebox, [N].
-
-    Returns
-    -------
-    Ride
 
     References
     ----------
