@@ -22,8 +22,7 @@ from beardyn_core.choice.search import Stage, cheapest
 from beardyn_core.effects import Audit, EffectSet
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.friction_steps import StepChoice
-from beardyn_core.scene.free import Free
-from beardyn_core.scene.scene import QUANTITIES, Scene
+from beardyn_core.scene.scene import QUANTITIES, Free, Scene
 from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05

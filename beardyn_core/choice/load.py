@@ -11,8 +11,7 @@ from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
 from beardyn_core.config.load import OpenScene, load_effects, read_scene, read_scene_mapping, read_scene_text
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.free import EFFECTS
-from beardyn_core.scene.scene import Numerics, Scene
+from beardyn_core.scene.scene import EFFECTS, Numerics, Scene
 
 if TYPE_CHECKING:
     from beardyn_core.choice.outcome import Choice

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, GRAVITY, WHEEL
-from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.running import Curve
 
 Float = NDArray[np.float64]
 

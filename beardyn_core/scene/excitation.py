@@ -52,42 +52,40 @@ class WheelFlat:
     ] = 0.0
 
     def usual_depth(self, wheel_radius: float) -> float:
-        """Find the depth that belongs to the length, [m].
-
-        Parameters
-        ----------
-        wheel_radius : float
-            [m].
-        """
+        """Find the depth [m] that belongs to the length on a wheel of this radius [m]."""
         return self.length**2 / ((8.0 if self.shape == "fresh" else 16.0) * wheel_radius)
 
     def depth_on(self, wheel_radius: float) -> float:
         """Return the depth, derived from the length when none is set, [m]."""
         return self.usual_depth(wheel_radius) if self.depth is None else self.depth
 
-    def contradiction(self, wheel_radius: float) -> str | None:
-        """Check length and depth against the wheel; ``None`` when they agree.
+    def contradictions(self, wheel_radius: float) -> Iterator[str]:
+        """Check length and depth against a wheel of this radius [m].
 
         The depth of a fresh flat is that of its chord. Rolling round makes a flat longer, not deeper:
         at a given length no flat is deeper than the fresh one.
         """
         if self.depth is None:
-            return None
+            return
         chord = self.length**2 / (8.0 * wheel_radius)
-        flat = f"a flat of {1e3 * self.length:g} mm on a wheel of {2e3 * wheel_radius:g} mm"
+        flat = (
+            f"depth_mm is {1e3 * self.depth:g}; a flat of {1e3 * self.length:g} mm on a wheel of "
+            f"{2e3 * wheel_radius:g} mm"
+        )
         if self.shape == "fresh" and abs(self.depth - chord) > _TOLERANCE * chord:
-            return f"{flat} is {1e3 * chord:.3g} mm deep while fresh: leave the depth out or correct one"
-        if self.depth > (1.0 + _TOLERANCE) * chord:
-            return (
+            yield f"{flat} is {1e3 * chord:.3g} mm deep while fresh: leave the depth out or correct one"
+        elif self.depth > (1.0 + _TOLERANCE) * chord:
+            yield (
                 f"{flat} can be at most {1e3 * chord:.3g} mm deep, its depth while fresh (usual once "
                 f"rounded: {1e3 * self.usual_depth(wheel_radius):.3g} mm)"
             )
-        return None
 
-    def contradictions(self, wheel_radius: float) -> Iterator[str]:
-        """Check that the flat is possible on a wheel of this radius [m]."""
-        if found := self.contradiction(wheel_radius):
-            yield f"depth_mm is {1e3 * (self.depth or 0.0):g}; {found}"
+
+def _too_short(value: str, order: int, wheel_radius: float) -> Iterator[str]:
+    """Report waves that are not longer than the contact patch."""
+    highest = math.floor(2.0 * math.pi * wheel_radius / 0.02)
+    if order > highest:
+        yield f"{value}; at most {highest} waves of 20 mm fit on a wheel of {2e3 * wheel_radius:g} mm"
 
 
 @dataclass(frozen=True)
@@ -100,17 +98,9 @@ class WheelPolygon:
     amplitude: A[float, AMPLITUDE, "about the mean radius, half of valley to crest"]
     azimuth: A[float, At("deg"), "of a crest, from +z towards +x at the start of the run"] = 0.0
 
-    def contradiction(self, wheel_radius: float) -> str | None:
-        """Check that a wave of the order is longer than the contact patch on this wheel."""
-        highest = math.floor(2.0 * math.pi * wheel_radius / 0.02)
-        if self.order <= highest:
-            return None
-        return f"at most {highest} waves of 20 mm fit on a wheel of {2e3 * wheel_radius:g} mm"
-
     def contradictions(self, wheel_radius: float) -> Iterator[str]:
         """Check that the polygon is possible on a wheel of this radius [m]."""
-        if found := self.contradiction(wheel_radius):
-            yield f"order is {self.order}; {found}"
+        return _too_short(f"order is {self.order}", self.order, wheel_radius)
 
 
 @dataclass(frozen=True)
@@ -129,14 +119,10 @@ class WheelOutOfRound:
     ]
     seed: A[int, SEED, "of the azimuths of the waves"] = 1
 
-    def contradiction(self, wheel_radius: float) -> str | None:
-        """Check that the highest order is possible on this wheel."""
-        return WheelPolygon(len(self.amplitudes), 0.0).contradiction(wheel_radius)
-
     def contradictions(self, wheel_radius: float) -> Iterator[str]:
         """Check that the waves are possible on a wheel of this radius [m]."""
-        if found := self.contradiction(wheel_radius):
-            yield f"amplitudes_um has {len(self.amplitudes)} orders; {found}"
+        highest = len(self.amplitudes)
+        return _too_short(f"amplitudes_um has {highest} orders", highest, wheel_radius)
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,10 @@ class LoadHistory:
     def __len__(self) -> int:
         return len(self.time_ns)
 
+    def columns(self) -> NDArray[np.float64]:
+        """Gather wrench, shaft speed and bogie displacement, shape [sample, 10]."""
+        return np.concatenate([self.wrench, self.shaft_speed[:, None], self.bogie], axis=1)
+
     def until(self, time_ns: int) -> LoadHistory:
         """Return the samples up to a time, and the first one after it."""
         return self.part(0, int(np.searchsorted(self.time_ns, time_ns)) + 1)

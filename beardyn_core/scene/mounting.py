@@ -77,17 +77,7 @@ class Mounting:
             )
 
     def about_bearing_centre(self, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Convert loads on the journal to force and moment about the bearing centre.
-
-        Parameters
-        ----------
-        wrench : float64 array, shape [..., 6]
-            Force and moment, [N, N m].
-
-        Returns
-        -------
-        float64 array, shape [..., 6]
-        """
+        """Convert loads on the journal to force and moment about the centre, shape [..., 6], [N, N m]."""
         if not any(self.load_offset):
             return wrench
         force, moment = wrench[..., :3], wrench[..., 3:]

@@ -10,14 +10,12 @@ from typing import Annotated as A
 from typing import Any, ClassVar
 
 from beardyn_core.edge import At, Problem, Vector, refuse, written
-from beardyn_core.scene.braking import Braking, Starting
-from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.excitation import RailDefect, WheelDefect
-from beardyn_core.scene.guidance import Guidance
 from beardyn_core.scene.irregularity import Irregularity
 from beardyn_core.scene.measured import MeasuredOperation
+from beardyn_core.scene.running import Braking, Curve, Starting
 from beardyn_core.scene.speed import POINTS, Profile, not_ascending
-from beardyn_core.scene.suspension import ProgressiveSuspension
+from beardyn_core.scene.suspension import Guidance, ProgressiveSuspension
 
 WHEEL_PROFILES = ("worn", "cone")
 SHAFT_SPEED = At("rpm", ge=-6000.0, le=6000.0)
