@@ -102,23 +102,16 @@ class Profile:
     def drop_at(
         self, x: ArrayLike, half_length: float, roller_diameter: float, contact_modulus: float = 226.4e9
     ) -> Float:
-        """Compute the profile drop along the generator.
+        """Compute the drop of the roller surface along the generator, positive away from the raceway, [m].
 
         Parameters
         ----------
         x : array_like
             Abscissa from mid-length, [m].
-        half_length : float
-            Half of the effective length, [m].
-        roller_diameter : float
-            Mean roller diameter, [m].
+        half_length, roller_diameter : float
+            Half of the effective length; mean, [m].
         contact_modulus : float
             E' of the contact, [Pa].
-
-        Returns
-        -------
-        float64 array, shape of `x`
-            Drop of the roller surface, positive away from the raceway, [m].
 
         References
         ----------

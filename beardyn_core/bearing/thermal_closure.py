@@ -72,15 +72,6 @@ def end_play_per_kelvin(bearing: Bearing, expansion: float = STEEL_EXPANSION) ->
 
 
 def end_play_change(bearing: Bearing, change: PartTemperatures, expansion: float = STEEL_EXPANSION) -> float:
-    """Change of the end play when the parts change their temperatures, [m].
-
-    Parameters
-    ----------
-    bearing : Bearing
-    change : PartTemperatures
-        Against where the end play was measured, [K].
-    expansion : float
-        Coefficient of linear expansion, [1/K].
-    """
+    """Compute the change of the end play by temperatures against where it was measured [K], [m]."""
     rate = end_play_per_kelvin(bearing, expansion)
     return rate.cup * change.cup + rate.cone * change.cone + rate.rollers * change.rollers

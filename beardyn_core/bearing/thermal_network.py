@@ -34,19 +34,7 @@ class ThermalNetwork:
         return ambient + np.asarray(np.linalg.solve(self.matrix, heat))
 
     def after(self, temperature: Float, heat: Float, ambient: float, duration: float) -> Float:
-        """Compute the temperatures after a time with constant heat, [K].
-
-        Parameters
-        ----------
-        temperature : float64 array, shape [node]
-            At the beginning, [K].
-        heat : float64 array, shape [node]
-            Into each node, [W].
-        ambient : float
-            [K].
-        duration : float
-            [s].
-        """
+        """Compute the temperatures after a duration [s] with constant heat into each node [W], [K]."""
         root = np.sqrt(self.capacity)
         rates, modes = np.linalg.eigh(self.matrix / np.outer(root, root))
         final = self.steady(heat, ambient)

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import rib_contact
-from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
+from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
-from beardyn_core.bearing.rib_film import rib_film_thickness
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import (
     CoulombTraction,

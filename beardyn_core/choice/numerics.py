@@ -9,8 +9,7 @@ from functools import cache
 import numpy as np
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.joint_lamina import joint_depth, part_exponent
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
+from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.choice.rule import Influence, percent

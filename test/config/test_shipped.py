@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from beardyn_core import effects
-from beardyn_core.bearing.material import Material
+from beardyn_core.bearing.geometry import Material
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import (
