@@ -14,8 +14,7 @@ force_triangle     one roller between cup, cone and rib
 lubricant          viscosity and pressure-viscosity with temperature
 film_thickness     films of line contacts, inlet heating; film of the rib contact
 rolling_resistance rolling couple of one lubricated contact
-thermal_closure    what temperature does to the end play
-thermal_network    temperatures of the parts as a network of lumped nodes
+thermal            what temperature does to the end play; parts as a network of lumped nodes
 life               load ratings and rating life, ISO 281, and from the load of every lamina, ISO 16281
 ================== =================================================================
 """

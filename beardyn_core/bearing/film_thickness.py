@@ -48,18 +48,14 @@ def line_film(
 
     Parameters
     ----------
-    load_per_length : float
-        [N/m].
-    entrainment_speed : float
-        [m/s].
+    load_per_length, entrainment_speed : float
+        [N/m], [m/s].
     radius : float
         Equivalent radius in rolling direction, [m].
     contact_modulus : float
         E', [Pa].
-    viscosity : float
-        Dynamic viscosity at inlet temperature, [Pa s].
-    pressure_viscosity : float
-        Pressure-viscosity coefficient, [1/Pa].
+    viscosity, pressure_viscosity : float
+        Dynamic viscosity at inlet temperature, [Pa s], and its pressure coefficient, [1/Pa].
     formula : str
         Key of `LINE_FORMULAS`.
 
@@ -138,22 +134,10 @@ def rib_film_thickness(
 ) -> float:
     """Compute the central film thickness of the flooded rib contact, [m].
 
-    Parameters
-    ----------
-    load : float
-        [N].
-    entrainment_speed : float
-        Mean surface speed against the contact, around the ring, [m/s].
-    viscosity : float
-        Dynamic viscosity at inlet temperature, [Pa s].
-    pressure_viscosity : float
-        [1/Pa].
-
-    Notes
-    -----
-    The lubricant enters around the ring, along the larger axis of the ellipse: k, the axis across the
-    entrainment over that along it, is 0.26 for a usual rib, where the formula, meant for k >= 1, is an
-    extrapolation.
+    Under a load [N], with the mean surface speed against the contact around the ring [m/s], the dynamic
+    viscosity at inlet temperature [Pa s] and its pressure coefficient [1/Pa]. The lubricant enters around the
+    ring, along the larger axis of the ellipse: k, the axis across the entrainment over that along it, is 0.26
+    for a usual rib, where the formula, meant for k >= 1, is an extrapolation.
 
     References
     ----------

@@ -214,10 +214,8 @@ def joint_depth(depth: Float, gap: Float, cover: Float, exponent: float) -> tupl
 
     Parameters
     ----------
-    depth : float64 array, shape [..., lamina]
-        Geometric penetration beside the patch, [m].
-    gap : float64 array, shape [..., lamina]
-        By which it is less over the patch, negative on a raised rim, [m].
+    depth, gap : float64 arrays, shape [..., lamina]
+        Geometric penetration beside the patch; by which it is less over it, negative on a raised rim, [m].
     cover : float64 array, shape [..., lamina]
         Part of each lamina's length that the patch takes, [-].
     exponent : float
@@ -225,10 +223,8 @@ def joint_depth(depth: Float, gap: Float, cover: Float, exponent: float) -> tupl
 
     Returns
     -------
-    joint : float64 array, shape [..., lamina]
-        D, [m].
-    share : float64 array, shape [..., lamina]
-        Its slope over the depth: the part of its load that a lamina presses with, [-].
+    joint, share : float64 arrays, shape [..., lamina]
+        D, [m]; its slope over the depth: the part of its load that a lamina presses with, [-].
     """
     kept = np.clip(np.where(gap < 0.0, cover, 1.0 - cover), 0.0, 1.0)
     held = kept**exponent

@@ -174,16 +174,12 @@ def life_modification(viscosity_ratio: float, contamination: float, limit_ratio:
     Parameters
     ----------
     viscosity_ratio : float
-        kappa: viscosity over the reference viscosity; ratios above 4 count as 4.
+        kappa: viscosity over the reference viscosity; ratios above 4 count as 4, below 0.1, where the film is
+        thinner than the standard covers, a_ISO is 0.1; it is 50 at most.
     contamination : float
         e_C: 1 for extreme cleanliness, 0 for heavy contamination.
     limit_ratio : float
         Fatigue load limit over equivalent load, C_u / P.
-
-    Returns
-    -------
-    float
-        0.1 to 50; 0.1 where the film is thinner than the standard covers (kappa below 0.1).
 
     References
     ----------
@@ -272,7 +268,6 @@ def reference_life(
 
     Parameters
     ----------
-    bearing : Bearing
     cup_load, cone_load : float64 arrays, shape [row, roller, lamina]
         Load of each lamina, [N]; at least 30 laminae for a life by the standard.
     viscosity_ratio, contamination : float

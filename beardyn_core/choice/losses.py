@@ -26,7 +26,7 @@ from beardyn_core.effects import (
     Traction,
 )
 from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.integrate.torque import entrainment_speeds, raceway_radius, running_torque
+from beardyn_core.integrate.torque import entrainment_speeds, running_torque
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import SEALS, drag_params
 from beardyn_core.scene.scene import Scene
@@ -66,15 +66,7 @@ class Drive:
 
 
 class Losses:
-    """Torque by source of a scene under one load, in pure rolling.
-
-    Parameters
-    ----------
-    scene : Scene
-        With the reference's effects; another set is asked for by argument.
-    case : LoadCase
-    static : StaticSolution
-    """
+    """Torque by source of a scene with the reference's effects under one load, in pure rolling."""
 
     def __init__(self, scene: Scene, case: LoadCase, static: StaticSolution) -> None:
         self.scene, self.case, self.static = scene, case, static
@@ -323,8 +315,3 @@ class Losses:
         slide = min(1.2448e7 * cp**-1.5 * mm_s**-0.75 * kgf**-1.5, law.largest_slide)
         highest = 4.078e-2 * kgf**0.18 if kgf > 94.404 else 1.008e-4 * kgf**1.5
         return highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
-
-
-def raceway_speed(scene: Scene, speed: float) -> float:
-    """Compute the speed at which rollers pass a point of the cup, [m/s]."""
-    return cage_speed(scene.bearing, abs(speed)) * raceway_radius(scene.bearing, "cup")

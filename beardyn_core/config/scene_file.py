@@ -16,8 +16,7 @@ from beardyn_core.config.keys import Text, keys_of, reads
 from beardyn_core.edge import UNITS, Problem, WorkedOut, places
 from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.defect import Growth, Patch
-from beardyn_core.scene.measured import MeasuredOperation
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, steps_do_not_fit
 from beardyn_core.scene.speed import Timetable

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.jit import entry, inline
 from beardyn_core.rail.course import HALF_GAUGE, Course
-from beardyn_core.rail.vehicle import GRAVITY
+from beardyn_core.rail.vehicle import GRAVITY, linked
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 
@@ -79,11 +79,7 @@ def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> L
     load = (wheelset + body + bogie) * GRAVITY
 
     def links(longitudinal: float, primary: float, secondary: float) -> Float:
-        matrix = np.zeros((4, 4))
-        for upper, lower, link in ((FRAME, SIDEWAYS, primary), (CAR, FRAME, 0.5 * secondary)):
-            pull = np.zeros(4)
-            pull[upper], pull[lower] = 1.0, -1.0
-            matrix += link * np.outer(pull, pull)
+        matrix = linked([(FRAME, SIDEWAYS, primary), (CAR, FRAME, 0.5 * secondary)])
         matrix[YAW, YAW] = longitudinal * arm**2
         return matrix
 

@@ -15,14 +15,7 @@ Float = NDArray[np.float64]
 def low_pass(length: int, cutoff: float, beta: float) -> Float:
     """Design a low-pass filter as a sinc under Kaiser's window, with gain 1 at rest.
 
-    Parameters
-    ----------
-    length : int
-        Taps, odd.
-    cutoff : float
-        Half-gain frequency over the Nyquist frequency.
-    beta : float
-        Shape of the window.
+    With an odd number of taps, the half-gain frequency over the Nyquist frequency, the window's shape beta.
 
     References
     ----------
@@ -61,3 +54,17 @@ def _lag(signal, keep):
         last = keep * last + (1.0 - keep) * signal[n]
         lagged[n] = last
     return lagged
+
+
+def thinning_kernel(factor: int) -> Float:
+    """Design a symmetric kernel of odd length: flat to 0.4, 70 dB down from 0.6 of the new rate."""
+    length, beta = kaiser_order(70.0, 0.4 / factor)
+    return low_pass(length | 1, 1.0 / factor, beta)
+
+
+def decimated(signal: Float, factor: int, kernel: Float) -> Float:
+    """Take every factor-th sample of the filtered signal, without delay, ends held."""
+    half = len(kernel) // 2
+    padded = np.concatenate([np.full(half, signal[0]), signal, np.full(half, signal[-1])])
+    windows = np.lib.stride_tricks.sliding_window_view(padded - signal[0], len(kernel))[::factor]
+    return np.asarray(np.einsum("ij,j->i", windows, kernel)) + signal[0]

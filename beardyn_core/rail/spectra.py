@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
 from beardyn_core.rail.table import Column, Layout, read_table
-from beardyn_core.scene.irregularity import DIRECTIONS, SPECTRA, VERTICAL_ONLY, Irregularity
+from beardyn_core.scene.excitation import DIRECTIONS, SPECTRA, VERTICAL_ONLY, Irregularity
 
 Float = NDArray[np.float64]
 
@@ -59,27 +59,11 @@ DENSITY_LAYOUT = Layout(
 
 
 def spectral_density(kind: str, wavenumber: Float, direction: str = "vertical") -> Float:
-    """Compute the one-sided power spectral density of a spectrum by name.
+    """Compute the one-sided power spectral density of a spectrum by name at wavenumbers [rad/m].
 
-    Its integral over positive angular wavenumbers is the variance.
-
-    Parameters
-    ----------
-    kind : str
-        One of `scene.irregularity.SPECTRA`, or ``none``.
-    wavenumber : float64 array
-        Angular wavenumber, positive, [rad/m].
-    direction : str
-        ``vertical`` (longitudinal level) or ``lateral`` (alignment); zero where the source has none.
-
-    Returns
-    -------
-    float64 array
-        [m^2 / (rad/m)].
-
-    Notes
-    -----
-    The sources hold between some 2 and 200 m (SNCF 2 to 40 m); outside, their formulas go on.
+    In [m^2 / (rad/m)]: its integral over positive angular wavenumbers is the variance. The direction is
+    ``vertical`` (longitudinal level) or ``lateral`` (alignment); zero where the source has none. The sources
+    hold between some 2 and 200 m (SNCF 2 to 40 m); outside, their formulas go on.
 
     References
     ----------

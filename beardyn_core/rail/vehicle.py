@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Annotated as A
@@ -76,12 +77,8 @@ def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> Q
         (BOGIE, BOX, mounting.stiffness[2], mounting.damping[2]),
         (BOX, WHEEL, _BEARING_STIFFNESS, _BEARING_DAMPING_RATIO * rattling),
     )
-    stiffness, damping = np.zeros((4, 4)), np.zeros((4, 4))
-    for upper, lower, spring, damper in links:
-        pull = np.zeros(4)
-        pull[upper], pull[lower] = 1.0, -1.0
-        stiffness += spring * np.outer(pull, pull)
-        damping += damper * np.outer(pull, pull)
+    stiffness = linked((upper, lower, spring) for upper, lower, spring, _ in links)
+    damping = linked((upper, lower, damper) for upper, lower, _, damper in links)
     factor, exponent = _CONTACT_FIT[vehicle.wheel_profile]
     return QuarterVehicle(
         mass=mass,
@@ -93,6 +90,16 @@ def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> Q
         journal_weight=journal * GRAVITY,
         contact_flexibility=factor * (0.5 * operation.wheel_diameter) ** exponent,
     )
+
+
+def linked(links: Iterable[tuple[int, int, float]]) -> Float:
+    """Build the matrix of four masses from links (upper, lower, stiffness or damping) between them."""
+    matrix = np.zeros((4, 4))
+    for upper, lower, link in links:
+        pull = np.zeros(4)
+        pull[upper], pull[lower] = 1.0, -1.0
+        matrix += link * np.outer(pull, pull)
+    return matrix
 
 
 def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None = None) -> Ride:

@@ -4,11 +4,9 @@
 module       responsibility, in the order of the data
 ============ =====================================================================
 speed        speed and distance over time, a run from stop to stop
-irregularity which irregularity a rail has
-excitation   flats and waves of the wheel; joints, welds, crossings, corrugation
+excitation   irregularity of the rail; flats and waves of the wheel; joints, welds, crossings, corrugation
 running      curves; brake and drive of an axle
 suspension   springs of freight bogies with their friction; what the sideways motion depends on
-measured     load and speed from a file
 operation    where load and speed come from
 load         load on the journal as samples
 load_buffer  the load as a stream: accepted, refused, interpolated

@@ -49,3 +49,12 @@ class LoadHistory:
             self.shaft_speed[first:last],
             self.bogie[first:last],
         )
+
+
+def sampled_load(
+    wrench: NDArray[np.float64], shaft_speed: NDArray[np.float64], bogie: NDArray[np.float64], sample_ns: int
+) -> LoadHistory:
+    """Make the history of samples that follow each other every so many nanoseconds from time 0."""
+    time_ns = np.arange(len(shaft_speed), dtype=np.int64) * sample_ns
+    columns = (np.ascontiguousarray(part, dtype=np.float64) for part in (wrench, shaft_speed, bogie))
+    return LoadHistory(time_ns, *columns)

@@ -91,17 +91,9 @@ class LoadBuffer:
     def at_steps(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> NDArray[np.float64]:
         """Compute the load at the step boundaries, linear between samples, constant outside them.
 
-        Parameters
-        ----------
-        start_ns, end_ns : int
-            Of all blocks together, [ns]; as many as wanted give the same bits as one at a time.
-        steps : int
-            Of a block.
-
-        Returns
-        -------
-        float64 array, shape [steps * blocks + 1, 10]
-            Wrench [N, N m], shaft speed [rad/s], bogie displacement [m].
+        From start to end of all blocks together, of so many steps each; as many blocks as wanted give the
+        same bits as one at a time. Shape [steps * blocks + 1, 10]: wrench [N, N m], shaft speed [rad/s],
+        bogie displacement [m].
         """
         while len(self._parts) > 1 and self._parts[1].time_ns[0] <= start_ns:
             del self._parts[0]

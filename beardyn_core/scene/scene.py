@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.thermal_closure import Temperatures
+from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.edge import INTERNAL, SEED, UNITS, At
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about

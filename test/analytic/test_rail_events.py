@@ -18,13 +18,12 @@ from beardyn_core.scene.excitation import (
     Crossing,
     DippedJoint,
     DippedWeld,
+    Irregularity,
     WheelFlat,
     WheelOutOfRound,
     WheelPolygon,
 )
-from beardyn_core.scene.irregularity import Irregularity
-from beardyn_core.scene.measured import MeasuredOperation
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.twin import Twin
 from test.analytic.rail_rides import ride_of
 

@@ -20,7 +20,7 @@ from beardyn_core.rail.spectra import (
     wave_gain,
 )
 from beardyn_core.rail.table import read_table
-from beardyn_core.scene.irregularity import SPECTRA, VERTICAL_ONLY, Irregularity
+from beardyn_core.scene.excitation import SPECTRA, VERTICAL_ONLY, Irregularity
 from test.analytic.density_estimate import band_ratios, estimate
 
 BOTH = [(kind, direction) for kind in SPECTRA for direction in ("vertical", "lateral")]

@@ -15,7 +15,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as some
 
-from beardyn_core.bearing.thermal_closure import Temperatures
+from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import SCHEMA_KINDS, json_schema, scene_text, shipped_names
 from beardyn_core.config.folders import find
