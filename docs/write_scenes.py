@@ -22,11 +22,9 @@ from beardyn_core.config.keys import keys_of
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.spectra import spectral_density
-from beardyn_core.scene.excitation import RailDefect, WheelDefect
-from beardyn_core.scene.irregularity import SPECTRA, VERTICAL_ONLY
-from beardyn_core.scene.measured import MeasuredOperation
+from beardyn_core.scene.excitation import SPECTRA, VERTICAL_ONLY, RailDefect, WheelDefect
 from beardyn_core.scene.mounting import Mounting
-from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation
+from beardyn_core.scene.operation import Irregularity, MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 
 PAGE = Path(__file__).with_name("scenes.md")

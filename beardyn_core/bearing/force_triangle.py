@@ -6,29 +6,12 @@ import math
 
 
 def roller_forces(
-    cup_load: float,
-    cup_angle: float,
-    cone_angle: float,
-    rib_angle: float,
-    centrifugal: float = 0.0,
+    cup_load: float, cup_angle: float, cone_angle: float, rib_angle: float, centrifugal: float = 0.0
 ) -> tuple[float, float]:
-    """Compute the cone load and rib load that balance a cup load.
+    """Compute the cone load Q_i and rib load Q_f that balance a cup load Q_o and centrifugal force F_c, [N].
 
-    Parameters
-    ----------
-    cup_load : float
-        Q_o, [N].
-    cup_angle, cone_angle : float
-        alpha_o, alpha_i: half-angles of the raceways, [rad].
-    rib_angle : float
-        alpha_f: angle of the rib normal to the radial direction, [rad].
-    centrifugal : float
-        F_c, radially outwards, [N].
-
-    Returns
-    -------
-    cone_load, rib_load : float
-        Q_i and Q_f, [N].
+    Angles are the half-angles of the raceways, alpha_o and alpha_i, and alpha_f, that of the rib normal to
+    the radial direction, [rad].
 
     Notes
     -----

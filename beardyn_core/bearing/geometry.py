@@ -12,12 +12,25 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from typing import Annotated as A
 
-from beardyn_core.bearing.material import Material
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.edge import INTERNAL, At, Vector
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.kinematics import FaultFrequencies
+
+
+@dataclass(frozen=True)
+class Material:
+    """Steel of rings and rollers."""
+
+    youngs_modulus: A[float, At("GPa", gt=0.0, ge=10.0, le=1000.0), "of the steel"] = 206.0e9
+    poisson_ratio: A[float, At(ge=0.0, lt=0.5), "of the steel"] = 0.3
+    density: A[float, At("kg_per_m3", gt=0.0, ge=500.0, le=25000.0), "of the steel"] = 7830.0
+
+    @property
+    def contact_modulus(self) -> float:
+        """E' = 2 / ((1 - nu^2)/E + (1 - nu^2)/E), twice the Hertz modulus E*, [Pa]."""
+        return self.youngs_modulus / (1.0 - self.poisson_ratio**2)
 
 
 @dataclass(frozen=True)
@@ -66,9 +79,7 @@ class Bearing:
     cone_mass: A[float, At("kg", gt=0.0), "both cones and the spacer"]
     sources: tuple[tuple[str, str], ...] = ()
     nominal_cup_angle: A[
-        float | None,
-        At("deg", gt=0.0, key="cup_angle"),
-        "catalogue value, only compared with the closed one",
+        float | None, At("deg", gt=0.0, key="cup_angle"), "catalogue value, only compared with the closed one"
     ] = None
     nominal_cone_angle: A[
         float | None,

@@ -32,14 +32,8 @@ def frequencies(
 ) -> FaultFrequencies:
     """Compute the fault frequencies of any rolling bearing with the outer ring at rest.
 
-    Parameters
-    ----------
-    roller_count : int
-        Rolling elements of one row.
-    pitch_diameter, roller_diameter : float
-        In the same unit.
-    angle : float
-        Angle between rolling-element axis and bearing axis (contact angle of a ball bearing), [rad].
+    From the rolling elements of one row, both diameters in the same unit, and the angle between
+    rolling-element axis and bearing axis (contact angle of a ball bearing), [rad].
     """
     gamma = roller_diameter * math.cos(angle) / pitch_diameter
     ftf = 0.5 * (1.0 - gamma)

@@ -14,15 +14,7 @@ from beardyn_core.edge import At
 
 Float = NDArray[np.float64]
 
-PROFILE_KINDS = (
-    "straight",
-    "crowned",
-    "logarithmic",
-    "lundberg",
-    "johns_gohar",
-    "iso_16281",
-    "fujiwara",
-)
+PROFILE_KINDS = ("straight", "crowned", "logarithmic", "lundberg", "johns_gohar", "iso_16281", "fujiwara")
 # The logarithm is singular at the very end of the contact; the drop is held constant beyond this abscissa.
 _LARGEST_SQUARED_ABSCISSA = 1.0 - 1.0e-6
 # ISO/TS 16281: rollers longer than this many diameters have a straight middle.
@@ -108,29 +100,18 @@ class Profile:
             yield f"gives drop_um 0; a {self.kind} profile needs a drop above 0"
 
     def drop_at(
-        self,
-        x: ArrayLike,
-        half_length: float,
-        roller_diameter: float,
-        contact_modulus: float = 226.4e9,
+        self, x: ArrayLike, half_length: float, roller_diameter: float, contact_modulus: float = 226.4e9
     ) -> Float:
-        """Compute the profile drop along the generator.
+        """Compute the drop of the roller surface along the generator, positive away from the raceway, [m].
 
         Parameters
         ----------
         x : array_like
             Abscissa from mid-length, [m].
-        half_length : float
-            Half of the effective length, [m].
-        roller_diameter : float
-            Mean roller diameter, [m].
+        half_length, roller_diameter : float
+            Half of the effective length; mean, [m].
         contact_modulus : float
             E' of the contact, [Pa].
-
-        Returns
-        -------
-        float64 array, shape of `x`
-            Drop of the roller surface, positive away from the raceway, [m].
 
         References
         ----------
@@ -150,8 +131,15 @@ class Profile:
         if self.kind == "crowned":
             return (self.drop or 0.0) * share**2
         if self.kind == "iso_16281":
-            return self._iso_scale(modulus) * _iso_drop(share, 2.0 * half_length, roller_diameter)
-        load = self._line_load(half_length, radius, modulus)
+            # Lundberg's at the design pressure, for a short roller
+            pressure = self.design_pressure
+            scale = 1.0 if pressure is None else (pressure / modulus) ** 2 / (2.0 * _ISO_SHORT_FACTOR)
+            return scale * _iso_drop(share, 2.0 * half_length, roller_diameter)
+        # per length, q = Q/L or pi R p0^2 / E*
+        if self.design_load is not None:
+            load = self.design_load / (2.0 * half_length)
+        else:
+            load = math.pi * radius * (self.design_pressure or 0.0) ** 2 / modulus
         scale = load / (math.pi * modulus)
         if self.kind in ("logarithmic", "lundberg"):
             return scale * _logarithm(share**2)
@@ -181,18 +169,6 @@ class Profile:
         drop = self.drop_at(inside, 0.5 * length, roller_diameter, contact_modulus)
         mean: Float = 0.5 * drop @ _MEAN_WEIGHTS
         return mean
-
-    def _line_load(self, half_length: float, radius: float, modulus: float) -> float:
-        """Design load per length, q = Q/L or pi R p0^2 / E*, [N/m]."""
-        if self.design_load is not None:
-            return self.design_load / (2.0 * half_length)
-        return math.pi * radius * (self.design_pressure or 0.0) ** 2 / modulus
-
-    def _iso_scale(self, modulus: float) -> float:
-        """Compute the factor of the standard's function: Lundberg's at the design pressure, short roller."""
-        if self.design_pressure is None:
-            return 1.0
-        return (self.design_pressure / modulus) ** 2 / (2.0 * _ISO_SHORT_FACTOR)
 
 
 def _logarithm(squared: Float) -> Float:

@@ -65,7 +65,7 @@ def aihara_line(contact: RollingContact) -> float:
     ----------
     Aihara (1987), ASME J. Tribol. 109, 471: M = 176/alpha (G U)^0.658 W^0.31 R^2 l.
     """
-    return _power_law(contact, contact.line_load_parameter, AIHARA_FACTOR, AIHARA_SPEED, AIHARA_LOAD)
+    return _power_law(contact, AIHARA_FACTOR, AIHARA_SPEED, AIHARA_LOAD)
 
 
 def zhou_hoeprich_line(contact: RollingContact) -> float:
@@ -76,13 +76,7 @@ def zhou_hoeprich_line(contact: RollingContact) -> float:
     Zhou and Hoeprich (1991), ASME J. Tribol. 113, 590: M = 58.4/alpha (G U)^0.648 W^0.246 R^2 l, which is
     twice their rolling force times R.
     """
-    return _power_law(
-        contact,
-        contact.line_load_parameter,
-        ZHOU_HOEPRICH_FACTOR,
-        ZHOU_HOEPRICH_SPEED,
-        ZHOU_HOEPRICH_LOAD,
-    )
+    return _power_law(contact, ZHOU_HOEPRICH_FACTOR, ZHOU_HOEPRICH_SPEED, ZHOU_HOEPRICH_LOAD)
 
 
 def biboulet_houpert_force(contact: RollingContact) -> float:
@@ -109,16 +103,10 @@ def biboulet_houpert_line(contact: RollingContact) -> float:
 
 
 def hysteresis_line(load: float, half_width: float, loss_factor: float) -> float:
-    """Compute the couple from the elastic hysteresis of a line contact, [N m].
+    """Compute the couple from the elastic hysteresis of a line contact under a load [N], [N m].
 
-    Parameters
-    ----------
-    load : float
-        [N].
-    half_width : float
-        Hertz half width b, [m].
-    loss_factor : float
-        alpha_v: share of the elastic energy lost in a cycle; 0.005 to 0.01 for bearing steel.
+    With the Hertz half width b [m] and alpha_v, the share of the elastic energy lost in a cycle; 0.005 to
+    0.01 for bearing steel.
 
     References
     ----------
@@ -132,10 +120,8 @@ def hertz_half_width(load_per_length: float, radius: float, contact_modulus: flo
     return math.sqrt(8.0 * load_per_length * radius / (math.pi * contact_modulus))
 
 
-def _power_law(
-    contact: RollingContact, load_parameter: float, factor: float, speed_exponent: float, load_exponent: float
-) -> float:
+def _power_law(contact: RollingContact, factor: float, speed_exponent: float, load_exponent: float) -> float:
     """Compute the couple factor/alpha (G U)^s W^w R^2 l, [N m]."""
     film = (contact.material_parameter * contact.speed_parameter) ** speed_exponent
     scale = contact.radius**2 * contact.length / contact.pressure_viscosity
-    return factor * film * load_parameter**load_exponent * scale
+    return factor * film * contact.line_load_parameter**load_exponent * scale

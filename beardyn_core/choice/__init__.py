@@ -8,18 +8,14 @@ statics       equilibria of the load cases
 losses        torque by source, slip of the raceways
 costs         measured cost of tiers, effects, laminae (`costs.json`)
 evidence      all of these for one scene, each worked out once
-rule          alternatives with influence and cost; decisions
-stiffness     rules: ring flexibility, lamina coupling
+rule          alternatives with influence and cost, decisions, the choice with reasons and errors
 friction      rules: traction and film, rolling resistance, drag, seal, thermal
 guidance      rules: rib, small rib, cage
-motion        rules: gravity, contact damping, audit
-tier          what a tier leaves out
+motion        rules: gravity, contact damping, ring flexibility, lamina coupling, audit
 fast_step     the step of the fast tiers
 usual_step    the step of a scene that names none
-numerics      what a lamina count leaves out; the step
-search        the cheapest alternatives within the limits
-outcome       the choice with reasons, cost and expected errors
-choose        scene in, choice out
+numerics      what a tier or a lamina count leaves out; the step
+choose        scene in, the cheapest alternatives within the limits out
 load          scenes ready to run: read by `config`, what they leave open closed
 trial         the scenes of a trial
 ============= =================================================================

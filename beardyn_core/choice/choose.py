@@ -9,21 +9,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
-from beardyn_core.choice import friction, guidance, motion, numerics, stiffness, tier
-from beardyn_core.choice.costs import measured_costs
+from beardyn_core.choice import friction, guidance, motion, numerics
+from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.evidence import Evidence
-from beardyn_core.choice.outcome import Choice
-from beardyn_core.choice.rule import Alternative, Decision, Rule, tolerance
-from beardyn_core.choice.search import Stage, cheapest
+from beardyn_core.choice.rule import Alternative, Choice, Decision, Rule, tolerance
 from beardyn_core.effects import Audit, EffectSet
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.friction_steps import StepChoice
-from beardyn_core.scene.free import Free
-from beardyn_core.scene.scene import QUANTITIES, Scene
+from beardyn_core.scene.scene import QUANTITIES, Free, Scene
 from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
@@ -32,22 +29,36 @@ _DECIDING = 2  # so many first rules decide the step: friction, and what damps t
 RULES: tuple[Callable[[Evidence], Rule], ...] = (
     friction.traction,
     motion.contact_damping,
-    stiffness.lamina_coupling,
+    motion.lamina_coupling,
     friction.rolling_resistance,
     friction.drag,
     guidance.rib,
     guidance.small_rib,
     guidance.cage,
     friction.seal,
-    stiffness.ring_flexibility,
+    motion.ring_flexibility,
     motion.gravity,
     friction.thermal,
     motion.audit,
 )
 
 
+@dataclass(frozen=True)
+class Stage:
+    """A tier with a lamina count: its cost and its errors before any effect is chosen."""
+
+    tier: str
+    laminae: int
+    cost: float
+    influence: tuple[float, ...]
+    tier_reason: str
+    laminae_reason: str
+
+
 def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = None) -> Choice:
     """Choose the cheapest tier, effects, laminae and step within the accuracy of a scene.
+
+    Where nothing is within the accuracy, the one that comes nearest.
 
     Parameters
     ----------
@@ -57,11 +68,6 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
         What may be chosen, everything when left out; the rest is kept as the scene has it.
     given : EffectSet, optional
         The effects that are kept where they are not free; those of the reference when left out.
-
-    Returns
-    -------
-    Choice
-        Where nothing is within the accuracy, the one that comes nearest.
     """
     free = free or Free()
     given = given or scene.effects
@@ -83,7 +89,7 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
         for deciding in product(*offered[:_DECIDING]):
             step = clock.step(scene, stage.tier, stage.laminae, deciding)
             fixed = [[option] for option in deciding]
-            found = cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
+            found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
             # cost counts per simulated second; between equal costs the smaller error
             seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
             key = (found[0], seconds, found[2])
@@ -120,22 +126,19 @@ def _stages(
     found = []
     counts = numerics.LAMINAE if free.laminae else (scene.numerics.laminae,)
     names = tuple(TIERS) if free.tier else (scene.tier,)
-    for name in names:
-        if TIERS[name].needs_rib and given.rib is None:
+    for name, count in product(names, counts):
+        limits = TIERS[name]
+        if (limits.needs_rib and given.rib is None) or count < limits.smallest_laminae:
             continue
-        for count in counts:
-            if count < TIERS[name].smallest_laminae:
-                continue
-            lamina = numerics.laminae(evidence, count)
-            verdict = tier.verdict(evidence, name, count)
-            if verdict is None:
-                continue
-            total = tuple(
-                verdict.influence.get(quantity, 0.0) + lamina.influence.get(quantity, 0.0)
-                for quantity in asked
-            )
-            cost = evidence.costs.base(name, count)
-            found.append(Stage(name, count, cost, total, verdict.reason, lamina.reason))
+        lamina = numerics.laminae(evidence, count)
+        verdict = numerics.tier(evidence, name, count)
+        if verdict is None:
+            continue
+        total = tuple(
+            verdict.influence.get(quantity, 0.0) + lamina.influence.get(quantity, 0.0) for quantity in asked
+        )
+        cost = evidence.costs.base(name, count)
+        found.append(Stage(name, count, cost, total, verdict.reason, lamina.reason))
     return found
 
 
@@ -182,9 +185,8 @@ def _unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
 
 def _represented(option: Alternative, tier_name: str) -> bool:
     represented = TIERS[tier_name].represented
-    if represented is None:
-        return True
-    return all(name in represented for name, value in option.members.items() if value is not None)
+    present = (name for name, value in option.members.items() if value is not None)
+    return represented is None or all(name in represented for name in present)
 
 
 def _choice_of(
@@ -276,3 +278,64 @@ def _unjudged(scene: Scene, free: Free, given: EffectSet, accuracy: float, why: 
         seconds=measured_costs().seconds(total, usual, name),
         within=False,
     )
+
+
+def _cheapest(
+    offered: list[list[Alternative]],
+    stage: Stage,
+    asked: tuple[str, ...],
+    limits: tuple[float, ...],
+    costs: Costs,
+) -> tuple[float, float, float, list[Alternative]]:
+    """Find the best alternatives of a stage: by excess over the limits, cost of a step, error over limit.
+
+    Depth first, with the least cost of the rules that are left as bound.
+    """
+    options = []
+    for alternatives in offered:
+        entries = []
+        for option in alternatives:
+            influence = tuple(option.influence.get(name, 0.0) for name in asked)
+            cost = costs.scaled(next(iter(option.members)), option.cost, stage.laminae)
+            # a tier with few states does not pay for an effect what the full one does
+            entries.append((cost if stage.tier == "full" else min(cost, 0.001), influence, option))
+        entries.sort(key=lambda entry: (entry[0], sum(entry[1])))
+        options.append(entries)
+    least_cost = _tails([min(entry[0] for entry in entries) for entries in options])
+    least_error = [
+        _tails([min(entry[1][index] for entry in entries) for entries in options])
+        for index in range(len(asked))
+    ]
+    best: list[tuple[float, float, float, list[Alternative]]] = []
+
+    def excess(errors: tuple[float, ...]) -> float:
+        return sum(
+            max(error / limit - 1.0, 0.0)
+            for error, limit in zip(errors, limits, strict=True)
+            if error > limit
+        )
+
+    def descend(depth: int, cost: float, errors: tuple[float, ...], taken: list[Alternative]) -> None:
+        if depth == len(options):
+            relative = sum(error / limit for error, limit in zip(errors, limits, strict=True))
+            key = (excess(errors), cost, relative)
+            if not best or key < best[0][:3]:
+                best[:] = [(*key, list(taken))]
+            return
+        bound = tuple(error + least_error[index][depth] for index, error in enumerate(errors))
+        if best and (excess(bound), cost + least_cost[depth]) > best[0][:2]:
+            return
+        for more, influence, option in options[depth]:
+            added = tuple(error + part for error, part in zip(errors, influence, strict=True))
+            descend(depth + 1, cost + more, added, [*taken, option])
+
+    descend(0, stage.cost, stage.influence, [])
+    return best[0]
+
+
+def _tails(values: list[float]) -> list[float]:
+    """Sum the values from each one to the last, with 0 behind the last."""
+    sums = [0.0]
+    for value in reversed(values):
+        sums.append(sums[-1] + value)
+    return sums[::-1]

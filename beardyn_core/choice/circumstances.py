@@ -95,10 +95,8 @@ def circumstances(scene: Scene) -> Circumstances:
 
 
 def _alike(one: LoadCase, other: LoadCase) -> bool:
-    apart = (
-        np.abs(np.subtract(one.force, other.force)).max()
-        + np.abs(np.subtract(one.moment, other.moment)).max() / 0.1
-    )
+    turned = np.abs(np.subtract(one.moment, other.moment)).max() / 0.1
+    apart = np.abs(np.subtract(one.force, other.force)).max() + turned
     return bool(apart <= _SAME * max(one.size, other.size, 1.0))
 
 

@@ -47,12 +47,7 @@ def decibels(ratio: float) -> float:
 
 
 class Evidence:
-    """Facts about a scene, each computed once when a rule first asks for it.
-
-    Parameters
-    ----------
-    scene : Scene
-        In the full tier with the reference's effects.
+    """Facts about a scene in the full tier with the reference's effects, each computed once when asked for.
 
     Raises
     ------

@@ -30,13 +30,6 @@ def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: in
 
     Half of the rollers, with preload all of them, are taken to carry as the heaviest one does under the
     static load rating, where the line contacts are at their stiffest.
-
-    Parameters
-    ----------
-    bearing : Bearing
-    mounting : Mounting
-    preloaded : bool
-    rows : int
     """
     cosine, sine, lever = math.cos(bearing.cup_angle), math.sin(bearing.cup_angle), lever_of_cup(bearing)
     rollers = rows * bearing.roller_count

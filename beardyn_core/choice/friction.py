@@ -6,7 +6,7 @@ import numpy as np
 
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.losses import Drive
-from beardyn_core.choice.rule import FRICTION_DB, Alternative, Rule, percent
+from beardyn_core.choice.rule import FAST, FRICTION_DB, FULL, Alternative, Rule, absent, on_or_off, percent
 from beardyn_core.effects import (
     CoulombTraction,
     LineFilm,
@@ -17,8 +17,6 @@ from beardyn_core.effects import (
 )
 from beardyn_core.model.heat import thermal_network
 
-_FAST = frozenset({"lumped", "quasistatic"})
-_FULL = frozenset({"full"})
 # Runs shorter than this stay at the temperature the scene gives.
 _SMALLEST_DRIFT = 0.01  # that a reason mentions, [K]
 _SHORT = 60.0
@@ -45,17 +43,10 @@ def traction(evidence: Evidence) -> Rule:
     costs = evidence.costs
 
     def alternative(word: str, law: Traction, film: LineFilm | None, cost: float) -> Alternative:
-        drive = losses.drive(law, film)
-        return Alternative(
-            {"traction": law, "film": film},
-            f"{reason}; by this law {percent(drive.used)}" if law is not effects.traction else reason,
-            {}
-            if law is effects.traction and film is effects.film
-            else _other_law(evidence, drive, reference, law),
-            cost,
-            _FULL,
-            word,
-        )
+        drive, same = losses.drive(law, film), law is effects.traction
+        told = reason if same else f"{reason}; by this law {percent(drive.used)}"
+        errors = {} if same and film is effects.film else _other_law(evidence, drive, reference, law)
+        return Alternative({"traction": law, "film": film}, told, errors, cost, FULL, word)
 
     found = []
     mixed_cost = costs.saved("traction")
@@ -66,41 +57,18 @@ def traction(evidence: Evidence) -> Rule:
         law_cost = mixed_cost
         if isinstance(effects.traction, LoadSharingTraction):
             law_cost += costs.extra("traction load_sharing")
-        found.append(
-            alternative(
-                _word(effects.traction, effects.film),
-                effects.traction,
-                effects.film,
-                law_cost + thermal,
-            )
-        )
+        word = f"{effects.traction.kind}, {'film' if effects.film is not None else 'no film'}"
+        found.append(alternative(word, effects.traction, effects.film, law_cost + thermal))
         if effects.film is not None and isinstance(effects.traction, LoadSharingTraction):
-            plain = LineFilm()
-            found.append(alternative("mixed, film", MixedTraction(), plain, mixed_cost))
+            found.append(alternative("mixed, film", MixedTraction(), LineFilm(), mixed_cost))
         dry = costs.instead("traction", "traction coulomb, no film")
         found.append(alternative("coulomb, no film", CoulombTraction(), None, dry))
-    found.append(
-        Alternative(
-            {"traction": None, "film": None},
-            f"the tier's rollers roll without slip; {reason}",
-            _without_slip(evidence, reference),
-            0.0,
-            # nothing else drives the rollers of the full tier
-            _FAST if effects.traction is not None else _FAST | _FULL,
-            "off",
-        )
-    )
-    return Rule("traction", tuple(found))
-
-
-def _word(law: Traction, film: LineFilm | None) -> str:
-    name = {
-        "CoulombTraction": "coulomb",
-        "MixedTraction": "mixed",
-        "ShearedFilmTraction": "sheared_film",
-        "LoadSharingTraction": "load_sharing",
-    }[type(law).__name__]
-    return f"{name}, {'film' if film is not None else 'no film'}"
+    # nothing else drives the rollers of the full tier
+    tiers = FAST if effects.traction is not None else FAST | FULL
+    rolling = f"the tier's rollers roll without slip; {reason}"
+    without = _without_slip(evidence, reference)
+    off = Alternative({"traction": None, "film": None}, rolling, without, 0.0, tiers, "off")
+    return Rule("traction", (*found, off))
 
 
 def _other_law(evidence: Evidence, drive: Drive, reference: Drive, law: Traction) -> dict[str, float]:
@@ -140,7 +108,7 @@ def rolling_resistance(evidence: Evidence) -> Rule:
     effects, losses = evidence.scene.effects, evidence.losses
     effect = effects.rolling_resistance
     if effect is None:
-        return _absent("rolling_resistance")
+        return absent("rolling_resistance")
     drive = losses.drive(effects.traction, effects.film)
     less = losses.drive(effects.traction, effects.film, rolling=False)
     reason = f"{losses.rolling:.3g} N m of a torque of about {evidence.torque:.3g} N m"
@@ -148,14 +116,8 @@ def rolling_resistance(evidence: Evidence) -> Rule:
         "torque": evidence.torque_share(losses.rolling) + evidence.torque_share(drive.torque - less.torque),
         **evidence.slipping(0.5 * abs(drive.slip - less.slip)),
     }
-    return Rule(
-        "rolling_resistance",
-        (
-            Alternative(
-                {"rolling_resistance": effect}, reason, {}, evidence.costs.extra("rolling_resistance")
-            ),
-            Alternative({"rolling_resistance": None}, reason, influence, word="off"),
-        ),
+    return on_or_off(
+        "rolling_resistance", effect, reason, influence, evidence.costs.extra("rolling_resistance")
     )
 
 
@@ -163,7 +125,7 @@ def drag(evidence: Evidence) -> Rule:
     """Decide on drag: on when it makes up a notable part of the torque, or brakes rollers that slip."""
     effects, losses = evidence.scene.effects, evidence.losses
     if effects.drag is None:
-        return _absent("drag")
+        return absent("drag")
     drive = losses.drive(effects.traction, effects.film)
     less = losses.drive(effects.traction, effects.film, drag=False)
     reason = f"{losses.drag:.3g} N m of a torque of about {evidence.torque:.3g} N m"
@@ -174,28 +136,17 @@ def drag(evidence: Evidence) -> Rule:
         "torque": evidence.torque_share(losses.drag) + evidence.torque_share(part * drive.torque),
         **evidence.slipping(0.5 * max(abs(drive.slip - less.slip), part)),
     }
-    return Rule(
-        "drag",
-        (
-            Alternative({"drag": effects.drag}, reason, {}, evidence.costs.extra("drag")),
-            Alternative({"drag": None}, reason, influence, word="off"),
-        ),
-    )
+    return on_or_off("drag", effects.drag, reason, influence, evidence.costs.extra("drag"))
 
 
 def seal(evidence: Evidence) -> Rule:
     """Decide on the seals: on when they make up a notable part of the torque."""
     effect, torque = evidence.scene.effects.seal, evidence.losses.seal
     if effect is None:
-        return _absent("seal")
+        return absent("seal")
     reason = f"{torque:.3g} N m of a torque of about {evidence.torque:.3g} N m"
-    return Rule(
-        "seal",
-        (
-            Alternative({"seal": effect}, reason, {}, evidence.costs.extra("seal")),
-            Alternative({"seal": None}, reason, {"torque": evidence.torque_share(torque)}, word="off"),
-        ),
-    )
+    influence = {"torque": evidence.torque_share(torque)}
+    return on_or_off("seal", effect, reason, influence, evidence.costs.extra("seal"))
 
 
 def thermal(evidence: Evidence) -> Rule:
@@ -204,23 +155,12 @@ def thermal(evidence: Evidence) -> Rule:
     effect = scene.effects.thermal or Thermal()
     drift = _warming(evidence, effect)
     influence = {"torque": min(_VISCOSITY_POWER * scene.lubricant.temperature_coefficient * abs(drift), 1.0)}
-    if scene.duration < _SHORT and scene.effects.thermal is None:
-        reason = f"in {scene.duration:g} s {_drift_text(drift)}"
-        return Rule("thermal", (Alternative({"thermal": None}, reason, word="off"),))
     reason = f"in {scene.duration:g} s {_drift_text(drift)}"
-    return Rule(
-        "thermal",
-        (
-            Alternative(
-                {"thermal": effect},
-                f"{reason}; the audit feeds it",
-                {},
-                evidence.costs.extra("thermal") + evidence.costs.saved("audit"),
-                _FULL,
-            ),
-            Alternative({"thermal": None}, reason, influence, word="off"),
-        ),
-    )
+    if scene.duration < _SHORT and scene.effects.thermal is None:
+        return Rule("thermal", (Alternative({"thermal": None}, reason, word="off"),))
+    cost = evidence.costs.extra("thermal") + evidence.costs.saved("audit")
+    on = Alternative({"thermal": effect}, f"{reason}; the audit feeds it", {}, cost, FULL)
+    return Rule("thermal", (on, Alternative({"thermal": None}, reason, influence, word="off")))
 
 
 def _drift_text(drift: float) -> str:
@@ -240,7 +180,3 @@ def _warming(evidence: Evidence, effect: Thermal) -> float:
     if leaving <= 0.0:
         return gain * scene.duration / capacity
     return float(gain / leaving * -np.expm1(-scene.duration * leaving / capacity))
-
-
-def _absent(name: str) -> Rule:
-    return Rule(name, (Alternative({name: None}, "not in the reference", word="off"),))

@@ -7,11 +7,19 @@ from dataclasses import replace
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
-from beardyn_core.choice.rule import FRICTION_DB, Alternative, Influence, Rule, percent
+from beardyn_core.choice.rule import (
+    FAST,
+    FRICTION_DB,
+    FULL,
+    Alternative,
+    Influence,
+    Rule,
+    absent,
+    on_or_off,
+    percent,
+)
 from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCage
 
-_FAST = frozenset({"lumped", "quasistatic"})
-_FULL = frozenset({"full"})
 _GRAVITY = 9.80665
 MOST_SLIP = 1.0
 
@@ -20,7 +28,7 @@ def rib(evidence: Evidence) -> Rule:
     """Decide on the rib: always on, as every loaded roller presses on it; with film for the torque."""
     effect, losses = evidence.scene.effects.rib, evidence.losses
     if effect is None:
-        return Rule("rib", (Alternative({"rib": None}, "not in the reference", word="off", tiers=_FULL),))
+        return absent("rib", FULL)
     share = float(evidence.typical.rib_load.max()) / max(evidence.typical.largest_roller_load, 1.0e-3)
     full, dry = losses.rib(effect), losses.rib(_plain(effect))
     reason = f"the raceways press the rollers against it with {percent(share)} of their load"
@@ -35,16 +43,8 @@ def rib(evidence: Evidence) -> Rule:
         more += costs.extra("rib lubrication mixed")
     if effect.roller_end or effect.drilling:
         more += costs.extra("rib roller_end, drilling")
-    found = [
-        Alternative(
-            {"rib": effect},
-            reason,
-            {},
-            basic + more,
-            _FULL if fuller else _FAST | _FULL,
-            "lubricated" if fuller else "on",
-        )
-    ]
+    tiers, word = (FULL, "lubricated") if fuller else (FAST | FULL, "on")
+    found = [Alternative({"rib": effect}, reason, {}, basic + more, tiers, word)]
     if fuller:
         influence = {"torque": evidence.torque_share(full - dry), "vibration": FRICTION_DB}
         drive = losses.drive(evidence.scene.effects.traction, evidence.scene.effects.film)
@@ -67,7 +67,7 @@ def small_rib(evidence: Evidence) -> Rule:
     scene, loads = evidence.scene, evidence.loads
     effect = scene.effects.small_rib
     if effect is None:
-        return Rule("small_rib", (Alternative({"small_rib": None}, "not in the reference", word="off"),))
+        return absent("small_rib")
     orbit = cage_speed(scene.bearing, abs(loads.typical.speed))
     outward = orbit**2 * 0.5 * scene.bearing.pitch_diameter * math.sin(scene.bearing.cup_angle) / _GRAVITY
     influence: dict[str, float] = {}
@@ -83,13 +83,7 @@ def small_rib(evidence: Evidence) -> Rule:
         reason = (
             f"the centrifugal force holds idle rollers at the large rib with {outward:.2g} times their weight"
         )
-    return Rule(
-        "small_rib",
-        (
-            Alternative({"small_rib": effect}, reason, {}, evidence.costs.extra("small_rib"), _FULL),
-            Alternative({"small_rib": None}, reason, influence, word="off"),
-        ),
-    )
+    return on_or_off("small_rib", effect, reason, influence, evidence.costs.extra("small_rib"), FULL)
 
 
 def cage(evidence: Evidence) -> Rule:
@@ -98,7 +92,7 @@ def cage(evidence: Evidence) -> Rule:
     effects = scene.effects
     effect = effects.cage
     if effect is None:
-        return Rule("cage", (Alternative({"cage": None}, "not in the reference", word="off"),))
+        return absent("cage")
     drive = losses.drive(effects.traction, effects.film)
     slip = 0.5 * drive.slip
     reason = f"the rollers slip by {percent(drive.slip)} of their rolling speed"
@@ -122,31 +116,23 @@ def cage(evidence: Evidence) -> Rule:
     ) -> Alternative:
         return Alternative({"cage": model}, reason, without, max(cost, 0.001), tiers, word)
 
-    whole = basic
-    if isinstance(effect, Cage) and effect.lubrication is not None:
-        whole += costs.extra("cage lubrication")
-    found = [alternative(_word(effect), effect, whole, {}, _FULL)]
+    lubricated = isinstance(effect, Cage) and effect.lubrication is not None
+    whole = basic + costs.extra("cage lubrication") if lubricated else basic
+    found = [alternative(f"{effect.kind}{', lubricated' if lubricated else ''}", effect, whole, {}, FULL)]
+    speed = {"cage_speed": MOST_SLIP if worn else max(slip, left.get("cage_speed", 0.0))}
     if isinstance(effect, Cage):
-        if effect.lubrication is not None:
-            found.append(alternative("six_dof, dry", replace(effect, lubrication=None), basic, left, _FULL))
+        if lubricated:
+            found.append(alternative("six_dof, dry", replace(effect, lubrication=None), basic, left, FULL))
         spin = costs.instead("cage", "cage rotating")
         loss = {**left, "vibration": knock}
-        found.append(alternative("rotating", RotatingCage(), spin, loss, _FULL))
+        found.append(alternative("rotating", RotatingCage(), spin, loss, FULL))
         prescribed = costs.instead("cage", "cage kinematic")
         # at a prescribed speed the cage takes over part of the force that rolling needs from the raceways
         taken = evidence.torque_share(0.25 * drive.needed * scene.bearing.pitch_diameter)
-        speed = {"cage_speed": MOST_SLIP if worn else max(slip, left.get("cage_speed", 0.0))}
         loss = {**left, "torque": left["torque"] + taken, "vibration": knock, **speed}
-        found.append(alternative("kinematic", KinematicCage(), prescribed, loss, _FULL))
-    speed = {"cage_speed": MOST_SLIP if worn else max(slip, left.get("cage_speed", 0.0))}
-    found.append(alternative("off", None, 0.001, {**left, "vibration": knock, **speed}, _FAST))
+        found.append(alternative("kinematic", KinematicCage(), prescribed, loss, FULL))
+    found.append(alternative("off", None, 0.001, {**left, "vibration": knock, **speed}, FAST))
     return Rule("cage", tuple(found))
-
-
-def _word(effect: CageModel) -> str:
-    if isinstance(effect, Cage):
-        return "six_dof, lubricated" if effect.lubrication is not None else "six_dof"
-    return "rotating" if isinstance(effect, RotatingCage) else "kinematic"
 
 
 def _excitation(evidence: Evidence) -> float:

@@ -9,19 +9,12 @@ from typing import Annotated as A
 
 from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
-from beardyn_core.config.load import (
-    OpenScene,
-    load_effects,
-    read_scene,
-    read_scene_mapping,
-    read_scene_text,
-)
+from beardyn_core.config.load import OpenScene, load_effects, read_scene, read_scene_mapping, read_scene_text
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.free import EFFECTS
-from beardyn_core.scene.scene import Numerics, Scene
+from beardyn_core.scene.scene import EFFECTS, Scene
 
 if TYPE_CHECKING:
-    from beardyn_core.choice.outcome import Choice
+    from beardyn_core.choice.rule import Choice
 
 
 def load_scene(
@@ -44,10 +37,8 @@ def load_scene(
         A shipped scene, or the path of a YAML file.
     effects : str, optional
         Preset or file instead of the scene's effects, or ``auto``.
-    tier : str, optional
     duration : float, optional
         [s].
-    laminae, seed : int, optional
     accuracy_percent, quantities : float, list of str, optional
         What is asked for, when something is ``auto``.
     outside_load : bool
@@ -116,7 +107,7 @@ def explain_scene(
     found = with_usual_step(read_scene(name, given))
     current = choice_for(found)
     if found.free.anything:
-        return Explanation(with_choice(found.scene, current), current, None)
+        return Explanation(current.applied(found.scene), current, None)
     every = read_scene(name, {**given, ("effects",): AUTO, ("tier",): AUTO}, without=("tier", "numerics"))
     return Explanation(found.scene, current, choice_for(every))
 
@@ -128,7 +119,7 @@ def _given(overrides: dict[Any, Any]) -> dict[Any, Any]:
 def closed(found: OpenScene, outside_load: bool = False) -> Scene:
     """Complete a scene: by the automatic choice with its reasons, or by the usual step of its tier."""
     if found.free.anything:
-        return with_choice(found.scene, choice_for(found))
+        return choice_for(found).applied(found.scene)
     return with_usual_step(found, outside_load).scene
 
 
@@ -156,20 +147,5 @@ def choice_for(found: OpenScene) -> Choice:
 def _judged_by(given: EffectSet, reference: EffectSet) -> EffectSet:
     """Give the reference the options of the scene; cheaper kinds are judged against the reference's own."""
     graded = ("traction", "film", "rib", "cage")
-    own = {
-        name: getattr(given, name)
-        for name in EFFECTS
-        if name not in graded and getattr(given, name) is not None
-    }
-    own |= {
-        name: getattr(given, name)
-        for name in graded
-        if getattr(given, name) is None and getattr(reference, name) is None
-    }
-    return replace(reference, **own)
-
-
-def with_choice(scene: Scene, choice: Choice) -> Scene:
-    """Put a choice and its reasons into a scene."""
-    numerics = Numerics(choice.laminae, choice.steps_per_sample, scene.numerics.integrator)
-    return replace(scene, tier=choice.tier, effects=choice.effects, numerics=numerics, chosen=choice.reasons)
+    own = {name: getattr(given, name) for name in EFFECTS if name not in graded}
+    return replace(reference, **{name: options for name, options in own.items() if options is not None})

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import rib_contact
-from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
+from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
-from beardyn_core.bearing.rib_film import rib_film_thickness
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import (
     CoulombTraction,
@@ -27,7 +26,7 @@ from beardyn_core.effects import (
     Traction,
 )
 from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.integrate.torque import entrainment_speeds, raceway_radius, running_torque
+from beardyn_core.integrate.torque import entrainment_speeds, running_torque
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import SEALS, drag_params
 from beardyn_core.scene.scene import Scene
@@ -67,15 +66,7 @@ class Drive:
 
 
 class Losses:
-    """Torque by source of a scene under one load, in pure rolling.
-
-    Parameters
-    ----------
-    scene : Scene
-        With the reference's effects; another set is asked for by argument.
-    case : LoadCase
-    static : StaticSolution
-    """
+    """Torque by source of a scene with the reference's effects under one load, in pure rolling."""
 
     def __init__(self, scene: Scene, case: LoadCase, static: StaticSolution) -> None:
         self.scene, self.case, self.static = scene, case, static
@@ -230,12 +221,7 @@ class Losses:
         return film.starvation * factor * thickness / scene.bearing.raceway_roughness
 
     def drive(
-        self,
-        traction: Traction | None,
-        film: LineFilm | None,
-        *,
-        rolling: bool = True,
-        drag: bool = True,
+        self, traction: Traction | None, film: LineFilm | None, *, rolling: bool = True, drag: bool = True
     ) -> Drive:
         """Compute the traction that the rollers need and what the law of friction gives."""
         loaded = self.static.cone_load > 0.0
@@ -329,8 +315,3 @@ class Losses:
         slide = min(1.2448e7 * cp**-1.5 * mm_s**-0.75 * kgf**-1.5, law.largest_slide)
         highest = 4.078e-2 * kgf**0.18 if kgf > 94.404 else 1.008e-4 * kgf**1.5
         return highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
-
-
-def raceway_speed(scene: Scene, speed: float) -> float:
-    """Compute the speed at which rollers pass a point of the cup, [m/s]."""
-    return cage_speed(scene.bearing, abs(speed)) * raceway_radius(scene.bearing, "cup")

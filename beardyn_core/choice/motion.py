@@ -1,13 +1,20 @@
-"""Rules of weight, damping and bookkeeping."""
+"""Rules of weight, damping, compliance and bookkeeping."""
 
 from __future__ import annotations
 
 import math
 
-from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
-from beardyn_core.choice.rule import Alternative, Rule, percent
+import numpy as np
 
-_FAST, _FULL = frozenset({"lumped", "quasistatic"}), frozenset({"full"})
+from beardyn_core.bearing.contact_law import line_contact_factor
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
+from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
+from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_or_off, percent
+from beardyn_core.effects import LaminaCoupling
+
+_LAMINAE = 20
+_DEPTH = 1.0e-5  # of a working load [m]
 
 
 def gravity(evidence: Evidence) -> Rule:
@@ -15,7 +22,7 @@ def gravity(evidence: Evidence) -> Rule:
     scene = evidence.scene
     effect = scene.effects.gravity
     if effect is None:
-        return Rule("gravity", (Alternative({"gravity": None}, "not in the reference", word="off"),))
+        return absent("gravity")
     bearing = scene.bearing
     rolling = scene.roller_total * bearing.roller_mass
     weight = effect.acceleration * (rolling + scene.rows * bearing.cage.mass)
@@ -36,13 +43,7 @@ def gravity(evidence: Evidence) -> Rule:
         influence |= {"torque": evidence.torque_share(part * drive.torque), "cage_speed": moved["cage_speed"]}
         influence["roller_load"] += moved["roller_load"]
         influence["deflection"] += moved["deflection"]
-    return Rule(
-        "gravity",
-        (
-            Alternative({"gravity": effect}, reason, {}, evidence.costs.saved("gravity")),
-            Alternative({"gravity": None}, reason, influence, word="off"),
-        ),
-    )
+    return on_or_off("gravity", effect, reason, influence, evidence.costs.saved("gravity"))
 
 
 def contact_damping(evidence: Evidence) -> Rule:
@@ -50,18 +51,11 @@ def contact_damping(evidence: Evidence) -> Rule:
     scene = evidence.scene
     effect = scene.effects.contact_damping
     if effect is None:
-        return Rule(
-            "contact_damping", (Alternative({"contact_damping": None}, "not in the reference", word="off"),)
-        )
+        return absent("contact_damping")
+    cost = evidence.costs.saved("contact_damping")
     if not evidence.moves:
         reason = "the cup is held, so that the axlebox has no resonance to damp; without it rollers bounce"
-        return Rule(
-            "contact_damping",
-            (
-                Alternative({"contact_damping": effect}, reason, {}, evidence.costs.saved("contact_damping")),
-                Alternative({"contact_damping": None}, reason, word="off"),
-            ),
-        )
+        return on_or_off("contact_damping", effect, reason, {}, cost)
     omega = 2.0 * math.pi * evidence.resonance
     contacts = 0.5 * omega * effect.time_constant
     box = scene.mounting.box_mass + scene.bearing.cup_mass
@@ -71,13 +65,7 @@ def contact_damping(evidence: Evidence) -> Rule:
         f"the critical damping, the suspension by {percent(others)}"
     )
     influence = {"vibration": decibels((contacts + others) / max(others, 1.0e-6))}
-    return Rule(
-        "contact_damping",
-        (
-            Alternative({"contact_damping": effect}, reason, {}, evidence.costs.saved("contact_damping")),
-            Alternative({"contact_damping": None}, reason, influence, word="off"),
-        ),
-    )
+    return on_or_off("contact_damping", effect, reason, influence, cost)
 
 
 def audit(evidence: Evidence) -> Rule:
@@ -85,12 +73,63 @@ def audit(evidence: Evidence) -> Rule:
     effect = evidence.scene.effects.audit
     reason = "keeps the energy balance and changes no quantity"
     if evidence.scene.effects.thermal is not None:
-        feeds = Alternative({"audit": effect}, "feeds the thermal effect", tiers=_FULL)
-        without = Alternative({"audit": None}, "a fast tier keeps no energy balance", tiers=_FAST, word="off")
+        feeds = Alternative({"audit": effect}, "feeds the thermal effect", tiers=FULL)
+        without = Alternative({"audit": None}, "a fast tier keeps no energy balance", tiers=FAST, word="off")
         return Rule("audit", (feeds, without))
-    alternatives = [Alternative({"audit": None}, reason, word="off")]
-    if effect is not None:
-        alternatives.insert(
-            0, Alternative({"audit": effect}, reason, {}, evidence.costs.saved("audit"), _FULL)
-        )
-    return Rule("audit", tuple(alternatives))
+    if effect is None:
+        return Rule("audit", (Alternative({"audit": None}, reason, word="off"),))
+    return on_or_off("audit", effect, reason, {}, evidence.costs.saved("audit"), FULL)
+
+
+def ring_flexibility(evidence: Evidence) -> Rule:
+    """Decide on a flexible cup: on when it changes load distribution or deflection."""
+    effect = evidence.scene.effects.ring_flexibility
+    if effect is None:
+        return absent("ring_flexibility")
+    change = evidence.difference({"bending": False}, {"bending": True})
+    influence = {
+        **change.influence(),
+        "torque": evidence.torque_share(evidence.torque_of_rigid_cup - evidence.torque),
+    }
+    reason = (
+        f"bending of the cup changes the deflection by {percent(change.deflection)} and the largest roller "
+        f"load by {percent(change.roller_load)}, the torque by {percent(influence['torque'])}"
+    )
+    cost = evidence.costs.extra("ring_flexibility")
+    return on_or_off("ring_flexibility", effect, reason, influence, cost)
+
+
+def lamina_coupling(evidence: Evidence) -> Rule:
+    """Decide on coupled laminae: on when they distribute the load otherwise than independent ones."""
+    effect = evidence.scene.effects.lamina_coupling
+    if effect is None:
+        return absent("lamina_coupling")
+    change = evidence.difference({"coupling": None}, {"coupling": effect}, heavy=True)
+    influence = change.influence()
+    reason = (
+        f"coupled laminae change the deflection by {percent(change.deflection)} and the largest roller load "
+        f"by {percent(change.roller_load)}"
+    )
+    partial = [share for share in evidence.patch_shares if share < 1.0]
+    if partial:
+        share = max(partial)
+        gain = beside_a_patch(evidence.scene.bearing, effect, share)
+        loaded = max(int(np.count_nonzero(evidence.typical.cone_load > 0.0)) // 2, 1)
+        # what the rest of the line carries more is not given to the neighbours
+        influence["roller_load"] += (gain - 1.0) * (1.0 - share) * 2.0 / loaded
+        influence["vibration"] += decibels((1.0 - (1.0 - share) * gain) / share)
+        reason += f"; a line that a patch leaves {percent(1.0 - share)} of carries {percent(gain - 1.0)} more"
+    return on_or_off("lamina_coupling", effect, reason, influence, evidence.costs.extra("lamina_coupling"))
+
+
+def beside_a_patch(bearing: Bearing, coupling: LaminaCoupling, share: float) -> float:
+    """Compute the load of a line with one end over a patch, coupled over independent laminae, [-]."""
+    root = bearing_lamina_root(bearing, coupling, _LAMINAE)
+    factor = line_contact_factor(bearing.material, bearing.effective_length) / _LAMINAE
+    touching = round((1.0 - share) * _LAMINAE)
+    if not 0 < touching < _LAMINAE:
+        return 1.0
+    depth = np.full(_LAMINAE, -_DEPTH)
+    depth[:touching] = _DEPTH
+    load = coupled_law(depth, factor, root)[0]
+    return float(np.sum(load)) / (factor * _DEPTH ** (10.0 / 9.0) * touching)

@@ -1,23 +1,25 @@
-"""Lamina count and time step."""
+"""Errors of a tier with fewer states than the full one and of a lamina count; the time step."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 
+from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.joint_lamina import joint_depth, part_exponent
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.fast_step import fast_steps
-from beardyn_core.choice.rule import Influence, percent
+from beardyn_core.choice.rule import Verdict, percent
 from beardyn_core.choice.usual_step import served
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
+from beardyn_core.integrate.torque import raceway_radius
 from beardyn_core.model.faults import lamina_cover
 from beardyn_core.scene.defect import Patch
 
@@ -28,18 +30,13 @@ LAMINAE = (2, 4, 6, 8, 10, 12, 16, 20, 40)
 _REFERENCE_LAMINAE = 40
 # Width of a third-octave band over its centre.
 _BAND = 0.2316
+# The flat band of the accelerometer.
+_HIGHEST_FREQUENCY = 10.0e3
+# One Newton step of the rollers in a time step, and the neglected turn of the normals: see test/tiers.
+_QUASISTATIC_SHARE = 0.005
 
 
-@dataclass(frozen=True)
-class LaminaVerdict:
-    """Cost and errors of a scene with a lamina count."""
-
-    count: int
-    reason: str
-    influence: Influence
-
-
-def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
+def laminae(evidence: Evidence, count: int) -> Verdict:
     """Compute the errors of a lamina count: load distribution, tilt stiffness, load lost over patches."""
     change = evidence.difference({"laminae": count}, {"laminae": _REFERENCE_LAMINAE}, heavy=True)
     length = evidence.scene.bearing.effective_length
@@ -64,7 +61,7 @@ def laminae(evidence: Evidence, count: int) -> LaminaVerdict:
             influence["vibration"] += decibels(1.0 + taken)
             reason += f" and takes {percent(taken)} too much or too little from it"
     influence["vibration"] = min(influence["vibration"], MOST_DB)
-    return LaminaVerdict(count, reason, influence)
+    return Verdict(reason, influence)
 
 
 def _uncovered(patch: Patch | None, length: float, count: int) -> tuple[list[float], list[float]]:
@@ -154,3 +151,70 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         band=AUDIBLE_BAND if vibration else 0.0,
     )
     return served(found, scene.sensors)
+
+
+def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:
+    """Judge a tier against the full one, the lumped one by its equilibria; ``None`` where no spring fits."""
+    if name == "full":
+        return Verdict("every body has its own equations of motion", {})
+    influence, reason = _without_roller_inertia(evidence)
+    if name == "quasistatic":
+        return Verdict(reason, {"deflection": _QUASISTATIC_SHARE, **influence})
+    deflection = roller_load = 0.0
+    for case in evidence.loads.cases:
+        spring, exact = evidence.statics.lumped(case, laminae), evidence.statics.at(case)
+        if exact is None:
+            continue
+        if spring is None:
+            return None
+        straight = float((exact.displacement @ exact.displacement) ** 0.5)
+        deflection = max(deflection, abs(spring[0] / max(straight, 1.0e-9) - 1.0))
+        roller_load = max(roller_load, abs(spring[1] / max(exact.largest_roller_load, 1.0e-3) - 1.0))
+    reason = (
+        f"one spring a roller misses the deflection by {percent(deflection)} and the largest roller load by "
+        f"{percent(roller_load)}; {reason}"
+    )
+    return Verdict(
+        reason, {**influence, "deflection": deflection, "roller_load": influence["roller_load"] + roller_load}
+    )
+
+
+def _without_roller_inertia(evidence: Evidence) -> tuple[dict[str, float], str]:
+    bounce = roller_bounce(evidence)
+    # response of a mass on springs over that of the springs alone, at the end of the band
+    ratio = 1.0 / abs(1.0 - min((_HIGHEST_FREQUENCY / bounce) ** 2, 0.999))
+    reason = f"its rollers have no inertia, a roller bounces at {bounce / 1e3:.3g} kHz"
+    influence = {"vibration": decibels(ratio), "roller_load": _QUASISTATIC_SHARE}
+    if evidence.patches:
+        overshoot = fault_overshoot(evidence, bounce)
+        reason += f" and overshoots by {percent(overshoot)} behind a fault"
+        influence["roller_load"] += overshoot
+    return influence, reason
+
+
+def roller_bounce(evidence: Evidence) -> float:
+    """Compute the frequency at which a roller with the mean load bounces between the raceways, [Hz]."""
+    bearing = evidence.scene.bearing
+    pressed = evidence.typical.cone_load[evidence.typical.cone_load > 0.0]
+    load = float(pressed.mean()) if pressed.size else 1.0
+    factor = line_contact_factor(bearing.material, bearing.effective_length)
+    # Q = K d^(10/9): tangent (10/9) K^(9/10) Q^(1/10), of both raceways together
+    tangent = 10.0 / 9.0 * factor**0.9 * load**0.1
+    return math.sqrt(2.0 * tangent / bearing.roller_mass) / (2.0 * math.pi)
+
+
+def fault_overshoot(evidence: Evidence, bounce: float) -> float:
+    """Compute the overshoot of a roller that leaves the steepest edge of a patch, [-].
+
+    The edge lasts a time e/v; a spring-mass answers to a ramp of that duration with at most 1/(pi f e/v).
+    """
+    bearing = evidence.scene.bearing
+    speed = cage_speed(bearing, abs(evidence.loads.top_speed)) * raceway_radius(bearing, "cup")
+    radius = 0.5 * bearing.roller_diameter
+    edges = [
+        min(0.5 * patch.width, math.sqrt(2.0 * radius * max(patch.depth, 1.0e-9)))
+        for patch in evidence.patches
+    ]
+    if speed == 0.0:
+        return 0.0
+    return min(1.0 / (math.pi * bounce * min(edges) / speed), 1.0)

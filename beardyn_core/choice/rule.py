@@ -1,13 +1,15 @@
-"""Data of a choice: alternatives of an effect with their cost and the errors they cause."""
+"""Data of a choice: alternatives with cost and errors, decisions, the outcome with its reasons."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated as A
-from typing import Any
+from typing import Any, NamedTuple
 
-from beardyn_core.scene.scene import QUANTITIES
+from beardyn_core.effects import EffectSet
+from beardyn_core.scene.scene import QUANTITIES, Scene
 
 # Third-octave bands within 1.5 dB, whatever the accuracy of the rest.
 VIBRATION_TOLERANCE_DB = 1.5
@@ -16,7 +18,9 @@ VIBRATION_TOLERANCE_DB = 1.5
 FRICTION_DB = 2.1
 _SMALLEST_PERCENT = 0.01
 UNITS = {name: "dB" if name == "vibration" else "%" for name in QUANTITIES}
+FAST, FULL = frozenset({"lumped", "quasistatic"}), frozenset({"full"})
 
+# quantity -> error: a fraction, of vibration in dB
 Influence = Mapping[str, float]
 
 
@@ -27,11 +31,10 @@ class Alternative:
     members: A[Mapping[str, Any], "member of the effect set -> its options or ``None``"]
     reason: A[str, "a sentence with the number that speaks for or against it"]
     influence: A[
-        Influence,
-        "quantity -> what it makes wrong against the reference: a fraction, of vibration in dB",
+        Influence, "quantity -> what it makes wrong against the reference: a fraction, of vibration in dB"
     ] = field(default_factory=dict)
     cost: A[float, "added to the step, in steps of the standard set"] = 0.0
-    tiers: A[frozenset[str], "tiers that can have it"] = frozenset({"lumped", "quasistatic", "full"})
+    tiers: A[frozenset[str], "tiers that can have it"] = FAST | FULL
     word: A[str, "what it is called, ``on`` and ``off`` mostly"] = "on"
 
 
@@ -41,6 +44,31 @@ class Rule:
 
     effect: A[str, "its name in the catalogue"]
     alternatives: tuple[Alternative, ...]
+
+
+def absent(effect: str, tiers: frozenset[str] = FAST | FULL) -> Rule:
+    """Make the rule of an effect that the reference does not have."""
+    return Rule(effect, (Alternative({effect: None}, "not in the reference", word="off", tiers=tiers),))
+
+
+def on_or_off(
+    effect: str,
+    options: Any,
+    reason: str,
+    influence: Influence,
+    cost: float,
+    tiers: frozenset[str] = FAST | FULL,
+) -> Rule:
+    """Make the rule of an effect that is on at a cost, or off with errors."""
+    on = Alternative({effect: options}, reason, {}, cost, tiers)
+    return Rule(effect, (on, Alternative({effect: None}, reason, influence, word="off")))
+
+
+class Verdict(NamedTuple):
+    """Errors of a tier or of a lamina count, and the reason for them."""
+
+    reason: str
+    influence: Influence
 
 
 @dataclass(frozen=True)
@@ -53,8 +81,7 @@ class Decision:
     on: bool
     cost_share: A[float, "part of the step that it takes, [-]"]
     influence: A[
-        Influence,
-        "expected error of each asked quantity by this decision: a fraction, of vibration in dB",
+        Influence, "expected error of each asked quantity by this decision: a fraction, of vibration in dB"
     ]
 
     def sentence(self) -> str:
@@ -73,3 +100,88 @@ def percent(value: float) -> str:
     if 0.0 < abs(share) < _SMALLEST_PERCENT:
         return f"below {_SMALLEST_PERCENT:g} %"
     return f"{share:.2g} %" if abs(share) < 99.5 else f"{share:.0f} %"
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What a scene is computed with, and why."""
+
+    tier: str
+    effects: EffectSet
+    laminae: int
+    steps_per_sample: float
+    accuracy: A[float, "asked for, [-]"]
+    quantities: A[tuple[str, ...], "asked for"]
+    tier_reason: str
+    laminae_reason: str
+    steps_reason: str
+    decisions: A[tuple[Decision, ...], "one for each effect, in the order of the catalogue"]
+    expected: A[Mapping[str, float], "expected error of each asked quantity: a fraction, of vibration in dB"]
+    step_cost: A[float, "of a step, in steps of the standard set"]
+    seconds: A[float, "wall time of a simulated second on the machine of the cost file, [s]"]
+    within: A[bool, "whether the expected errors are within the accuracy"]
+
+    @property
+    def real_time_factor(self) -> float:
+        """Real-time factor to expect on the machine of the cost file."""
+        return 1.0 / self.seconds
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """List the reasons, a sentence for each choice."""
+        return (
+            f"tier {self.tier}: {self.tier_reason}",
+            f"laminae {self.laminae}: {self.laminae_reason}",
+            f"steps_per_sample {self.steps_per_sample}: {self.steps_reason}",
+            *(decision.sentence() for decision in self.decisions),
+        )
+
+    def applied(self, scene: Scene) -> Scene:
+        """Apply this choice to a scene; bearing, load, faults, sensors and seed stay."""
+        kept = replace(scene.numerics, laminae=self.laminae, steps_per_sample=self.steps_per_sample)
+        return replace(scene, tier=self.tier, effects=self.effects, numerics=kept, chosen=self.reasons)
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the choice as a mapping for JSON; unknown errors and costs are NaN."""
+        return {
+            "tier": self.tier,
+            "effects": self.effects.names(),
+            "laminae": self.laminae,
+            "steps_per_sample": self.steps_per_sample,
+            "accuracy": self.accuracy,
+            "quantities": self.quantities,
+            "within_accuracy": self.within,
+            "expected_error": _errors(self.expected),
+            "real_time_factor": self.real_time_factor,
+            "step_cost": self.step_cost,
+            "reasons": {
+                "tier": self.tier_reason,
+                "laminae": self.laminae_reason,
+                "steps_per_sample": self.steps_reason,
+            },
+            "decisions": [
+                {
+                    "effect": decision.effect,
+                    "on": decision.on,
+                    "choice": decision.word,
+                    "reason": decision.reason,
+                    "cost_share": decision.cost_share,
+                    "error": _errors(decision.influence),
+                }
+                for decision in self.decisions
+            ],
+        }
+
+
+def _errors(errors: Mapping[str, float]) -> dict[str, dict[str, Any]]:
+    return {
+        name: {"error": error, "unit": "dB" if name == "vibration" else "share"}
+        for name, error in errors.items()
+    }
+
+
+def error_text(quantity: str, error: float) -> str:
+    """Write an expected error in words."""
+    if math.isnan(error):
+        return "unknown"
+    return f"{error:.2g} dB" if quantity == "vibration" else percent(error)

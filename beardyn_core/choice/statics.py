@@ -24,13 +24,7 @@ _SOFT = 1.0e3  # what holds a cone that touches nothing [N/m]
 
 
 class Statics:
-    """Equilibria of a scene's bearing, each solved once.
-
-    Parameters
-    ----------
-    scene : Scene
-        With the reference's effects.
-    """
+    """Equilibria of the bearing of a scene with the reference's effects, each solved once."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -50,21 +44,15 @@ class Statics:
         laminae: int = USUAL_LAMINAE,
         coupling: LaminaCoupling | None = None,
         bending: bool = False,
-        half_pitch: bool = False,
     ) -> StaticSolution | None:
         """Solve the equilibrium under a load case; ``None`` where there is none."""
-        key = (case, laminae, coupling, bending, half_pitch)
+        key = (case, laminae, coupling, bending)
         if key not in self._known:
-            self._known[key] = self._solved(case, laminae, coupling, bending, half_pitch)
+            self._known[key] = self._solved(*key)
         return self._known[key]
 
     def _solved(
-        self,
-        case: LoadCase,
-        laminae: int,
-        coupling: LaminaCoupling | None,
-        bending: bool,
-        half_pitch: bool,
+        self, case: LoadCase, laminae: int, coupling: LaminaCoupling | None, bending: bool
     ) -> StaticSolution | None:
         scene = self.scene
         free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
@@ -78,7 +66,6 @@ class Statics:
                 tilt="free" if free else "locked",
                 laminae=laminae,
                 speed=case.speed,
-                roller_phase=np.pi / scene.bearing.roller_count if half_pitch else 0.0,
                 coupling=coupling,
                 oversize=roller_oversize(scene),
                 bending_stiffness=self._bending if bending else (),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,6 @@ def load_trial(name: str | Path, *, tier: str | None = None, seed: int | None = 
 
     Parameters
     ----------
-    name : str or Path
     tier, seed : optional
         Instead of the file's; with another tier the check falls away where it is the same one.
 
@@ -58,11 +58,6 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
 
     Row and place of the spall follow from the run's seed: on the cup within 30 degrees of the middle of the
     load zone, anywhere on the cone or a roller.
-
-    Parameters
-    ----------
-    trial : Trial
-    cell : Cell
 
     Raises
     ------
@@ -124,15 +119,12 @@ def _spall(spall: Spall, cell: Cell, seed: int) -> dict[str, Any]:
 def _corners(trial: Trial) -> list[Cell]:
     """Find runs among which every entry of the matrix stands once, sizes with every fault."""
     first = trial.cells()[0]
-    speed, track, wheel = first.speed, first.track, first.wheel
+    healthy = Cell(HEALTHY, 0.0, first.speed, first.track, first.wheel, 0, trial.tier)
     tiers = dict.fromkeys(cell.tier for cell in trial.cells())
-    corners = [Cell(HEALTHY, 0.0, speed, track, wheel, 0, tier) for tier in tiers]
-    corners += [Cell(HEALTHY, 0.0, other, track, wheel, 0, trial.tier) for other in trial.speeds[1:]]
-    corners += [Cell(HEALTHY, 0.0, speed, other, wheel, 0, trial.tier) for other in trial.tracks[1:]]
-    corners += [Cell(HEALTHY, 0.0, speed, track, other.name, 0, trial.tier) for other in trial.wheels[1:]]
-    corners += [
-        Cell(fault, size, speed, track, wheel, 0, trial.tier)
-        for fault in trial.faults
-        for size in (trial.sizes[0], trial.sizes[-1])
-    ]
+    corners = [replace(healthy, tier=tier) for tier in tiers]
+    corners += [replace(healthy, speed=speed) for speed in trial.speeds[1:]]
+    corners += [replace(healthy, track=track) for track in trial.tracks[1:]]
+    corners += [replace(healthy, wheel=wheel.name) for wheel in trial.wheels[1:]]
+    ends = (trial.sizes[0], trial.sizes[-1])
+    corners += [replace(healthy, fault=fault, size=size) for fault in trial.faults for size in ends]
     return list(dict.fromkeys(corners))

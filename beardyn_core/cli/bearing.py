@@ -337,7 +337,7 @@ def _geometry_lines(bearing: Bearing) -> list[str]:
 
 def _rib_lines(bearing: Bearing, load: float, speed: float) -> list[str]:
     """Describe the contact of the heaviest rib: ellipse, pressure, sliding speed, and its limits."""
-    from beardyn_core.bearing.hertz import rib_ellipse, rib_truncation
+    from beardyn_core.bearing.contact_law import rib_ellipse, rib_truncation
     from beardyn_core.bearing.kinematics import roller_cone_spin
 
     if load <= 0.0:

@@ -12,7 +12,7 @@ from beardyn_core.cli.json_output import json_text
 
 if TYPE_CHECKING:
     from beardyn_core.choice import Explanation
-    from beardyn_core.choice.outcome import Choice
+    from beardyn_core.choice.rule import Choice
 
 DONE = 0
 _WIDTH = 110
@@ -91,7 +91,7 @@ def text(found: Explanation) -> str:
 
 def _lines(choice: Choice, title: str) -> list[str]:
     from beardyn_core.choice.costs import measured_costs
-    from beardyn_core.choice.outcome import error_text
+    from beardyn_core.choice.rule import error_text
     from beardyn_core.model.build import WAVEFORM_RATE
 
     taken = sum(decision.cost_share for decision in choice.decisions if decision.on)

@@ -103,8 +103,7 @@ def _scene(name: str) -> dict[str, Any]:
 def _speeds(scene: Scene) -> tuple[str | None, list[float] | None, list[float]]:
     """Find the vehicle, its smallest and largest speed [m/s], and those of the shaft [rad/s]."""
     from beardyn_core.rail.measured import read_measurement
-    from beardyn_core.scene.measured import MeasuredOperation
-    from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation
+    from beardyn_core.scene.operation import ConstantOperation, MeasuredOperation, QuarterVehicleOperation
 
     operation = scene.operation
     match operation:
@@ -126,8 +125,7 @@ def _speeds(scene: Scene) -> tuple[str | None, list[float] | None, list[float]]:
 
 
 def _group(scene: Scene) -> str:
-    from beardyn_core.scene.measured import MeasuredOperation
-    from beardyn_core.scene.operation import QuarterVehicleOperation
+    from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 
     operation = scene.operation
     train = isinstance(operation, (QuarterVehicleOperation, MeasuredOperation))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from beardyn_core.scene.free import EFFECTS, NOTHING, Free
+from beardyn_core.scene.scene import EFFECTS, NOTHING, Free
 
 AUTO = "auto"
 REFERENCE = "full"

@@ -30,13 +30,10 @@ from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
 from beardyn_core.rail.table import read_table
 from beardyn_core.scene.defect import Defect
-from beardyn_core.scene.excitation import WheelDefect
-from beardyn_core.scene.free import Free
-from beardyn_core.scene.integrator import integrator_problems
-from beardyn_core.scene.irregularity import MEASURED
+from beardyn_core.scene.excitation import MEASURED, WheelDefect
 from beardyn_core.scene.operation import QuarterVehicleOperation, Vehicle
-from beardyn_core.scene.scene import Numerics, Scene
-from beardyn_core.scene.tier import TIER_NAMES, contradictions
+from beardyn_core.scene.scene import Free, Numerics, Scene
+from beardyn_core.scene.tier import TIER_NAMES, contradictions, integrator_problems
 from beardyn_core.scene.trial import Trial
 from beardyn_core.scene.waviness import Waviness
 

@@ -17,13 +17,11 @@ from beardyn_core.edge import UNITS, Problem, WorkedOut, places
 from beardyn_core.effects import EffectSet
 from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.defect import Growth, Patch
-from beardyn_core.scene.integrator import LARGEST_STEPS
-from beardyn_core.scene.measured import MeasuredOperation
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, steps_do_not_fit
-from beardyn_core.scene.tier import LONG_STEPS, TIERS
-from beardyn_core.scene.timetable import Timetable
+from beardyn_core.scene.speed import Timetable
+from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
 from beardyn_core.scene.waviness import Band, Waviness
 
 _AUTO = {"const": "auto"}

@@ -7,10 +7,9 @@ from typing import Annotated as A
 from typing import ClassVar, Literal
 
 from beardyn_core.edge import SHARE, At
-from beardyn_core.effects.about import About
+from beardyn_core.effects.about import About, SlipSpeed
 
 PocketFriction = A[float, SHARE, "coefficient of friction between roller and pocket"]
-PocketRegularisation = A[float, At("m_per_s", gt=0.0), "slip speed at which 71 % of the friction is reached"]
 InitialSpeedRatio = A[
     float, At(ge=0.0, le=2.0), "speed of cages and rollers at the start over the kinematic one"
 ]
@@ -61,14 +60,10 @@ class LandGuidance:
         "pitch diameter and half a roller diameter more (cup) or less (cone) if not given",
     ] = None
     land_offset: A[
-        float | None,
-        At("mm"),
-        "outward from the cage's centre; above the large roller ends if not given",
+        float | None, At("mm"), "outward from the cage's centre; above the large roller ends if not given"
     ] = None
     friction: A[float, SHARE, "coefficient of friction of the edges, when they touch"] = 0.1
-    regularisation_speed: A[
-        float, At("m_per_s", gt=0.0), "slip speed at which 71 % of the friction is reached"
-    ] = 0.1
+    regularisation_speed: SlipSpeed = 0.1
 
 
 @dataclass(frozen=True)
@@ -85,7 +80,7 @@ class Cage:
     )
 
     friction: PocketFriction = 0.08
-    regularisation_speed: PocketRegularisation = 0.1
+    regularisation_speed: SlipSpeed = 0.1
     bar_inclination: A[float, At("deg", ge=0.0, lt=90.0), "of the bar faces against the radial plane"] = 0.44
     initial_speed_ratio: InitialSpeedRatio = 1.0
     pocket_wear: PocketWear = 0.0
@@ -112,7 +107,7 @@ class RotatingCage:
     )
 
     friction: PocketFriction = 0.08
-    regularisation_speed: PocketRegularisation = 0.1
+    regularisation_speed: SlipSpeed = 0.1
     initial_speed_ratio: InitialSpeedRatio = 1.0
     pocket_wear: PocketWear = 0.0
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from types import NoneType
 from typing import Annotated as A
-from typing import Any, get_args, get_type_hints
+from typing import get_args, get_type_hints
 
 from beardyn_core.effects.about import About
 from beardyn_core.effects.effect_set import EffectSet
@@ -26,10 +26,6 @@ def catalogue() -> tuple[Entry, ...]:
     return tuple(
         Entry(field.name, options, options.about)
         for field in fields(EffectSet)
-        for options in _choices(hints[field.name])
+        for options in get_args(hints[field.name])
+        if options is not NoneType
     )
-
-
-def _choices(hint: Any) -> tuple[Any, ...]:
-    """List the options classes of a union with ``None``."""
-    return tuple(choice for choice in get_args(hint) if choice is not NoneType)

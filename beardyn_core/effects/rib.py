@@ -7,7 +7,7 @@ from typing import Annotated as A
 from typing import ClassVar
 
 from beardyn_core.edge import SHARE, At
-from beardyn_core.effects.about import About
+from beardyn_core.effects.about import About, SlipSpeed
 
 
 @dataclass(frozen=True)
@@ -64,9 +64,7 @@ class Rib:
     )
 
     friction: A[float, SHARE, "without a lubrication"] = 0.05
-    regularisation_speed: A[
-        float, At("m_per_s", gt=0.0), "slip speed at which 71 % of the friction is reached"
-    ] = 0.05
+    regularisation_speed: SlipSpeed = 0.05
     stiffness: A[str, At(one_of=("fitted", "exact")), "elliptic integrals of the contact"] = "fitted"
     window: A[bool, "the face ends at the undercut and at the rib's corner"] = True
     edge_radius: A[float, At("mm", gt=0.0, le=2.0), "rounding of both edges of the face"] = 0.3e-3

@@ -7,7 +7,7 @@ from typing import Annotated as A
 from typing import ClassVar
 
 from beardyn_core.edge import SHARE, At
-from beardyn_core.effects.about import About
+from beardyn_core.effects.about import About, SlipSpeed
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,4 @@ class SmallRib:
     stiffness: A[float, At("MN_per_m", gt=0.0), "of one contact"] = 2.0e8
     damping: A[float, At("N_s_per_m", ge=0.0), "of one contact"] = 1.0e3
     friction: A[float, SHARE, "coefficient of friction"] = 0.1
-    regularisation_speed: A[
-        float, At("m_per_s", gt=0.0), "slip speed at which 71 % of the friction is reached"
-    ] = 0.05
+    regularisation_speed: SlipSpeed = 0.05

@@ -44,7 +44,7 @@ class CoulombTraction:
 
     def rules(self) -> Iterator[str]:
         """Check the options against each other."""
-        return _starts_before_full(self)
+        return _mistakes(self)
 
 
 @dataclass(frozen=True)
@@ -70,8 +70,7 @@ class MixedTraction:
 
     def rules(self) -> Iterator[str]:
         """Check the options against each other."""
-        yield from _starts_before_full(self)
-        yield from _film_parameters_in_order(self)
+        return _mistakes(self)
 
 
 @dataclass(frozen=True)
@@ -102,8 +101,7 @@ class ShearedFilmTraction:
 
     def rules(self) -> Iterator[str]:
         """Check the options against each other."""
-        yield from _starts_before_full(self)
-        yield from _film_parameters_in_order(self)
+        return _mistakes(self)
 
 
 @dataclass(frozen=True)
@@ -137,8 +135,8 @@ class LoadSharingTraction:
 Traction = CoulombTraction | MixedTraction | ShearedFilmTraction | LoadSharingTraction
 
 
-def _starts_before_full(dry: CoulombTraction | MixedTraction | ShearedFilmTraction) -> Iterator[str]:
-    """Check that the regularisation starts below its speed, and that its law has a start."""
+def _mistakes(dry: CoulombTraction | MixedTraction | ShearedFilmTraction) -> Iterator[str]:
+    """Check that the regularisation starts below its speed, and that the film parameters ascend."""
     start, full = dry.regularisation_start, dry.regularisation_speed
     if start > 0.0 and dry.regularisation != "ambrosio":
         yield (
@@ -150,12 +148,8 @@ def _starts_before_full(dry: CoulombTraction | MixedTraction | ShearedFilmTracti
             f"regularisation_start_m_per_s is {start:g}; it must be less than "
             f"regularisation_speed_m_per_s, {full:g}"
         )
-
-
-def _film_parameters_in_order(blend: MixedTraction | ShearedFilmTraction) -> Iterator[str]:
-    """Check that the film parameters of boundary and full film are in ascending order."""
-    if blend.boundary_film_parameter >= blend.full_film_parameter:
+    if not isinstance(dry, CoulombTraction) and dry.boundary_film_parameter >= dry.full_film_parameter:
         yield (
-            f"boundary_film_parameter is {blend.boundary_film_parameter:g}; it must be less than "
-            f"full_film_parameter, {blend.full_film_parameter:g}"
+            f"boundary_film_parameter is {dry.boundary_film_parameter:g}; it must be less than "
+            f"full_film_parameter, {dry.full_film_parameter:g}"
         )

@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import (
     LIFE_EXPONENT,
+    SMALLEST_LAMINA_COUNT,
     basic_rating_life,
     dynamic_rating,
     fatigue_load_limit,
     life_modification,
+    reference_life,
     reference_viscosity,
 )
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.reference_life import SMALLEST_LAMINA_COUNT, reference_life
 from beardyn_core.integrate.static import solve
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.bearing.thermal_closure import PartTemperatures, end_play_change
+from beardyn_core.bearing.thermal import PartTemperatures, end_play_change
 from beardyn_core.effects import Thermal
 from beardyn_core.model.heat import CONE_NODE, CUP_NODE, NODES, ROLLER_NODE, heat_shares, thermal_network
 from beardyn_core.model.layout import ENERGY_LOST, LOSSES

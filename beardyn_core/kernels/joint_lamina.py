@@ -1,6 +1,6 @@
 """A lamina that lies partly over a patch, as one spring among laminae that sink with each other.
 
-The law is in `beardyn_core.bearing.joint_lamina`.
+The law is in `beardyn_core.bearing.lamina_coupling`.
 """
 
 from __future__ import annotations

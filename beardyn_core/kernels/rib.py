@@ -298,7 +298,7 @@ def rib_log2_film(load: Any, speed: Any, film: Any) -> Any:
 
     References
     ----------
-    Hamrock and Dowson (1977), see `bearing.rib_film`.
+    Hamrock and Dowson (1977), see `bearing.film_thickness`.
     """
     if film is None:
         return 0.0

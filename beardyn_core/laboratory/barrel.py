@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq, root
 
-from beardyn_core.bearing.hertz import ExactPointContact
-from beardyn_core.bearing.material import Material
+from beardyn_core.bearing.contact_law import ExactPointContact
+from beardyn_core.bearing.geometry import Material
 from beardyn_core.laboratory.compiled import batch
 from beardyn_core.laboratory.search import SURFACES, Pair
 from beardyn_core.laboratory.shapes import Arc, placed

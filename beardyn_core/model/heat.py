@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.thermal_network import ThermalNetwork
+from beardyn_core.bearing.thermal import ThermalNetwork
 from beardyn_core.effects import Thermal
 from beardyn_core.model.layout import LOSS_NAMES
 

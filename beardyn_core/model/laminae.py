@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.joint_lamina import part_exponent
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root
+from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, part_exponent
 from beardyn_core.effects import LaminaCoupling, LineFilm
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
 from beardyn_core.model.layout import (

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from beardyn_core.bearing.contact_law import PointContact, rib_contact
+from beardyn_core.bearing.contact_law import PointContact, exact_rib_contact, rib_contact
+from beardyn_core.bearing.film_thickness import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.hertz import exact_rib_contact
-from beardyn_core.bearing.rib_film import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
 from beardyn_core.effects import EffectSet, Rib, RibShearedFilm
 from beardyn_core.model.parameters import DampingParams
 from beardyn_core.scene.scene import Scene

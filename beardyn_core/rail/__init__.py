@@ -13,10 +13,8 @@ suspension   progressive springs and friction of a freight bogie
 vehicle      vertical share of one axlebox on its rail, contact that can open
 course       curvature and cant over the run, load transfer to the outer side
 lateral      wheelset, bogie and body sideways: creep, conicity, flanges
-longitudinal braking and starting at one axle
-running      what curves, alignment and a changing speed add to load and bogie motion
+running      what curves, alignment, braking and starting add to load and bogie motion
 measured     load and speed from a CSV file or a recording
-replay       a measured operation to a `scene.load.LoadHistory`
 build        any `scene.operation.Operation` to a `scene.load.LoadHistory`
 events       what a run meets on its way, as truth
 ============ ===============================================================================

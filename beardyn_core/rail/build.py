@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from beardyn_core.errors import InputError
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
-from beardyn_core.rail.low_pass import kaiser_order, low_pass
-from beardyn_core.rail.replay import replayed
+from beardyn_core.rail.low_pass import decimated, thinning_kernel
+from beardyn_core.rail.measured import replayed
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift
 from beardyn_core.rail.suspension import equivalent_displacement
 from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
-from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.load import LoadHistory, sampled_load
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
     ConstantOperation,
@@ -40,17 +40,12 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
 
     Parameters
     ----------
-    operation : Operation
     mounting : Mounting
         Wheelset, axlebox and primary suspension of the rail model.
     duration : float
         [s].
     seed : int
         Of the irregularity.
-
-    Returns
-    -------
-    LoadHistory
 
     Raises
     ------
@@ -59,41 +54,22 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
     """
     if not 0.0 < duration < 86_400.0:
         raise InputError(f"duration is {duration:g} s; allowed is more than 0 and less than 86 400 s")
-    sample_ns = _sample_ns(operation)
+    # shorter where wheel or rail strikes
+    strikes = isinstance(operation, QuarterVehicleOperation) and (
+        operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
+    )
+    sample_ns = STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
     rate = 1e9 / sample_ns
     count = int(np.ceil(round(duration * rate, 6))) + 1
     if isinstance(operation, ConstantOperation):
-        return _constant(operation, count)
+        wrench = np.tile(np.array([*operation.force, *operation.moment], dtype=np.float64), (count, 1))
+        speed = np.full(count, float(operation.speed))
+        return sampled_load(wrench, speed, np.zeros((count, 3)), SAMPLE_NS)
     if isinstance(operation, SteppedOperation):
         return _stepped(operation, count, rate)
     if isinstance(operation, QuarterVehicleOperation):
         return _quarter_vehicle(operation, mounting, count, rate, seed)
-    return replayed(operation, count, rate, _thin)
-
-
-def _sample_ns(operation: Operation) -> int:
-    """Choose the time between samples of the load, [ns]: shorter where wheel or rail strikes."""
-    strikes = isinstance(operation, QuarterVehicleOperation) and (
-        operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
-    )
-    return STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
-
-
-def _history(
-    wrench: Float, shaft_speed: Float, bogie: Float | None = None, sample_ns: int = SAMPLE_NS
-) -> LoadHistory:
-    count = len(shaft_speed)
-    return LoadHistory(
-        time_ns=np.arange(count, dtype=np.int64) * sample_ns,
-        wrench=np.ascontiguousarray(wrench, dtype=np.float64),
-        shaft_speed=np.ascontiguousarray(shaft_speed, dtype=np.float64),
-        bogie=np.zeros((count, 3)) if bogie is None else np.ascontiguousarray(bogie),
-    )
-
-
-def _constant(operation: ConstantOperation, count: int) -> LoadHistory:
-    wrench = np.tile(np.array([*operation.force, *operation.moment], dtype=np.float64), (count, 1))
-    return _history(wrench, np.full(count, float(operation.speed)))
+    return replayed(operation, count, rate)
 
 
 def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistory:
@@ -102,7 +78,7 @@ def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistor
     signals = np.tile(levels[0], (count, 1))
     for step, change in zip(operation.steps[1:], np.diff(levels, axis=0), strict=True):
         signals += _rise(time - step.time, operation.ramp)[:, None] * change
-    return _history(signals[:, :6], signals[:, 6])
+    return sampled_load(signals[:, :6], signals[:, 6], np.zeros((count, 3)), SAMPLE_NS)
 
 
 def _rise(time: Float, ramp: float) -> Float:
@@ -112,32 +88,10 @@ def _rise(time: Float, ramp: float) -> Float:
     return 0.5 - 0.5 * np.cos(np.pi * np.clip(time / ramp, 0.0, 1.0))
 
 
-def ride_of(
-    operation: QuarterVehicleOperation, mounting: Mounting, duration: float, seed: int
-) -> tuple[Ride, float]:
-    """Compute the motion of the rail model's own bodies behind a load history.
-
-    Parameters
-    ----------
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-    duration : float
-        [s].
-    seed : int
-
-    Returns
-    -------
-    Ride
-    step : float
-        Its time step, [s].
-    """
-    response, _ = _ride(operation, mounting, round(duration * RIDE_RATE) + 1, seed)
-    return response, 1.0 / RIDE_RATE
-
-
-def _ride(
+def ride_steps(
     operation: QuarterVehicleOperation, mounting: Mounting, steps: int, seed: int
 ) -> tuple[Ride, Running | None]:
+    """Compute the motion of the rail model's bodies, and what acts besides the profile, at `RIDE_RATE`."""
     time = np.arange(steps) / RIDE_RATE
     position = distance_at(operation.speed_profile, time)
     patch = operation.contact_patch
@@ -165,28 +119,24 @@ def _quarter_vehicle(
     an open contact.
     """
     factor = round(RIDE_RATE / rate)
-    kernel = _low_pass(factor)
+    kernel = thinning_kernel(factor)
     # run past the end by what the filter looks ahead
     steps = (count - 1) * factor + 1 + len(kernel) // 2
-    response, besides = _ride(operation, mounting, steps, seed)
+    response, besides = ride_steps(operation, mounting, steps, seed)
     vehicle = quarter_vehicle(operation, mounting)
     force, bogie = np.zeros((count, 3)), np.zeros((count, 3))
     if besides is not None:
         force = _columns(journal_force(besides, operation, mounting), factor, kernel, count)
         bogie = _columns(suspension_shift(besides, mounting, 1.0 / RIDE_RATE), factor, kernel, count)
     force[:, 1] += operation.lateral_force
-    force[:, 2] += _decimate(response.contact_force, factor, kernel)[:count] - vehicle.journal_weight
+    force[:, 2] += decimated(response.contact_force, factor, kernel)[:count] - vehicle.journal_weight
     frame = response.bogie
     if vehicle.primary.size:
         frame = frame + equivalent_displacement(-response.excess, mounting, 2, 1.0 / RIDE_RATE)
-    bogie[:, 2] += _decimate(frame, factor, kernel)[:count]
+    bogie[:, 2] += decimated(frame, factor, kernel)[:count]
     speed = speed_at(operation.speed_profile, np.arange(count) / rate)
     wrench = np.concatenate([force, np.zeros((count, 3))], axis=1)
-    return _history(wrench, speed / (0.5 * operation.wheel_diameter), bogie, round(1e9 / rate))
-
-
-def _thin(signal: Float, factor: int) -> Float:
-    return _decimate(signal, factor, _low_pass(factor))
+    return sampled_load(wrench, speed / (0.5 * operation.wheel_diameter), bogie, round(1e9 / rate))
 
 
 def _columns(signals: Float, factor: int, kernel: Float, count: int) -> Float:
@@ -194,19 +144,5 @@ def _columns(signals: Float, factor: int, kernel: Float, count: int) -> Float:
     thinned = np.zeros((count, signals.shape[1]))
     for axis, column in enumerate(signals.T):
         if column.any():
-            thinned[:, axis] = _decimate(column, factor, kernel)[:count]
+            thinned[:, axis] = decimated(column, factor, kernel)[:count]
     return thinned
-
-
-def _low_pass(factor: int) -> Float:
-    """Design a symmetric kernel of odd length: flat to 0.4, 70 dB down from 0.6 of the new rate."""
-    length, beta = kaiser_order(70.0, 0.4 / factor)
-    return low_pass(length | 1, 1.0 / factor, beta)
-
-
-def _decimate(signal: Float, factor: int, kernel: Float) -> Float:
-    """Take every factor-th sample of the filtered signal, without delay, ends held."""
-    half = len(kernel) // 2
-    padded = np.concatenate([np.full(half, signal[0]), signal, np.full(half, signal[-1])])
-    windows = np.lib.stride_tricks.sliding_window_view(padded - signal[0], len(kernel))[::factor]
-    return np.asarray(np.einsum("ij,j->i", windows, kernel)) + signal[0]

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, GRAVITY, WHEEL
-from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.running import Curve
 
 Float = NDArray[np.float64]
 
@@ -29,25 +29,12 @@ class Course:
         "shape [step], unbalanced lateral acceleration that the vehicle feels, positive to the left, [m/s^2]",
     ]
     press: A[
-        Float,
-        "shape [step], what it feels at right angles to the track beyond gravity, downwards, [m/s^2]",
+        Float, "shape [step], what it feels at right angles to the track beyond gravity, downwards, [m/s^2]"
     ]
 
 
 def course(curves: tuple[Curve, ...], position: Float, speed: Float) -> Course:
-    """Compute curvature and cant along a run over curves.
-
-    Parameters
-    ----------
-    curves : tuple of Curve
-    position : float64 array, shape [step]
-        Along the track, [m].
-    speed : float64 array, shape [step]
-        [m/s].
-
-    Returns
-    -------
-    Course
+    """Compute curvature and cant along a run over curves, from place [m] and speed [m/s] at each step.
 
     References
     ----------
@@ -76,21 +63,9 @@ def load_transfer(operation: QuarterVehicleOperation, mounting: Mounting, plan: 
 
     Bogie and body lean on the two axleboxes of an axle, half the axlebox spacing from its middle; the
     wheels stand closer, and the wheelset rolls about them with the lateral force of the rails at its feet:
-    what the wheel carries beyond the journal for that acts on the wheelset.
+    what the wheel carries beyond the journal for that acts on the wheelset. Shape [step, 4]: on body, bogie,
+    half wheelset and axlebox, [N].
 
-    Parameters
-    ----------
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-    plan : Course
-
-    Returns
-    -------
-    float64 array, shape [step, 4]
-        On body, bogie, half wheelset and axlebox, [N].
-
-    Notes
-    -----
     The lean of the body on its springs, which shifts its centre of mass outwards, is neglected (it adds
     10 to 20 % to the transfer); so is the share of an anti-roll bar, for both end at the axleboxes.
     """

@@ -15,14 +15,13 @@ from beardyn_core.scene.excitation import (
     Crossing,
     DippedJoint,
     DippedWeld,
+    Irregularity,
     RailDefect,
     WheelFlat,
     WheelOutOfRound,
     WheelPolygon,
 )
-from beardyn_core.scene.irregularity import Irregularity
-from beardyn_core.scene.measured import MeasuredOperation
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.speed import distance_at, speed_at
 
@@ -69,10 +68,6 @@ class _Travel:
 
 def events_of(scene: Scene) -> dict[str, Any]:
     """List everything that excites a run besides the bearing, JSON-able.
-
-    Parameters
-    ----------
-    scene : Scene
 
     Returns
     -------

@@ -26,24 +26,10 @@ _STREAM = 0x7768656C  # keeps the wheel's random numbers apart from those of rai
 def wheel_height(
     defects: tuple[WheelDefect, ...], wheel_radius: float, position: Float, patch: float = 0.0
 ) -> Float:
-    """Compute how far the wheel's own shape lifts its centre, rolling without slip.
+    """Compute how far the wheel's own shape lifts its centre on a rigid rail, rolling without slip, [m].
 
-    Flats that overlap do not add: a spot is as deep as the deepest.
-
-    Parameters
-    ----------
-    defects : tuple of WheelDefect
-    wheel_radius : float
-        [m].
-    position : float64 array
-        Distance rolled since the start of the run, [m].
-    patch : float
-        Length of the contact patch, over which waves are smoothed, [m]; 0: a point.
-
-    Returns
-    -------
-    float64 array
-        Upwards, at the wheel centre on a rigid rail, [m].
+    Flats that overlap do not add: a spot is as deep as the deepest. `position` is the distance rolled since
+    the start of the run, `patch` the length of the contact over which waves are smoothed, 0 a point, [m].
 
     Notes
     -----
@@ -75,20 +61,10 @@ def waves_of(defect: WheelPolygon | WheelOutOfRound) -> tuple[WheelPolygon, ...]
 
 
 def rail_height(defects: tuple[RailDefect, ...], position: Float, patch: float = 0.0) -> Float:
-    """Compute the height of the rail from its own defects.
+    """Compute the height of the rail from its own defects, upwards, [m].
 
-    Parameters
-    ----------
-    defects : tuple of RailDefect
-    position : float64 array
-        Along the track from the start of the run, [m].
-    patch : float
-        Length of the contact patch, over which corrugation is smoothed, [m]; 0: a point.
-
-    Returns
-    -------
-    float64 array
-        Upwards, [m].
+    `position` is the place along the track from the start of the run, `patch` the length of the contact over
+    which corrugation is smoothed, 0 a point, [m].
     """
     height = np.zeros_like(position)
     for defect in defects:

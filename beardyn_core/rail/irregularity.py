@@ -3,24 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beardyn_core.errors import InputError
-from beardyn_core.rail.spectra import (
-    SHORT_WAVE_BAND,
-    iso_3095_density,
-    patch_gain,
-    spectral_density,
-    target_density,
-)
+from beardyn_core.rail.spectra import SHORT_WAVE_BAND, iso_3095_density, patch_gain, target_density
 from beardyn_core.rail.table import Column, Layout, read_table
-from beardyn_core.scene.irregularity import Irregularity
-
-__all__ = ["RailProfile", "irregular_height", "rail_profile", "read_rail", "spectral_density"]
+from beardyn_core.scene.excitation import Irregularity
 
 Float = NDArray[np.float64]
 
@@ -59,16 +50,7 @@ class RailProfile:
         return self.spacing * len(self.height)
 
     def height_at(self, position: ArrayLike) -> Float:
-        """Interpolate the height by cubic Hermite polynomials, continuous with its slope.
-
-        Parameters
-        ----------
-        position : float64 array, [m]
-
-        Returns
-        -------
-        float64 array, [m]
-        """
+        """Interpolate the height at positions [m] by cubic Hermite polynomials, slope continuous, [m]."""
         scaled = np.asarray(position, dtype=np.float64) / self.spacing
         cell = np.floor(scaled)
         s = scaled - cell
@@ -80,35 +62,9 @@ class RailProfile:
         height = self.height[left] + s * (rise + (1.0 - s) * ((1.0 - s) * entry + s * leave))
         return height if self.finer is None else height + self.finer.height_at(position)
 
-    def slope_at(self, position: ArrayLike) -> Float:
-        """Compute the first derivative of `height_at`.
-
-        Parameters
-        ----------
-        position : float64 array, [m]
-
-        Returns
-        -------
-        float64 array, [-]
-        """
-        scaled = np.asarray(position, dtype=np.float64) / self.spacing
-        cell = np.floor(scaled)
-        s = scaled - cell
-        left = cell.astype(np.int64) % len(self.height)
-        right = (left + 1) % len(self.height)
-        rise = self.height[right] - self.height[left]
-        entry = self.slope[left] * self.spacing - rise
-        leave = rise - self.slope[right] * self.spacing
-        slope = (rise + (1.0 - s) * (1.0 - 3.0 * s) * entry + s * (2.0 - 3.0 * s) * leave) / self.spacing
-        return slope if self.finer is None else slope + self.finer.slope_at(position)
-
 
 def rail_profile(
-    irregularity: Irregularity,
-    distance: float,
-    seed: int,
-    direction: str = "vertical",
-    patch: float = 0.0,
+    irregularity: Irregularity, distance: float, seed: int, direction: str = "vertical", patch: float = 0.0
 ) -> RailProfile:
     """Build a profile at least as long as the run: with random phases, or as measured.
 
@@ -118,18 +74,12 @@ def rail_profile(
 
     Parameters
     ----------
-    irregularity : Irregularity
     distance : float
         Length of the run, [m].
-    seed : int
     direction : str
         ``vertical``, upwards, or ``lateral``, the alignment, along +y; zero where the source has none.
     patch : float
         Length of the contact patch, over which short waves are smoothed, [m]; 0: a point.
-
-    Returns
-    -------
-    RailProfile
 
     Raises
     ------
@@ -148,22 +98,7 @@ def rail_profile(
 
 
 def irregular_height(irregularity: Irregularity, position: Float, seed: int, patch: float) -> Float:
-    """Compute the vertical irregularity under the wheel along its path.
-
-    Parameters
-    ----------
-    irregularity : Irregularity
-    position : float64 array
-        Along the track from the start of the run, [m].
-    seed : int
-    patch : float
-        Length of the contact patch, [m].
-
-    Returns
-    -------
-    float64 array
-        Upwards, [m].
-    """
+    """Compute the vertical irregularity under the wheel at positions from the start, upwards, all in [m]."""
     if irregularity.kind == "csv" and float(np.min(position)) < 0.0:
         raise InputError(
             f"{irregularity.path}: the run goes back {-float(np.min(position)):g} m behind its start, where "
@@ -230,30 +165,9 @@ def _random_phases(
     return RailProfile(period / points, height, np.fft.irfft(spectrum, points))
 
 
-def read_rail(path: Path) -> dict[str, Float]:
-    """Read and check a measured irregularity.
-
-    Parameters
-    ----------
-    path : Path
-        CSV file with the columns ``distance_m``, ``vertical_mm`` and, where it was measured,
-        ``lateral_mm``; its first row is where the run starts.
-
-    Returns
-    -------
-    dict of str to float64 array
-
-    Raises
-    ------
-    InputError
-        With everything that is wrong with the file.
-    """
-    return read_table(path, RAIL_LAYOUT)
-
-
 def _measured(irregularity: Irregularity, distance: float, direction: str, patch: float) -> RailProfile:
     assert irregularity.path is not None
-    table = read_rail(irregularity.path)
+    table = read_table(irregularity.path, RAIL_LAYOUT)  # its first row is where the run starts
     along = table["distance_m"] - table["distance_m"][0]
     if along[-1] < distance - 1e-6:
         raise InputError(

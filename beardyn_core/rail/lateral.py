@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.jit import entry, inline
 from beardyn_core.rail.course import HALF_GAUGE, Course
-from beardyn_core.rail.vehicle import GRAVITY
+from beardyn_core.rail.vehicle import GRAVITY, linked
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 
@@ -31,8 +31,7 @@ class LateralVehicle:
     """Half a wheelset with its axlebox, a quarter of a bogie, an eighth of the body."""
 
     mass: A[
-        Float,
-        "shape [4], of `SIDEWAYS`, `YAW` (of the half wheelset, [kg m^2]), `FRAME` and `CAR`, [kg]",
+        Float, "shape [4], of `SIDEWAYS`, `YAW` (of the half wheelset, [kg m^2]), `FRAME` and `CAR`, [kg]"
     ]
     stiffness: A[Float, "shape [4, 4], of primary and secondary suspension, [N/m], in yaw [N m/rad]"]
     damping: A[Float, "shape [4, 4], the same, [N s/m], in yaw [N m s/rad]"]
@@ -43,8 +42,7 @@ class LateralVehicle:
     flange_stiffness: A[float, "half of one rail's, [N/m]"]
     flange_damping: A[float, "half of one rail's, [N s/m]"]
     journal_yaw: A[
-        float,
-        "moment of inertia of the half wheelset and the axlebox as masses at the bearing, [kg m^2]",
+        float, "moment of inertia of the half wheelset and the axlebox as masses at the bearing, [kg m^2]"
     ]
 
 
@@ -67,15 +65,6 @@ class LateralMotion:
 def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> LateralVehicle:
     """Build the lateral model of one axlebox's share of the vehicle.
 
-    Parameters
-    ----------
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-
-    Returns
-    -------
-    LateralVehicle
-
     References
     ----------
     Creep coefficients in proportion to the contact area: Kalker (1967), as in Wickens (2003), Fundamentals
@@ -90,11 +79,7 @@ def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> L
     load = (wheelset + body + bogie) * GRAVITY
 
     def links(longitudinal: float, primary: float, secondary: float) -> Float:
-        matrix = np.zeros((4, 4))
-        for upper, lower, link in ((FRAME, SIDEWAYS, primary), (CAR, FRAME, 0.5 * secondary)):
-            pull = np.zeros(4)
-            pull[upper], pull[lower] = 1.0, -1.0
-            matrix += link * np.outer(pull, pull)
+        matrix = linked([(FRAME, SIDEWAYS, primary), (CAR, FRAME, 0.5 * secondary)])
         matrix[YAW, YAW] = longitudinal * arm**2
         return matrix
 
@@ -119,22 +104,8 @@ def lateral_motion(
 
     By the trapezoidal rule, each step linear: creep is reduced where the resultant comes near the friction
     limit, and flanges touch, as at the step's beginning. Stable at any speed, through standstill and
-    backwards.
-
-    Parameters
-    ----------
-    vehicle : LateralVehicle
-    speed : float64 array, shape [step]
-        [m/s].
-    plan : Course
-    alignment : float64 array, shape [step]
-        Of the track's middle under the axle, to the left, [m].
-    step : float
-        [s].
-
-    Returns
-    -------
-    LateralMotion
+    backwards. At each step [s] stand the speed [m/s] and the alignment of the track's middle under the axle,
+    to the left [m].
 
     Notes
     -----

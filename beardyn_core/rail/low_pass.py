@@ -15,14 +15,7 @@ Float = NDArray[np.float64]
 def low_pass(length: int, cutoff: float, beta: float) -> Float:
     """Design a low-pass filter as a sinc under Kaiser's window, with gain 1 at rest.
 
-    Parameters
-    ----------
-    length : int
-        Taps, odd.
-    cutoff : float
-        Half-gain frequency over the Nyquist frequency.
-    beta : float
-        Shape of the window.
+    With an odd number of taps, the half-gain frequency over the Nyquist frequency, the window's shape beta.
 
     References
     ----------
@@ -44,18 +37,9 @@ def kaiser_order(ripple: float, width: float) -> tuple[int, float]:
 
 
 def first_order(signal: Float, steps: float) -> Float:
-    """Filter by a first-order lag whose time constant is a number of steps; it begins settled.
+    """Filter by a first-order lag whose time constant is a number of steps, 0 or more; it begins settled.
 
-    Parameters
-    ----------
-    signal : float64 array, shape [step]
-    steps : float
-        Time constant over the time step, 0 or more.
-
-    Returns
-    -------
-    float64 array, shape [step]
-        Exact for a signal that is held over each step.
+    Exact for a signal that is held over each step.
     """
     if steps == 0.0:
         return signal.copy()
@@ -70,3 +54,17 @@ def _lag(signal, keep):
         last = keep * last + (1.0 - keep) * signal[n]
         lagged[n] = last
     return lagged
+
+
+def thinning_kernel(factor: int) -> Float:
+    """Design a symmetric kernel of odd length: flat to 0.4, 70 dB down from 0.6 of the new rate."""
+    length, beta = kaiser_order(70.0, 0.4 / factor)
+    return low_pass(length | 1, 1.0 / factor, beta)
+
+
+def decimated(signal: Float, factor: int, kernel: Float) -> Float:
+    """Take every factor-th sample of the filtered signal, without delay, ends held."""
+    half = len(kernel) // 2
+    padded = np.concatenate([np.full(half, signal[0]), signal, np.full(half, signal[-1])])
+    windows = np.lib.stride_tricks.sliding_window_view(padded - signal[0], len(kernel))[::factor]
+    return np.asarray(np.einsum("ij,j->i", windows, kernel)) + signal[0]

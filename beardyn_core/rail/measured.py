@@ -1,4 +1,4 @@
-"""Load and speed from a CSV file or from a recording.
+"""Load and speed from a CSV file or from a recording, and the load history of a run that follows them.
 
 Columns of a CSV file, in any order, named in the first line:
 
@@ -19,7 +19,6 @@ measured, ``force`` and ``shaft``.
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
@@ -31,8 +30,11 @@ from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import note_read
+from beardyn_core.rail.low_pass import decimated, thinning_kernel
 from beardyn_core.rail.table import Column, Layout, read_table
-from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.load import LoadHistory, sampled_load
+from beardyn_core.scene.operation import MeasuredOperation
+from beardyn_core.scene.speed import speed_at
 
 Float = NDArray[np.float64]
 
@@ -47,10 +49,6 @@ DOUBTED_FORCE = 1e3  # the journal of an empty wagon carries 2e4 [N]
 
 log = logging.getLogger("beardyn")
 
-# who reads a file, by its ending: module and function of (path, take). Reading a recording belongs to
-# another room, which builds upon this one: it is named, not imported.
-_READERS = {".mcap": ("beardyn_core.record.load_reading", "read_recorded_load")}
-
 
 @dataclass(frozen=True)
 class Measurement:
@@ -64,18 +62,12 @@ class Measurement:
 
 
 def read_measurement(path: Path, take: str = "both") -> Measurement:
-    """Read and check a file of load and speed.
+    """Read and check a file of load and speed: a recording when it ends in ``.mcap``, else a CSV file.
 
     Parameters
     ----------
-    path : Path
-        A recording when it ends in ``.mcap``, else a CSV file.
     take : str
         ``both``, ``force`` or ``speed``: what must be there.
-
-    Returns
-    -------
-    Measurement
 
     Raises
     ------
@@ -94,17 +86,18 @@ def read_measurement(path: Path, take: str = "both") -> Measurement:
 @lru_cache(maxsize=4)
 def _read(path: Path, take: str, changed: int) -> Measurement:
     """Read a file, and cache it, because one scene needs it several times."""
-    if path.suffix.lower() in _READERS:
-        module, name = _READERS[path.suffix.lower()]
-        reader: Callable[[Path, str], Measurement] = getattr(import_module(module), name)
-        return reader(path, take)
+    if path.suffix.lower() == ".mcap":
+        # that room builds upon this one: it is named, not imported
+        recorded: Measurement = import_module("beardyn_core.record.load_reading").read_recorded_load(
+            path, take
+        )
+        return recorded
     return _read_csv(path, take)
 
 
-def layout_of(take: str) -> Layout:
-    """List the columns of a CSV file from which force, speed or both are read."""
+def _read_csv(path: Path, take: str) -> Measurement:
     wanted = take != "speed"
-    return Layout(
+    layout = Layout(
         what="load and speed" if take == "both" else take,
         columns=(
             Column(TIME, "s"),
@@ -118,10 +111,7 @@ def layout_of(take: str) -> Layout:
         gap=GAP,
         one_of=() if take == "force" else (SPEEDS,),
     )
-
-
-def _read_csv(path: Path, take: str) -> Measurement:
-    table = read_table(path, layout_of(take))
+    table = read_table(path, layout)
     nothing = np.zeros(len(table[TIME]))
 
     def column(name: str) -> Float:
@@ -160,19 +150,9 @@ def _check_forces(path: Path, table: dict[str, Float]) -> None:
 
 
 def speed_points(path: Path, wheel_diameter: float, spacing: float = 0.02) -> tuple[tuple[float, float], ...]:
-    """Compute the speed profile of a vehicle from the measured speed of its shaft.
+    """Compute the speed profile, [s], [m/s], of a vehicle from the measured speed of its shaft.
 
-    Parameters
-    ----------
-    path : Path
-    wheel_diameter : float
-        [m].
-    spacing : float
-        Over which the measured speed is averaged, [s].
-
-    Returns
-    -------
-    tuple of (time, speed) pairs, [s], [m/s]
+    On wheels of a diameter [m], the measured speed averaged over a spacing [s].
 
     Raises
     ------
@@ -192,3 +172,41 @@ def speed_points(path: Path, wheel_diameter: float, spacing: float = 0.02) -> tu
     mean_time = np.add.reduceat(measured.time, first) / count
     mean_speed = np.add.reduceat(speed, first) / count
     return tuple(zip(mean_time.tolist(), mean_speed.tolist(), strict=True))
+
+
+def replayed(operation: MeasuredOperation, count: int, rate: float) -> LoadHistory:
+    """Read the load of a file in a number of samples at a rate [Hz], and add the parts that are modelled.
+
+    A recorded stream of load that is taken whole is passed on sample by sample, at its own rate. Raises
+    `InputError` when the run is longer.
+    """
+    measured = read_measurement(operation.path, operation.take)
+    end = (count - 1) / rate
+    if measured.time[-1] < end - 1e-9:
+        raise InputError(
+            f"{operation.path}: covers {measured.time[-1]:g} s; the run needs {end:g} s: "
+            f"shorten the duration or give a longer file"
+        )
+    if operation.take == "both" and measured.stream is not None:
+        return measured.stream.until(round(end * 1e9))
+    signals = _resampled(measured, count, rate)
+    time = np.arange(count) / rate
+    wrench, shaft_speed, bogie = signals[:, :6], signals[:, 6], signals[:, 7:]
+    if operation.take == "force":
+        shaft_speed = speed_at(operation.speed_profile, time) / (0.5 * operation.wheel_diameter)
+    if operation.take == "speed":
+        assert operation.force is not None
+        wrench = np.tile(np.array([*operation.force, 0.0, 0.0, 0.0]), (count, 1))
+        bogie = np.zeros((count, 3))
+    return sampled_load(wrench, shaft_speed, bogie, round(1e9 / rate))
+
+
+def _resampled(measured: Measurement, count: int, rate: float) -> Float:
+    signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
+    factor = int(np.ceil(round(1.0 / (rate * float(np.median(np.diff(measured.time)))), 6)))
+    grid = np.arange((count - 1) * factor + 1) / (rate * factor)
+    signals = np.column_stack([np.interp(grid, measured.time, column) for column in signals.T])
+    if factor <= 1:
+        return signals
+    kernel = thinning_kernel(factor)
+    return np.column_stack([decimated(column, factor, kernel) for column in signals.T])

@@ -1,4 +1,4 @@
-"""Loads on an axlebox besides those of the vertical rail profile: curves, sway, traction and braking."""
+"""Loads on an axlebox besides those of the vertical rail profile: curves, sway, braking and starting."""
 
 from __future__ import annotations
 
@@ -11,14 +11,29 @@ from numpy.typing import NDArray
 from beardyn_core.rail.course import Course, course, load_transfer
 from beardyn_core.rail.irregularity import rail_profile
 from beardyn_core.rail.lateral import FRAME, LateralMotion, lateral_motion, lateral_vehicle
-from beardyn_core.rail.longitudinal import LongitudinalForces, longitudinal_forces
 from beardyn_core.rail.suspension import equivalent_displacement
 from beardyn_core.rail.vehicle import BOGIE, WHEEL
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
-from beardyn_core.scene.speed import distance_at, speed_at
+from beardyn_core.scene.speed import Profile, distance_at, speed_at
 
 Float = NDArray[np.float64]
+
+# brakes and drives build up within this time, [s]
+_BUILD_UP = 1.0
+
+
+@dataclass(frozen=True)
+class LongitudinalForces:
+    """Forces of one axlebox's share along the track, and those of the brake across it."""
+
+    acceleration: A[Float, "shape [step], of the vehicle, forwards, [m/s^2]"]
+    rail: A[Float, "shape [step], of the rail on the wheel, forwards, [N]"]
+    brake: A[
+        Float,
+        "shape [step, 2], of a brake on the half wheelset, forwards and upwards; the opposite on the bogie, "
+        "[N]",
+    ]
 
 
 @dataclass(frozen=True)
@@ -36,19 +51,7 @@ def running(
 ) -> Running | None:
     """Compute forces besides those of the vertical profile; ``None`` on straight track at constant speed.
 
-    Parameters
-    ----------
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-    time : float64 array, shape [step]
-        Uniform, from 0, [s].
-    fade : float64 array, shape [step]
-        With which irregularities come in, 0 to 1.
-    seed : int
-
-    Returns
-    -------
-    Running or None
+    `time` [s] is uniform from 0; with `fade`, 0 to 1, irregularities come in; both of shape [step].
     """
     speeds = {speed for _, speed in operation.speed_profile}
     if len(speeds) == 1 and not operation.moves_sideways:
@@ -56,7 +59,7 @@ def running(
     position, speed = distance_at(operation.speed_profile, time), speed_at(operation.speed_profile, time)
     plan = course(operation.curves, position, speed)
     push = load_transfer(operation, mounting, plan)
-    pulled = longitudinal_forces(operation, mounting, time)
+    pulled = _longitudinal_forces(operation, mounting, time)
     push[:, WHEEL] += pulled.brake[:, 1]
     push[:, BOGIE] -= pulled.brake[:, 1]
     swayed = None
@@ -71,21 +74,8 @@ def running(
 
 
 def journal_force(run: Running, operation: QuarterVehicleOperation, mounting: Mounting) -> Float:
-    """Compute the load on the journal besides the vertical wheel-rail force.
+    """Compute the load on the journal besides the vertical wheel-rail force, shape [step, 3], [N].
 
-    Parameters
-    ----------
-    run : Running
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-
-    Returns
-    -------
-    float64 array, shape [step, 3]
-        [N].
-
-    Notes
-    -----
     What acts on the half wheelset beyond its own inertia in the twin, which knows no curve and no
     acceleration of the train: the rails' forces and those of inertia in the moving axes. Yaw of the
     wheelset pulls one axlebox forwards, the other back: reduced to the journal so that its mass there moves
@@ -104,17 +94,7 @@ def journal_force(run: Running, operation: QuarterVehicleOperation, mounting: Mo
 def suspension_shift(run: Running, mounting: Mounting, step: float) -> Float:
     """Compute how far the bogie end of the suspension moves in the track's axes, besides vertically.
 
-    Parameters
-    ----------
-    run : Running
-    mounting : Mounting
-    step : float
-        [s].
-
-    Returns
-    -------
-    float64 array, shape [step, 3]
-        With what stands for the inertia of the axlebox in the moving axes, [m].
+    With what stands for the inertia of the axlebox in the moving axes, at steps [s], shape [step, 3], [m].
     """
     shift = np.zeros((len(run.push), 3))
     shift[:, 0] = equivalent_displacement(-mounting.box_mass * run.pull.acceleration, mounting, 0, step)
@@ -123,3 +103,38 @@ def suspension_shift(run: Running, mounting: Mounting, step: float) -> Float:
         shift[:, 1] = run.sway.motion[:, FRAME]
         shift[:, 1] += equivalent_displacement(mounting.box_mass * run.plan.lean, mounting, 1, step)
     return shift
+
+
+def _acceleration(profile: Profile, time: Float) -> tuple[Float, Float]:
+    """Compute the running mean of the acceleration [m/s^2] and the mean speed [m/s] there, at times [s]."""
+    before, after = (speed_at(profile, time + side * 0.5 * _BUILD_UP) for side in (-1.0, 1.0))
+    return (after - before) / _BUILD_UP, 0.5 * (before + after)
+
+
+def _longitudinal_forces(
+    operation: QuarterVehicleOperation, mounting: Mounting, time: Float
+) -> LongitudinalForces:
+    """Compute the forces that act at times [s] while the speed changes.
+
+    The axle brakes or drives its ``share`` of its own part of the vehicle's mass; an axle that does neither
+    only rolls along. Quasi-static: the load that shifts between the bogies and axles of a car while
+    braking, the inertia of the turning wheelset (some 5 %), running resistance, the reaction of a gear
+    box and slip are neglected.
+    """
+    acceleration, speed = _acceleration(operation.speed_profile, time)
+    vehicle = operation.vehicle
+    mass = operation.body_mass / 8.0 + vehicle.bogie_mass / 4.0 + mounting.journal_mass + mounting.box_mass
+    slowing = acceleration * speed < 0.0
+    braking, starting = operation.braking, operation.starting
+    braked = np.where(slowing, mass * acceleration, 0.0) * (braking.share if braking else 0.0)
+    driven = np.where(slowing, 0.0, mass * acceleration) * (starting.share if starting else 0.0)
+    brake = np.zeros((len(time), 2))
+    if braking is not None and braking.brake != "clasp":
+        side = 1.0 if braking.ahead else -1.0
+        # ahead of the axle the wheel goes down while it rolls forwards: the brake holds it up
+        if braking.brake == "disc":
+            brake[:, 1] = -side * braked * 0.5 * operation.wheel_diameter / braking.disc_radius
+        else:
+            brake[:, 0] = -side * np.abs(braked) / braking.friction
+            brake[:, 1] = -side * braked
+    return LongitudinalForces(acceleration, braked + driven, brake)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
 from beardyn_core.rail.table import Column, Layout, read_table
-from beardyn_core.scene.irregularity import DIRECTIONS, SPECTRA, VERTICAL_ONLY, Irregularity
+from beardyn_core.scene.excitation import DIRECTIONS, SPECTRA, VERTICAL_ONLY, Irregularity
 
 Float = NDArray[np.float64]
 
@@ -59,27 +59,11 @@ DENSITY_LAYOUT = Layout(
 
 
 def spectral_density(kind: str, wavenumber: Float, direction: str = "vertical") -> Float:
-    """Compute the one-sided power spectral density of a spectrum by name.
+    """Compute the one-sided power spectral density of a spectrum by name at wavenumbers [rad/m].
 
-    Its integral over positive angular wavenumbers is the variance.
-
-    Parameters
-    ----------
-    kind : str
-        One of `scene.irregularity.SPECTRA`, or ``none``.
-    wavenumber : float64 array
-        Angular wavenumber, positive, [rad/m].
-    direction : str
-        ``vertical`` (longitudinal level) or ``lateral`` (alignment); zero where the source has none.
-
-    Returns
-    -------
-    float64 array
-        [m^2 / (rad/m)].
-
-    Notes
-    -----
-    The sources hold between some 2 and 200 m (SNCF 2 to 40 m); outside, their formulas go on.
+    In [m^2 / (rad/m)]: its integral over positive angular wavenumbers is the variance. The direction is
+    ``vertical`` (longitudinal level) or ``lateral`` (alignment); zero where the source has none. The sources
+    hold between some 2 and 200 m (SNCF 2 to 40 m); outside, their formulas go on.
 
     References
     ----------
@@ -121,21 +105,7 @@ def _china(cycles: Float, direction: str) -> Float:
 
 
 def target_density(irregularity: Irregularity, wavenumber: Float, direction: str = "vertical") -> Float:
-    """Compute the density of a synthesised irregularity between its shortest and longest wave.
-
-    Parameters
-    ----------
-    irregularity : Irregularity
-        Not a measured profile, ``csv``, which is not drawn from a density.
-    wavenumber : float64 array
-        [rad/m].
-    direction : str
-
-    Returns
-    -------
-    float64 array
-        [m^2 / (rad/m)].
-    """
+    """Compute the density of a drawn irregularity at wavenumbers [rad/m] of its band, [m^2 / (rad/m)]."""
     if irregularity.kind != "density_csv":
         return spectral_density(irregularity.kind, wavenumber, direction)
     assert irregularity.path is not None
@@ -160,22 +130,11 @@ def _density_table(path: Path) -> dict[str, Float]:
 
 
 def iso_3095_density(wavenumber: Float) -> Float:
-    """Compute the density of a rail that just meets the roughness limit for test tracks, vertical.
+    """Compute the density at wavenumbers [rad/m] of a rail that just meets the roughness limit, vertical.
 
-    Parameters
-    ----------
-    wavenumber : float64 array
-        [rad/m].
-
-    Returns
-    -------
-    float64 array
-        [m^2 / (rad/m)]; zero outside `SHORT_WAVE_BAND`.
-
-    Notes
-    -----
-    The limit is a mean square per third octave of the wavelength; here its density is continuous, the
-    level linear over the logarithm of the wavelength, and held above 40 cm.
+    In [m^2 / (rad/m)], zero outside `SHORT_WAVE_BAND`. The limit is a mean square per third octave of the
+    wavelength; here its density is continuous, the level linear over the logarithm of the wavelength, and
+    held above 40 cm.
 
     References
     ----------
@@ -193,12 +152,7 @@ def iso_3095_density(wavenumber: Float) -> Float:
 def patch_gain(wavenumber: Float, patch: float) -> Float:
     """Compute the share of the amplitude of random roughness that the contact patch passes on.
 
-    Parameters
-    ----------
-    wavenumber : float64 array
-        [rad/m].
-    patch : float
-        Length of the contact patch, [m]; 0: a point.
+    At wavenumbers [rad/m] and a length of the patch [m], 0 for a point.
 
     References
     ----------
@@ -211,14 +165,8 @@ def patch_gain(wavenumber: Float, patch: float) -> Float:
 def wave_gain(wavenumber: float, patch: float) -> float:
     """Compute the share of a wave, its crests straight across the rail, that the contact patch passes on.
 
-    The mean of the wave over the patch, weighted with the pressure along it, 1 - (x / a)^2.
-
-    Parameters
-    ----------
-    wavenumber : float
-        [rad/m].
-    patch : float
-        Length of the contact patch, 2 a, [m]; 0: a point.
+    The mean of the wave [rad/m] over the patch of the length 2 a [m], 0 for a point, weighted with the
+    pressure along it, 1 - (x / a)^2.
 
     References
     ----------

@@ -19,19 +19,9 @@ SOFT, STIFF, MEET, AT_REST, STATIC, FRICTION, CREEP, LINEAR, VISCOUS = range(9)
 
 
 def law(suspension: ProgressiveSuspension | None, mounting: Mounting, static: float) -> Float:
-    """Gather in one array the numbers that `excess_force` needs.
+    """Gather in one row the numbers that `excess_force` needs, with the load on the suspension at rest [N].
 
-    Parameters
-    ----------
-    suspension : ProgressiveSuspension or None
-        ``None``: the linear law of the mounting, without excess; the row is empty.
-    mounting : Mounting
-    static : float
-        Load on the suspension at rest, [N].
-
-    Returns
-    -------
-    float64 array, shape [9] or [0]
+    The row is empty without a suspension: the law of the mounting is linear, without excess.
     """
     if suspension is None:
         return np.zeros(0)
@@ -54,17 +44,9 @@ def law(suspension: ProgressiveSuspension | None, mounting: Mounting, static: fl
 def excess_force(row: Any, squeeze: Any, squeeze_speed: Any) -> Any:
     """Compute the suspension's force beyond its static load and beyond the mounting's linear law, [N].
 
-    Parameters
-    ----------
-    row : float64 array
-        Of `law`.
-    squeeze, squeeze_speed : float
-        Compression beyond that at rest, [m], [m/s].
-
-    Notes
-    -----
-    The springs do not pull. Friction is proportional to their load, with the hyperbolic tangent of the
-    speed: it creeps where dry friction would stick. Its own elasticity (of a Lenoir link) is neglected.
+    From the row of `law` and the compression beyond that at rest, [m], with its speed, [m/s]. The springs do
+    not pull. Friction is proportional to their load, with the hyperbolic tangent of the speed: it creeps
+    where dry friction would stick. Its own elasticity (of a Lenoir link) is neglected.
     """
     compression = row[AT_REST] + squeeze
     load = row[SOFT] * compression + (row[STIFF] - row[SOFT]) * max(compression - row[MEET], 0.0)
@@ -77,22 +59,9 @@ def equivalent_displacement(force: Float, mounting: Mounting, axis: int, step: f
     """Compute the motion of the bogie end of a linear suspension that gives an additional force.
 
     The twin holds its axlebox by the linear law of the mounting. With the bogie moved by this as well
-    the box feels what the rail model's suspension does beyond that law.
-
-    Parameters
-    ----------
-    force : float64 array, shape [step]
-        On the axlebox along the axis, [N].
-    mounting : Mounting
-    axis : int
-        0, 1, 2 for x, y, z.
-    step : float
-        [s].
-
-    Returns
-    -------
-    float64 array, shape [step]
-        Solution of damping x speed + stiffness x displacement = force, [m].
+    the box feels what the rail model's suspension does beyond that law: the solution [m] of
+    damping x speed + stiffness x displacement = force, for the force [N] on the axlebox along an axis, 0 to 2
+    for x, y, z, at steps [s].
     """
     stiffness, damping = mounting.stiffness[axis], mounting.damping[axis]
     if stiffness == 0.0 or not force.any():

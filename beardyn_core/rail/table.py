@@ -51,20 +51,10 @@ class Layout:
 
 
 def read_table(path: Path, layout: Layout) -> dict[str, Float]:
-    """Read and check a file.
+    """Read and check the columns that are in a file.
 
     The first line names the columns; a second one may give their units, the same as in the names. Lines
     that begin with ``#`` are comments.
-
-    Parameters
-    ----------
-    path : Path
-    layout : Layout
-
-    Returns
-    -------
-    dict of str to float64 array
-        Of the columns that are there.
 
     Raises
     ------
@@ -214,14 +204,7 @@ def order_problems(
 ) -> list[str]:
     """Write sentences about an ascending column: rows that do not increase, and gaps.
 
-    Parameters
-    ----------
-    path : Path
-    layout : Layout
-    values : float64 array
-        NaN where there is no number; such rows are passed over.
-    where : callable
-        Words for a list of row indices.
+    Rows without a number, NaN, are passed over; `where` gives words for a list of row indices.
     """
     known = np.flatnonzero(np.isfinite(values))
     if len(known) < 2:

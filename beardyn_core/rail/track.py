@@ -63,16 +63,6 @@ class RailWaves:
 def rail_waves(track: Track) -> RailWaves:
     """Build the waves of a rail on its track.
 
-    Parameters
-    ----------
-    track : Track
-
-    Returns
-    -------
-    RailWaves
-
-    Notes
-    -----
     The rail bends and shears; its rotary inertia is neglected (3 % of the receptance at 3 kHz). The
     seats are spread along the rail: the pinned-pinned mode between sleepers, near 1 kHz, and the passing
     of sleepers are absent. The waves stand under the wheel and so move along with it, which neglects that

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Annotated as A
@@ -38,8 +39,7 @@ class QuarterVehicle:
     damping: A[Float, "shape [4, 4], the same, [N s/m]"]
     rail: A[RailWaves, "track under the wheel"]
     primary: A[
-        Float,
-        "shape [9] or [0], row of `suspension.law`; empty while the primary suspension is linear",
+        Float, "shape [9] or [0], row of `suspension.law`; empty while the primary suspension is linear"
     ]
     static_force: A[float, "wheel-rail force at rest, [N]"]
     journal_weight: A[float, "weight of the half wheelset, [N]"]
@@ -64,16 +64,8 @@ class Ride:
 def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> QuarterVehicle:
     """Build one axlebox's share: an eighth of the body, a quarter of a bogie, half a wheelset, one rail.
 
-    Parameters
-    ----------
-    operation : QuarterVehicleOperation
-    mounting : Mounting
-        Gives wheelset, axlebox and, unless the vehicle has a progressive one, the primary suspension;
-        the bearing is a spring here.
-
-    Returns
-    -------
-    QuarterVehicle
+    The mounting gives wheelset, axlebox and, unless the vehicle has a progressive one, the primary
+    suspension; the bearing is a spring here.
     """
     vehicle = operation.vehicle
     journal, box = mounting.journal_mass, mounting.box_mass
@@ -85,13 +77,8 @@ def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> Q
         (BOGIE, BOX, mounting.stiffness[2], mounting.damping[2]),
         (BOX, WHEEL, _BEARING_STIFFNESS, _BEARING_DAMPING_RATIO * rattling),
     )
-    stiffness = np.zeros((4, 4))
-    damping = np.zeros((4, 4))
-    for upper, lower, spring, damper in links:
-        pull = np.zeros(4)
-        pull[upper], pull[lower] = 1.0, -1.0
-        stiffness += spring * np.outer(pull, pull)
-        damping += damper * np.outer(pull, pull)
+    stiffness = linked((upper, lower, spring) for upper, lower, spring, _ in links)
+    damping = linked((upper, lower, damper) for upper, lower, _, damper in links)
     factor, exponent = _CONTACT_FIT[vehicle.wheel_profile]
     return QuarterVehicle(
         mass=mass,
@@ -105,6 +92,16 @@ def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> Q
     )
 
 
+def linked(links: Iterable[tuple[int, int, float]]) -> Float:
+    """Build the matrix of four masses from links (upper, lower, stiffness or damping) between them."""
+    matrix = np.zeros((4, 4))
+    for upper, lower, link in links:
+        pull = np.zeros(4)
+        pull[upper], pull[lower] = 1.0, -1.0
+        matrix += link * np.outer(pull, pull)
+    return matrix
+
+
 def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None = None) -> Ride:
     """Run over a profile, from static equilibrium.
 
@@ -114,17 +111,12 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
 
     Parameters
     ----------
-    vehicle : QuarterVehicle
     height : float64 array, shape [step]
         Profile under the wheel at each step, upwards, [m]; should begin at 0.
     step : float
-        Time step, [s].
+        [s].
     push : float64 array, shape [step, 4], or None
         Further upward forces on body, bogie, wheel and axlebox, [N].
-
-    Returns
-    -------
-    Ride
 
     References
     ----------

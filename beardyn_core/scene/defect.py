@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Annotated as A
-from typing import Any
+from typing import Any, ClassVar
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.edge import INTERNAL, ROW, At
@@ -76,11 +76,7 @@ class Patch:
     ]
     width: A[float, At("mm", gt=0.0, le=200.0), "in rolling direction"]
     depth: A[float, At("um", gt=0.0, le=5000.0), "below the sound surface"]
-    length: A[
-        float,
-        At("mm", gt=0.0, optional=True),
-        "along the roller; the whole contact when left out",
-    ]
+    length: A[float, At("mm", gt=0.0, optional=True), "along the roller; the whole contact when left out"]
     offset: A[float, At("mm"), "centre from mid-length, positive towards the large end"] = 0.0
     roller: A[int, At(ge=0), "which roller, with `on: roller`"] = 0
     kind: A[str, At(one_of=PATCH_KINDS), "shape of its floor"] = "spall"
@@ -158,26 +154,27 @@ Spall = Patch  # what `Patch` is without a `kind`
 
 
 @dataclass(frozen=True)
-class RollerError:
-    """A roller of another diameter than the others."""
+class _OneRoller:
+    """What is wrong with one roller as a whole."""
+
+    on: ClassVar[str] = "roller"
 
     row: A[int, ROW, "0 inboard, 1 outboard"]
     roller: A[int, At(ge=0), "which roller"]
-    diameter: A[
-        float,
-        At("um", ge=-1000.0, le=200.0),
-        "difference to the nominal diameter, positive when too large",
-    ]
-    kind: A[str, At(one_of=("diameter",), required=True), "which of the kinds this is"] = "diameter"
 
     def contradictions(self, bearing: Bearing) -> Iterator[str]:
-        """Check that the defect is possible in the bearing."""
+        """Check that the roller is one of the bearing."""
         return no_such("roller", self.roller, bearing)
 
-    @property
-    def on(self) -> str:
-        """The body that has the defect."""
-        return "roller"
+
+@dataclass(frozen=True)
+class RollerError(_OneRoller):
+    """A roller of another diameter than the others."""
+
+    diameter: A[
+        float, At("um", ge=-1000.0, le=200.0), "difference to the nominal diameter, positive when too large"
+    ]
+    kind: A[str, At(one_of=("diameter",), required=True), "which of the kinds this is"] = "diameter"
 
     def described(self) -> str:
         """Describe the defect in a few words."""
@@ -187,6 +184,8 @@ class RollerError:
 @dataclass(frozen=True)
 class WornPocket:
     """A cage pocket with more room than the others."""
+
+    on: ClassVar[str] = "cage"
 
     row: A[int, ROW, "0 inboard, 1 outboard"]
     pocket: A[int, At(ge=0), "the pocket of the roller of the same number"]
@@ -201,32 +200,16 @@ class WornPocket:
         """Check that the defect is possible in the bearing."""
         return no_such("pocket", self.pocket, bearing)
 
-    @property
-    def on(self) -> str:
-        """The body that has the defect."""
-        return "cage"
-
     def described(self) -> str:
         """Describe the defect in a few words."""
         return f"pocket {self.pocket} of the cage, row {self.row}, worn by {self.clearance * 1e3:.2f} mm"
 
 
 @dataclass(frozen=True)
-class MissingRoller:
+class MissingRoller(_OneRoller):
     """A missing roller; its pocket is empty."""
 
-    row: A[int, ROW, "0 inboard, 1 outboard"]
-    roller: A[int, At(ge=0), "which roller"]
     kind: A[str, INTERNAL] = "missing"
-
-    def contradictions(self, bearing: Bearing) -> Iterator[str]:
-        """Check that the missing roller is one of the bearing."""
-        return no_such("roller", self.roller, bearing)
-
-    @property
-    def on(self) -> str:
-        """The body that has the defect."""
-        return "roller"
 
     def described(self) -> str:
         """Describe the defect in a few words."""
@@ -237,18 +220,8 @@ Defect = Patch | RollerError | WornPocket | MissingRoller
 
 
 def width_problem(width: float, on: str, bearing: Bearing) -> str:
-    """Say why a patch cannot be that wide, in mm; empty when it can.
+    """Say why a patch on cup, cone or roller cannot be of that width [m]; empty when it can.
 
-    Parameters
-    ----------
-    width : float
-        In rolling direction, [m].
-    on : str
-        ``cup``, ``cone`` or ``roller``.
-    bearing : Bearing
-
-    Notes
-    -----
     A roller of radius R that bridges a width w sinks by w^2 / 8 R: at the least width by 10 nm, a tenth of
     the roughness of a raceway and less, so nothing of it could be seen. A patch of more than half a raceway
     has no edges that a roller in the load zone meets one after the other.
@@ -272,13 +245,7 @@ def raceway_diameter(on: str, bearing: Bearing) -> float:
 
 
 def doubts_about(defects: Sequence[Defect], bearing: Bearing) -> list[str]:
-    """Warn of defects that are possible but unusual.
-
-    Parameters
-    ----------
-    defects : sequence of Defect
-    bearing : Bearing
-    """
+    """Warn of defects that are possible but unusual."""
     found = []
     for index, defect in enumerate(defects):
         if not isinstance(defect, Patch) or defect.on == "roller":
@@ -294,16 +261,11 @@ def doubts_about(defects: Sequence[Defect], bearing: Bearing) -> list[str]:
 
 def defect_from(stored: Mapping[str, Any]) -> Defect:
     """Make a defect from the mapping that `dataclasses.asdict` gives for it."""
-    fields = dict(stored)
-    kind = fields.get("kind", "spall")
-    if kind == "diameter":
-        return RollerError(**fields)
-    if kind == "worn_pocket":
-        return WornPocket(**fields)
-    if kind == "missing":
-        return MissingRoller(**fields)
-    growth = fields.get("growth")
-    return Patch(**{**fields, "growth": None if growth is None else Growth(**growth)})
+    for defect in (RollerError, WornPocket, MissingRoller):
+        if stored.get("kind") == defect.kind:
+            return defect(**stored)
+    growth = stored.get("growth")
+    return Patch(**{**stored, "growth": None if growth is None else Growth(**growth)})
 
 
 def truth_of(defect: Defect, time: float) -> dict[str, Any]:

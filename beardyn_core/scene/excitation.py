@@ -1,21 +1,72 @@
-"""Discrete wheel-rail excitation: flats and waves of the wheel; joints, welds, crossings, corrugation."""
+"""Excitation: irregularity; flats and waves of the wheel; joints, welds, crossings, corrugation."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated as A
 from typing import ClassVar
 
-from beardyn_core.edge import SEED, At
+from beardyn_core.edge import SEED, At, refuse
 
+# one-sided spectra that have a name; those without an alignment are vertical only
+SPECTRA = (
+    "german_low",
+    "german_high",
+    *(f"fra_{number}" for number in range(1, 7)),
+    "sncf_good",
+    "sncf_bad",
+    "china_ballastless",
+)
+VERTICAL_ONLY = ("sncf_good", "sncf_bad")
+MEASURED = ("csv", "density_csv")
+IRREGULARITY_KINDS = (*SPECTRA, *MEASURED, "none")
+SHORT_WAVES = ("iso_3095",)
+DIRECTIONS = ("vertical", "lateral")
 FLAT_SHAPES = ("fresh", "rounded")
 AMPLITUDE = At("um", ge=0.0, le=2000.0)
 POSITION = At("m", ge=0.0, le=1e6)
 
 # a length and a depth are measured apart; they may disagree by this share
 _TOLERANCE = 0.05
+
+
+@dataclass(frozen=True)
+class Irregularity:
+    """Irregularity of the rail, drawn from a power spectral density or measured."""
+
+    kind: A[
+        str, At(one_of=IRREGULARITY_KINDS), "a spectrum by name, or a file of a profile or of a density"
+    ] = "german_low"
+    shortest_wavelength: A[float, At("m", gt=0.0, ge=0.02, le=50.0), "of the band of the spectrum"] = 0.1
+    longest_wavelength: A[float, At("m", gt=0.0, ge=1.0, le=1000.0), "of the band of the spectrum"] = 150.0
+    short_waves: A[
+        str | None,
+        At(one_of=SHORT_WAVES),
+        "rail roughness between 1 cm and 0.5 m, at least that of the limit for test tracks",
+    ] = None
+    path: A[
+        Path | None,
+        "of a kind from a file, relative to the scene file; columns distance_m, vertical_mm and "
+        "perhaps lateral_mm, or wavelength_m, vertical_mm2_m and perhaps lateral_mm2_m",
+    ] = None
+
+    def __post_init__(self) -> None:
+        refuse(self, "irregularity")
+
+    def rules(self) -> Iterator[str]:
+        """Check that the band is not empty, and that a file is set exactly when one is needed."""
+        if self.shortest_wavelength >= self.longest_wavelength:
+            yield (
+                f"shortest_wavelength_m is {self.shortest_wavelength:g}; it must be less than "
+                f"longest_wavelength_m, {self.longest_wavelength:g}"
+            )
+        if self.kind in MEASURED and self.path is None:
+            yield f"path is missing; kind {self.kind!r} needs the path of a CSV file"
+        if self.kind not in MEASURED and self.path is not None:
+            yield f"path is {str(self.path)!r}; it goes with kind {' or '.join(map(repr, MEASURED))}"
 
 
 @dataclass(frozen=True)
@@ -44,54 +95,48 @@ class WheelFlat:
         "along the circumference; of a rounded flat with its rounded ends",
     ]
     depth: A[
-        float | None,
-        At("mm", ge=0.0),
-        "L^2 / (8 R) of a fresh, L^2 / (16 R) of a rounded flat when left out",
+        float | None, At("mm", ge=0.0), "L^2 / (8 R) of a fresh, L^2 / (16 R) of a rounded flat when left out"
     ] = None
     shape: A[str, At(one_of=FLAT_SHAPES), "a chord with sharp ends, or rolled round (haversine)"] = "fresh"
     azimuth: A[
-        float,
-        At("deg"),
-        "of its middle, from +z (the top) towards +x (forward) at the start of the run",
+        float, At("deg"), "of its middle, from +z (the top) towards +x (forward) at the start of the run"
     ] = 0.0
 
     def usual_depth(self, wheel_radius: float) -> float:
-        """Find the depth that belongs to the length, [m].
-
-        Parameters
-        ----------
-        wheel_radius : float
-            [m].
-        """
+        """Find the depth [m] that belongs to the length on a wheel of this radius [m]."""
         return self.length**2 / ((8.0 if self.shape == "fresh" else 16.0) * wheel_radius)
 
     def depth_on(self, wheel_radius: float) -> float:
         """Return the depth, derived from the length when none is set, [m]."""
         return self.usual_depth(wheel_radius) if self.depth is None else self.depth
 
-    def contradiction(self, wheel_radius: float) -> str | None:
-        """Check length and depth against the wheel; ``None`` when they agree.
+    def contradictions(self, wheel_radius: float) -> Iterator[str]:
+        """Check length and depth against a wheel of this radius [m].
 
         The depth of a fresh flat is that of its chord. Rolling round makes a flat longer, not deeper:
         at a given length no flat is deeper than the fresh one.
         """
         if self.depth is None:
-            return None
+            return
         chord = self.length**2 / (8.0 * wheel_radius)
-        flat = f"a flat of {1e3 * self.length:g} mm on a wheel of {2e3 * wheel_radius:g} mm"
+        flat = (
+            f"depth_mm is {1e3 * self.depth:g}; a flat of {1e3 * self.length:g} mm on a wheel of "
+            f"{2e3 * wheel_radius:g} mm"
+        )
         if self.shape == "fresh" and abs(self.depth - chord) > _TOLERANCE * chord:
-            return f"{flat} is {1e3 * chord:.3g} mm deep while fresh: leave the depth out or correct one"
-        if self.depth > (1.0 + _TOLERANCE) * chord:
-            return (
+            yield f"{flat} is {1e3 * chord:.3g} mm deep while fresh: leave the depth out or correct one"
+        elif self.depth > (1.0 + _TOLERANCE) * chord:
+            yield (
                 f"{flat} can be at most {1e3 * chord:.3g} mm deep, its depth while fresh (usual once "
                 f"rounded: {1e3 * self.usual_depth(wheel_radius):.3g} mm)"
             )
-        return None
 
-    def contradictions(self, wheel_radius: float) -> Iterator[str]:
-        """Check that the flat is possible on a wheel of this radius [m]."""
-        if found := self.contradiction(wheel_radius):
-            yield f"depth_mm is {1e3 * (self.depth or 0.0):g}; {found}"
+
+def _too_short(value: str, order: int, wheel_radius: float) -> Iterator[str]:
+    """Report waves that are not longer than the contact patch."""
+    highest = math.floor(2.0 * math.pi * wheel_radius / 0.02)
+    if order > highest:
+        yield f"{value}; at most {highest} waves of 20 mm fit on a wheel of {2e3 * wheel_radius:g} mm"
 
 
 @dataclass(frozen=True)
@@ -104,17 +149,9 @@ class WheelPolygon:
     amplitude: A[float, AMPLITUDE, "about the mean radius, half of valley to crest"]
     azimuth: A[float, At("deg"), "of a crest, from +z towards +x at the start of the run"] = 0.0
 
-    def contradiction(self, wheel_radius: float) -> str | None:
-        """Check that a wave of the order is longer than the contact patch on this wheel."""
-        highest = math.floor(2.0 * math.pi * wheel_radius / 0.02)
-        if self.order <= highest:
-            return None
-        return f"at most {highest} waves of 20 mm fit on a wheel of {2e3 * wheel_radius:g} mm"
-
     def contradictions(self, wheel_radius: float) -> Iterator[str]:
         """Check that the polygon is possible on a wheel of this radius [m]."""
-        if found := self.contradiction(wheel_radius):
-            yield f"order is {self.order}; {found}"
+        return _too_short(f"order is {self.order}", self.order, wheel_radius)
 
 
 @dataclass(frozen=True)
@@ -129,21 +166,14 @@ class WheelOutOfRound:
     kind: ClassVar[str] = "out_of_round"
 
     amplitudes: A[
-        tuple[float, ...],
-        AMPLITUDE,
-        At(size=(1, 100)),
-        "of the orders 1, 2, 3 ..., about the mean radius",
+        tuple[float, ...], AMPLITUDE, At(size=(1, 100)), "of the orders 1, 2, 3 ..., about the mean radius"
     ]
     seed: A[int, SEED, "of the azimuths of the waves"] = 1
 
-    def contradiction(self, wheel_radius: float) -> str | None:
-        """Check that the highest order is possible on this wheel."""
-        return WheelPolygon(len(self.amplitudes), 0.0).contradiction(wheel_radius)
-
     def contradictions(self, wheel_radius: float) -> Iterator[str]:
         """Check that the waves are possible on a wheel of this radius [m]."""
-        if found := self.contradiction(wheel_radius):
-            yield f"amplitudes_um has {len(self.amplitudes)} orders; {found}"
+        highest = len(self.amplitudes)
+        return _too_short(f"amplitudes_um has {highest} orders", highest, wheel_radius)
 
 
 @dataclass(frozen=True)

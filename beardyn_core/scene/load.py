@@ -33,6 +33,10 @@ class LoadHistory:
     def __len__(self) -> int:
         return len(self.time_ns)
 
+    def columns(self) -> NDArray[np.float64]:
+        """Gather wrench, shaft speed and bogie displacement, shape [sample, 10]."""
+        return np.concatenate([self.wrench, self.shaft_speed[:, None], self.bogie], axis=1)
+
     def until(self, time_ns: int) -> LoadHistory:
         """Return the samples up to a time, and the first one after it."""
         return self.part(0, int(np.searchsorted(self.time_ns, time_ns)) + 1)
@@ -45,3 +49,12 @@ class LoadHistory:
             self.shaft_speed[first:last],
             self.bogie[first:last],
         )
+
+
+def sampled_load(
+    wrench: NDArray[np.float64], shaft_speed: NDArray[np.float64], bogie: NDArray[np.float64], sample_ns: int
+) -> LoadHistory:
+    """Make the history of samples that follow each other every so many nanoseconds from time 0."""
+    time_ns = np.arange(len(shaft_speed), dtype=np.int64) * sample_ns
+    columns = (np.ascontiguousarray(part, dtype=np.float64) for part in (wrench, shaft_speed, bogie))
+    return LoadHistory(time_ns, *columns)

@@ -27,17 +27,10 @@ SPEED_JUMP_WINDOW_NS = 100_000_000
 
 
 def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
-    """Say why samples of load cannot be used; ``None`` when they can.
-
-    Parameters
-    ----------
-    load : LoadHistory
-    after_ns : int or None
-        Time of the last sample accepted before, [ns].
-    """
+    """Say why samples of load cannot follow the one of a time [ns], if any; ``None`` when they can."""
     if len(load) == 0:
         return None
-    values = np.concatenate([load.wrench, load.shaft_speed[:, None], load.bogie], axis=1)
+    values = load.columns()
     if not np.isfinite(values).all():
         return (
             "the load has a NaN or an infinite number; all of force, moment, speed and bogie must be finite"
@@ -58,13 +51,7 @@ def problem_with(load: LoadHistory, after_ns: int | None) -> str | None:
 
 
 def speed_jump(time_ns: NDArray[np.int64], shaft_speed: NDArray[np.float64]) -> str | None:
-    """Report a jump of the shaft speed that no wheelset can make; ``None`` when there is none.
-
-    Parameters
-    ----------
-    time_ns : int64 array, shape [sample], [ns]
-    shaft_speed : array, shape [sample], [rad/s]
-    """
+    """Report a jump of the shaft speed [rad/s] that no wheelset can make; ``None`` when there is none."""
     change = np.abs(np.diff(shaft_speed))
     jumps = np.flatnonzero((change > LARGEST_SPEED_JUMP) & (np.diff(time_ns) < SPEED_JUMP_WINDOW_NS))
     if len(jumps) == 0:
@@ -104,40 +91,18 @@ class LoadBuffer:
     def at_steps(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> NDArray[np.float64]:
         """Compute the load at the step boundaries, linear between samples, constant outside them.
 
-        Parameters
-        ----------
-        start_ns, end_ns : int
-            Of all blocks together, [ns].
-        steps : int
-            Of a block.
-        blocks : int, optional
-            As many as wanted give the same bits as one at a time.
-
-        Returns
-        -------
-        float64 array, shape [steps * blocks + 1, 10]
-            Wrench [N, N m], shaft speed [rad/s], bogie displacement [m].
+        From start to end of all blocks together, of so many steps each; as many blocks as wanted give the
+        same bits as one at a time. Shape [steps * blocks + 1, 10]: wrench [N, N m], shaft speed [rad/s],
+        bogie displacement [m].
         """
-        self._forget_before(start_ns)
-        parts = [_window(part, start_ns, end_ns) for part in self._parts]
-        load = parts[0] if len(parts) == 1 else _joined(parts)
-        rows = np.empty((steps * blocks + 1, 10))
-        _interpolate_blocks(
-            load.time_ns,
-            load.wrench,
-            load.shaft_speed,
-            load.bogie,
-            start_ns,
-            (end_ns - start_ns) // blocks,
-            steps,
-            rows,
-        )
-        return rows
-
-    def _forget_before(self, start_ns: int) -> None:
-        """Drop parts that end before a time, keeping the one that holds it."""
         while len(self._parts) > 1 and self._parts[1].time_ns[0] <= start_ns:
             del self._parts[0]
+        parts = [_window(part, start_ns, end_ns) for part in self._parts]
+        time_ns = np.concatenate([part.time_ns for part in parts])
+        values = np.concatenate([part.columns() for part in parts])
+        rows = np.empty((steps * blocks + 1, 10))
+        _interpolate_blocks(time_ns, values, start_ns, (end_ns - start_ns) // blocks, steps, rows)
+        return rows
 
     def copy(self) -> LoadBuffer:
         """Return a copy; it shares the arrays of samples, which never change."""
@@ -151,53 +116,31 @@ def _window(part: LoadHistory, start_ns: int, end_ns: int) -> LoadHistory:
     return part.part(max(first, 0), last)
 
 
-def _joined(parts: list[LoadHistory]) -> LoadHistory:
-    return LoadHistory(
-        np.concatenate([part.time_ns for part in parts]),
-        np.concatenate([part.wrench for part in parts]),
-        np.concatenate([part.shaft_speed for part in parts]),
-        np.concatenate([part.bogie for part in parts]),
-    )
-
-
 @partial(entry, flags=())
-def _interpolate_blocks(time_ns, wrench, shaft_speed, bogie, start_ns, span_ns, steps, rows):
+def _interpolate_blocks(time_ns, values, start_ns, span_ns, steps, rows):
     for first in range(0, len(rows) - 1, steps):
         start = start_ns + first // steps * span_ns
-        part = rows[first : first + steps + 1]
-        _interpolate(time_ns, wrench, shaft_speed, bogie, start, span_ns / steps, part)
+        _interpolate(time_ns, values, start, span_ns / steps, rows[first : first + steps + 1])
 
 
 @partial(entry, flags=())
-def _interpolate(time_ns, wrench, shaft_speed, bogie, start_ns, spacing, rows):
+def _interpolate(time_ns, values, start_ns, spacing, rows):
     """Interpolate all columns at evenly spaced times, the same bits as `numpy.interp`."""
-    last, sample = len(time_ns) - 1, 0
+    last, sample, known = len(time_ns) - 1, 0, -1
     slope = np.empty(10)
-    known = -1
     for row in range(len(rows)):
         at = row * spacing
         while sample < last and float(time_ns[sample + 1] - start_ns) <= at:
             sample += 1
         since = at - float(time_ns[sample] - start_ns)
         if sample == last or since <= 0.0:
-            since = 0.0
-        elif sample != known:
+            for i in range(10):
+                rows[row, i] = values[sample, i]
+            continue
+        if sample != known:
             known = sample
             span = float(time_ns[sample + 1] - start_ns) - float(time_ns[sample] - start_ns)
-            for i in range(6):
-                slope[i] = (wrench[sample + 1, i] - wrench[sample, i]) / span
-            slope[6] = (shaft_speed[sample + 1] - shaft_speed[sample]) / span
-            for i in range(3):
-                slope[7 + i] = (bogie[sample + 1, i] - bogie[sample, i]) / span
-        if since == 0.0:
-            for i in range(6):
-                rows[row, i] = wrench[sample, i]
-            rows[row, 6] = shaft_speed[sample]
-            for i in range(3):
-                rows[row, 7 + i] = bogie[sample, i]
-        else:
-            for i in range(6):
-                rows[row, i] = slope[i] * since + wrench[sample, i]
-            rows[row, 6] = slope[6] * since + shaft_speed[sample]
-            for i in range(3):
-                rows[row, 7 + i] = slope[7 + i] * since + bogie[sample, i]
+            for i in range(10):
+                slope[i] = (values[sample + 1, i] - values[sample, i]) / span
+        for i in range(10):
+            rows[row, i] = slope[i] * since + values[sample, i]

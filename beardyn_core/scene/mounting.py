@@ -56,9 +56,7 @@ class Mounting:
         0.0,
     )
     axial_prop_stiffness: A[
-        float,
-        At("MN_per_m", ge=0.0),
-        "of a spring between journal and ground along y; a single row needs it",
+        float, At("MN_per_m", ge=0.0), "of a spring between journal and ground along y; a single row needs it"
     ] = 0.0
     axial_prop_damping: A[float, At("kN_s_per_m", ge=0.0), "of a damper beside that spring"] = 0.0
 
@@ -79,17 +77,7 @@ class Mounting:
             )
 
     def about_bearing_centre(self, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Convert loads on the journal to force and moment about the bearing centre.
-
-        Parameters
-        ----------
-        wrench : float64 array, shape [..., 6]
-            Force and moment, [N, N m].
-
-        Returns
-        -------
-        float64 array, shape [..., 6]
-        """
+        """Convert loads on the journal to force and moment about the centre, shape [..., 6], [N, N m]."""
         if not any(self.load_offset):
             return wrench
         force, moment = wrench[..., :3], wrench[..., 3:]

@@ -10,16 +10,13 @@ from typing import Annotated as A
 from typing import Any, ClassVar
 
 from beardyn_core.edge import At, Problem, Vector, refuse, written
-from beardyn_core.scene.braking import Braking, Starting
-from beardyn_core.scene.curve import Curve
-from beardyn_core.scene.excitation import RailDefect, WheelDefect
-from beardyn_core.scene.guidance import Guidance
-from beardyn_core.scene.irregularity import Irregularity
-from beardyn_core.scene.measured import MeasuredOperation
+from beardyn_core.scene.excitation import Irregularity, RailDefect, WheelDefect
+from beardyn_core.scene.running import Braking, Curve, Starting
 from beardyn_core.scene.speed import POINTS, Profile, not_ascending
-from beardyn_core.scene.suspension import ProgressiveSuspension
+from beardyn_core.scene.suspension import Guidance, ProgressiveSuspension
 
 WHEEL_PROFILES = ("worn", "cone")
+TAKES = ("both", "force", "speed")
 SHAFT_SPEED = At("rpm", ge=-6000.0, le=6000.0)
 
 
@@ -94,8 +91,7 @@ class Vehicle:
         "worn"
     )
     primary_suspension: A[
-        ProgressiveSuspension | None,
-        "of freight bogies; the vertical springs of the mounting when left out",
+        ProgressiveSuspension | None, "of freight bogies; the vertical springs of the mounting when left out"
     ] = None
     guidance: A[Guidance, "what the sideways motion depends on"] = Guidance()
     sources: tuple[tuple[str, str], ...] = ()
@@ -158,8 +154,7 @@ class QuarterVehicleOperation:
     track: A[Track, "under the rail; what is not given is the track of Zhai"] = Track()
     wheel_defects: A[tuple[WheelDefect, ...], "flats and polygons of the wheel"] = ()
     rail_defects: A[
-        tuple[RailDefect, ...],
-        "joints, welds, crossings and corrugation, besides the irregularity",
+        tuple[RailDefect, ...], "joints, welds, crossings and corrugation, besides the irregularity"
     ] = ()
     contact_patch: A[
         float,
@@ -211,6 +206,48 @@ class QuarterVehicleOperation:
         if isinstance(source, Path):
             return {**keys, "measured_speed": str(source)}
         return {**keys, "timetable": written(source)}
+
+
+@dataclass(frozen=True)
+class MeasuredOperation:
+    """Load and speed read from a CSV file or from a recording (see `rail.measured`)."""
+
+    KINDS: ClassVar[tuple[str, ...]] = ("csv", "mcap")
+
+    path: A[
+        Path,
+        "relative to the scene file; of a CSV file columns as in the documentation of `rail.measured`, of a "
+        "recording load/blocks, load/wrench and load/shaft, or force and shaft",
+    ]
+    take: A[
+        str, At(one_of=TAKES), "force: the speed is modelled, speed_profile; speed: the load is, force_kN"
+    ] = "both"
+    speed_profile: A[Profile, POINTS, "with take: force; linear in between, held before and after"] = ()
+    wheel_diameter: A[
+        float, At("mm", gt=0.0, ge=300.0, le=1500.0), "running diameter, for the speed profile"
+    ] = 0.92
+    force: A[Vector | None, At("kN"), "with take: speed; on the journal along x, y, z"] = None
+
+    def __post_init__(self) -> None:
+        refuse(self, "operation (measured)")
+
+    @property
+    def kind(self) -> str:
+        """Kind of the file."""
+        return "mcap" if self.path.suffix.lower() == ".mcap" else "csv"
+
+    def rules(self) -> Iterator[str]:
+        """Check that load and speed each have exactly one source, and that times increase."""
+        wants_speed, wants_force = self.take == "force", self.take == "speed"
+        if wants_speed and not self.speed_profile:
+            yield "speed_profile is missing; take is 'force', so the speed must come from there"
+        if wants_force and self.force is None:
+            yield "force_kN is missing; take is 'speed', so the load must come from there"
+        if self.speed_profile and not wants_speed:
+            yield f"speed_profile is given and take is {self.take!r}; it needs take: force"
+        if self.force is not None and not wants_force:
+            yield f"force_kN is given and take is {self.take!r}; it needs take: speed"
+        yield from not_ascending("speed_profile", [time for time, _ in self.speed_profile])
 
 
 Operation = ConstantOperation | SteppedOperation | QuarterVehicleOperation | MeasuredOperation

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Annotated as A
 from typing import Any, Literal
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.thermal_closure import Temperatures
+from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.edge import INTERNAL, SEED, UNITS, At
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
-from beardyn_core.scene.integrator import LARGEST_STEPS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, Operation, SteppedOperation
 from beardyn_core.scene.sensor import Accelerometer
-from beardyn_core.scene.tier import TIER_NAMES, missing_effects
+from beardyn_core.scene.tier import LARGEST_STEPS, TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
 
 # what a user can ask of a run; see `choice`
 QUANTITIES = ("force", "deflection", "roller_load", "torque", "vibration", "cage_speed")
 USUAL_QUANTITIES = QUANTITIES[:-1]
+EFFECTS = tuple(field.name for field in fields(EffectSet))
 
 # options of the rib that only the full tier has
 _FULL_RIB_OPTIONS = ("lubrication", "roller_end", "drilling")
@@ -64,13 +64,10 @@ class Scene:
         "full"
     )
     temperatures: A[
-        Temperatures | None,
-        "of the parts; with them end_play_mm is the one mounted at assembly_C",
+        Temperatures | None, "of the parts; with them end_play_mm is the one mounted at assembly_C"
     ] = None
     effects: A[
-        EffectSet,
-        At(reference=True, usual="standard"),
-        "a preset, a path, which effects are on, or auto",
+        EffectSet, At(reference=True, usual="standard"), "a preset, a path, which effects are on, or auto"
     ] = EffectSet()
     accuracy: A[
         float | None,
@@ -161,3 +158,21 @@ class Scene:
         rib = self.effects.rib
         options = () if rib is None else (name for name in _FULL_RIB_OPTIONS if getattr(rib, name))
         return missing_effects(self.tier, (*self.effect_names, *(f"rib.{name}" for name in options)))
+
+
+@dataclass(frozen=True)
+class Free:
+    """Parts of a scene that the automatic choice may set; the rest stays as written."""
+
+    tier: bool = True
+    laminae: bool = True
+    steps: bool = True
+    effects: A[frozenset[str], "members of the effect set"] = frozenset(EFFECTS)
+
+    @property
+    def anything(self) -> bool:
+        """Whether any part may be chosen."""
+        return self.tier or self.laminae or self.steps or bool(self.effects)
+
+
+NOTHING = Free(tier=False, laminae=False, steps=False, effects=frozenset())

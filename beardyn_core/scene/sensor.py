@@ -37,9 +37,7 @@ class Accelerometer:
         "of the accelerometer on its mounting (ISO 5348); rigid when left out",
     ] = None
     mounting_damping_ratio: A[
-        float,
-        At(gt=0.0, ge=0.001, le=0.9, absent=True),
-        "of critical; 0.02 when left out",
+        float, At(gt=0.0, ge=0.001, le=0.9, absent=True), "of critical; 0.02 when left out"
     ] = 0.02
     rate: A[
         float,

@@ -1,4 +1,4 @@
-"""Tiers: how many states a run has; what each can represent of a scene's effects."""
+"""Tiers: how many states a run has, what each can represent of a scene's effects, how it takes its steps."""
 
 from __future__ import annotations
 
@@ -14,34 +14,21 @@ class TierLimits:
     states: A[str, "what moves by its own equations of motion"]
     represented: A[frozenset[str] | None, "effects it computes or reports; ``None``: all of them"]
     steps_per_sample: A[
-        int,
-        "time steps per waveform sample when the scene does not say; `choice.fast_step` may take fewer",
+        int, "time steps per waveform sample when the scene does not say; `choice.fast_step` may take fewer"
     ]
     needs_rib: A[bool, "whether nothing but the rib holds the rollers axially"]
     smallest_laminae: A[int, "fewest laminae it can work with"]
     absent: A[tuple[str, ...], "channels of a block that it leaves at zero or without content"]
     blocks_at_once: A[
-        int,
-        "blocks of 20 ms that are worth computing in one go where nobody waits for each",
+        int, "blocks of 20 ms that are worth computing in one go where nobody waits for each"
     ] = 1
     long_steps: A[
-        tuple[float, ...],
-        "steps per sample that it may take where a step is longer than a sample",
+        tuple[float, ...], "steps per sample that it may take where a step is longer than a sample"
     ] = ()
 
 
 _FAST = frozenset(
-    {
-        "contact_damping",
-        "film",
-        "rib",
-        "rolling_resistance",
-        "drag",
-        "seal",
-        "gravity",
-        "faults",
-        "waviness",
-    }
+    {"contact_damping", "film", "rib", "rolling_resistance", "drag", "seal", "gravity", "faults", "waviness"}
 )
 _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
 
@@ -74,6 +61,8 @@ TIERS = {
     )
 }
 TIER_NAMES = tuple(TIERS)
+# Time steps per waveform sample that a scene may ask for; 391 explicit ones are 0.1 us each.
+LARGEST_STEPS = {"implicit": 64, "explicit": 512}
 LONG_STEPS = tuple(sorted({steps for tier in TIERS.values() for steps in tier.long_steps}))
 
 
@@ -102,5 +91,30 @@ def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: flo
         found.append(
             f"numerics.steps_per_sample {steps_per_sample} does not go with tier {tier!r}: "
             f"allowed is {allowed}"
+        )
+    return found
+
+
+def integrator_problems(integrator: str, tier: str, steps_given: bool, automatic: bool) -> list[str]:
+    """List the reasons why a scene cannot use its integrator, with what is allowed.
+
+    ``implicit`` solves for each roller's velocities under its contacts, linearised. ``explicit`` takes the
+    contact forces of the beginning of the step on roller and ring alike, symplectic Euler. With steps above
+    0.5 us (dry friction at 150 kN) to 5 us (films) slips flip from step to step while mean forces stay about
+    right: it is nothing but a reference for the other.
+    """
+    if integrator != "explicit":
+        return []
+    if automatic:
+        return [
+            "'explicit' is for references and goes with nothing that is auto; write tier, effects, laminae "
+            "and steps_per_sample down, or take 'implicit'"
+        ]
+    found = []
+    if tier != "full":
+        found.append(f"'explicit' needs the tier 'full', not {tier!r}; change it, or take 'implicit'")
+    if not steps_given:
+        found.append(
+            "'explicit' needs numerics.steps_per_sample: 391 for the 0.1 us of a reference, some 80 or more"
         )
     return found

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import product
 from math import pi
 from pathlib import Path
 from typing import Annotated as A
@@ -88,25 +89,19 @@ class Trial:
 
     name: A[str, At(longest=80, key="trial"), "name of the trial"]
     purpose: A[str, "one line: what the trial is for"]
-    scene: A[
-        str,
-        At(longest=80),
-        "what every run starts from; its operation a quarter_vehicle",
-    ] = "smooth_run"
+    scene: A[str, At(longest=80), "what every run starts from; its operation a quarter_vehicle"] = (
+        "smooth_run"
+    )
     folder: A[Path, INTERNAL] = Path()
     tier: A[str, At(one_of=TIERS), "of the runs"] = "quasistatic"
     effects: A[str | dict[str, Any] | None, "as in a scene file; the scene's when left out"] = None
     faults: A[tuple[str, ...], At(one_of=FAULTS, size=(1, None)), "parts that are spalled"] = FAULTS
     sizes: A[
-        tuple[float, ...],
-        At("mm", gt=0.0, le=100.0, size=(1, None), required=True),
-        "widths of the spalls",
+        tuple[float, ...], At("mm", gt=0.0, le=100.0, size=(1, None), required=True), "widths of the spalls"
     ] = ()
     spall: A[Spall, "how a spall of a width looks"] = Spall()
     speeds: A[
-        tuple[float, ...],
-        At("kmh", gt=0.0, ge=5.0, le=400.0, size=(1, None), required=True),
-        "of the train",
+        tuple[float, ...], At("kmh", gt=0.0, ge=5.0, le=400.0, size=(1, None), required=True), "of the train"
     ] = ()
     tracks: A[tuple[str, ...], At(longest=80, size=(1, None), required=True), "kinds of irregularity"] = ()
     wheels: A[tuple[TrialWheel, ...], At(size=(1, None), required=True), "wheels of the matrix"] = ()
@@ -149,24 +144,15 @@ class Trial:
 
     def cells(self) -> tuple[Cell, ...]:
         """List all runs, those of the check last."""
-        own = tuple(self._matrix())
-        if self.check is None:
-            return own
-        every, tier = self.check.every, self.check.tier
-        # an odd stride walks through speeds, tracks and wheels
-        checked = (cell for place, cell in enumerate(own) if place % every == 0)
-        return (*own, *(_again(cell, tier) for cell in checked))
-
-    def _matrix(self) -> Iterator[Cell]:
         loads = [(HEALTHY, 0.0, self.healthy_repeats)]
         loads += [(fault, size, self.repeats) for fault in self.faults for size in self.sizes]
-        for fault, size, repeats in loads:
-            for repeat in range(repeats):
-                for speed in self.speeds:
-                    for track in self.tracks:
-                        for wheel in self.wheels:
-                            yield Cell(fault, size, speed, track, wheel.name, repeat, self.tier)
-
-
-def _again(cell: Cell, tier: str) -> Cell:
-    return Cell(cell.fault, cell.size, cell.speed, cell.track, cell.wheel, cell.repeat, tier, checks=True)
+        own = tuple(
+            Cell(fault, size, speed, track, wheel.name, repeat, self.tier)
+            for fault, size, repeats in loads
+            for repeat, speed, track, wheel in product(range(repeats), self.speeds, self.tracks, self.wheels)
+        )
+        if self.check is None:
+            return own
+        # an odd stride walks through speeds, tracks and wheels
+        checked = own[:: self.check.every]
+        return (*own, *(replace(cell, tier=self.check.tier, checks=True) for cell in checked))

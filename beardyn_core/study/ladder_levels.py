@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Annotated as A
 
 from beardyn_core.choice.choose import choose
-from beardyn_core.choice.outcome import Choice
+from beardyn_core.choice.rule import Choice
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
 from beardyn_core.integrate.friction_steps import usual_steps

@@ -19,8 +19,7 @@ from typing import Any
 
 import beardyn_core
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.outcome import Choice
-from beardyn_core.choice.rule import percent
+from beardyn_core.choice.rule import Choice, percent
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, plan_of
 from beardyn_core.study.ladder_levels import (
     AUTO,

@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from beardyn_core.bearing.life import dynamic_rating
-from beardyn_core.bearing.reference_life import contact_ratings
+from beardyn_core.bearing.life import contact_ratings, dynamic_rating
 from beardyn_core.config import load_bearing
 from evidence.validation.anchor import Anchor
 

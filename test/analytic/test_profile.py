@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from beardyn_core.bearing.contact_law import line_contact_factor
-from beardyn_core.bearing.edge_concentration import edge_concentration
+from beardyn_core.bearing.life import edge_concentration
 from beardyn_core.bearing.profile import PROFILE_KINDS, Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import LaminaCoupling

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
 from beardyn_core.choice import load_scene
-from beardyn_core.rail.build import FADE_IN, ride_of
+from beardyn_core.rail.build import FADE_IN
 from beardyn_core.rail.running import running
 from beardyn_core.run import blocks
 from beardyn_core.scene.operation import QuarterVehicleOperation
+from test.analytic.rail_rides import ride_of
 
 DURATION = 2.0
 SNAPSHOT_RATE = 200.0

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.errors import InputError
-from beardyn_core.rail.build import load_history, ride_of
+from beardyn_core.rail.build import load_history
 from beardyn_core.rail.excitation import rail_height, waves_of, wheel_height
 from beardyn_core.rail.spectra import wave_gain
 from beardyn_core.rail.vehicle import quarter_vehicle
@@ -22,6 +22,7 @@ from beardyn_core.scene.excitation import (
 )
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
+from test.analytic.rail_rides import ride_of
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
 SMOOTH = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 120 / 3.6),))

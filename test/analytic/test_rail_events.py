@@ -11,7 +11,6 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.config import shipped_names
-from beardyn_core.rail.build import ride_of
 from beardyn_core.rail.events import MOST_TIMES, events_of
 from beardyn_core.rail.vehicle import quarter_vehicle
 from beardyn_core.scene.excitation import (
@@ -19,14 +18,14 @@ from beardyn_core.scene.excitation import (
     Crossing,
     DippedJoint,
     DippedWeld,
+    Irregularity,
     WheelFlat,
     WheelOutOfRound,
     WheelPolygon,
 )
-from beardyn_core.scene.irregularity import Irregularity
-from beardyn_core.scene.measured import MeasuredOperation
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.twin import Twin
+from test.analytic.rail_rides import ride_of
 
 SCENE = load_scene("smooth_run")
 

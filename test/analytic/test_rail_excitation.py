@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.errors import InputError
-from beardyn_core.rail.build import load_history, ride_of
+from beardyn_core.rail.build import load_history
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import rail_profile
 from beardyn_core.rail.vehicle import BOX, WHEEL, quarter_vehicle, ride
@@ -14,6 +14,7 @@ from beardyn_core.scene.excitation import Corrugation, DippedJoint, WheelFlat, W
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
 from beardyn_core.scene.speed import distance_at
+from test.analytic.rail_rides import ride_of
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
 # contact in a point, as in the heights that are computed here

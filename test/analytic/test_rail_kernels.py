@@ -13,9 +13,9 @@ from beardyn_core.rail.course import HALF_GAUGE, course
 from beardyn_core.rail.lateral import lateral_motion, lateral_vehicle
 from beardyn_core.rail.suspension import equivalent_displacement
 from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, GRAVITY, WHEEL, quarter_vehicle, ride
-from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
+from beardyn_core.scene.running import Curve
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
 SMOOTH = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 120 / 3.6),))

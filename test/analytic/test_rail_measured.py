@@ -10,8 +10,8 @@ import pytest
 from beardyn_core.errors import InputError
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.measured import read_measurement, speed_points
-from beardyn_core.scene.measured import MeasuredOperation
 from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.operation import MeasuredOperation
 
 BOTH = "time_s,speed_rpm,fx_N,fy_N,fz_N\n"
 

@@ -10,16 +10,15 @@ import pytest
 
 from beardyn_core.config import load_vehicle
 from beardyn_core.errors import InputError
-from beardyn_core.rail.build import load_history, ride_of
+from beardyn_core.rail.build import load_history
 from beardyn_core.rail.course import HALF_GAUGE
 from beardyn_core.rail.vehicle import GRAVITY, quarter_vehicle
-from beardyn_core.scene.braking import Braking, Starting
-from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.excitation import WheelFlat
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
-from beardyn_core.scene.speed import distance_at, speed_at
-from beardyn_core.scene.timetable import Stop, Timetable
+from beardyn_core.scene.running import Braking, Curve, Starting
+from beardyn_core.scene.speed import Stop, Timetable, distance_at, speed_at
+from test.analytic.rail_rides import ride_of
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
 SMOOTH = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 30.0),))

@@ -10,16 +10,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from beardyn_core.bearing.edge_concentration import edge_concentration
 from beardyn_core.bearing.life import (
     basic_rating_life,
     dynamic_rating,
+    edge_concentration,
     fatigue_load_limit,
     life_modification,
+    reference_life,
     reference_viscosity,
     static_rating,
 )
-from beardyn_core.bearing.reference_life import reference_life
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.integrate.rating_life import LoadClass, load_classes, rating_life, scene_life

@@ -13,18 +13,20 @@ from hypothesis import strategies as st
 from scipy.special import ellipe, ellipk
 
 from beardyn_core.bearing.consistency import check, require_sound
-from beardyn_core.bearing.contact_law import PointContact, rib_contact, rib_curvature_radius
-from beardyn_core.bearing.force_triangle import roller_forces
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.hertz import (
+from beardyn_core.bearing.contact_law import (
     ExactPointContact,
+    PointContact,
     complete_elliptic,
     exact_rib_contact,
+    rib_contact,
+    rib_curvature_radius,
     rib_ellipse,
     rib_truncation,
 )
+from beardyn_core.bearing.film_thickness import rib_film_thickness
+from beardyn_core.bearing.force_triangle import roller_forces
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
-from beardyn_core.bearing.rib_film import rib_film_thickness
 from beardyn_core.config import load_bearing, load_lubricant, shipped_names
 from beardyn_core.errors import InputError
 from beardyn_core.integrate.roller_contacts import ConePose, contact_model, rib_contacts

@@ -261,7 +261,7 @@ def test_every_expected_error_is_within_what_was_asked_for() -> None:
 
 
 def test_the_reference_itself_is_expected_to_have_no_error() -> None:
-    from beardyn_core.scene.free import NOTHING
+    from beardyn_core.scene.scene import NOTHING
 
     scene = load_scene("smooth_run", effects="full", duration=1.0)
     found = choose(replace(scene, numerics=replace(scene.numerics, laminae=40)), NOTHING)

@@ -11,17 +11,17 @@ from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.errors import InputError
 from beardyn_core.scene.excitation import (
+    IRREGULARITY_KINDS,
     Corrugation,
     Crossing,
     DippedJoint,
     DippedWeld,
+    Irregularity,
     WheelFlat,
     WheelOutOfRound,
     WheelPolygon,
 )
-from beardyn_core.scene.irregularity import IRREGULARITY_KINDS, Irregularity
-from beardyn_core.scene.measured import MeasuredOperation
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 
 GOOD = """\
 scene: mine

@@ -9,9 +9,8 @@ import pytest
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_vehicle
 from beardyn_core.errors import InputError
-from beardyn_core.scene.braking import Braking, Starting
-from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.running import Braking, Curve, Starting
 
 SCENE = """
 scene: mine

@@ -11,8 +11,7 @@ from PIL import Image
 
 from beardyn_core.choice import load_scene
 from beardyn_core.config import shipped_names
-from beardyn_core.scene.measured import MeasuredOperation
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 
 DOCS = Path(__file__).parents[2] / "docs"

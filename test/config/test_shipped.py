@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from beardyn_core import effects
-from beardyn_core.bearing.material import Material
+from beardyn_core.bearing.geometry import Material
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import (
@@ -30,11 +30,11 @@ from beardyn_core.edge import is_kind, stem_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.effects.catalogue import catalogue
 from beardyn_core.scene.defect import Patch
-from beardyn_core.scene.guidance import Guidance
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, Track
 from beardyn_core.scene.scene import Numerics
 from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.scene.suspension import Guidance
 
 LOADERS: dict[str, Callable[[str], Any]] = {
     "bearings": load_bearing,

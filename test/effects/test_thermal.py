@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.bearing.thermal_closure import (
+from beardyn_core.bearing.thermal import (
     PartTemperatures,
     Temperatures,
+    ThermalNetwork,
     end_play_change,
     end_play_per_kelvin,
 )
-from beardyn_core.bearing.thermal_network import ThermalNetwork
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import simulate
 from beardyn_core.config import load_bearing, scene_text, shipped_names

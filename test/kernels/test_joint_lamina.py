@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.bearing.joint_lamina import joint_depth, part_exponent
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
+from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.model.faults import surface_radius
 from beardyn_core.scene.defect import Patch

@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from beardyn_core.rail.build import ride_of
 from beardyn_core.rail.excitation import wheel_height
 from beardyn_core.rail.vehicle import BOX, WHEEL, quarter_vehicle, ride
 from beardyn_core.scene.excitation import DippedJoint, WheelFlat, WheelPolygon
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Track, Vehicle
+from test.analytic.rail_rides import ride_of
 from test.literature.beam_track import BeamTrack, wheel_on_beam
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)

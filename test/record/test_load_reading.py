@@ -16,8 +16,8 @@ from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import header, make, serialize
 from beardyn_core.record.topics import FRAME, JOINTS, NAMESPACE, TWIST, WRENCH
 from beardyn_core.scene.load import LoadHistory
-from beardyn_core.scene.measured import MeasuredOperation
 from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.operation import MeasuredOperation
 
 Messages = list[tuple[str, int, bytes]]
 

@@ -9,15 +9,16 @@ import numpy as np
 import pytest
 
 from beardyn_core.config import load_vehicle
-from beardyn_core.rail.build import RIDE_RATE, load_history, ride_of
+from beardyn_core.rail.build import RIDE_RATE, load_history
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.lateral import lateral_vehicle
 from beardyn_core.rail.vehicle import GRAVITY, quarter_vehicle, ride
-from beardyn_core.scene.curve import Curve
 from beardyn_core.scene.excitation import Corrugation, DippedJoint, WheelFlat, WheelPolygon
-from beardyn_core.scene.guidance import Guidance
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Track, Vehicle
+from beardyn_core.scene.running import Curve
+from beardyn_core.scene.suspension import Guidance
+from test.analytic.rail_rides import ride_of
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
 SMOOTH = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 120 / 3.6),))

@@ -1,6 +1,10 @@
-"""What temperature does to the end play: rings and rollers grow about the bearing centre.
+"""What temperature does to the end play, and temperatures of the parts as a network of lumped nodes.
 
-The bearing is in O arrangement, so a hot cone with hot rollers closes the end play and a hot cup opens it.
+Rings and rollers grow about the bearing centre. The bearing is in O arrangement, so a hot cone with hot
+rollers closes the end play and a hot cup opens it.
+
+The network: C dT/dt = q - G (T - T_ambient), with one heat capacity per node and conductances between nodes
+and to the air. The step is exact for heat that is constant over it, so it may be as long as one likes.
 """
 
 from __future__ import annotations
@@ -9,8 +13,13 @@ import math
 from dataclasses import dataclass
 from typing import Annotated as A
 
+import numpy as np
+from numpy.typing import NDArray
+
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.edge import UNITS, At
+
+Float = NDArray[np.float64]
 
 STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
 
@@ -72,15 +81,33 @@ def end_play_per_kelvin(bearing: Bearing, expansion: float = STEEL_EXPANSION) ->
 
 
 def end_play_change(bearing: Bearing, change: PartTemperatures, expansion: float = STEEL_EXPANSION) -> float:
-    """Change of the end play when the parts change their temperatures, [m].
-
-    Parameters
-    ----------
-    bearing : Bearing
-    change : PartTemperatures
-        Against where the end play was measured, [K].
-    expansion : float
-        Coefficient of linear expansion, [1/K].
-    """
+    """Compute the change of the end play by temperatures against where it was measured [K], [m]."""
     rate = end_play_per_kelvin(bearing, expansion)
     return rate.cup * change.cup + rate.cone * change.cone + rate.rollers * change.rollers
+
+
+@dataclass(frozen=True)
+class ThermalNetwork:
+    """Nodes with capacities, conductances between them and to the ambient."""
+
+    capacity: A[Float, "shape [node], [J/K]"]
+    conductance: A[Float, "shape [node, node], symmetric, between two nodes; the diagonal is not used, [W/K]"]
+    to_ambient: A[Float, "shape [node], [W/K]"]
+
+    @property
+    def matrix(self) -> Float:
+        """G: heat that leaves each node per kelvin of every node above the ambient, [W/K]."""
+        between = self.conductance - np.diag(np.diag(self.conductance))
+        return np.diag(between.sum(axis=1) + self.to_ambient) - between
+
+    def steady(self, heat: Float, ambient: float) -> Float:
+        """Compute the steady temperatures, at which as much heat leaves as comes in, [K]."""
+        return ambient + np.asarray(np.linalg.solve(self.matrix, heat))
+
+    def after(self, temperature: Float, heat: Float, ambient: float, duration: float) -> Float:
+        """Compute the temperatures after a duration [s] with constant heat into each node [W], [K]."""
+        root = np.sqrt(self.capacity)
+        rates, modes = np.linalg.eigh(self.matrix / np.outer(root, root))
+        final = self.steady(heat, ambient)
+        away = modes.T @ (root * (temperature - final))
+        return final + (modes @ (np.exp(-rates * duration) * away)) / root
