@@ -151,10 +151,7 @@ def balance_rollers(
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
         if shown:
-            centres = (
-                cup[1] / at_least(cup[0], _SMALLEST_LOAD),
-                cone[1] / at_least(cone[0], _SMALLEST_LOAD),
-            )
+            centres = (cup[1] / at_least(cup[0], _SMALLEST_LOAD), cone[1] / at_least(cone[0], _SMALLEST_LOAD))
             show_roller(lanes, rollers, block, place, axis, (turns[0], speeds[1]), angle, p)
             show_contacts(lanes, rollers, block, axis, (cup[0], cone[0], rib), centres, speeds, p)
     lanes.store(sums, 0, LOAD_COSINE, load_cosine)

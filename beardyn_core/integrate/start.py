@@ -44,11 +44,7 @@ def kinematic_spin(bearing: Bearing, cage_speed: float) -> float:
 
 
 def initial_state(
-    bearing: Bearing,
-    arrangement: Arrangement,
-    static: StaticSolution,
-    shaft_speed: float,
-    cage_speed: float,
+    bearing: Bearing, arrangement: Arrangement, static: StaticSolution, shaft_speed: float, cage_speed: float
 ) -> State:
     """Make the state in static equilibrium, rolling at the given speeds.
 

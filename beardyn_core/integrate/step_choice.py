@@ -27,12 +27,7 @@ import numpy as np
 
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.effects import (
-    Cage,
-    EffectSet,
-    LoadSharingTraction,
-    RotatingCage,
-)
+from beardyn_core.effects import Cage, EffectSet, LoadSharingTraction, RotatingCage
 from beardyn_core.integrate.friction_steps import (
     LARGEST_EXPECTED_INDEX,
     LARGEST_STEPS,

@@ -130,10 +130,7 @@ def running_torque(
         if thermal:
             reduction = thermal_reduction(
                 thermal_loading(
-                    viscosity,
-                    lubricant.temperature_coefficient,
-                    entrainment,
-                    lubricant.thermal_conductivity,
+                    viscosity, lubricant.temperature_coefficient, entrainment, lubricant.thermal_conductivity
                 )
             )
         couple = np.zeros_like(loads)

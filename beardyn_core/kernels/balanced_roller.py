@@ -12,12 +12,7 @@ from typing import Any
 from beardyn_core.jit import inline
 from beardyn_core.kernels.balanced_springs import lamina_springs
 from beardyn_core.kernels.exchange import damper_time
-from beardyn_core.kernels.lane_math import (
-    at_least,
-    at_most,
-    magnitude,
-    sqrt,
-)
+from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import wave_gap
 

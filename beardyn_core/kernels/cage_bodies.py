@@ -88,14 +88,7 @@ def pass_on(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravi
 
 @inline
 def _pass_on(
-    bodies: Any,
-    wrenches: Any,
-    energy: Any,
-    step: Any,
-    cage: Any,
-    gravity: Any,
-    rotating: Any,
-    kinematic: Any,
+    bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any, rotating: Any, kinematic: Any
 ) -> None:
     if rotating is None and kinematic is None:
         return
@@ -131,14 +124,7 @@ def move_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
 
 @inline
 def _move(
-    bodies: Any,
-    wrenches: Any,
-    energy: Any,
-    step: Any,
-    cage: Any,
-    gravity: Any,
-    rotating: Any,
-    kinematic: Any,
+    bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any, rotating: Any, kinematic: Any
 ) -> None:
     if rotating is None and kinematic is None:
         kick_cages(bodies, wrenches, energy, step, cage, gravity)

@@ -150,10 +150,7 @@ def shifted(affine: Any, change: Any, part: Any) -> Any:
 @inline
 def weighted(weights: Any, affine: Any) -> Any:
     """Sum ``w (a0 + a1 x)`` and ``w (a0 + a1 x) x`` over the laminae from the moments of w."""
-    return (
-        weights[0] * affine[0] + weights[1] * affine[1],
-        weights[1] * affine[0] + weights[2] * affine[1],
-    )
+    return (weights[0] * affine[0] + weights[1] * affine[1], weights[1] * affine[0] + weights[2] * affine[1])
 
 
 @inline

@@ -8,15 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.lane_math import (
-    at_least,
-    at_most,
-    exp2,
-    log2,
-    magnitude,
-    ninth_root,
-    where_greater,
-)
+from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, ninth_root, where_greater
 from beardyn_core.model.layout import (
     SPRING_FIELDS,
     SPRING_GAP,

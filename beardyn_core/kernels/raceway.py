@@ -123,11 +123,7 @@ def stiffen_raceway(matrix: Any, contact: Any, p: Any) -> Any:
     time = step * implicit_time(p.spring_time, p.effects.damping)
     rough = (step * friction[0], step * friction[1], step * friction[2])
     # friction resists in the tangent plane: in every direction less along the normal
-    stiff = (
-        time * stiffness[0] - rough[0],
-        time * stiffness[1] - rough[1],
-        time * stiffness[2] - rough[2],
-    )
+    stiff = (time * stiffness[0] - rough[0], time * stiffness[1] - rough[1], time * stiffness[2] - rough[2])
     matrix = add_line_everywhere(matrix, line.arm, line.arm_slope, rough)
     return add_line(matrix, line.normal, line.arm, line.arm_slope, stiff)
 

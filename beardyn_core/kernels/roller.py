@@ -149,11 +149,7 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
         force[1] - roller.mass * orbit.rate * orbit.velocity[0],
         force[2],
     )
-    turning_moment = (
-        moment[0] + orbit.rate * momentum[1],
-        moment[1] - orbit.rate * momentum[0],
-        moment[2],
-    )
+    turning_moment = (moment[0] + orbit.rate * momentum[1], moment[1] - orbit.rate * momentum[0], moment[2])
     right = (
         step * turning_force[0], step * turning_force[1], step * turning_force[2],
         step * turning_moment[0], step * turning_moment[1], step * turning_moment[2],

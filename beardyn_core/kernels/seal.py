@@ -7,14 +7,7 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import ring_direction
-from beardyn_core.model.layout import (
-    ANGULAR,
-    CONE_BODY,
-    CUP_BODY,
-    ENERGY_LOST,
-    LOSS_SEAL,
-    RATE,
-)
+from beardyn_core.model.layout import ANGULAR, CONE_BODY, CUP_BODY, ENERGY_LOST, LOSS_SEAL, RATE
 
 
 @inline
