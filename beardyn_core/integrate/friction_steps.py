@@ -54,11 +54,6 @@ def usual_steps(effects: EffectSet, laminae: int) -> int:
 
     Friction whose slope depends on the speed (load sharing without a film) is taken at an entrainment of
     5 m/s; `choose_steps` knows the slowest speed.
-
-    Parameters
-    ----------
-    effects : EffectSet
-    laminae : int
     """
     slope = fixed_slope(effects)
     if isinstance(effects.traction, LoadSharingTraction) and effects.film is None:

@@ -125,10 +125,8 @@ def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) 
 
     Parameters
     ----------
-    lanes : Lanes
     state : State
         Changed in place.
-    work : WorkSpace
     loads : float64 array, shape [step + 1, 10]
         Load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step boundaries.
     output : Output

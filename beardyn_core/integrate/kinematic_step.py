@@ -95,7 +95,6 @@ def finish_step(
     ----------
     bodies : float64 array, shape [2 + row, BODY_STATES]
         Changed.
-    drive : Drive
     wrenches, box : float64 arrays, shape [2 + row, 6] and [12]
         Work space.
     load_before, load : float64 array, shape [10]
@@ -104,7 +103,6 @@ def finish_step(
         Written.
     energy : float64 array, shape [ENERGY_TERMS]
         Not kept by these tiers; a coupled box adds to it.
-    p : LumpedParameters or QuasistaticParameters
 
     Notes
     -----

@@ -47,10 +47,8 @@ def lamina_pressure(bearing: Bearing, lamina_load: Float, ring: str) -> Float:
 
     Parameters
     ----------
-    bearing : Bearing
     lamina_load : float64 array, shape [..., lamina]
         [N].
-    ring : str
 
     Returns
     -------
@@ -77,20 +75,14 @@ def line_load(
 
     Parameters
     ----------
-    bearing : Bearing
     load : float
         Of the contact, [N].
     tilt : float
         Between the roller's generator and the raceway, positive when the large end is pressed deeper, [rad].
     ring : str
         ``cup`` or ``cone``.
-    laminae : int
     coupling : LaminaCoupling or None
         Coupling of the laminae.
-
-    Returns
-    -------
-    LineLoad
 
     Notes
     -----

@@ -25,7 +25,6 @@ def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p
 
     Parameters
     ----------
-    lanes : Lanes
     state : State
         Changed in place, but for the bending of the cup: rings are rigid.
     work : WorkSpace
@@ -35,7 +34,6 @@ def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p
     output : Output
         Written; the trend of the rollers, shape [trend, block + TREND_EXTRAS, 1, lane], has the loads, from
         which `show_lumped` makes the rollers. The energy balance is not kept.
-    p : LumpedParameters
     """
     rollers, bodies, energy = state.rollers, state.bodies, state.energy
     sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
@@ -83,7 +81,6 @@ def show_lumped(lanes: Any, trends: Any, rollers: Any, p: Any) -> None:
         From `advance_lumped`.
     rollers : float64 array, shape [time, block, ROLLER_FIELDS, lane]
         Written, but for friction memory and the largest approach.
-    p : LumpedParameters
     """
     for t in range(trends.shape[0]):
         show_springs(lanes, rollers[t], trends[t], p)

@@ -79,24 +79,14 @@ def balance_rollers(
 
     Parameters
     ----------
-    lanes : Lanes
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
         Places and axes changed in place; everything else written when `shown`.
     sums : float64 array, shape [1, SUM_FIELDS, lane]
         Written: ``LOAD_COSINE`` and following.
-    motion : tuple
-        From `relative_cone`.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
-    turns : tuple of 3 floats
-        Angle of cages, cone, and rollers in their pockets, [rad].
-    speeds : tuple of 2 floats
-        Of shaft and cages, [rad/s].
     due : bool
         Whether to work out the torque of the contacts.
     shown : bool
         Whether to write what a block of channels shows.
-    p : QuasistaticParameters
     """
     k = p.kinematic
     orbit_squared = speeds[1] * speeds[1]
@@ -172,7 +162,6 @@ def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: A
 
     Parameters
     ----------
-    lanes : Lanes
     state : State
         Changed in place, but for the bending of the cup: rings are rigid.
     work : WorkSpace
@@ -181,7 +170,6 @@ def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: A
         As of the full tier's `advance`.
     output : Output
         Written; the energy balance is not kept.
-    p : QuasistaticParameters
     """
     rollers, bodies, energy = state.rollers, state.bodies, state.energy
     sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals

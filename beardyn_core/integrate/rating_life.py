@@ -102,10 +102,6 @@ def scene_life(
 def load_classes(load: LoadHistory) -> tuple[LoadClass, ...]:
     """Sort a load history into classes of radial and axial force, weighted by the revolutions under them.
 
-    Parameters
-    ----------
-    load : LoadHistory
-
     Returns
     -------
     tuple of LoadClass
@@ -154,9 +150,6 @@ def rating_life(
 
     Parameters
     ----------
-    bearing : Bearing
-    classes : tuple of LoadClass
-    lubricant : Lubricant
     temperature : float
         Of lubricant and bearing, [K].
     end_play : float

@@ -13,11 +13,6 @@ def tilt_restraint(mounting: Mounting, parameters: MountingParams) -> NDArray[np
     """Work out the stiffness of the suspension against the tilt of the bearing about x and z, [N m/rad].
 
     A journal free to tilt leans the whole moment on the box, whatever holds that.
-
-    Parameters
-    ----------
-    mounting : Mounting
-    parameters : MountingParams
     """
     if mounting.cup == "held" or mounting.journal_tilt == "free":
         return np.zeros(2)

@@ -150,7 +150,6 @@ def contact_model(
 
     Parameters
     ----------
-    bearing : Bearing
     end_play : float
         Total axial travel, negative for preload, [m].
     laminae : int

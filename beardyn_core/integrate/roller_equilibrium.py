@@ -73,8 +73,6 @@ def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> R
 
     Parameters
     ----------
-    model : ContactModel
-    pose : ConePose
     guess : float64 array or None, shape [row, roller, 3]
         Positions to start from where they have a lower energy than the position of a free roller.
     """

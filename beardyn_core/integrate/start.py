@@ -50,16 +50,10 @@ def initial_state(
 
     Parameters
     ----------
-    bearing : Bearing
-    arrangement : Arrangement
     static : StaticSolution
         Equilibrium under the first load.
     shaft_speed, cage_speed : float
         [rad/s].
-
-    Returns
-    -------
-    State
     """
     lanes = arrangement.to_lanes
     rollers = aligned_zeros(arrangement.block_count, ROLLER_FIELDS, arrangement.width)
@@ -99,7 +93,6 @@ def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: floa
 
     Parameters
     ----------
-    p : LumpedParameters
     pose : float64 array, shape [5]
         Displacement and tilt about x and z to start from, [m], [rad].
     load : float64 array, shape [5] or [3]

@@ -117,17 +117,12 @@ def assess(state: State, step_count: int, large_end_radius: float, rib: RibParam
 
     Parameters
     ----------
-    state : State
     step_count : int
         Steps of the block.
     large_end_radius : float
         Of a roller, [m].
     rib : RibParams or None
         Rib contact of the run.
-
-    Returns
-    -------
-    Status
     """
     face = (0.0, 0.0, 0.0, -math.inf, math.inf)  # without a window no place is beyond it
     if rib is not None and rib.window is not None:

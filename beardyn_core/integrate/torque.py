@@ -87,11 +87,8 @@ def running_torque(
 
     Parameters
     ----------
-    bearing : Bearing
-    lubricant : Lubricant
     temperature : float
         Of the lubricant at the inlets, [K].
-    static : StaticSolution
     speed : float
         Of the shaft, [rad/s].
     form : str

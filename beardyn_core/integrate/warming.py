@@ -61,8 +61,6 @@ def warmed(
 
     Parameters
     ----------
-    scene : Scene
-    thermal : Thermal
     now : Warmth
         At its beginning.
     energy : float64 array, shape [ENERGY_TERMS]

@@ -2,6 +2,28 @@
 
 A contact is one file, its functions in the order of a step: prepare, stiffen, push, settle.
 
+Arguments mean the same in all kernels; a function's own words tell what is special there:
+
+- ``lanes``, ``block``, ``p``: the lane width, the block of rollers, and the parameters of the tier.
+- Parameters of an effect bear its name (``rib``: `RibParams`) and are ``None`` where it is absent; ``cage``,
+  ``roller``, ``damping`` and the like are the tuples of `model` too.
+- ``rollers`` [block, ROLLER_FIELDS, lane], ``rings`` [ring, RING_FIELDS, lane], ``sums`` [1, SUM_FIELDS +
+  2 x mode, lane], ``bodies`` [body, BODY_STATES], ``wrenches`` [body, 6], ``energy`` [ENERGY_TERMS], ``flex``
+  [mode, 2, 2], ``laminae`` [LAMINA_ROWS, lamina]: C-contiguous float64 arrays, see `model.layout`.
+- ``body``, ``view``, ``here``, ``change``: a `Body`, the `View` of the ring that it meets, `Here`, and the
+  `Twist` of the roller over the step; ``step`` [s]; ``ring``: ``CUP`` or ``CONE``.
+- ``centre``: centre of mass of the roller from the ring's origin [m]; ``axis``, ``ring_axis``: unit axes,
+  towards the large end; ``oversize``: radius error of the roller [m].
+- ``azimuths``: of the roller in the ring's frame, and of the contact in the roller's [rad]; ``cosine`` and
+  ``sine`` are those of the orbit azimuth.
+
+In the fast tiers, whose rollers stay in their meridian planes:
+
+- ``direction``: cosine and sine of the cage angle; ``turns``: angle of cages, cone, and rollers in their
+  pockets [rad]; ``speeds``: of shaft and cages [rad/s]; ``angle``: of the pocket [rad].
+- ``place``: radius and axial place of the centre of mass [m]; ``axis``: its radial and axial part.
+- ``motion``: from `relative_cone`; ``loads``: cup, cone and rib load [N].
+
 ================= ============================================================
 module            responsibility, in the order of the data
 ================= ============================================================

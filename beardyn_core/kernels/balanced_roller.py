@@ -29,10 +29,6 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
     Parameters
     ----------
-    place : tuple of 2 lane values
-        Radius and axial place of the centre of mass, [m].
-    axis : tuple of 2 lane values
-        Radial and axial part of the roller axis.
     radius : lane value
         Of the roller at its centre of mass, [m].
 
@@ -218,10 +214,6 @@ def balance(
 
     Parameters
     ----------
-    place : tuple of 2 lane values
-        Radius and axial place of the centre of mass, [m].
-    axis : tuple of 2 lane values
-        Radial and axial part of the roller axis.
     views : tuple of 4 vectors
         Origin and axis of the cone, velocity of its origin and angular velocity, in the orbit frame and
         against it.
@@ -318,13 +310,7 @@ def turned_axis(axis: Any, tilt: Any) -> Any:
 
 @inline
 def cone_view(lanes: Any, motion: Any, cosine: Any, sine: Any, orbit_rate: Any, side: Any) -> Any:
-    """Turn the cone into the orbit frames: origin, axis, and how both move against these turning frames.
-
-    Parameters
-    ----------
-    motion : tuple
-        From `relative_cone`.
-    """
+    """Turn the cone into the orbit frames: origin, axis, and how both move against these turning frames."""
     zero = lanes.constant(0.0)
     about_x, about_z = motion[3][0], motion[4][0]
     length = 1.0 / sqrt(

@@ -95,7 +95,6 @@ def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
 
     Parameters
     ----------
-    bodies : float64 array, shape [body, BODY_STATES]
     rings : float64 array, shape [group, ring, RING_FIELDS, lane]
         Written. Origins are relative to the cup's.
     cage_place : float
@@ -187,8 +186,6 @@ def kick_cup(
         Of the rollers on the cup, [N, N m].
     load, load_before : float64 array
         Load row at the end and at the beginning of the step; bogie displacement from `LOAD_BOGIE`.
-    energy : float64 array, shape [ENERGY_TERMS]
-        Added to.
     box : float64 array, shape [6]
         Written: acceleration of the box, linear and angular.
     """

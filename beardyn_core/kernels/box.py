@@ -39,7 +39,6 @@ def kick_box(
     ----------
     box : float64 array, shape [12]
         Written: acceleration of the bearing centre, linear and angular; then force and moment.
-    coupling : BoxCoupling or None
 
     Notes
     -----

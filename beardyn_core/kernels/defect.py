@@ -61,13 +61,10 @@ def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any
 
     Parameters
     ----------
-    azimuths : tuple of 2 lane values
-        Of the roller in the ring's frame, and of the contact in the roller's, [rad].
     count : int
         Laminae.
     surfaces : tuple of 2 SurfaceParams or None
         Of ring and roller.
-    damage : DamageParams or None
 
     Notes
     -----

@@ -37,22 +37,11 @@ class DragContact(NamedTuple):
 
 @inline
 def prepare_drag(body: Any, view: Any, drag: Any) -> Any:
-    """Work out drag and churning; without the effect zeros of the same type, which nothing uses.
+    """Work out drag and churning, a `DragContact`; without the effect zeros, which nothing uses.
 
     The orbit speed is the tangential one against the cup's motion at the roller's centre, the spin that
     about the roller axis against the cup. Neglects wakes, the cage and the stirring of the medium, and
     takes the Reynolds numbers of the lubricant.
-
-    Parameters
-    ----------
-    body : Body
-    view : View
-        Of the cup.
-    drag : DragParams or None
-
-    Returns
-    -------
-    DragContact
 
     References
     ----------

@@ -89,11 +89,8 @@ def react(ring: Any, centre: Any, wrench: Any, here: Any) -> None:
     ----------
     ring : int
         ``CUP``, ``CONE`` or, for the cage, ``CAGE_BODY``.
-    centre : vector
-        Centre of mass of the roller from the ring's origin, [m].
     wrench : Wrench
         On the roller, about its centre of mass.
-    here : Here
 
     Notes
     -----
@@ -147,10 +144,6 @@ def output_contact(lanes: Any, rollers: Any, block: Any, kind: Any, output: Any)
 
     Parameters
     ----------
-    lanes : Lanes
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Written.
-    block : int
     kind : int
         ``CUP``, ``CONE``, ``RIB`` or ``POCKET``.
     output : ContactOutput
@@ -171,8 +164,6 @@ def watch_chatter(here: Any, ring: Any, friction: Any, capacity: Any) -> None:
 
     Parameters
     ----------
-    here : Here
-    ring : int
     friction, capacity : lane value
         Friction of the step, and at full slip in the dry limit, [N].
     """

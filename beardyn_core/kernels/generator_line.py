@@ -37,22 +37,7 @@ class Slip(NamedTuple):
 
 @inline
 def generator_line(centre: Any, axis: Any, ring_axis: Any, oversize: Any, raceway: Any, roller: Any) -> Any:
-    """Work out the contact generator of a tapered roller on a conical raceway.
-
-    Parameters
-    ----------
-    centre : vector
-        Centre of mass of the roller from the ring's origin, [m].
-    axis, ring_axis : vector
-        Unit axes of roller and ring, towards the large end.
-    oversize : lane value
-        Radius error of the roller, [m].
-    raceway : RacewayParams
-    roller : RollerParams
-
-    Returns
-    -------
-    Line
+    """Work out the contact generator of a tapered roller on a conical raceway: a `Line`.
 
     Notes
     -----
@@ -111,17 +96,7 @@ def _radial_direction(point: Any, ring_axis: Any) -> Any:
 
 @inline
 def line_slip(line: Any, centre: Any, body: Any, view: Any) -> Any:
-    """Work out the velocity of the roller against the ring along the generator: a `Slip`.
-
-    Parameters
-    ----------
-    line : Line
-    centre : vector
-        Centre of mass of the roller from the ring's origin, [m].
-    body : Body
-    view : View
-        Of the ring.
-    """
+    """Work out the velocity of the roller against the ring along the generator: a `Slip`."""
     relative_omega = subtract(body.omega, view.omega)
     at_centre = subtract(subtract(body.velocity, view.velocity), cross(view.omega, centre))
     at_middle = add(at_centre, cross(relative_omega, line.arm))
@@ -166,7 +141,6 @@ def line_wrench(line: Any, normal_force: Any, around_force: Any, along_force: An
 
     Parameters
     ----------
-    line : Line
     normal_force : tuple of 3 lane values
         Sums of the normal force with x^0, x^1, x^2, pressing positive, [N m^k].
     around_force, along_force : tuple of 2 lane values

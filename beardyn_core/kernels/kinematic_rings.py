@@ -64,8 +64,6 @@ def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
     ----------
     sums : float64 array, shape [1, 1, SUM_FIELDS, lane]
         With what `store_stiffness` has stored.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
     work : float64 array, shape [3, 13, lane]
         Written: the matrix of x, y, z, tilt about x and about z at ``STIFFNESS``.
     """
@@ -167,7 +165,6 @@ def add_response(bodies: Any, before: Any, signal: Any, work: Any, p: Any) -> No
         `journal_velocity` before the step.
     signal : float64 array, shape [SIGNAL_CHANNELS]
         Changed: force and acceleration.
-    work : float64 array, shape [3, 13, lane]
     """
     motion, response = p.motion, p.response
     after = journal_velocity(bodies)

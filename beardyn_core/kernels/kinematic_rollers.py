@@ -94,8 +94,6 @@ def cup_wrench(totals: Any, direction: Any, cosine: Any, sine: Any) -> Any:
     totals : tuple of 5 floats
         Sums of the rollers' loads along the cup's normal in the cages' frame: load times cosine and sine,
         load times side, moment times side, cosine and sine.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
     cosine, sine : float
         Of the cup angle.
     """
@@ -118,14 +116,8 @@ def show_roller(
 
     Parameters
     ----------
-    place : tuple of 2 lane values
-        Radius and axial place of the centre of mass, [m].
-    axis : tuple of 2 lane values
-        Radial and axial part of the roller axis.
     turn : tuple of 2 floats
         Angle and speed of the cages, [rad], [rad/s].
-    angle : lane value
-        Pocket angle, [rad].
     """
     zero = lanes.constant(0.0)
     k, roller = p.kinematic, p.base.roller
@@ -155,14 +147,8 @@ def show_contacts(
 
     Parameters
     ----------
-    axis : tuple of 2 lane values
-        Radial and axial part of the roller axis.
-    loads : tuple of 3 lane values
-        Cup, cone and rib load, [N].
     centres : tuple of 2 lane values
         Pressure centres on cup and cone, from the centre of mass along the axis, [m].
-    speeds : tuple of 2 floats
-        Speed of shaft and cages, [rad/s].
     """
     zero = lanes.constant(0.0)
     k, roller, film, laminae = p.kinematic, p.base.roller, p.base.effects.film, p.base.laminae

@@ -25,15 +25,6 @@ _SMALLEST_LOAD = 1e-3
 def rolling_torque(loads: Any, speeds: Any, k: Any, rolling: Any) -> Any:
     """Work out the rolling resistance's torque of a block of rollers, along the shaft's rotation, [N m].
 
-    Parameters
-    ----------
-    loads : tuple of 3 lane values
-        Cup, cone and rib load, [N].
-    speeds : tuple of 2 floats
-        Of shaft and cages, [rad/s].
-    k : KinematicParams
-    rolling : RollingParams or None
-
     References
     ----------
     Zhao et al. (2026), see `integrate.torque`: T = sum (R_o M_i + R_i M_o) / D.

@@ -26,8 +26,6 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
 
     Parameters
     ----------
-    lanes : Lanes
-    laminae : float64 array, shape [LAMINA_ROWS, lamina]
     coupling : CouplingParams
         Row DEPTH of its work space holds the geometric penetrations, [m]. Written: SURFACE, the tangent of
         each lamina as ten ninths of its load over its penetration, [N/m], and FORCE, its energy, [J].

@@ -52,22 +52,14 @@ class Raceway(NamedTuple):
 
 @inline
 def lamina_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, near: Any, damage: Any) -> Any:
-    """Sum the laminae of one raceway contact; far from every patch a damaged contact is a sound one.
+    """Sum the laminae of one raceway contact to `LaminaSums`; far from every patch a damaged one is sound.
 
     Parameters
     ----------
-    raceway : Raceway
-    line : Line
-    slip : Slip
     log2_speed : tuple of 2 lane values
         From `film.log2_entrainment`.
     near : bool
         Whether any roller of the block is near a patch, from `defect.find_damage`.
-    damage : DamageParams or None
-
-    Returns
-    -------
-    LaminaSums
 
     References
     ----------
@@ -222,14 +214,11 @@ def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any,
 
     Parameters
     ----------
-    lanes : Lanes
     approach : tuple of 4 lane values
         As in `Line`, [m].
     k : int
         The spring.
     laminae : float64 array, shape [LAMINA_ROWS, spring]
-    damage : DamageParams or None
-    coupling : CouplingParams or None
 
     Returns
     -------

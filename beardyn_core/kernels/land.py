@@ -32,7 +32,6 @@ def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, l
         Unit axis.
     speed_sum : float
         Sum of both angular speeds, [rad/s].
-    land : LandParams
 
     Returns
     -------
@@ -91,12 +90,10 @@ def land_contact(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
 
     Parameters
     ----------
-    bodies : float64 array, shape [body, BODY_STATES]
     body : int
         Of the cage.
     lift : float
         Place of the cage at rest from the bearing centre along +y, [m].
-    land : LandParams
 
     Returns
     -------

@@ -71,15 +71,10 @@ def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: A
 
     Parameters
     ----------
-    lanes : Lanes
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
         Read; the rotation about the own axis is written.
-    block : int
     reference_velocity : vector
         Of the cup's origin, in its ring frame, [m/s].
-    step : float
-        [s].
-    roller : RollerParams
 
     Returns
     -------
@@ -145,15 +140,6 @@ def entrainment_speed(line: Any, centre: Any, body: Any, view: Any) -> Any:
     """Work out the mean surface speed of roller and ring against their contact point, [m/s].
 
     Around the ring, at mid-length; the contact point orbits with the roller.
-
-    Parameters
-    ----------
-    line : Line
-    centre : vector
-        Centre of mass of the roller from the ring's origin, [m].
-    body : Body
-    view : View
-        Of the ring.
     """
     arm, around = line.arm, line.around
     point = add(centre, arm)

@@ -86,23 +86,13 @@ class Wall(NamedTuple):
 def prepare_pocket(
     lanes: Any, rings: Any, block: Any, body: Any, orbit: Any, pockets: Any, p: Any, cage: Any
 ) -> Any:
-    """Work out the pocket contact of one block before the solve; zeros without a cage.
+    """Work out the pocket contact of one block before the solve, a `PocketContact`; zeros without a cage.
 
     Parameters
     ----------
-    lanes : Lanes
-    rings : float64 array, shape [ring, RING_FIELDS, lane]
-    block : int
-    body : Body
-    orbit : Orbit
     pockets : float64 array or None, shape [block, 1, lane]
         Half of the added clearance of worn pockets, [m].
     p : Parameters
-    cage : CageParams or None
-
-    Returns
-    -------
-    PocketContact
     """
     if cage is None:
         zero = lanes.constant(0.0)
@@ -156,22 +146,12 @@ def settle_pocket(contact: Any, change: Any, here: Any, cage: Any, p: Any) -> No
 
 @inline
 def free_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
-    """Work out the force of a free cage on the roller, and what it loses.
+    """Work out the force of a free cage on the roller, and what it loses, as a `PocketContact`.
 
     Disc against plane at two abscissae of both bars, and end against plane at both pocket ends: linear
     springs with damping that never pull, and regularised Coulomb friction; at the bars a lubricant film if
     the cage has one. The bar faces lean, so that the rollers guide the cage radially. Neglects the bending of
     the bars, and the turn of the touching points under skew (1 um per mrad).
-
-    Parameters
-    ----------
-    pocket : Pocket
-    roller : RollerParams
-    cage : CageParams
-
-    Returns
-    -------
-    PocketContact
     """
     centre, axis, tilt, motion = pocket.centre, pocket.axis, pocket.tilt, pocket.motion
     cosine, sine = cos_sin(pocket.advance)
@@ -269,7 +249,7 @@ def rotating_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
 def kinematic_pocket(pocket: Any, cage: Any, kinematic: Any) -> Any:
     """Hold the roller's axis at its pocket's place by two weak springs with dampers, without play.
 
-    They hold the skew too. Parameters and returns as of `free_pocket`; kinematic : KinematicCageParams.
+    They hold the skew too.
     """
     centre, axis, motion = pocket.centre, pocket.axis, pocket.motion
     ahead, offset, skew = _along_pitch_circle(pocket)
@@ -407,7 +387,6 @@ def pocket_loads(
         Normal of the wall, towards it.
     shape : tuple of vector and lane value
         Axis of the roller, and its radius here, [m].
-    film : PocketFilmParams or None
 
     Returns
     -------

@@ -100,10 +100,6 @@ def settle_point(
 
     Parameters
     ----------
-    contact : PointContact
-    change : Twist
-        Of the roller over the step.
-    here : Here
     source : int
         Which loss the friction counts as.
     time_constant : float

@@ -85,14 +85,6 @@ def prepare_raceway(
 
     Parameters
     ----------
-    lanes : Lanes
-    block : int
-    ring : Ring
-    body : Body
-    oversize : lane value
-        Radius error of the roller, [m].
-    azimuths : tuple of 2 lane values
-        Of the roller in the ring's frame, and of the contact in the roller's, [rad].
     p : Parameters
     """
     faults, view = ring.faults, ring.ring_view
@@ -156,12 +148,6 @@ def settle_raceway(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> A
 
     Parameters
     ----------
-    ring : int
-        ``CUP`` or ``CONE``.
-    contact : RacewayContact
-    change : Twist
-        Of the roller over the step.
-    here : Here
     p : Parameters
 
     Returns

@@ -47,21 +47,7 @@ _LARGEST_LOG2_THICKENING = 30.0
 
 @inline
 def prepare_rib(body: Any, view: Any, zero: Any, rib: Any, damping: Any) -> Any:
-    """Work out the rib contact before the solve; without a rib zeros of the same type, which nothing uses.
-
-    Parameters
-    ----------
-    body : Body
-    view : View
-        Of the cone.
-    zero : lane value
-    rib : RibParams or None
-    damping : DampingParams or None
-
-    Returns
-    -------
-    PointContact
-    """
+    """Work out the rib contact before the solve, a `PointContact`; without a rib zeros that nothing uses."""
     if rib is None:
         return absent_point(zero)
     return rib_contact(subtract(body.place, view.origin), body, view, rib, damping)
@@ -69,24 +55,10 @@ def prepare_rib(body: Any, view: Any, zero: Any, rib: Any, damping: Any) -> Any:
 
 @inline
 def rib_contact(centre: Any, body: Any, view: Any, rib: Any, damping: Any) -> Any:
-    """Work out the force of the rib on the roller: sphere on cone, closed form.
+    """Work out the force of the rib on the roller as a `PointContact`: sphere on cone, closed form.
 
     Adds the axial guidance of the rollers. The stiffness is that of the face, also on an edge of the rib or
     on the rim of the roller end, where a Hertz contact is up to a third softer.
-
-    Parameters
-    ----------
-    centre : vector
-        Centre of mass of the roller from the cone's origin, [m].
-    body : Body
-    view : View
-        Of the cone.
-    rib : RibParams
-    damping : DampingParams or None
-
-    Returns
-    -------
-    PointContact
 
     References
     ----------
@@ -180,10 +152,6 @@ def rib_gap(centre: Any, axis: Any, ring_axis: Any, rib: Any, window: Any, end: 
 
     Parameters
     ----------
-    centre : vector
-        Centre of mass of the roller from the cone's origin, [m].
-    axis, ring_axis : vector
-    rib : RibParams
     window : RibWindowParams or None
         Edges of the rib face; without it the face is an unlimited cone.
     end : RibEndParams or None

@@ -29,16 +29,6 @@ PLACE, SPEED = 0, 1
 def bent_cup(lanes: Any, flex: Any, view: Any, cosine: Any, sine: Any, flexibility: Any) -> Any:
     """Bend the cup as each roller sees it.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    flex : float64 array, shape [mode, 2, 2]
-    view : View
-        Of the rigid cup.
-    cosine, sine : lane values
-        Of the orbit azimuth.
-    flexibility : FlexibilityParams or None
-
     Returns
     -------
     view : View
@@ -89,9 +79,6 @@ def bend_cup(force: Any, here: Any, modes: Any, flexibility: Any) -> None:
     ----------
     force : vector
         Of the cup on the roller, [N].
-    here : Here
-    modes : int
-    flexibility : FlexibilityParams or None
     """
     if flexibility is None:
         return

@@ -79,16 +79,8 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
 
     Parameters
     ----------
-    lanes : Lanes
-    block : int
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
         State, changed in place.
-    rings : float64 array, shape [ring, RING_FIELDS, lane]
-        Cup, cone and cage as the rollers of each row see them, at the end of the drift.
-    sums : float64 array, shape [1, SUM_FIELDS + 2 x mode, lane]
-        Reactions, energy terms and modal forces, added to.
-    flex : float64 array, shape [mode, 2, 2]
-        Bending of the cup.
     p : Parameters
     """
     step, effects, roller = p.step, p.effects, p.roller

@@ -39,8 +39,6 @@ def rolling_couple(load: Any, speed: Any, ring: Any, rolling: Any) -> Any:
         Elastic load of the contact, [N].
     speed : lane value
         Entrainment speed, [m/s].
-    ring : int
-    rolling : RollingParams
 
     References
     ----------
@@ -89,22 +87,7 @@ def _hysteresis(load: Any, ring: Any, hysteresis: Any) -> Any:
 
 @inline
 def prepare_rolling(contact: Any, ring: Any, view: Any, body: Any, rolling: Any) -> Any:
-    """Work out the couple of one raceway contact; without the effect zeros, which nothing uses.
-
-    Parameters
-    ----------
-    contact : RacewayContact
-    ring : int
-        ``CUP`` or ``CONE``.
-    view : View
-        Of the ring.
-    body : Body
-    rolling : RollingParams or None
-
-    Returns
-    -------
-    RollingContact
-    """
+    """Work out the `RollingContact` of one raceway; without the effect zeros, which nothing uses."""
     line, load = contact.line, contact.sums.force[0]
     if rolling is None:
         return RollingContact(0.0 * load, 0.0 * load, line.along)

@@ -16,17 +16,6 @@ def add_seals(bodies: Any, wrenches: Any, energy: Any, step: Any, seal: Any) -> 
 
     Dry friction, smooth through standstill, and a part that grows with speed. Neglects the radial and
     axial force of the lips.
-
-    Parameters
-    ----------
-    bodies : float64 array, shape [body, BODY_STATES]
-    wrenches : float64 array, shape [body, 6]
-        Added to.
-    energy : float64 array, shape [ENERGY_TERMS]
-        Added to.
-    step : float
-        [s].
-    seal : SealParams or None
     """
     if seal is None:
         return

@@ -20,10 +20,7 @@ from beardyn_core.model.layout import LOSS_SMALL_RIB
 
 @inline
 def prepare_small_rib(body: Any, view: Any, zero: Any, rib: Any) -> Any:
-    """Work out the small-rib contact before the solve; without one zeros, which nothing uses.
-
-    Parameters and returns as of `rib.prepare_rib`.
-    """
+    """Work out the small-rib contact before the solve; without one zeros, which nothing uses."""
     if rib is None:
         return absent_point(zero)
     return small_rib_contact(subtract(body.place, view.origin), body, view, rib)
@@ -36,8 +33,6 @@ def small_rib_contact(centre: Any, body: Any, view: Any, rib: Any) -> Any:
     Adds the stop that holds a roller when the load is away. The rib bears on a circle at half its height;
     of all its points the one furthest behind the plane of the roller end lies in the direction in which the
     roller axis leans away from the cone's. Neglects the width of the rib's face.
-
-    Parameters and returns as of `rib.rib_contact`, without a film.
     """
     axis, ring_axis = body.axis, view.axis
     along = dot(axis, ring_axis)

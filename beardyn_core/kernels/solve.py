@@ -34,7 +34,6 @@ def add_line(matrix: Any, direction: Any, arm: Any, arm_slope: Any, weights: Any
 
     Parameters
     ----------
-    matrix : tuple of 21 lane values
     direction : vector
         Unit direction of the resistance.
     arm, arm_slope : vector

@@ -46,8 +46,6 @@ def spring_load(approach: Any, rate: Any, spring: Any, damping: Any) -> Any:
     ----------
     approach, rate : lane value
         Of cone and cup along the cup's normal, [m], [m/s].
-    spring : SpringParams
-    damping : DampingParams or None
 
     Notes
     -----
@@ -92,14 +90,6 @@ def faulted_load(
     The laminae of a roller see different gaps. They are taken as two parts of it, one with the gap g and
     the share f, one without: f g and f g^2 are the means of gap and squared gap over the laminae. Exact
     for a patch of one depth over part of the length. Neglects the tilt of the roller that follows.
-
-    Parameters
-    ----------
-    angle : lane value
-        Pocket angle, [rad].
-    turns : tuple of 3 floats
-        Angle of cages and cone and of the rollers in their pockets, [rad].
-    faults : FaultParams or None
     """
     if faults is None:
         return spring_load(approach, rate, p.spring, p.base.effects.damping)
@@ -132,13 +122,6 @@ def faulted_load(
 @inline
 def approach_waves(lanes: Any, motion: Any, direction: Any, p: Any) -> Any:
     """Write approach and rate of the rows as affine functions of cosine and sine of the pocket angle.
-
-    Parameters
-    ----------
-    motion : tuple
-        From `relative_cone`.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
 
     Returns
     -------
@@ -179,22 +162,12 @@ def load_rollers(
 
     Parameters
     ----------
-    lanes : Lanes
     rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
         Written: the largest approach.
     sums : float64 array, shape [1, SUM_FIELDS, lane]
         Written: ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM``.
-    motion : tuple
-        From `relative_cone`.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
-    turns : tuple of 3 floats
-        Angle of cages, cone, and rollers in their pockets, [rad].
-    speeds : tuple of 2 floats
-        Of shaft and cages, [rad/s].
     trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
         Written: cup loads.
-    p : LumpedParameters
 
     Notes
     -----

@@ -137,7 +137,6 @@ def mark_result(timers: Any, stage: Any, result: Any) -> None:
 
     Parameters
     ----------
-    timers : float64 array, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS], or None
     stage : int
     result : lane value
         What the stage works out, to be ready at the mark.

@@ -55,13 +55,7 @@ class LaminaContact(NamedTuple):
 
 @inline
 def friction_rate(contact: Any, effects: Any) -> Any:
-    """Work out the friction of one lamina over its slip speed, 0 without traction, [N s/m].
-
-    Parameters
-    ----------
-    contact : LaminaContact
-    effects : EffectParams
-    """
+    """Work out the friction of one lamina over its slip speed, 0 without traction, [N s/m]."""
     return _rate(contact, effects.film, effects.coulomb, effects.mixed, effects.load_sharing)
 
 

@@ -19,11 +19,8 @@ def wave_gap(lanes: Any, block: Any, azimuth: Any, waves: Any) -> Any:
 
     Parameters
     ----------
-    lanes : Lanes
-    block : int
     azimuth : lane value
         Of the contact in the surface's frame, [rad].
-    waves : WaveParams or None
 
     Notes
     -----
@@ -53,7 +50,7 @@ def shift_line(line: Any, gap: Any) -> Any:
 def lean_wrench(
     lanes: Any, body: Any, sums: Any, climbs: Any, damage: Any, waves: Any, roller_waves: Any
 ) -> Any:
-    """Work out the wrench on the roller where the normal leans with a sloping gap.
+    """Work out the `Wrench` on the roller where the normal leans with a sloping gap.
 
     The elastic energy depends on the gap and the gap on the azimuths of the roller's orbit and spin: the
     force normal to the sloping surface has a part along the orbit when the slope is the ring's, and a
@@ -61,17 +58,10 @@ def lean_wrench(
 
     Parameters
     ----------
-    lanes : Lanes
-    body : Body
-    sums : LaminaSums
     climbs : tuple of 2 lane values
         Slope of the waviness of ring and roller over the azimuth, [m/rad].
     damage, waves, roller_waves : NamedTuple or None
         Without any of them the normal cannot lean.
-
-    Returns
-    -------
-    Wrench
     """
     zero = lanes.constant(0.0)
     level = (zero, zero, zero)

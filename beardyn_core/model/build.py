@@ -51,14 +51,8 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
 
     Parameters
     ----------
-    scene : Scene
-    arrangement : Arrangement
     preload : float64 array, shape [6]
         Force and moment of the suspension on the axlebox at rest, [N, N m].
-
-    Returns
-    -------
-    parameters : Parameters
     """
     bearing, effects = scene.bearing, scene.effects
     offset = bearing.roller_mass_offset

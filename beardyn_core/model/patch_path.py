@@ -53,7 +53,6 @@ def roller_path(patch: Patch, size: tuple[float, float, float], radius: float, r
 
     Parameters
     ----------
-    patch : Patch
     size : tuple of float
         Width, depth and rim height, [m].
     radius : float

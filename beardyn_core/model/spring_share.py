@@ -21,7 +21,6 @@ def highest_bounce(bearing: Bearing, stiffness: float) -> float:
 
     Parameters
     ----------
-    bearing : Bearing
     stiffness : float
         Factor of one raceway contact, all laminae together, [N/m^(10/9)].
 
@@ -41,7 +40,6 @@ def spring_time(bearing: Bearing, laminae: NDArray[np.float64], step: float, dam
 
     Parameters
     ----------
-    bearing : Bearing
     laminae : float64 array, shape [LAMINA_ROWS, lamina]
     step : float
         [s].
