@@ -19,27 +19,13 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LineLoad:
-    """One raceway contact of a roller, lamina by lamina from the small to the large end.
+    """One raceway contact of a roller, lamina by lamina from the small to the large end."""
 
-    Parameters
-    ----------
-    place : float64 array, shape [lamina]
-        Abscissa from mid-length, [m].
-    load_per_length : float64 array, shape [lamina]
-        [N/m].
-    pressure : float64 array, shape [lamina]
-        Hertz pressure in the middle of the contact's width, [Pa].
-    approach : float
-        Of roller and ring at mid-length, profile drop not taken off, [m].
-    moment : float
-        Of the load about mid-length, positive when the large end carries more, [N m].
-    """
-
-    place: Float
-    load_per_length: Float
-    pressure: Float
-    approach: float
-    moment: float
+    place: Float  # [lamina], abscissa from mid-length [m]
+    load_per_length: Float  # [lamina], [N/m]
+    pressure: Float  # [lamina], Hertz pressure in the middle of the contact's width [Pa]
+    approach: float  # of roller and ring at mid-length, profile drop not taken off [m]
+    moment: float  # of the load about mid-length, positive when the large end carries more [N m]
 
 
 def lamina_pressure(bearing: Bearing, lamina_load: Float, ring: str) -> Float:

@@ -34,22 +34,12 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LoadClass:
-    """One class of a load history.
+    """One class of a load history: means on the journal, axlebox frame."""
 
-    Parameters
-    ----------
-    share : float
-        Of all revolutions, 0 to 1.
-    force, moment : tuple of 3 floats
-        Mean on the journal, axlebox frame, [N], [N m].
-    speed : float
-        Mean of the shaft speed's magnitude, [rad/s].
-    """
-
-    share: float
-    force: tuple[float, float, float]
-    moment: tuple[float, float, float]
-    speed: float
+    share: float  # of all revolutions, 0 to 1
+    force: tuple[float, float, float]  # [N]
+    moment: tuple[float, float, float]  # [N m]
+    speed: float  # of the shaft, magnitude [rad/s]
 
 
 @dataclass(frozen=True)

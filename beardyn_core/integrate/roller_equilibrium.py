@@ -37,35 +37,19 @@ _ROUNDING_GAP = 1.0e-15
 
 @dataclass(frozen=True)
 class RollerState:
-    """Rollers in equilibrium at one pose of the cone.
+    """Rollers in equilibrium at one pose of the cone."""
 
-    Parameters
-    ----------
-    position : float64 array, shape [row, roller, 3]
-        Radial and axial displacement of mid-length and tilt, [m, m, rad].
-    cup, cone, rib : ContactSet
-    residual : float
-        Largest force that is left on a roller, [N].
-    cone_force : float64 array, shape [5 + 2 x mode]
-        Force of the rollers on the cone, its moment about x and z, [N, N m], and their force on the
-        amplitudes of the cup's bending, [N].
-    cone_stiffness : float64 array, shape [5 + 2 x mode, 5 + 2 x mode]
-        Change of the opposite of `cone_force` with the cone pose, rollers following.
-    follow : float64 array, shape [row, roller, 3, 5 + 2 x mode]
-        Change of roller position with the cone pose.
-    energy : float
-        Contact energy less the work of the inertia loads, [J].
-    """
-
-    position: Float
+    position: Float  # [row, roller, 3], radial and axial displacement of mid-length and tilt [m, m, rad]
     cup: ContactSet
     cone: ContactSet
     rib: ContactSet
-    residual: float
+    residual: float  # largest force that is left on a roller [N]
+    # [5 + 2 x mode], force of the rollers on the cone, its moment about x and z, [N, N m], and their force on
+    # the amplitudes of the cup's bending [N]
     cone_force: Float
-    cone_stiffness: Float
-    follow: Float
-    energy: float
+    cone_stiffness: Float  # change of the opposite of `cone_force` with the cone pose, rollers following
+    follow: Float  # [row, roller, 3, 5 + 2 x mode], change of roller position with the cone pose
+    energy: float  # contact energy less the work of the inertia loads [J]
 
 
 def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> RollerState:

@@ -42,26 +42,18 @@ class Tier:
 
     All tiers share the arrays of the full one (`model.layout`), so that whatever reads a state or a block
     works with any of them; what a tier does not compute stays zero.
-
-    Parameters
-    ----------
-    advance : callable
-        Compiled; advances all states over a block of steps. Arguments as of `imex.advance`.
-    parameters : callable
-        Kernel parameters from the scene and the parameters of the full tier.
-    start : callable
-        State at t = 0 from the scene, the arrangement, the kernel parameters, the static equilibrium and
-        the first load (wrench and shaft speed).
-    trend_shape : callable
-        Shape of what the kernel keeps of the rollers at an instant, from that of their state.
-    shown : callable
-        Rollers at the instants from lanes, what the kernel kept, and kernel parameters.
     """
 
+    # Compiled; advances all states over a block of steps. Arguments as of `imex.advance`
     advance: Callable[..., None]
+    # Kernel parameters from the scene and the parameters of the full tier
     parameters: Callable[[Scene, Parameters], Any]
+    # State at t = 0 from the scene, the arrangement, the kernel parameters, the static equilibrium and the
+    # first load (wrench and shaft speed)
     start: Callable[[Scene, Arrangement, Any, StaticSolution, Float], State]
+    # Shape of what the kernel keeps of the rollers at an instant, from that of their state
     trend_shape: Callable[[tuple[int, ...]], tuple[int, ...]] = lambda shape: shape
+    # Rollers at the instants from lanes, what the kernel kept, and kernel parameters
     shown: Callable[[Any, Float, Any], Any] = lambda _lanes, trend, _parameters: trend
 
 

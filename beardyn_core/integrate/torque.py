@@ -38,19 +38,11 @@ LINE_FORMS = {
 
 @dataclass(frozen=True)
 class RunningTorque:
-    """Running torque of a bearing, by where it arises.
+    """Running torque of a bearing, by where it arises."""
 
-    Parameters
-    ----------
-    cup_couple, cone_couple : float64 arrays, shape [row, roller]
-        Couple on each roller against its rolling on the raceway, [N m].
-    rolling, rib : float
-        Torque on the shaft, [N m].
-    """
-
-    cup_couple: Float
+    cup_couple: Float  # [row, roller], on each roller against its rolling on the raceway [N m]
     cone_couple: Float
-    rolling: float
+    rolling: float  # on the shaft [N m]
     rib: float
 
     @property
