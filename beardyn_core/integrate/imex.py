@@ -6,6 +6,7 @@ from typing import Any
 
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.bodies import (
+    add_seals,
     collect_energy,
     collect_reactions,
     drift_bodies,
@@ -19,7 +20,6 @@ from beardyn_core.kernels.land import push_lands, settle_lands
 from beardyn_core.kernels.lanes import align_stack
 from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
 from beardyn_core.kernels.roller import step_rollers
-from beardyn_core.kernels.seal import add_seals
 from beardyn_core.kernels.stage_timer import mark, time_step
 from beardyn_core.model.layout import (
     ANGULAR,

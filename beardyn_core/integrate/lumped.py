@@ -1,8 +1,14 @@
-"""Steps of the lumped tier: rings on suspension and journal, rollers as springs that orbit."""
+"""Steps of the lumped tier: rings on suspension and journal, rollers as springs that orbit.
+
+At the instants of a trend only loads are kept; all else of the rollers is made when it is asked for.
+"""
 
 from __future__ import annotations
 
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from beardyn_core.integrate.kinematic_step import (
     TRENDS_PER_BLOCK,
@@ -16,7 +22,17 @@ from beardyn_core.jit import entry
 from beardyn_core.kernels.kinematic_rings import add_response, hold_response, journal_velocity
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
 from beardyn_core.kernels.kinematic_torque import held_losses
-from beardyn_core.kernels.spring_roller import load_rollers, show_springs, sum_rollers, torque_and_stiffness
+from beardyn_core.kernels.spring_roller import (
+    TREND_EXTRAS,
+    load_rollers,
+    show_springs,
+    sum_rollers,
+    torque_and_stiffness,
+)
+from beardyn_core.model.layout import ANGLE, POCKET_ANGLE, RADIUS, ROLLER_FIELDS, VELOCITY
+from beardyn_core.model.tier_parameters import LumpedParameters
+
+_ORBIT_FIELDS = VELOCITY + 2
 
 
 @entry
@@ -84,3 +100,55 @@ def show_lumped(lanes: Any, trends: Any, rollers: Any, p: Any) -> None:
     """
     for t in range(trends.shape[0]):
         show_springs(lanes, rollers[t], trends[t], p)
+
+
+def trend_shape(rollers: tuple[int, ...]) -> tuple[int, ...]:
+    """Shape what `advance_lumped` writes at an instant, from the shape of the rollers' state."""
+    block, _fields, lane = rollers
+    return block + TREND_EXTRAS, 1, lane
+
+
+class SpringTrend:
+    """Rollers at some instants, see `observe.kinematics.Instants`.
+
+    Parameters
+    ----------
+    lanes : Lanes
+    trends : float64 array, shape [time, block + TREND_EXTRAS, 1, lane]
+        From `advance_lumped`; nobody changes it any more.
+    parameters : LumpedParameters
+    """
+
+    def __init__(self, lanes: Any, trends: NDArray[np.float64], parameters: LumpedParameters) -> None:
+        self._lanes, self._trends, self._parameters = lanes, trends, parameters
+
+    def __getitem__(self, times: slice) -> SpringTrend:
+        return SpringTrend(self._lanes, self._trends[times], self._parameters)
+
+    def _empty(self, fields: int) -> NDArray[np.float64]:
+        times, blocks, _one, lane = self._trends.shape
+        return np.zeros((times, blocks - TREND_EXTRAS, fields, lane))
+
+    def whole(self) -> NDArray[np.float64]:
+        """Make the state as the full tier has it, shape [time, block, ROLLER_FIELDS, lane]."""
+        rollers = self._empty(ROLLER_FIELDS)
+        show_lumped(self._lanes, np.ascontiguousarray(self._trends), rollers, self._parameters)
+        return rollers
+
+    def orbits(self) -> NDArray[np.float64]:
+        """Make angle, and speed as if at the radius 1: the first fields, shape [time, block, field, lane]."""
+        rollers = self._empty(_ORBIT_FIELDS)
+        _orbits(self._trends, self._parameters.base.rollers, rollers)
+        return rollers
+
+
+@entry
+def _orbits(trends, constants, rollers):
+    blocks = rollers.shape[1]
+    for t in range(rollers.shape[0]):
+        turn, speed = trends[t, blocks, 0, 0], trends[t, blocks + 2, 0, 0]
+        for block in range(blocks):
+            for lane in range(rollers.shape[3]):
+                rollers[t, block, RADIUS, lane] = 1.0
+                rollers[t, block, ANGLE, lane] = constants[block, POCKET_ANGLE, lane] + turn
+                rollers[t, block, VELOCITY + 1, lane] = speed

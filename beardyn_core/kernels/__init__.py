@@ -36,8 +36,7 @@ solve             the 6x6 system of one roller
 generator_line    contact line of a roller on a raceway
 defect            gap over patches of raceways and rollers
 waviness          gap of waviness; the force along a sloping gap
-lamina_coupling   laminae that sink with each other
-joint_lamina      one of them that lies partly over a patch
+lamina_coupling   laminae that sink with each other, also partly over a patch
 film              film thickness of a lamina
 traction          friction of a lamina: dry, of a full film, of both
 laminae           the springs of a raceway contact and their sums
@@ -45,16 +44,14 @@ raceway           contact of a roller with a raceway
 ring_flexibility  bending of the cup
 rolling           couple against rolling
 drag              medium around the rollers
-point_contact     contact with the cone at a point: what both ribs share
+point_contact     contact with the cone at a point, and the small rib
 rib               large end on the cone rib
-small_rib         small roller end at the small rib of the cone
 pocket            roller in its cage pocket
 roller            one step of a block of rollers
-bodies            cup, cone and cages as scalar rigid bodies
+bodies            cup, cone and cages as scalar rigid bodies, and the seals between them
 cage_bodies       cages as bodies: free, following the rings, or prescribed
 box               axlebox on its springs
 land              land of a cage in cup or cone
-seal              seals between cup and shaft
 stage_timer       where the time of a step goes
 balanced_springs  laminae of a roller in balance, as springs
 balanced_roller   a roller in balance (quasistatic tier)

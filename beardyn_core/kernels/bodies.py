@@ -24,6 +24,7 @@ from beardyn_core.model.layout import (
     LOSS_POCKET,
     LOSS_RIB,
     LOSS_ROLLING,
+    LOSS_SEAL,
     LOSS_SLIDING,
     LOSS_SMALL_RIB,
     LOSS_SUSPENSION,
@@ -324,3 +325,25 @@ def sum_lanes(sums: Any, field: Any) -> Any:
         for lane in range(sums.shape[3]):
             total += sums[group, 0, field, lane]
     return total
+
+
+@inline
+def add_seals(bodies: Any, wrenches: Any, energy: Any, step: Any, seal: Any) -> None:
+    """Add the torque of both seals to shaft and cup, equal and opposite, about the shaft's axis.
+
+    Dry friction, smooth through standstill, and a part that grows with speed. Neglects the radial and
+    axial force of the lips.
+    """
+    if seal is None:
+        return
+    ax, ay, az = ring_direction(bodies, CONE_BODY)
+    axis = (ax, ay, az)
+    speed = bodies[CONE_BODY, RATE]
+    for i in range(3):
+        speed += axis[i] * (bodies[CONE_BODY, ANGULAR + i] - bodies[CUP_BODY, ANGULAR + i])
+    dry = seal.torque / math.sqrt(speed * speed + seal.regularisation * seal.regularisation)
+    torque = (dry + seal.speed_coefficient) * speed
+    for i in range(3):
+        wrenches[CONE_BODY, 3 + i] -= torque * axis[i]
+        wrenches[CUP_BODY, 3 + i] += torque * axis[i]
+    energy[ENERGY_LOST + LOSS_SEAL] += step * torque * speed

@@ -11,8 +11,15 @@ from typing import Any, NamedTuple
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import spring_count, spring_damage, spring_slopes, spring_table
 from beardyn_core.kernels.film import log2_film_thickness, log2_load
-from beardyn_core.kernels.joint_lamina import joint_depth, joint_share, joint_slopes
-from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
+from beardyn_core.kernels.lamina_coupling import (
+    DEPTH,
+    FORCE,
+    SURFACE,
+    couple_laminae,
+    joint_depth,
+    joint_share,
+    joint_slopes,
+)
 from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.stage_timer import mark_result

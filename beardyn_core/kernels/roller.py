@@ -18,6 +18,12 @@ from beardyn_core.kernels.drag import prepare_drag, push_drag, settle_drag, stif
 from beardyn_core.kernels.exchange import Here, account_gravity, load_vector, store_vector
 from beardyn_core.kernels.orbit import Body, angular_velocity, drift, ring_view, weight
 from beardyn_core.kernels.pocket import prepare_pocket, push_pocket, settle_pocket
+from beardyn_core.kernels.point_contact import (
+    prepare_small_rib,
+    push_small_rib,
+    settle_small_rib,
+    stiffen_small_rib,
+)
 from beardyn_core.kernels.raceway import (
     Ring,
     faults_of_cone,
@@ -30,12 +36,6 @@ from beardyn_core.kernels.raceway import (
 from beardyn_core.kernels.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
 from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, bent_cup
 from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_rolling, stiffen_rolling
-from beardyn_core.kernels.small_rib import (
-    prepare_small_rib,
-    push_small_rib,
-    settle_small_rib,
-    stiffen_small_rib,
-)
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.stage_timer import mark
 from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, turn_in
