@@ -16,7 +16,7 @@ from beardyn_core.kernels.bodies import (
 )
 from beardyn_core.kernels.box import box_energy, kick_box
 from beardyn_core.kernels.cage_bodies import cage_energy, move_cages, pass_on, place_cages
-from beardyn_core.kernels.land import push_lands, settle_lands
+from beardyn_core.kernels.land import land_of, push_lands, settle_lands
 from beardyn_core.kernels.lanes import align_stack
 from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
 from beardyn_core.kernels.roller import step_rollers
@@ -72,13 +72,8 @@ def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
 
 
 @inline
-def cage_place(p: Any) -> Any:
+def cage_place(cage: Any) -> Any:
     """Take the axial place of the cages' centres from the middle plane, 0 without cages, [m]."""
-    return _cage_place(p.effects.cage)
-
-
-@inline
-def _cage_place(cage: Any) -> Any:
     if cage is None:
         return 0.0
     return cage.place
@@ -142,7 +137,7 @@ def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) 
     groups = rings.shape[0]
     blocks_per_group = rollers.shape[0] // groups
     clear_block_sums(rollers)
-    place = cage_place(p)
+    place = cage_place(p.effects.cage)
     timers = p.effects.timers
     for step in range(steps):
         time_step(timers, step)
@@ -164,7 +159,7 @@ def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) 
                 )
         collect_reactions(sums, wrenches)
         mark(timers, RINGS)
-        lands = push_lands(bodies, wrenches, p.effects.cage)
+        lands = push_lands(bodies, wrenches, p.effects.cage, land_of(p.effects.cage))
         pass_on(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
         mark(timers, CAGE)
         for i in range(6):
@@ -183,7 +178,7 @@ def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) 
         stored += propped
         mark(timers, RINGS)
         move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
-        stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage)
+        stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage, land_of(p.effects.cage))
         mark(timers, CAGE)
         stored += kick_flex(flex, sums, energy, p.step, p.effects.ring_flexibility)
         collect_energy(sums, energy, p.effects, p.effects.audit)

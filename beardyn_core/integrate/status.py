@@ -56,17 +56,7 @@ class Status(IntFlag):
 
 
 # what compiled code can see of them
-_NOT_FINITE, _PENETRATION, _CHATTER, _OFF_RIB, _FILM_RANGE, _RIB_EDGE = (
-    int(each)
-    for each in (
-        Status.NOT_FINITE,
-        Status.PENETRATION,
-        Status.CHATTER,
-        Status.OFF_RIB,
-        Status.FILM_RANGE,
-        Status.RIB_EDGE,
-    )
-)
+_NOT_FINITE, _PENETRATION, _CHATTER, _OFF_RIB, _FILM_RANGE, _RIB_EDGE = map(int, Status)
 
 SENTENCES = {
     Status.NOT_FINITE: "a number became NaN or infinite: use a smaller time step "

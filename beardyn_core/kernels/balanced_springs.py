@@ -6,9 +6,10 @@ from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
-from beardyn_core.kernels.laminae import SMALLEST_APPROACH, contact_spring
+from beardyn_core.kernels.laminae import SMALLEST_APPROACH, add_moments, contact_spring
 from beardyn_core.kernels.lane_math import at_least, magnitude, quick_ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.vectors import scale
 from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 
@@ -50,8 +51,7 @@ def _near_or_far(
 @inline
 def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: Any) -> Any:
     zero = lanes.constant(0.0)
-    force_0, force_1 = zero, zero
-    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    forces, stiffness = (zero, zero), (zero, zero, zero)
     # where no roller of the block is in contact this look is all
     if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
         for k in range(laminae.shape[1]):
@@ -61,13 +61,9 @@ def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: An
             tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
             tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
             force = tangent * touching
-            force_0 = force_0 + force
-            force_1 = force_1 + x * force
-            stiffness_0 = stiffness_0 + tangent
-            stiffness_1 = stiffness_1 + x * tangent
-            stiffness_2 = stiffness_2 + (x * x) * tangent
-    steeper = 10.0 / 9.0
-    return (force_0, force_1), (steeper * stiffness_0, steeper * stiffness_1, steeper * stiffness_2)
+            forces = (forces[0] + force, forces[1] + x * force)
+            stiffness = add_moments(stiffness, tangent, x)
+    return forces, scale(10.0 / 9.0, stiffness)
 
 
 @inline
@@ -97,8 +93,7 @@ def _all_factors(approach: Any, bend: Any) -> Any:
 @inline
 def _damaged_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, damage: Any) -> Any:
     zero = lanes.constant(0.0)
-    force_0, force_1 = zero, zero
-    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
+    forces, stiffness = (zero, zero), (zero, zero, zero)
     factors = _all_factors(approach, bend)
     springs = spring_count(laminae, damage, None)
     laminae = spring_table(laminae, damage)
@@ -107,9 +102,6 @@ def _damaged_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, damage:
         share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
         tangent = share * tangent
         force = 0.9 * tangent * at_least(depth, 0.0)
-        force_0 = force_0 + force
-        force_1 = force_1 + force * x
-        stiffness_0 = stiffness_0 + tangent
-        stiffness_1 = stiffness_1 + tangent * x
-        stiffness_2 = stiffness_2 + tangent * (x * x)
-    return (force_0, force_1), (stiffness_0, stiffness_1, stiffness_2)
+        forces = (forces[0] + force, forces[1] + force * x)
+        stiffness = add_moments(stiffness, tangent, x)
+    return forces, stiffness

@@ -10,6 +10,7 @@ import math
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.vectors import add_scaled, subtract
 from beardyn_core.model.layout import (
     ANGULAR,
     CAGE_BODY,
@@ -77,17 +78,29 @@ def ring_direction(bodies: Any, body: Any) -> Any:
 
 
 @inline
-def _set_polar(rings: Any, ring: Any, field: Any, lane: Any, side: Any, x: Any, y: Any, z: Any) -> None:
-    rings[ring, field, lane] = z
-    rings[ring, field + 1, lane] = x
-    rings[ring, field + 2, lane] = side * y
+def body_vector(bodies: Any, body: Any, field: Any) -> Any:
+    """Take three numbers of a body that stand one after the other."""
+    return bodies[body, field], bodies[body, field + 1], bodies[body, field + 2]
 
 
 @inline
-def _set_axial(rings: Any, ring: Any, field: Any, lane: Any, side: Any, x: Any, y: Any, z: Any) -> None:
-    rings[ring, field, lane] = side * z
-    rings[ring, field + 1, lane] = side * x
-    rings[ring, field + 2, lane] = y
+def full_rotation(bodies: Any, body: Any) -> Any:
+    """Work out the angular velocity of a body with its spin, [rad/s]."""
+    return add_scaled(body_vector(bodies, body, ANGULAR), bodies[body, RATE], ring_direction(bodies, body))
+
+
+@inline
+def _set_polar(rings: Any, ring: Any, field: Any, lane: Any, side: Any, vector: Any) -> None:
+    rings[ring, field, lane] = vector[2]
+    rings[ring, field + 1, lane] = vector[0]
+    rings[ring, field + 2, lane] = side * vector[1]
+
+
+@inline
+def _set_axial(rings: Any, ring: Any, field: Any, lane: Any, side: Any, vector: Any) -> None:
+    rings[ring, field, lane] = side * vector[2]
+    rings[ring, field + 1, lane] = side * vector[0]
+    rings[ring, field + 2, lane] = vector[1]
 
 
 @inline
@@ -108,35 +121,19 @@ def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
             side = 2.0 * row - 1.0
             for ring in range(3):
                 body = ring + row if ring == CAGE_BODY else ring
-                ax, ay, az = ring_direction(bodies, body)
-                rate = bodies[body, RATE]
-                lift = side * cage_place if ring == CAGE_BODY else 0.0
                 view = rings[group]
-                _set_polar(
-                    view, ring, RING_ORIGIN, lane, side,
-                    bodies[body, POSITION + X] - bodies[CUP_BODY, POSITION + X],
-                    bodies[body, POSITION + Y] - bodies[CUP_BODY, POSITION + Y] + lift,
-                    bodies[body, POSITION + Z] - bodies[CUP_BODY, POSITION + Z],
-                )  # fmt: skip
+                lift = side * cage_place if ring == CAGE_BODY else 0.0
+                place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, CUP_BODY, POSITION))
+                place = (place[0], place[1] + lift, place[2])
+                _set_polar(view, ring, RING_ORIGIN, lane, side, place)
                 if ring == CAGE_BODY:
-                    _set_axial(
-                        view, ring, RING_AXIS, lane, side,
-                        bodies[body, TILT + X], bodies[body, TILT + Y], bodies[body, TILT + Z],
-                    )  # fmt: skip
+                    _set_axial(view, ring, RING_AXIS, lane, side, body_vector(bodies, body, TILT))
                     view[ring, RING_TURN, lane] = bodies[body, TURN]
                 else:
-                    _set_axial(view, ring, RING_AXIS, lane, side, ax, ay, az)
+                    _set_axial(view, ring, RING_AXIS, lane, side, ring_direction(bodies, body))
                     view[ring, RING_TURN, lane] = bodies[body, TURN] + bodies[body, TILT + Y]
-                _set_polar(
-                    view, ring, RING_VELOCITY, lane, side,
-                    bodies[body, LINEAR + X], bodies[body, LINEAR + Y], bodies[body, LINEAR + Z],
-                )  # fmt: skip
-                _set_axial(
-                    view, ring, RING_OMEGA, lane, side,
-                    bodies[body, ANGULAR + X] + rate * ax,
-                    bodies[body, ANGULAR + Y] + rate * ay,
-                    bodies[body, ANGULAR + Z] + rate * az,
-                )  # fmt: skip
+                _set_polar(view, ring, RING_VELOCITY, lane, side, body_vector(bodies, body, LINEAR))
+                _set_axial(view, ring, RING_OMEGA, lane, side, full_rotation(bodies, body))
 
 
 @inline
@@ -264,8 +261,6 @@ def kick_cone(bodies: Any, wrench: Any, load: Any, energy: Any, step: Any, mount
 @inline
 def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
     """Accelerate both cages under pocket forces and weight, gyroscopic moment included."""
-    if cage is None:
-        return
     for body in range(CAGE_BODY, bodies.shape[0]):
         for i in range(3):
             pull = -cage.mass * fall(gravity) if i == Z else 0.0

@@ -24,30 +24,19 @@ X, Y, Z = 0, 1, 2
 @inline
 def cage_energy(bodies: Any, cage: Any) -> Any:
     """Sum the kinetic energy of both cages, without a prescribed spin, [J]."""
-    if cage is None:
-        return 0.0
-    return _energy(bodies, cage, cage.rotating, cage.kinematic)
-
-
-@inline
-def _energy(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> Any:
-    if kinematic is not None:
-        return 0.0
     total = 0.0
+    if cage is None:
+        return total
+    if cage.kinematic is not None:
+        return total
     for body in range(CAGE_BODY, bodies.shape[0]):
         total += 0.5 * cage.polar_inertia * bodies[body, RATE] ** 2
-        total += _tumbling_energy(bodies, body, cage, rotating)
-    return total
-
-
-@inline
-def _tumbling_energy(bodies: Any, body: Any, cage: Any, rotating: Any) -> Any:
-    if rotating is not None:
-        return 0.0
-    total = 0.0
-    for i in range(3):
-        total += 0.5 * cage.mass * bodies[body, LINEAR + i] ** 2
-        total += 0.5 * cage.transverse_inertia * bodies[body, ANGULAR + i] ** 2
+        if cage.rotating is None:
+            tumbling = 0.0
+            for i in range(3):
+                tumbling += 0.5 * cage.mass * bodies[body, LINEAR + i] ** 2
+                tumbling += 0.5 * cage.transverse_inertia * bodies[body, ANGULAR + i] ** 2
+            total += tumbling
     return total
 
 
@@ -56,12 +45,7 @@ def place_cages(bodies: Any, cage: Any) -> None:
     """Put cages that follow the rings at the mean of cup and cone; a free cage stays where it is."""
     if cage is None:
         return
-    _place(bodies, cage, cage.rotating, cage.kinematic)
-
-
-@inline
-def _place(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> None:
-    if rotating is None and kinematic is None:
+    if cage.rotating is None and cage.kinematic is None:
         return
     for body in range(CAGE_BODY, bodies.shape[0]):
         lift = cage.place if body > CAGE_BODY else -cage.place
@@ -83,14 +67,7 @@ def pass_on(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravi
     """
     if cage is None:
         return
-    _pass_on(bodies, wrenches, energy, step, cage, gravity, cage.rotating, cage.kinematic)
-
-
-@inline
-def _pass_on(
-    bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any, rotating: Any, kinematic: Any
-) -> None:
-    if rotating is None and kinematic is None:
+    if cage.rotating is None and cage.kinematic is None:
         return
     for body in range(CAGE_BODY, bodies.shape[0]):
         lift = cage.place if body > CAGE_BODY else -cage.place
@@ -119,20 +96,13 @@ def move_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
     """Accelerate both cages, or set their prescribed speed and book the work that takes."""
     if cage is None:
         return
-    _move(bodies, wrenches, energy, step, cage, gravity, cage.rotating, cage.kinematic)
-
-
-@inline
-def _move(
-    bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any, rotating: Any, kinematic: Any
-) -> None:
-    if rotating is None and kinematic is None:
+    if cage.rotating is None and cage.kinematic is None:
         kick_cages(bodies, wrenches, energy, step, cage, gravity)
         return
     for body in range(CAGE_BODY, bodies.shape[0]):
         axis = ring_direction(bodies, body)
         about = wrenches[body, 3] * axis[0] + wrenches[body, 4] * axis[1] + wrenches[body, 5] * axis[2]
-        _turn(bodies, body, about, energy, step, cage, kinematic)
+        _turn(bodies, body, about, energy, step, cage, cage.kinematic)
 
 
 @inline

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.bodies import body_vector
+from beardyn_core.kernels.exchange import store_vector
 from beardyn_core.kernels.kinematic_rollers import row_totals
 from beardyn_core.model.layout import (
     ANGULAR,
@@ -48,12 +50,8 @@ def add_stiffness(stiff: Any, tangent: Any, cosine: Any, sine: Any) -> Any:
 @inline
 def store_stiffness(lanes: Any, sums: Any, stiff: Any) -> None:
     """Keep the sums of `add_stiffness`."""
-    lanes.store(sums, 0, STIFF_SUM, stiff[0])
-    lanes.store(sums, 0, STIFF_COSINE, stiff[1])
-    lanes.store(sums, 0, STIFF_SINE, stiff[2])
-    lanes.store(sums, 0, STIFF_CC, stiff[3])
-    lanes.store(sums, 0, STIFF_SS, stiff[4])
-    lanes.store(sums, 0, STIFF_CS, stiff[5])
+    store_vector(lanes, sums, 0, STIFF_SUM, stiff)
+    store_vector(lanes, sums, 0, STIFF_CC, stiff[3:])
 
 
 @inline
@@ -143,13 +141,8 @@ def hold_response(sums: Any, direction: Any, work: Any, p: Any) -> None:
 @inline
 def journal_velocity(bodies: Any) -> Any:
     """Take the velocity and tilt rate of the journal, 5 floats."""
-    return (
-        bodies[CONE_BODY, LINEAR],
-        bodies[CONE_BODY, LINEAR + 1],
-        bodies[CONE_BODY, LINEAR + 2],
-        bodies[CONE_BODY, ANGULAR],
-        bodies[CONE_BODY, ANGULAR + 2],
-    )
+    x, y, z = body_vector(bodies, CONE_BODY, LINEAR)
+    return x, y, z, bodies[CONE_BODY, ANGULAR], bodies[CONE_BODY, ANGULAR + 2]
 
 
 @inline
@@ -173,14 +166,11 @@ def add_response(bodies: Any, before: Any, signal: Any, work: Any, p: Any) -> No
     z = (after[2] - before[2]) * motion.rate - signal[SIGNAL_ACCELERATION + 2]
     about_x = (after[3] - before[3]) * motion.rate - signal[SIGNAL_ACCELERATION + 3]
     about_z = (after[4] - before[4]) * motion.rate - signal[SIGNAL_ACCELERATION + 5]
+    more = (x, y, z, about_x, about_z)
     wrench = (
-        _row(work, 0, x, y, z, about_x, about_z),
-        _row(work, 1, x, y, z, about_x, about_z),
-        _row(work, 2, x, y, z, about_x, about_z),
-        _row(work, 3, x, y, z, about_x, about_z),
-        0.0,
-        _row(work, 4, x, y, z, about_x, about_z),
-    )
+        _row(work, 0, more), _row(work, 1, more), _row(work, 2, more), _row(work, 3, more), 0.0,
+        _row(work, 4, more),
+    )  # fmt: skip
     push, turn = p.step * motion.journal_push, p.step * motion.journal_turn
     bodies[CONE_BODY, LINEAR] = after[0] - push * wrench[0]
     bodies[CONE_BODY, LINEAR + 1] = after[1] - push * wrench[1]
@@ -194,7 +184,8 @@ def add_response(bodies: Any, before: Any, signal: Any, work: Any, p: Any) -> No
 
 
 @inline
-def _row(work: Any, i: Any, x: Any, y: Any, z: Any, about_x: Any, about_z: Any) -> Any:
+def _row(work: Any, i: Any, more: Any) -> Any:
+    x, y, z, about_x, about_z = more
     linear = work[RESPONSE, i, 0] * x + work[RESPONSE, i, 1] * y + work[RESPONSE, i, 2] * z
     return linear + (work[RESPONSE, i, 3] * about_x + work[RESPONSE, i, 4] * about_z)
 

@@ -103,9 +103,7 @@ def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: An
     lanes, ring, work, effects = raceway.lanes, raceway.ring, raceway.work, raceway.effects
     laminae, approach = raceway.laminae, line.approach
     zero = lanes.constant(0.0)
-    force_0, force_1, force_2 = zero, zero, zero
-    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
-    friction_0, friction_1, friction_2 = zero, zero, zero
+    force, stiffness, friction = (zero, zero, zero), (zero, zero, zero), (zero, zero, zero)
     energy = zero
     lean = (zero, zero)
     released = zero
@@ -129,12 +127,7 @@ def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: An
         elastic, tangent = share * elastic, share * tangent
         released = _release(released, whole - elastic, opening, effects.damping, effects.audit)
         deepest = _deepest_so_far(deepest, share, depth, damage)
-        force_0 = force_0 + elastic
-        force_1 = force_1 + elastic * x
-        force_2 = force_2 + elastic * (x * x)
-        stiffness_0 = stiffness_0 + tangent
-        stiffness_1 = stiffness_1 + tangent * x
-        stiffness_2 = stiffness_2 + tangent * (x * x)
+        force, stiffness = add_moments(force, elastic, x), add_moments(stiffness, tangent, x)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
         load = lanes.load(work, _LOADS, k)
@@ -146,22 +139,16 @@ def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: An
         log2_film = log2_film_thickness(log2_force, log2_speed, k, ring, laminae, effects.film)
         mark_result(effects.timers, FILM, log2_film)
         contact = LaminaContact(load, log2_force, square, log2_film, log2_speed[1], k, ring, laminae)
-        friction = friction_rate(contact, effects)
-        mark_result(effects.timers, TRACTION, friction)
-        friction = _share_of(lanes, k, damage, effects.coupling) * friction
-        friction_0 = friction_0 + friction
-        friction_1 = friction_1 + friction * x
-        friction_2 = friction_2 + friction * (x * x)
-    return LaminaSums(
-        (force_0, force_1, force_2),
-        (stiffness_0, stiffness_1, stiffness_2),
-        (friction_0, friction_1, friction_2),
-        energy,
-        lean,
-        True,
-        released,
-        deepest,
-    )
+        rate = friction_rate(contact, effects)
+        mark_result(effects.timers, TRACTION, rate)
+        friction = add_moments(friction, _share_of(lanes, k, damage, effects.coupling) * rate, x)
+    return LaminaSums(force, stiffness, friction, energy, lean, True, released, deepest)
+
+
+@inline
+def add_moments(sums: Any, value: Any, x: Any) -> Any:
+    """Add a value at an abscissa to its sums with x^0, x^1, x^2."""
+    return sums[0] + value, sums[1] + value * x, sums[2] + value * (x * x)
 
 
 @inline

@@ -9,9 +9,9 @@ import math
 from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.bodies import ring_direction
+from beardyn_core.kernels.bodies import body_vector, full_rotation, ring_direction
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
-from beardyn_core.model.layout import ANGULAR, CAGE_BODY, ENERGY_LOST, LINEAR, LOSS_LAND, POSITION, RATE
+from beardyn_core.model.layout import CAGE_BODY, ENERGY_LOST, LINEAR, LOSS_LAND, POSITION, RATE
 
 _SMALLEST = 1e-30
 
@@ -68,19 +68,13 @@ def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, l
 
 
 @inline
-def _three(bodies: Any, body: Any, field: Any) -> Any:
-    return bodies[body, field], bodies[body, field + 1], bodies[body, field + 2]
-
-
-@inline
 def land_twist(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
     """Work out the velocity of a cage against its guiding ring at the cage's origin, and angular velocity."""
     ring = int(land.body)
-    cage_omega = add_scaled(_three(bodies, body, ANGULAR), bodies[body, RATE], ring_direction(bodies, body))
-    ring_omega = add_scaled(_three(bodies, ring, ANGULAR), bodies[ring, RATE], ring_direction(bodies, ring))
-    place = subtract(_three(bodies, body, POSITION), _three(bodies, ring, POSITION))
+    cage_omega, ring_omega = full_rotation(bodies, body), full_rotation(bodies, ring)
+    place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, ring, POSITION))
     arm = (place[0], place[1] + lift, place[2])
-    velocity = subtract(_three(bodies, body, LINEAR), _three(bodies, ring, LINEAR))
+    velocity = subtract(body_vector(bodies, body, LINEAR), body_vector(bodies, ring, LINEAR))
     return subtract(velocity, cross(ring_omega, arm)), subtract(cage_omega, ring_omega)
 
 
@@ -108,7 +102,7 @@ def land_contact(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
     axis, ring_axis = ring_direction(bodies, body), ring_direction(bodies, ring)
     velocity, omega = land_twist(bodies, body, lift, land)
     side = 1.0 if lift > 0.0 else -1.0
-    place = subtract(_three(bodies, body, POSITION), _three(bodies, ring, POSITION))
+    place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, ring, POSITION))
     origin = (place[0], place[1] + lift, place[2])  # of the cage from the ring's
     ring_spin = scale(bodies[ring, RATE], ring_axis)
 
@@ -159,7 +153,7 @@ def _push(bodies: Any, wrenches: Any, body: Any, cage: Any, land: Any) -> Any:
     lift = cage.place if body > CAGE_BODY else -cage.place
     force, moment, lost_force, lost_moment, energy = land_contact(bodies, body, lift, land)
     ring = int(land.body)
-    place = subtract(_three(bodies, body, POSITION), _three(bodies, ring, POSITION))
+    place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, ring, POSITION))
     about_ring = add(moment, cross((place[0], place[1] + lift, place[2]), force))
     for i in range(3):
         wrenches[body, i] += force[i]
@@ -170,21 +164,16 @@ def _push(bodies: Any, wrenches: Any, body: Any, cage: Any, land: Any) -> Any:
 
 
 @inline
-def push_lands(bodies: Any, wrenches: Any, cage: Any) -> Any:
-    """Add the wrenches of both lands to cages and rings; without lands zeros, which nothing uses."""
+def land_of(cage: Any) -> Any:
+    """Take the land of a cage, ``None`` where there is none."""
     if cage is None:
-        return _nothing(), _nothing()
-    return _push_lands(bodies, wrenches, cage, cage.land)
+        return None
+    return cage.land
 
 
 @inline
-def _nothing() -> Any:
-    zero = (0.0, 0.0, 0.0)
-    return zero, zero, (zero, zero), 0.0
-
-
-@inline
-def _push_lands(bodies: Any, wrenches: Any, cage: Any, land: Any) -> Any:
+def push_lands(bodies: Any, wrenches: Any, cage: Any, land: Any) -> Any:
+    """Add the wrenches of both lands to cages and rings; without lands zeros, which nothing uses."""
     if land is None:
         return _nothing(), _nothing()
     return (
@@ -194,15 +183,14 @@ def _push_lands(bodies: Any, wrenches: Any, cage: Any, land: Any) -> Any:
 
 
 @inline
-def settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any) -> Any:
-    """Account for what the lands lost at the middle of the step, and return their elastic energy, [J]."""
-    if cage is None:
-        return 0.0
-    return _settle_lands(bodies, pushed, energy, step, cage, cage.land)
+def _nothing() -> Any:
+    zero = (0.0, 0.0, 0.0)
+    return zero, zero, (zero, zero), 0.0
 
 
 @inline
-def _settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any, land: Any) -> Any:
+def settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any, land: Any) -> Any:
+    """Account for what the lands lost at the middle of the step, and return their elastic energy, [J]."""
     if land is None:
         return 0.0
     energy[ENERGY_LOST + LOSS_LAND] -= step * (

@@ -31,7 +31,7 @@ from beardyn_core.kernels.lane_math import at_least, at_most, sqrt
 from beardyn_core.kernels.orbit import entrainment_speed
 from beardyn_core.kernels.solve import add_line, add_line_everywhere
 from beardyn_core.kernels.traction import traction_capacity
-from beardyn_core.kernels.vectors import Vector, Wrench, add_scaled, subtract
+from beardyn_core.kernels.vectors import Vector, Wrench, add_scaled, scale, subtract
 from beardyn_core.kernels.waviness import add_leaning, lean_wrench, shift_line, wave_gap
 from beardyn_core.model.layout import LOSS_DAMPING, LOSS_SLIDING, PENETRATION
 
@@ -113,9 +113,9 @@ def stiffen_raceway(matrix: Any, contact: Any, p: Any) -> Any:
         return matrix
     line, stiffness, friction, step = contact.line, contact.sums.stiffness, contact.sums.friction, p.step
     time = step * implicit_time(p.spring_time, p.effects.damping)
-    rough = (step * friction[0], step * friction[1], step * friction[2])
+    rough = scale(step, friction)
     # friction resists in the tangent plane: in every direction less along the normal
-    stiff = (time * stiffness[0] - rough[0], time * stiffness[1] - rough[1], time * stiffness[2] - rough[2])
+    stiff = subtract(scale(time, stiffness), rough)
     matrix = add_line_everywhere(matrix, line.arm, line.arm_slope, rough)
     return add_line(matrix, line.normal, line.arm, line.arm_slope, stiff)
 

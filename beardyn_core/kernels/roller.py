@@ -38,7 +38,7 @@ from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, ben
 from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_rolling, stiffen_rolling
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.stage_timer import mark
-from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, turn_in
+from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in
 from beardyn_core.model.layout import (
     ANGLE,
     AXIAL,
@@ -142,11 +142,9 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
         force[2],
     )
     turning_moment = (moment[0] + orbit.rate * momentum[1], moment[1] - orbit.rate * momentum[0], moment[2])
-    right = (
-        step * turning_force[0], step * turning_force[1], step * turning_force[2],
-        step * turning_moment[0], step * turning_moment[1], step * turning_moment[2],
-    )  # fmt: skip
-    change = velocity_change(matrix, right, zero, p.explicit)
+    change = velocity_change(
+        matrix, scale(step, turning_force) + scale(step, turning_moment), zero, p.explicit
+    )
     mark(timers, SOLVE)
 
     on_cup = settle_raceway(CUP, cup, change, here, p)
