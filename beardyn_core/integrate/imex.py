@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.bodies import (
     add_seals,
@@ -46,7 +44,7 @@ from beardyn_core.model.stages import CAGE, LOSS, RINGS
 
 
 @inline
-def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
+def kinetic_energy(rollers, bodies, p):
     """Sum the kinetic energy of rollers, cages, axlebox and journal without its prescribed spin, [J]."""
     roller = p.roller
     total = 0.0
@@ -72,7 +70,7 @@ def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
 
 
 @inline
-def cage_place(cage: Any) -> Any:
+def cage_place(cage):
     """Take the axial place of the cages' centres from the middle plane, 0 without cages, [m]."""
     if cage is None:
         return 0.0
@@ -80,7 +78,7 @@ def cage_place(cage: Any) -> Any:
 
 
 @inline
-def clear_block_sums(rollers: Any) -> None:
+def clear_block_sums(rollers):
     """Start the chatter sums and the largest penetration of a block anew."""
     for block in range(rollers.shape[0]):
         for lane in range(rollers.shape[2]):
@@ -96,14 +94,14 @@ def clear_block_sums(rollers: Any) -> None:
 
 
 @inline
-def copy_sums(source: Any, target: Any) -> None:
+def copy_sums(source, target):
     """Copy an array of one axis."""
     for i in range(source.shape[0]):
         target[i] = source[i]
 
 
 @inline
-def keep_trend(rollers: Any, bodies: Any, output: Any, index: Any) -> None:
+def keep_trend(rollers, bodies, output, index):
     """Copy the state of rollers and bodies into the trends."""
     for i in range(rollers.shape[0]):
         for j in range(rollers.shape[1]):
@@ -115,7 +113,7 @@ def keep_trend(rollers: Any, bodies: Any, output: Any, index: Any) -> None:
 
 
 @entry
-def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) -> None:
+def advance(lanes, state, work, loads, output, p):
     """Advance the full tier over one block of steps.
 
     Parameters

@@ -41,19 +41,19 @@ class Drive(NamedTuple):
 
 
 @inline
-def begin_advance(rollers: Any) -> None:
+def begin_advance(rollers):
     """Start the largest penetration anew."""
     rollers[:, PENETRATION] = 0.0
 
 
 @inline
-def cage_direction(bodies: Any) -> Any:
+def cage_direction(bodies):
     """Take the direction of the cages, as cosine and sine."""
     return math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN])
 
 
 @inline
-def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
+def begin_step(bodies, direction, p):
     """Move all bodies and the rollers with the cages.
 
     Returns
@@ -78,17 +78,7 @@ def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
 
 
 @inline
-def finish_step(
-    bodies: Any,
-    drive: Any,
-    wrenches: Any,
-    box: Any,
-    load_before: Any,
-    load: Any,
-    signal: Any,
-    energy: Any,
-    p: Any,
-) -> None:
+def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy, p):
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
     Parameters
@@ -121,17 +111,7 @@ def finish_step(
 
 
 @inline
-def _kick_box(
-    bodies: Any,
-    wrenches: Any,
-    box: Any,
-    load_before: Any,
-    load: Any,
-    signal: Any,
-    energy: Any,
-    coupling: Any,
-    p: Any,
-) -> None:
+def _kick_box(bodies, wrenches, box, load_before, load, signal, energy, coupling, p):
     """Accelerate the axlebox under the wrench in the signals, and write its acceleration there."""
     if coupling is None:
         _kick_free_box(bodies, load_before, load, signal, p.step, p.base.mounting, p.motion)
@@ -147,9 +127,7 @@ def _kick_box(
 
 
 @inline
-def _kick_free_box(
-    bodies: Any, load_before: Any, load: Any, signal: Any, step: Any, mounting: Any, motion: Any
-) -> None:
+def _kick_free_box(bodies, load_before, load, signal, step, mounting, motion):
     for i in range(3):
         bogie = load[LOAD_BOGIE + i]
         bogie_speed = (bogie - load_before[LOAD_BOGIE + i]) * motion.rate
@@ -167,7 +145,7 @@ def _kick_free_box(
 
 
 @inline
-def _kick_journal(bodies: Any, wrench: Any, load: Any, weight: Any, step: Any, motion: Any) -> None:
+def _kick_journal(bodies, wrench, load, weight, step, motion):
     push, turn = step * motion.journal_push, step * motion.journal_turn
     bodies[CONE_BODY, LINEAR] += push * (load[0] - wrench[0])
     bodies[CONE_BODY, LINEAR + 1] += push * (load[1] - wrench[1])
@@ -177,7 +155,7 @@ def _kick_journal(bodies: Any, wrench: Any, load: Any, weight: Any, step: Any, m
 
 
 @inline
-def _prop_journal(bodies: Any, step: Any, motion: Any, mounting: Any) -> None:
+def _prop_journal(bodies, step, motion, mounting):
     """Push the journal by its axial prop, as `kernels.bodies.kick_cone` does."""
     speed = bodies[CONE_BODY, LINEAR + 1]
     push = mounting.prop_stiffness * bodies[CONE_BODY, POSITION + 1] + mounting.prop_damping * speed

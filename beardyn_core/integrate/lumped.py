@@ -36,7 +36,7 @@ _ORBIT_FIELDS = VELOCITY + 2
 
 
 @entry
-def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) -> None:
+def advance_lumped(lanes, state, work, loads, output, p):
     """Advance the lumped tier over whole blocks of steps.
 
     Parameters
@@ -88,7 +88,7 @@ def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p
 
 
 @entry
-def show_lumped(lanes: Any, trends: Any, rollers: Any, p: Any) -> None:
+def show_lumped(lanes, trends, rollers, p):
     """Write the rollers of some instants as the full tier keeps them.
 
     Parameters

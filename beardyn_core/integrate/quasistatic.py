@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.integrate.kinematic_step import (
     TRENDS_PER_BLOCK,
     Drive,
@@ -56,25 +54,14 @@ _SMALLEST_LOAD = 1e-3
 
 
 @inline
-def pressed_tangent(load: Any, tangent: Any) -> Any:
+def pressed_tangent(load, tangent):
     """Work out the stiffness of rollers that press on the cone with a load; 0 where they do not, [N/m]."""
     stiffness = tangent * exp2(0.1 * log2(at_least(load, _SMALLEST_LOAD)))
     return where_greater(load, _SMALLEST_LOAD, stiffness, 0.0 * load)
 
 
 @inline
-def balance_rollers(
-    lanes: Any,
-    rollers: Any,
-    sums: Any,
-    motion: Any,
-    direction: Any,
-    turns: Any,
-    speeds: Any,
-    due: Any,
-    shown: Any,
-    p: Any,
-) -> None:
+def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due, shown, p):
     """Move all rollers one Newton step towards balance and sum their loads by row.
 
     Parameters
@@ -157,7 +144,7 @@ def balance_rollers(
 
 
 @entry
-def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) -> None:
+def advance_quasistatic(lanes, state, work, loads, output, p):
     """Advance the quasistatic tier over whole blocks of steps.
 
     Parameters

@@ -7,8 +7,6 @@ slow change of the load. Forces are those of the balanced, linearised contacts.
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.balanced_springs import lamina_springs
 from beardyn_core.kernels.exchange import damper_time
@@ -24,7 +22,7 @@ _LONGEST_MOVE = 2.0e-5
 
 
 @inline
-def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
+def cup_line(place, axis, radius, cup, roller):
     """Work out the contact line on the cup of a roller without skew: exact and affine in the abscissa.
 
     Parameters
@@ -56,7 +54,7 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
 
 @inline
-def short_direction(across: Any) -> Any:
+def short_direction(across):
     """Work out the unit vector of a vector that is nearly radial, and one over its length.
 
     A series in the squared lean q from the radial direction; the error is 0.3 q^3, below 1e-12 for
@@ -69,7 +67,7 @@ def short_direction(across: Any) -> Any:
 
 
 @inline
-def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any, roller: Any) -> Any:
+def cone_line(centre, axis, ring_axis, radius, raceway, roller):
     """Work out the contact line on the cone: see `generator_line`, for a roller without skew of its own.
 
     One pass of the closed form, and series in place of roots: the direction of the force is good to first
@@ -108,7 +106,7 @@ def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any,
 
 
 @inline
-def damped(springs: Any, rate: Any, damping: Any) -> Any:
+def damped(springs, rate, damping):
     """Add to the force sums what the damper adds at an affine approach rate."""
     if damping is None:
         return springs[0]
@@ -120,7 +118,7 @@ def damped(springs: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def cone_rate(line: Any, centre: Any, motion: Any) -> Any:
+def cone_rate(line, centre, motion):
     """Take the affine approach rate of a raceway or rib that moves, the roller at rest in its orbit frame."""
     arm, slope, normal = line[0], line[1], line[2]
     velocity, omega = motion
@@ -129,13 +127,13 @@ def cone_rate(line: Any, centre: Any, motion: Any) -> Any:
 
 
 @inline
-def tilt_arm(arm: Any, normal: Any) -> Any:
+def tilt_arm(arm, normal):
     """Change of approach with tilt of a contact at `arm` from the centre of mass, [m/rad]."""
     return normal[0] * arm[2] - normal[2] * arm[0]
 
 
 @inline
-def rib_spring(centre: Any, axis: Any, ring_axis: Any, motion: Any, rib: Any) -> Any:
+def rib_spring(centre, axis, ring_axis, motion, rib):
     """Work out the rib contact: force, tangent stiffness, change with place and tilt, approach rate.
 
     References
@@ -156,7 +154,7 @@ def rib_spring(centre: Any, axis: Any, ring_axis: Any, motion: Any, rib: Any) ->
 
 
 @inline
-def add_raceway(system: Any, force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any) -> Any:
+def add_raceway(system, force, stiffness, normal, by_tilt, factor):
     """Add a raceway's contact to matrix (upper triangle by rows) and right side."""
     m, r = system
     tilt_0 = by_tilt[0] * stiffness[0] + by_tilt[1] * stiffness[1]
@@ -180,7 +178,7 @@ def add_raceway(system: Any, force: Any, stiffness: Any, normal: Any, by_tilt: A
 
 
 @inline
-def solve_three(system: Any) -> Any:
+def solve_three(system):
     """Solve a symmetric positive definite system of three."""
     m, r = system
     d0 = 1.0 / m[0]
@@ -197,7 +195,7 @@ def solve_three(system: Any) -> Any:
 
 
 @inline
-def settled(force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any, move: Any, reach: Any) -> Any:
+def settled(force, stiffness, normal, by_tilt, factor, move, reach):
     """Work out the force sums of a raceway with x^0 and x^1 after a move, pressing and within the roller."""
     deeper = normal[0] * move[0] + normal[1] * move[1] + by_tilt[0] * move[2]
     steeper = by_tilt[1] * move[2]
@@ -207,9 +205,7 @@ def settled(force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any, 
 
 
 @inline
-def balance(
-    lanes: Any, block: Any, place: Any, axis: Any, views: Any, azimuths: Any, loads: Any, p: Any
-) -> Any:
+def balance(lanes, block, place, axis, views, azimuths, loads, p):
     """Take one Newton step of a block of rollers towards balance.
 
     Parameters
@@ -290,7 +286,7 @@ def balance(
 
 
 @inline
-def damper_force(stiffness: Any, rate: Any, damping: Any) -> Any:
+def damper_force(stiffness, rate, damping):
     """Work out the force of a point contact's damper, [N]."""
     if damping is None:
         return 0.0
@@ -298,7 +294,7 @@ def damper_force(stiffness: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def turned_axis(axis: Any, tilt: Any) -> Any:
+def turned_axis(axis, tilt):
     """Turn the roller axis (radial, axial) by a small tilt."""
     square = tilt * tilt
     cosine, sine = 1.0 - 0.5 * square, tilt * (1.0 - square * (1.0 / 6.0))
@@ -309,7 +305,7 @@ def turned_axis(axis: Any, tilt: Any) -> Any:
 
 
 @inline
-def cone_view(lanes: Any, motion: Any, cosine: Any, sine: Any, orbit_rate: Any, side: Any) -> Any:
+def cone_view(lanes, motion, cosine, sine, orbit_rate, side):
     """Turn the cone into the orbit frames: origin, axis, and how both move against these turning frames."""
     zero = lanes.constant(0.0)
     about_x, about_z = motion[3][0], motion[4][0]

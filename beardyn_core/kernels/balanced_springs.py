@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
 from beardyn_core.kernels.laminae import SMALLEST_APPROACH, add_moments, contact_spring
@@ -14,9 +12,7 @@ from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNES
 
 
 @inline
-def lamina_springs(
-    lanes: Any, block: Any, approach: Any, bend: Any, azimuths: Any, laminae: Any, reach: Any, patches: Any
-) -> Any:
+def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches):
     """Sum elastic force with x^0, x^1 and tangent stiffness with x^0, x^1, x^2 over the laminae.
 
     Parameters
@@ -38,9 +34,7 @@ def lamina_springs(
 
 
 @inline
-def _near_or_far(
-    lanes: Any, near: Any, approach: Any, bend: Any, laminae: Any, reach: Any, damage: Any
-) -> Any:
+def _near_or_far(lanes, near, approach, bend, laminae, reach, damage):
     if damage is None:
         return _sound_moments(lanes, approach, bend, laminae, reach)
     if near:
@@ -49,7 +43,7 @@ def _near_or_far(
 
 
 @inline
-def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: Any) -> Any:
+def _sound_moments(lanes, approach, bend, laminae, reach):
     zero = lanes.constant(0.0)
     forces, stiffness = (zero, zero), (zero, zero, zero)
     # where no roller of the block is in contact this look is all
@@ -67,7 +61,7 @@ def _sound_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, reach: An
 
 
 @inline
-def _bend(bend: Any, x: Any) -> Any:
+def _bend(bend, x):
     """Work out the part of the approach that is not affine in the abscissa, [m]."""
     if bend is None:
         return 0.0
@@ -75,7 +69,7 @@ def _bend(bend: Any, x: Any) -> Any:
 
 
 @inline
-def _most_bend(bend: Any, reach: Any) -> Any:
+def _most_bend(bend, reach):
     """Bound of `_bend` along the roller, [m]."""
     if bend is None:
         return 0.0
@@ -83,7 +77,7 @@ def _most_bend(bend: Any, reach: Any) -> Any:
 
 
 @inline
-def _all_factors(approach: Any, bend: Any) -> Any:
+def _all_factors(approach, bend):
     if bend is None:
         zero = 0.0 * approach[0]
         return approach[0], approach[1], zero, zero
@@ -91,7 +85,7 @@ def _all_factors(approach: Any, bend: Any) -> Any:
 
 
 @inline
-def _damaged_moments(lanes: Any, approach: Any, bend: Any, laminae: Any, damage: Any) -> Any:
+def _damaged_moments(lanes, approach, bend, laminae, damage):
     zero = lanes.constant(0.0)
     forces, stiffness = (zero, zero), (zero, zero, zero)
     factors = _all_factors(approach, bend)

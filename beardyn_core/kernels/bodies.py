@@ -7,7 +7,6 @@ velocities half a step later. Tilts are small rotation vectors; the spin about +
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.vectors import add_scaled, subtract
@@ -49,7 +48,7 @@ LOAD_SPEED, LOAD_BOGIE = 6, 7  # after the six components of the load
 
 
 @inline
-def row_of(group: Any, lane: Any, width: Any, rows: Any) -> Any:
+def row_of(group, lane, width, rows):
     """Tell which row's rollers a lane of a group holds."""
     if width == 1:
         return group
@@ -57,7 +56,7 @@ def row_of(group: Any, lane: Any, width: Any, rows: Any) -> Any:
 
 
 @inline
-def drift_bodies(bodies: Any, step: Any) -> None:
+def drift_bodies(bodies, step):
     """Move all bodies along their velocities."""
     for body in range(bodies.shape[0]):
         for i in range(3):
@@ -67,7 +66,7 @@ def drift_bodies(bodies: Any, step: Any) -> None:
 
 
 @inline
-def ring_direction(bodies: Any, body: Any) -> Any:
+def ring_direction(bodies, body):
     """Work out the unit axis of a body that stands along +y without tilt, to second order in the tilt."""
     a, b, c = bodies[body, TILT + X], bodies[body, TILT + Y], bodies[body, TILT + Z]
     x = -c + 0.5 * a * b
@@ -78,33 +77,33 @@ def ring_direction(bodies: Any, body: Any) -> Any:
 
 
 @inline
-def body_vector(bodies: Any, body: Any, field: Any) -> Any:
+def body_vector(bodies, body, field):
     """Take three numbers of a body that stand one after the other."""
     return bodies[body, field], bodies[body, field + 1], bodies[body, field + 2]
 
 
 @inline
-def full_rotation(bodies: Any, body: Any) -> Any:
+def full_rotation(bodies, body):
     """Work out the angular velocity of a body with its spin, [rad/s]."""
     return add_scaled(body_vector(bodies, body, ANGULAR), bodies[body, RATE], ring_direction(bodies, body))
 
 
 @inline
-def _set_polar(rings: Any, ring: Any, field: Any, lane: Any, side: Any, vector: Any) -> None:
+def _set_polar(rings, ring, field, lane, side, vector):
     rings[ring, field, lane] = vector[2]
     rings[ring, field + 1, lane] = vector[0]
     rings[ring, field + 2, lane] = side * vector[1]
 
 
 @inline
-def _set_axial(rings: Any, ring: Any, field: Any, lane: Any, side: Any, vector: Any) -> None:
+def _set_axial(rings, ring, field, lane, side, vector):
     rings[ring, field, lane] = side * vector[2]
     rings[ring, field + 1, lane] = side * vector[0]
     rings[ring, field + 2, lane] = vector[1]
 
 
 @inline
-def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
+def show_rings(bodies, rings, cage_place):
     """Write cup, cone and cages in the row frames of every lane.
 
     Parameters
@@ -137,7 +136,7 @@ def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
 
 
 @inline
-def collect_reactions(sums: Any, wrenches: Any) -> None:
+def collect_reactions(sums, wrenches):
     """Sum the lane reactions into world wrenches [body, 6] about each body's origin."""
     width, rows = sums.shape[3], wrenches.shape[0] - CAGE_BODY
     wrenches[:, :] = 0.0
@@ -157,7 +156,7 @@ def collect_reactions(sums: Any, wrenches: Any) -> None:
 
 
 @inline
-def fall(gravity: Any) -> Any:
+def fall(gravity):
     """Work out the acceleration of free fall, 0 without gravity, [m/s^2]."""
     if gravity is None:
         return 0.0
@@ -165,17 +164,7 @@ def fall(gravity: Any) -> Any:
 
 
 @inline
-def kick_cup(
-    bodies: Any,
-    wrench: Any,
-    load: Any,
-    load_before: Any,
-    energy: Any,
-    box: Any,
-    step: Any,
-    mounting: Any,
-    gravity: Any,
-) -> Any:
+def kick_cup(bodies, wrench, load, load_before, energy, box, step, mounting, gravity):
     """Accelerate the axlebox under rollers, suspension and weight; returns the suspension's energy, [J].
 
     Parameters
@@ -219,7 +208,7 @@ def kick_cup(
 
 
 @inline
-def kick_cone(bodies: Any, wrench: Any, load: Any, energy: Any, step: Any, mounting: Any) -> Any:
+def kick_cone(bodies, wrench, load, energy, step, mounting):
     """Accelerate the journal under rollers, load and axial prop at prescribed spin.
 
     The prop is a spring with a damper between journal and ground along the axle: the other bearing of the
@@ -259,7 +248,7 @@ def kick_cone(bodies: Any, wrench: Any, load: Any, energy: Any, step: Any, mount
 
 
 @inline
-def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+def kick_cages(bodies, wrenches, energy, step, cage, gravity):
     """Accelerate both cages under pocket forces and weight, gyroscopic moment included."""
     for body in range(CAGE_BODY, bodies.shape[0]):
         for i in range(3):
@@ -287,7 +276,7 @@ def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
 
 
 @inline
-def collect_energy(sums: Any, energy: Any, effects: Any, audit: Any) -> None:
+def collect_energy(sums, energy, effects, audit):
     """Add to the audit what the rollers lost in this step and what weight gave them.
 
     Sources of effects that are absent are not summed: 16 lanes one after the other take time.
@@ -306,14 +295,14 @@ def collect_energy(sums: Any, energy: Any, effects: Any, audit: Any) -> None:
 
 
 @inline
-def _collect_loss(sums: Any, energy: Any, source: Any, effect: Any) -> None:
+def _collect_loss(sums, energy, source, effect):
     if effect is None:
         return
     energy[ENERGY_LOST + source] += sum_lanes(sums, WORK_LOST + source)
 
 
 @inline
-def sum_lanes(sums: Any, field: Any) -> Any:
+def sum_lanes(sums, field):
     """Sum of one field over groups and lanes."""
     total = 0.0
     for group in range(sums.shape[0]):
@@ -323,7 +312,7 @@ def sum_lanes(sums: Any, field: Any) -> Any:
 
 
 @inline
-def add_seals(bodies: Any, wrenches: Any, energy: Any, step: Any, seal: Any) -> None:
+def add_seals(bodies, wrenches, energy, step, seal):
     """Add the torque of both seals to shaft and cup, equal and opposite, about the shaft's axis.
 
     Dry friction, smooth through standstill, and a part that grows with speed. Neglects the radial and

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import fall, kick_cages, ring_direction
 from beardyn_core.model.layout import (
@@ -22,7 +20,7 @@ X, Y, Z = 0, 1, 2
 
 
 @inline
-def cage_energy(bodies: Any, cage: Any) -> Any:
+def cage_energy(bodies, cage):
     """Sum the kinetic energy of both cages, without a prescribed spin, [J]."""
     total = 0.0
     if cage is None:
@@ -41,7 +39,7 @@ def cage_energy(bodies: Any, cage: Any) -> Any:
 
 
 @inline
-def place_cages(bodies: Any, cage: Any) -> None:
+def place_cages(bodies, cage):
     """Put cages that follow the rings at the mean of cup and cone; a free cage stays where it is."""
     if cage is None:
         return
@@ -59,7 +57,7 @@ def place_cages(bodies: Any, cage: Any) -> None:
 
 
 @inline
-def pass_on(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+def pass_on(bodies, wrenches, energy, step, cage, gravity):
     """Give what pushes cages that follow the rings, weight included, to cup and cone, half each.
 
     Only the moment about the cage's axis is left to the cage. That is exact: the cage moves with the mean of
@@ -92,7 +90,7 @@ def pass_on(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravi
 
 
 @inline
-def move_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+def move_cages(bodies, wrenches, energy, step, cage, gravity):
     """Accelerate both cages, or set their prescribed speed and book the work that takes."""
     if cage is None:
         return
@@ -106,7 +104,7 @@ def move_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
 
 
 @inline
-def _turn(bodies: Any, body: Any, about: Any, energy: Any, step: Any, cage: Any, kinematic: Any) -> None:
+def _turn(bodies, body, about, energy, step, cage, kinematic):
     if kinematic is None:
         bodies[body, RATE] += step * about / cage.polar_inertia
         return

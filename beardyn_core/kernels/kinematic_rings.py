@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import body_vector
 from beardyn_core.kernels.exchange import store_vector
@@ -24,7 +22,7 @@ STIFFNESS, RESPONSE, WORK = 0, 1, 2  # matrices in the work space
 
 
 @inline
-def add_stiffness(stiff: Any, tangent: Any, cosine: Any, sine: Any) -> Any:
+def add_stiffness(stiff, tangent, cosine, sine):
     """Add a block of rollers to the sums of the tangent stiffness.
 
     Parameters
@@ -48,14 +46,14 @@ def add_stiffness(stiff: Any, tangent: Any, cosine: Any, sine: Any) -> Any:
 
 
 @inline
-def store_stiffness(lanes: Any, sums: Any, stiff: Any) -> None:
+def store_stiffness(lanes, sums, stiff):
     """Keep the sums of `add_stiffness`."""
     store_vector(lanes, sums, 0, STIFF_SUM, stiff)
     store_vector(lanes, sums, 0, STIFF_CC, stiff[3:])
 
 
 @inline
-def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
+def spring_matrix(sums, direction, work, p):
     """Work out the tangent stiffness of all rollers against displacement and tilt of the cone, world axes.
 
     Parameters
@@ -88,7 +86,7 @@ def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
 
 
 @inline
-def hold_response(sums: Any, direction: Any, work: Any, p: Any) -> None:
+def hold_response(sums, direction, work, p):
     """Work out what a relative acceleration of the rings adds to the rollers' wrench, and keep it until due.
 
     Notes
@@ -139,14 +137,14 @@ def hold_response(sums: Any, direction: Any, work: Any, p: Any) -> None:
 
 
 @inline
-def journal_velocity(bodies: Any) -> Any:
+def journal_velocity(bodies):
     """Take the velocity and tilt rate of the journal, 5 floats."""
     x, y, z = body_vector(bodies, CONE_BODY, LINEAR)
     return x, y, z, bodies[CONE_BODY, ANGULAR], bodies[CONE_BODY, ANGULAR + 2]
 
 
 @inline
-def add_response(bodies: Any, before: Any, signal: Any, work: Any, p: Any) -> None:
+def add_response(bodies, before, signal, work, p):
     """Add the wrench of `hold_response` to a step that has been taken without it.
 
     Cup and cone get opposite wrenches. The channels get the dampers' part only: what they say is force and
@@ -184,14 +182,14 @@ def add_response(bodies: Any, before: Any, signal: Any, work: Any, p: Any) -> No
 
 
 @inline
-def _row(work: Any, i: Any, more: Any) -> Any:
+def _row(work, i, more):
     x, y, z, about_x, about_z = more
     linear = work[RESPONSE, i, 0] * x + work[RESPONSE, i, 1] * y + work[RESPONSE, i, 2] * z
     return linear + (work[RESPONSE, i, 3] * about_x + work[RESPONSE, i, 4] * about_z)
 
 
 @inline
-def _push_box(bodies: Any, wrench: Any, signal: Any, share: Any, p: Any, coupling: Any) -> None:
+def _push_box(bodies, wrench, signal, share, p, coupling):
     for i in range(3):
         linear = _box_acceleration(wrench, i, p, coupling)
         angular = _box_acceleration(wrench, 3 + i, p, coupling)
@@ -202,7 +200,7 @@ def _push_box(bodies: Any, wrench: Any, signal: Any, share: Any, p: Any, couplin
 
 
 @inline
-def _box_acceleration(wrench: Any, i: Any, p: Any, coupling: Any) -> Any:
+def _box_acceleration(wrench, i, p, coupling):
     if coupling is None:
         return p.motion.box_push[i] * wrench[i]
     total = 0.0

@@ -6,7 +6,6 @@ Each row is written in its own ring frame, as in the full tier: radial at azimut
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import X, Y, Z
@@ -38,7 +37,7 @@ TORQUE_ROLLING, TORQUE_RIB = REACTION + 6, REACTION + 7
 
 
 @inline
-def relative_motion(bodies: Any, i: Any, place: Any, speed: Any) -> Any:
+def relative_motion(bodies, i, place, speed):
     """Take the motion of the cone against the cup on one world axis: displacement and velocity."""
     return (
         bodies[CONE_BODY, place + i] - bodies[CUP_BODY, place + i],
@@ -47,7 +46,7 @@ def relative_motion(bodies: Any, i: Any, place: Any, speed: Any) -> Any:
 
 
 @inline
-def relative_cone(bodies: Any) -> Any:
+def relative_cone(bodies):
     """Take displacement, velocity, tilt and tilt rate of the cone against the cup; tilts to first order."""
     return (
         relative_motion(bodies, X, POSITION, LINEAR),
@@ -59,7 +58,7 @@ def relative_cone(bodies: Any) -> Any:
 
 
 @inline
-def turned(direction: Any, angle: Any) -> Any:
+def turned(direction, angle):
     """Turn a direction (cosine, sine) by an angle of a few hundredths; the error is below 1e-15 there."""
     square = angle * angle
     cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
@@ -68,14 +67,14 @@ def turned(direction: Any, angle: Any) -> Any:
 
 
 @inline
-def lane_total(sums: Any, field: Any) -> Any:
+def lane_total(sums, field):
     """Sum of a field over the lanes."""
     inner, outer = row_totals(sums, field)
     return inner + outer
 
 
 @inline
-def row_totals(sums: Any, field: Any) -> Any:
+def row_totals(sums, field):
     """Sum of a field over the lanes of each row."""
     half = sums.shape[3] // 2
     inner, outer = 0.0, 0.0
@@ -86,7 +85,7 @@ def row_totals(sums: Any, field: Any) -> Any:
 
 
 @inline
-def cup_wrench(totals: Any, direction: Any, cosine: Any, sine: Any) -> Any:
+def cup_wrench(totals, direction, cosine, sine):
     """Work out world force and moment of the rollers on the cup; no moment about the axis.
 
     Parameters
@@ -109,9 +108,7 @@ def cup_wrench(totals: Any, direction: Any, cosine: Any, sine: Any) -> Any:
 
 
 @inline
-def show_roller(
-    lanes: Any, rollers: Any, block: Any, place: Any, axis: Any, turn: Any, angle: Any, p: Any
-) -> Any:
+def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
     """Write a block of rollers as the full tier keeps them.
 
     Parameters
@@ -140,9 +137,7 @@ def show_roller(
 
 
 @inline
-def show_contacts(
-    lanes: Any, rollers: Any, block: Any, axis: Any, loads: Any, centres: Any, speeds: Any, p: Any
-) -> None:
+def show_contacts(lanes, rollers, block, axis, loads, centres, speeds, p):
     """Write force, place, slip and film of the contacts of a block of rollers.
 
     Parameters
@@ -175,7 +170,7 @@ def show_contacts(
 
 
 @inline
-def show_rib(lanes: Any, rollers: Any, block: Any, axis: Any, load: Any, slip: Any, rib: Any) -> None:
+def show_rib(lanes, rollers, block, axis, load, slip, rib):
     """Write force, place and slip of the rib contacts."""
     if rib is None:
         return

@@ -8,7 +8,6 @@ slowly, and the rib's share follows the sum of the rib loads at every step.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.drag import churning_rate
@@ -22,7 +21,7 @@ _SMALLEST_LOAD = 1e-3
 
 
 @inline
-def rolling_torque(loads: Any, speeds: Any, k: Any, rolling: Any) -> Any:
+def rolling_torque(loads, speeds, k, rolling):
     """Work out the rolling resistance's torque of a block of rollers, along the shaft's rotation, [N m].
 
     References
@@ -38,14 +37,14 @@ def rolling_torque(loads: Any, speeds: Any, k: Any, rolling: Any) -> Any:
 
 
 @inline
-def smooth_lever(lever: Any, speed: Any, floor: Any) -> Any:
+def smooth_lever(lever, speed, floor):
     """Smooth the lever of a couple against a rotation at `lever` times the shaft's speed at standstill."""
     rate = lever * speed
     return lever * rate / math.sqrt(rate * rate + floor * floor)
 
 
 @inline
-def sliding_torque(load: Any, speeds: Any, p: Any, rib: Any) -> Any:
+def sliding_torque(load, speeds, p, rib):
     """Work out the torque of large ends that slide on their ribs, along the shaft's rotation, [N m].
 
     The contact is taken in the roller's meridian plane at its nominal height.
@@ -67,13 +66,13 @@ def sliding_torque(load: Any, speeds: Any, p: Any, rib: Any) -> Any:
 
 
 @inline
-def squared_over(squared: Any, speed: Any) -> Any:
+def squared_over(squared, speed):
     """Divide squared slip by the shaft speed; zero at rest."""
     return squared * (speed / (speed * speed + 1e-12))
 
 
 @inline
-def drag_torque(speeds: Any, k: Any, drag: Any) -> Any:
+def drag_torque(speeds, k, drag):
     """Work out the torque of the drag on all rollers, along the shaft's rotation, [N m]."""
     if drag is None:
         return 0.0
@@ -83,7 +82,7 @@ def drag_torque(speeds: Any, k: Any, drag: Any) -> Any:
 
 
 @inline
-def seal_torque(speed: Any, seal: Any) -> Any:
+def seal_torque(speed, seal):
     """Work out the torque of both seals, along the shaft's rotation, [N m]."""
     if seal is None:
         return 0.0
@@ -92,7 +91,7 @@ def seal_torque(speed: Any, seal: Any) -> Any:
 
 
 @inline
-def held_losses(sums: Any, speeds: Any, rib_load: Any, p: Any) -> Any:
+def held_losses(sums, speeds, rib_load, p):
     """Work out the torque of all but the ribs [N m], and that of the ribs over the sum of their loads [m]."""
     effects, k = p.base.effects, p.kinematic
     steady = drag_torque(speeds, k, effects.drag) + seal_torque(speeds[0], effects.seal)

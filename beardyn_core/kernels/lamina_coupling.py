@@ -6,8 +6,6 @@ number of passes from a fixed start, so that a force depends on the present stat
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
@@ -33,7 +31,7 @@ _NOTHING = 1e-300
 
 
 @inline
-def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
+def couple_laminae(lanes, laminae, coupling):
     """Turn the depths of the laminae in the work space into tangents and energies.
 
     Parameters
@@ -79,14 +77,14 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
 
 
 @inline
-def _moved(lanes: Any, work: Any, lamina: Any, balance: Any) -> Any:
+def _moved(lanes, work, lamina, balance):
     """Work out by how much the others move the surface at a lamina, [m]."""
     surface = at_least(lanes.load(work, DEPTH, lamina), balance)
     return magnitude(surface - lanes.load(work, SURFACE, lamina))
 
 
 @inline
-def _tangent(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
+def _tangent(lanes, coupling, lamina, load):
     """Take ten ninths of the load of a lamina over its penetration, [N/m]."""
     depth = lanes.load(coupling.work, DEPTH, lamina)
     left_behind = at_least(lanes.load(coupling.work, SURFACE, lamina) - depth, 0.0)
@@ -96,7 +94,7 @@ def _tangent(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
 
 
 @inline
-def _sweep(lanes: Any, count: Any, coupling: Any) -> None:
+def _sweep(lanes, count, coupling):
     """Sweep forth and back: a lamina that moves changes those after it at once, so that none waits for a sum.
 
     BALANCE holds on entry what the pressed surfaces ask of every lamina. On the way back it holds what the
@@ -122,7 +120,7 @@ def _sweep(lanes: Any, count: Any, coupling: Any) -> None:
 
 
 @inline
-def _free_laminae(lanes: Any, count: Any, coupling: Any) -> None:
+def _free_laminae(lanes, count, coupling):
     """Take the step of the free laminae under the true law."""
     work = coupling.work
     for j in range(0, count, 2):
@@ -134,7 +132,7 @@ def _free_laminae(lanes: Any, count: Any, coupling: Any) -> None:
 
 
 @inline
-def _freed(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
+def _freed(lanes, coupling, lamina, load):
     """Work out the surface at a lamina after its step, [m]."""
     surface = lanes.load(coupling.work, SURFACE, lamina)
     depth = lanes.load(coupling.work, DEPTH, lamina)
@@ -143,7 +141,7 @@ def _freed(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
 
 
 @inline
-def _products(lanes: Any, matrix: Any, row: Any, other: Any, work: Any, field: Any) -> Any:
+def _products(lanes, matrix, row, other, work, field):
     """Multiply two rows of a matrix by a row of the work space; four sums need not wait on each other."""
     count = matrix.shape[1]
     first, second = lanes.constant(0.0), lanes.constant(0.0)
@@ -162,7 +160,7 @@ def _products(lanes: Any, matrix: Any, row: Any, other: Any, work: Any, field: A
 
 
 @inline
-def _load_springs(lanes: Any, laminae: Any, coupling: Any) -> None:
+def _load_springs(lanes, laminae, coupling):
     """Share of the surface of every lamina's own spring, its secant stiffness and force there."""
     count = laminae.shape[1]
     for j in range(0, count, 2):
@@ -173,7 +171,7 @@ def _load_springs(lanes: Any, laminae: Any, coupling: Any) -> None:
 
 
 @inline
-def _load_spring(lanes: Any, laminae: Any, coupling: Any, lamina: Any, depth: Any) -> None:
+def _load_spring(lanes, laminae, coupling, lamina, depth):
     spring = laminae[LAMINA_STIFFNESS, lamina] * ninth_root(at_least(magnitude(depth), _SMALLEST))
     lanes.store(coupling.work, SPRING, lamina, spring)
     lanes.store(coupling.work, SHARE, lamina, depth)
@@ -181,7 +179,7 @@ def _load_spring(lanes: Any, laminae: Any, coupling: Any, lamina: Any, depth: An
 
 
 @inline
-def _own_tangent(lanes: Any, coupling: Any, lamina: Any) -> Any:
+def _own_tangent(lanes, coupling, lamina):
     """Work out the tangent stiffness of one lamina with the others held, [N/m]."""
     own = (10.0 / 9.0) * coupling.own_stiffness[lamina]
     return own * lanes.load(coupling.work, SPRING, lamina)
@@ -191,7 +189,7 @@ def _own_tangent(lanes: Any, coupling: Any, lamina: Any) -> Any:
 
 
 @inline
-def joint_depth(lanes: Any, depth: Any, lamina: Any, count: Any, damage: Any, exponent: Any) -> Any:
+def joint_depth(lanes, depth, lamina, count, damage, exponent):
     """Work out the depth at which a lamina joins the others, [m].
 
     Parameters
@@ -237,7 +235,7 @@ def joint_depth(lanes: Any, depth: Any, lamina: Any, count: Any, damage: Any, ex
 
 
 @inline
-def joint_share(lanes: Any, lamina: Any, damage: Any) -> Any:
+def joint_share(lanes, lamina, damage):
     """Work out the part of its load that a lamina presses with: slope of its joint depth, [-]."""
     if damage is None:
         return 1.0
@@ -245,7 +243,7 @@ def joint_share(lanes: Any, lamina: Any, damage: Any) -> Any:
 
 
 @inline
-def joint_slopes(lanes: Any, lamina: Any, count: Any, damage: Any) -> Any:
+def joint_slopes(lanes, lamina, count, damage):
     """Work out by how much a lamina gives way with the ring's and the roller's azimuth, [m/rad]."""
     field = SPRING_FIELDS * (count + lamina)
     share = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE)

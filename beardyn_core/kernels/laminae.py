@@ -58,7 +58,7 @@ class Raceway(NamedTuple):
 
 
 @inline
-def lamina_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, near: Any, damage: Any) -> Any:
+def lamina_sums(raceway, line, slip, log2_speed, near, damage):
     """Sum the laminae of one raceway contact to `LaminaSums`; far from every patch a damaged one is sound.
 
     Parameters
@@ -80,7 +80,7 @@ def lamina_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, near: Any, 
 
 
 @inline
-def _sound_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any) -> Any:
+def _sound_sums(raceway, line, slip, log2_speed):
     """Sum a sound contact: a block of rollers of which none touches costs one bound."""
     if may_touch(raceway.lanes, line.approach, raceway.reach):
         return _spring_sums(raceway, line, slip, log2_speed, None)
@@ -90,7 +90,7 @@ def _sound_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any) -> Any:
 
 
 @inline
-def may_touch(lanes: Any, approach: Any, reach: Any) -> Any:
+def may_touch(lanes, approach, reach):
     """Tell whether any lane may penetrate within a reach of the middle; a NaN may, too."""
     slope = magnitude(approach[1]) + reach * (magnitude(approach[2]) + reach * magnitude(approach[3]))
     zero = lanes.constant(0.0)
@@ -98,7 +98,7 @@ def may_touch(lanes: Any, approach: Any, reach: Any) -> Any:
 
 
 @inline
-def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: Any) -> Any:
+def _spring_sums(raceway, line, slip, log2_speed, damage):
     """Sum over the springs in two passes, as short loops keep several laminae in flight."""
     lanes, ring, work, effects = raceway.lanes, raceway.ring, raceway.work, raceway.effects
     laminae, approach = raceway.laminae, line.approach
@@ -146,13 +146,13 @@ def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: An
 
 
 @inline
-def add_moments(sums: Any, value: Any, x: Any) -> Any:
+def add_moments(sums, value, x):
     """Add a value at an abscissa to its sums with x^0, x^1, x^2."""
     return sums[0] + value, sums[1] + value * x, sums[2] + value * (x * x)
 
 
 @inline
-def _spring_push(approach: Any, rate: Any, damping: Any) -> Any:
+def _spring_push(approach, rate, damping):
     """Add 9/10 of the approach (10/9 law) and the damping: tangent stiffness times this is force, [m]."""
     if damping is None:
         return 0.9 * approach
@@ -160,7 +160,7 @@ def _spring_push(approach: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def _release(power: Any, lost: Any, rate: Any, damping: Any, audit: Any) -> Any:
+def _release(power, lost, rate, damping, audit):
     """Add what the damper of one spring takes where the contact opens faster than the spring follows, [W].
 
     A contact does not pull: the spring then expands against its own damper, and its energy ends there. What
@@ -174,7 +174,7 @@ def _release(power: Any, lost: Any, rate: Any, damping: Any, audit: Any) -> Any:
 
 
 @inline
-def _deepest_so_far(deepest: Any, share: Any, depth: Any, damage: Any) -> Any:
+def _deepest_so_far(deepest, share, depth, damage):
     """Take the larger penetration of springs near a patch; a sound contact is measured at its middle, [m]."""
     if damage is None:
         return deepest
@@ -182,7 +182,7 @@ def _deepest_so_far(deepest: Any, share: Any, depth: Any, damage: Any) -> Any:
 
 
 @inline
-def _geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
+def _geometric_depth(approach, gap, k, laminae):
     """Work out the penetration of one lamina or spring, negative when apart, [m]."""
     x = laminae[LAMINA_PLACE, k]
     return (
@@ -191,7 +191,7 @@ def _geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
 
 
 @inline
-def _prepare_coupling(lanes: Any, approach: Any, laminae: Any, damage: Any, coupling: Any) -> None:
+def _prepare_coupling(lanes, approach, laminae, damage, coupling):
     """Load the springs of coupled laminae all at once; one over the edge of a patch joins as one."""
     if coupling is None:
         return
@@ -203,7 +203,7 @@ def _prepare_coupling(lanes: Any, approach: Any, laminae: Any, damage: Any, coup
 
 
 @inline
-def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any, coupling: Any) -> Any:
+def contact_spring(lanes, approach, k, laminae, damage, coupling):
     """Load one spring of a raceway contact.
 
     Parameters
@@ -233,7 +233,7 @@ def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any,
 
 
 @inline
-def _share_of(lanes: Any, k: Any, damage: Any, coupling: Any) -> Any:
+def _share_of(lanes, k, damage, coupling):
     """Take the share of its lamina of a spring, [-]."""
     if coupling is None:
         return spring_damage(lanes, k, damage)[0]
@@ -241,7 +241,7 @@ def _share_of(lanes: Any, k: Any, damage: Any, coupling: Any) -> Any:
 
 
 @inline
-def _add_lean(lanes: Any, lean: Any, elastic: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
+def _add_lean(lanes, lean, elastic, k, count, damage, coupling):
     """Add elastic force times slope of a spring's gap over the azimuth in ring and roller, [N m/rad]."""
     if damage is None:
         return lean
@@ -250,7 +250,7 @@ def _add_lean(lanes: Any, lean: Any, elastic: Any, k: Any, count: Any, damage: A
 
 
 @inline
-def _slopes_of(lanes: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
+def _slopes_of(lanes, k, count, damage, coupling):
     """Take by how much a spring gives way with the azimuth in ring and in roller, [m/rad]."""
     if coupling is None:
         return spring_slopes(lanes, k, damage)

@@ -6,7 +6,6 @@ Scalar and in world axes, once per cage and step.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import body_vector, full_rotation, ring_direction
@@ -17,7 +16,7 @@ _SMALLEST = 1e-30
 
 
 @inline
-def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, land: Any) -> Any:
+def short_bearing(eccentricity, velocity, axis, speed_sum, land):
     """Work out the film force on the inner or outer body of a short journal bearing against its eccentricity.
 
     Half-Sommerfeld film: seen from a frame that turns at half the sum of the two speeds it is a pure damper,
@@ -68,7 +67,7 @@ def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, l
 
 
 @inline
-def land_twist(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
+def land_twist(bodies, body, lift, land):
     """Work out the velocity of a cage against its guiding ring at the cage's origin, and angular velocity."""
     ring = int(land.body)
     cage_omega, ring_omega = full_rotation(bodies, body), full_rotation(bodies, ring)
@@ -79,7 +78,7 @@ def land_twist(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
 
 
 @inline
-def land_contact(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
+def land_contact(bodies, body, lift, land):
     """Work out the wrench of the guiding ring on one cage about the cage's origin.
 
     Parameters
@@ -142,12 +141,12 @@ def land_contact(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
 
 
 @inline
-def _across(vector: Any, axis: Any) -> Any:
+def _across(vector, axis):
     return add_scaled(vector, -dot(vector, axis), axis)
 
 
 @inline
-def _push(bodies: Any, wrenches: Any, body: Any, cage: Any, land: Any) -> Any:
+def _push(bodies, wrenches, body, cage, land):
     if body >= bodies.shape[0]:  # the cage of a row that is not there
         return _nothing()
     lift = cage.place if body > CAGE_BODY else -cage.place
@@ -164,7 +163,7 @@ def _push(bodies: Any, wrenches: Any, body: Any, cage: Any, land: Any) -> Any:
 
 
 @inline
-def land_of(cage: Any) -> Any:
+def land_of(cage):
     """Take the land of a cage, ``None`` where there is none."""
     if cage is None:
         return None
@@ -172,7 +171,7 @@ def land_of(cage: Any) -> Any:
 
 
 @inline
-def push_lands(bodies: Any, wrenches: Any, cage: Any, land: Any) -> Any:
+def push_lands(bodies, wrenches, cage, land):
     """Add the wrenches of both lands to cages and rings; without lands zeros, which nothing uses."""
     if land is None:
         return _nothing(), _nothing()
@@ -183,13 +182,13 @@ def push_lands(bodies: Any, wrenches: Any, cage: Any, land: Any) -> Any:
 
 
 @inline
-def _nothing() -> Any:
+def _nothing():
     zero = (0.0, 0.0, 0.0)
     return zero, zero, (zero, zero), 0.0
 
 
 @inline
-def settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any, land: Any) -> Any:
+def settle_lands(bodies, pushed, energy, step, cage, land):
     """Account for what the lands lost at the middle of the step, and return their elastic energy, [J]."""
     if land is None:
         return 0.0
@@ -201,7 +200,7 @@ def settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any, la
 
 
 @inline
-def _power(bodies: Any, pushed: Any, body: Any, cage: Any, land: Any) -> Any:
+def _power(bodies, pushed, body, cage, land):
     if body >= bodies.shape[0]:
         return 0.0
     lift = cage.place if body > CAGE_BODY else -cage.place

@@ -59,14 +59,14 @@ class View(NamedTuple):
 
 
 @inline
-def angular_velocity(momentum: Any, axis: Any, roller: Any) -> Any:
+def angular_velocity(momentum, axis, roller):
     """Work out the angular velocity of a body of revolution from its angular momentum, [rad/s]."""
     extra = dot(momentum, axis) * (1.0 / roller.axial_inertia - 1.0 / roller.transverse_inertia)
     return add_scaled(scale(1.0 / roller.transverse_inertia, momentum), extra, axis)
 
 
 @inline
-def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: Any, roller: Any) -> Any:
+def drift(lanes, rollers, block, reference_velocity, step, roller):
     """Move one block of rollers along its velocities and turn the orbit frames with it.
 
     Parameters
@@ -125,7 +125,7 @@ def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: A
 
 
 @inline
-def ring_view(lanes: Any, rings: Any, ring: Any, cosine: Any, sine: Any) -> Any:
+def ring_view(lanes, rings, ring, cosine, sine):
     """Turn a ring into the orbit frames of a block of rollers: a `View`."""
     return View(
         turn_in(load_vector(lanes, rings, ring, RING_ORIGIN), cosine, sine),
@@ -136,7 +136,7 @@ def ring_view(lanes: Any, rings: Any, ring: Any, cosine: Any, sine: Any) -> Any:
 
 
 @inline
-def entrainment_speed(line: Any, centre: Any, body: Any, view: Any) -> Any:
+def entrainment_speed(line, centre, body, view):
     """Work out the mean surface speed of roller and ring against their contact point, [m/s].
 
     Around the ring, at mid-length; the contact point orbits with the roller.
@@ -150,7 +150,7 @@ def entrainment_speed(line: Any, centre: Any, body: Any, view: Any) -> Any:
 
 
 @inline
-def weight(cosine: Any, sine: Any, mass: Any, gravity: Any) -> Any:
+def weight(cosine, sine, mass, gravity):
     """Turn the weight of a roller into its orbit frame, [N]."""
     if gravity is None:
         return 0.0 * cosine, 0.0 * cosine, 0.0 * cosine

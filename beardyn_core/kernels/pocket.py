@@ -83,9 +83,7 @@ class Wall(NamedTuple):
 
 
 @inline
-def prepare_pocket(
-    lanes: Any, rings: Any, block: Any, body: Any, orbit: Any, pockets: Any, p: Any, cage: Any
-) -> Any:
+def prepare_pocket(lanes, rings, block, body, orbit, pockets, p, cage):
     """Work out the pocket contact of one block before the solve, a `PocketContact`; zeros without a cage.
 
     Parameters
@@ -108,7 +106,7 @@ def prepare_pocket(
 
 
 @inline
-def _touch(pocket: Any, roller: Any, cage: Any, rotating: Any, kinematic: Any) -> Any:
+def _touch(pocket, roller, cage, rotating, kinematic):
     if kinematic is not None:
         return kinematic_pocket(pocket, cage, kinematic)
     if rotating is not None:
@@ -117,7 +115,7 @@ def _touch(pocket: Any, roller: Any, cage: Any, rotating: Any, kinematic: Any) -
 
 
 @inline
-def push_pocket(total: Any, contact: Any, cage: Any) -> Any:
+def push_pocket(total, contact, cage):
     """Add the pocket's wrench to that of the roller."""
     if cage is None:
         return total
@@ -125,7 +123,7 @@ def push_pocket(total: Any, contact: Any, cage: Any) -> Any:
 
 
 @inline
-def settle_pocket(contact: Any, change: Any, here: Any, cage: Any, p: Any) -> None:
+def settle_pocket(contact, change, here, cage, p):
     """Write reaction, output and audit of the pocket contact, which is explicit.
 
     The loss is taken at the middle of a step that changes the roller's velocities.
@@ -145,7 +143,7 @@ def settle_pocket(contact: Any, change: Any, here: Any, cage: Any, p: Any) -> No
 
 
 @inline
-def free_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
+def free_pocket(pocket, roller, cage):
     """Work out the force of a free cage on the roller, and what it loses, as a `PocketContact`.
 
     Disc against plane at two abscissae of both bars, and end against plane at both pocket ends: linear
@@ -214,7 +212,7 @@ def free_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
 
 
 @inline
-def rotating_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
+def rotating_pocket(pocket, roller, cage):
     """Work out the contact with the nearer bar at both ends of the roller; as `free_pocket`.
 
     Without play there is no nearer bar; the side a roller is on then pushes it back, as both bars would.
@@ -246,7 +244,7 @@ def rotating_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
 
 
 @inline
-def kinematic_pocket(pocket: Any, cage: Any, kinematic: Any) -> Any:
+def kinematic_pocket(pocket, cage, kinematic):
     """Hold the roller's axis at its pocket's place by two weak springs with dampers, without play.
 
     They hold the skew too.
@@ -262,7 +260,7 @@ def kinematic_pocket(pocket: Any, cage: Any, kinematic: Any) -> Any:
 
 
 @inline
-def _along_pitch_circle(pocket: Any) -> Any:
+def _along_pitch_circle(pocket):
     """Take the direction of growing azimuth at the pocket; offset [m] and skew of the roller along it."""
     cosine, sine = cos_sin(pocket.advance)
     ahead = (sine, cosine, 0.0 * sine)
@@ -271,9 +269,7 @@ def _along_pitch_circle(pocket: Any) -> Any:
 
 
 @inline
-def _pair_slip_squared(
-    centre: Any, small_arm: Any, large_arm: Any, motion: Any, small_force: Any, both_force: Any
-) -> Any:
+def _pair_slip_squared(centre, small_arm, large_arm, motion, small_force, both_force):
     """Square the slip at the large end where more than half of the force is there, else at the small end."""
     large_force = subtract(both_force, small_force)
     small_slip, large_slip = _wall_slip(centre, small_arm, motion), _wall_slip(centre, large_arm, motion)
@@ -286,13 +282,13 @@ def _pair_slip_squared(
 
 
 @inline
-def _slip_squared(centre: Any, arm: Any, motion: Any) -> Any:
+def _slip_squared(centre, arm, motion):
     slip = _wall_slip(centre, arm, motion)
     return dot(slip, slip)
 
 
 @inline
-def _wall_slip(centre: Any, arm: Any, motion: Any) -> Any:
+def _wall_slip(centre, arm, motion):
     """Work out the velocity of the roller against the cage at a point, [m/s]."""
     velocity, omega, cage_velocity, cage_omega = motion
     return subtract(
@@ -304,14 +300,14 @@ def _wall_slip(centre: Any, arm: Any, motion: Any) -> Any:
 
 
 @inline
-def _untouched(zero: Any) -> Any:
+def _untouched(zero):
     """Make sums over no walls from a zero, or a NaN, which stays one."""
     nothing = (zero, zero, zero)
     return Walls(nothing, nothing, zero, zero, nothing, nothing)
 
 
 @inline
-def _add_touch(walls: Any, arm: Any, slip: Any, force: Any, lost: Any, energy: Any) -> Any:
+def _add_touch(walls, arm, slip, force, lost, energy):
     """Add one wall to the sums over the walls of a pocket."""
     return Walls(
         add(walls.force, force),
@@ -324,7 +320,7 @@ def _add_touch(walls: Any, arm: Any, slip: Any, force: Any, lost: Any, energy: A
 
 
 @inline
-def _touch_wall(walls: Any, wall: Any, motion: Any, cage: Any, shape: Any, film: Any) -> Any:
+def _touch_wall(walls, wall, motion, cage, shape, film):
     """Add one wall to the sums: a spring-damper with friction; one that no roller reaches costs nothing.
 
     ``shape`` is the roller's axis and its radius at the wall, for the film if there is one.
@@ -338,7 +334,7 @@ def _touch_wall(walls: Any, wall: Any, motion: Any, cage: Any, shape: Any, film:
 
 
 @inline
-def _is_reached(depth: Any, film: Any) -> Any:
+def _is_reached(depth, film):
     """Tell whether the wall acts on any lane; a film acts within the thickness of its layer."""
     if film is None:
         return any_positive(depth)
@@ -346,9 +342,7 @@ def _is_reached(depth: Any, film: Any) -> Any:
 
 
 @inline
-def _press_wall(
-    walls: Any, arm: Any, slip: Any, direction: Any, depth: Any, cage: Any, shape: Any, film: Any
-) -> Any:
+def _press_wall(walls, arm, slip, direction, depth, cage, shape, film):
     inside = at_least(depth, 0.0)
     rate = dot(slip, direction)
     spring = cage.stiffness * inside
@@ -363,9 +357,7 @@ def _press_wall(
 
 
 @inline
-def pocket_loads(
-    depth: Any, pressed: Any, rate: Any, slip: Any, direction: Any, shape: Any, film: Any
-) -> Any:
+def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
     """Split the load of a wall into that of its film, that which rubs solid on solid, and viscous friction.
 
     An isoviscous film between rigid faces carries the bar until the gap has closed to `film.thinnest`, where
@@ -420,7 +412,7 @@ def pocket_loads(
 
 
 @inline
-def _hold(walls: Any, centre: Any, arm: Any, direction: Any, offset: Any, motion: Any, kinematic: Any) -> Any:
+def _hold(walls, centre, arm, direction, offset, motion, kinematic):
     """Add one spring-damper that pulls as well as it pushes."""
     slip = _wall_slip(centre, arm, motion)
     damper = kinematic.damping * dot(slip, direction)

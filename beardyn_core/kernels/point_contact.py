@@ -47,20 +47,20 @@ class PointContact(NamedTuple):
 
 
 @inline
-def absent_point(zero: Any) -> Any:
+def absent_point(zero):
     """Make a `PointContact` of zeros, for a rib that is absent and that nothing uses."""
     nothing = (zero, zero, zero)
     return PointContact(nothing, nothing, nothing, zero, zero, zero, zero, zero, nothing, zero, zero, zero)
 
 
 @inline
-def is_pressed(contact: Any) -> Any:
+def is_pressed(contact):
     """Tell whether a point contact of any roller of the block is pressed; a NaN is, too."""
     return any_positive(where_greater(_NOTHING, contact.elastic, 0.0, 1.0))
 
 
 @inline
-def stiffen_point(matrix: Any, contact: Any, damping: Any, drilling: Any, p: Any) -> Any:
+def stiffen_point(matrix, contact, damping, drilling, p):
     """Add the implicit part of a pressed point contact to the roller's matrix."""
     rough = p.step * contact.friction
     matrix = add_point_everywhere(matrix, contact.arm, rough)
@@ -70,14 +70,14 @@ def stiffen_point(matrix: Any, contact: Any, damping: Any, drilling: Any, p: Any
 
 
 @inline
-def _resist_spin(matrix: Any, contact: Any, step: Any, drilling: Any) -> Any:
+def _resist_spin(matrix, contact, step, drilling):
     if drilling is None:
         return matrix
     return add_couple(matrix, contact.normal, step * contact.drilling)
 
 
 @inline
-def push_point(contact: Any, drilling: Any) -> Any:
+def push_point(contact, drilling):
     """Work out the wrench on the roller from the velocities at the beginning of the step."""
     normal, slip = contact.normal, contact.slip
     tangential = add_scaled(slip, -dot(slip, normal), normal)
@@ -86,7 +86,7 @@ def push_point(contact: Any, drilling: Any) -> Any:
 
 
 @inline
-def _drilled(moment: Any, contact: Any, spin: Any, drilling: Any) -> Any:
+def _drilled(moment, contact, spin, drilling):
     """Add the moment of the friction against the spin about the normal."""
     if drilling is None:
         return moment
@@ -94,7 +94,7 @@ def _drilled(moment: Any, contact: Any, spin: Any, drilling: Any) -> Any:
 
 
 @inline
-def _drilling_loss(contact: Any, d_spin: Any, drilling: Any) -> Any:
+def _drilling_loss(contact, d_spin, drilling):
     """Work out the power of the friction against the spin, and of its implicit step, [W]."""
     if drilling is None:
         return 0.0, 0.0
@@ -103,9 +103,7 @@ def _drilling_loss(contact: Any, d_spin: Any, drilling: Any) -> Any:
 
 
 @inline
-def settle_point(
-    contact: Any, change: Any, here: Any, source: Any, time_constant: Any, drilling: Any, p: Any
-) -> Any:
+def settle_point(contact, change, here, source, time_constant, drilling, p):
     """Settle a point contact with the cone after the solve: reaction and audit.
 
     Parameters
@@ -158,7 +156,7 @@ def settle_point(
 
 
 @inline
-def prepare_small_rib(body: Any, view: Any, zero: Any, rib: Any) -> Any:
+def prepare_small_rib(body, view, zero, rib):
     """Work out the small-rib contact before the solve; without one zeros, which nothing uses."""
     if rib is None:
         return absent_point(zero)
@@ -166,7 +164,7 @@ def prepare_small_rib(body: Any, view: Any, zero: Any, rib: Any) -> Any:
 
 
 @inline
-def small_rib_contact(centre: Any, body: Any, view: Any, rib: Any) -> Any:
+def small_rib_contact(centre, body, view, rib):
     """Work out the force of the small rib on the roller: plane on circle, closed form.
 
     Adds the stop that holds a roller when the load is away. The rib bears on a circle at half its height;
@@ -198,7 +196,7 @@ def small_rib_contact(centre: Any, body: Any, view: Any, rib: Any) -> Any:
 
 
 @inline
-def stiffen_small_rib(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
+def stiffen_small_rib(matrix, contact, rib, p):
     """Add the implicit part of the small-rib contact to the roller's matrix."""
     if rib is None:
         return matrix
@@ -208,7 +206,7 @@ def stiffen_small_rib(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
 
 
 @inline
-def push_small_rib(total: Any, contact: Any, rib: Any) -> Any:
+def push_small_rib(total, contact, rib):
     """Add the small rib's wrench at the beginning of the step to that of the roller."""
     if rib is None:
         return total
@@ -218,7 +216,7 @@ def push_small_rib(total: Any, contact: Any, rib: Any) -> Any:
 
 
 @inline
-def settle_small_rib(contact: Any, change: Any, total: Any, here: Any, rib: Any, p: Any) -> Any:
+def settle_small_rib(contact, change, total, here, rib, p):
     """Settle the small-rib contact after the solve and add its wrench to the roller's."""
     if rib is None:
         return total

@@ -78,9 +78,7 @@ class Settled(NamedTuple):
 
 
 @inline
-def prepare_raceway(
-    lanes: Any, block: Any, ring: Any, body: Any, oversize: Any, azimuths: Any, p: Any
-) -> Any:
+def prepare_raceway(lanes, block, ring, body, oversize, azimuths, p):
     """Work out everything that one raceway contact needs before the solve: a `RacewayContact`.
 
     Parameters
@@ -107,7 +105,7 @@ def prepare_raceway(
 
 
 @inline
-def stiffen_raceway(matrix: Any, contact: Any, p: Any) -> Any:
+def stiffen_raceway(matrix, contact, p):
     """Add the implicit part of one raceway contact to the roller's matrix."""
     if not contact.sums.touches:
         return matrix
@@ -121,7 +119,7 @@ def stiffen_raceway(matrix: Any, contact: Any, p: Any) -> Any:
 
 
 @inline
-def push_raceway(contact: Any, damping: Any) -> Any:
+def push_raceway(contact, damping):
     """Work out the wrench on the roller from the velocities at the beginning of the step."""
     slip, sums = contact.slip, contact.sums
     normal = _normal_sums(sums.force, sums.stiffness, slip.rate, damping)
@@ -130,7 +128,7 @@ def push_raceway(contact: Any, damping: Any) -> Any:
 
 
 @inline
-def _normal_sums(elastic: Any, stiffness: Any, rate: Any, damping: Any) -> Any:
+def _normal_sums(elastic, stiffness, rate, damping):
     """Add the damping to the elastic normal force with x^0, x^1, x^2, [N m^k]."""
     if damping is None:
         return elastic
@@ -143,7 +141,7 @@ def _normal_sums(elastic: Any, stiffness: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def settle_raceway(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> Any:
+def settle_raceway(ring, contact, change, here, p):
     """Settle one raceway contact after the solve: reaction, output and audit.
 
     Parameters
@@ -172,7 +170,7 @@ def settle_raceway(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> A
 
 
 @inline
-def _react(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> Any:
+def _react(ring, contact, change, here, p):
     """Add reaction and audit; wrench, normal force and friction after the solve, zeros without touch."""
     if not contact.sums.touches:
         zero = here.lanes.constant(0.0)
@@ -187,7 +185,7 @@ def _react(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> Any:
 
 
 @inline
-def settled_contact(contact: Any, change: Any, step: Any, spring_time: Any, damping: Any) -> Any:
+def settled_contact(contact, change, step, spring_time, damping):
     """Work out the wrench on the roller that the step ends with, and its energy terms: a `Settled`.
 
     Friction is that of the end of the step, contact damping that of its middle, and the spring takes in a
@@ -224,7 +222,7 @@ def settled_contact(contact: Any, change: Any, step: Any, spring_time: Any, damp
 
 
 @inline
-def _damping_loss(sums: Any, rate: Any, damping: Any) -> Any:
+def _damping_loss(sums, rate, damping):
     """Work out the power of the contact damping at a rate of approach, [W]."""
     if damping is None:
         return 0.0
@@ -232,12 +230,12 @@ def _damping_loss(sums: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def faults_of_cup(faults: Any) -> Any:
+def faults_of_cup(faults):
     """Take the faults that a contact with the cup meets: `RingFaults`."""
     return RingFaults(faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves)
 
 
 @inline
-def faults_of_cone(faults: Any) -> Any:
+def faults_of_cone(faults):
     """Take the faults that a contact with the cone meets: `RingFaults`."""
     return RingFaults(faults.cone, faults.roller, faults.cone_damage, faults.cone_waves, faults.roller_waves)

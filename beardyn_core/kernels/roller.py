@@ -11,8 +11,6 @@ the beginning instead (`velocity_change`).
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
 from beardyn_core.kernels.exchange import Here, account_gravity, load_vector, store_vector
@@ -60,7 +58,7 @@ _PI = 3.141592653589793
 
 
 @inline
-def velocity_change(matrix: Any, right: Any, zero: Any, explicit: Any) -> Any:
+def velocity_change(matrix, right, zero, explicit):
     """Solve for the change of velocity and angular velocity that the contacts are settled with.
 
     With the explicit step it is zero: every contact keeps the force it has at the beginning of the step, on
@@ -74,7 +72,7 @@ def velocity_change(matrix: Any, right: Any, zero: Any, explicit: Any) -> Any:
 
 
 @inline
-def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, flex: Any, p: Any) -> None:
+def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     """Advance one block of rollers by one step and add what it does to the rings.
 
     Parameters

@@ -26,7 +26,7 @@ class RollingContact(NamedTuple):
 
 
 @inline
-def rolling_couple(load: Any, speed: Any, ring: Any, rolling: Any) -> Any:
+def rolling_couple(load, speed, ring, rolling):
     """Work out the couple of one raceway contact against rolling, [N m].
 
     Hydrodynamic couple of the inlet, reduced by its heating and by its supply, plus elastic hysteresis. The
@@ -55,14 +55,14 @@ def rolling_couple(load: Any, speed: Any, ring: Any, rolling: Any) -> Any:
 
 
 @inline
-def _power_law(log2_load: Any, log2_speed: Any, ring: Any, law: Any) -> Any:
+def _power_law(log2_load, log2_speed, ring, law):
     if law is None:
         return 0.0
     return exp2(law.log2_couple[ring] + law.speed_exponent * log2_speed + law.load_exponent * log2_load)
 
 
 @inline
-def _biboulet_houpert(log2_load: Any, log2_speed: Any, ring: Any, law: Any) -> Any:
+def _biboulet_houpert(log2_load, log2_speed, ring, law):
     if law is None:
         return 0.0
     rigid = law.log2_rigid[ring] + 0.5 * (log2_speed + log2_load)
@@ -71,7 +71,7 @@ def _biboulet_houpert(log2_load: Any, log2_speed: Any, ring: Any, law: Any) -> A
 
 
 @inline
-def _thermal_reduction(log2_speed: Any, thermal: Any) -> Any:
+def _thermal_reduction(log2_speed, thermal):
     if thermal is None:
         return 1.0
     loading = thermal.log2_loading + 2.0 * log2_speed
@@ -79,14 +79,14 @@ def _thermal_reduction(log2_speed: Any, thermal: Any) -> Any:
 
 
 @inline
-def _hysteresis(load: Any, ring: Any, hysteresis: Any) -> Any:
+def _hysteresis(load, ring, hysteresis):
     if hysteresis is None:
         return 0.0
     return hysteresis.couple[ring] * load * sqrt(load)
 
 
 @inline
-def prepare_rolling(contact: Any, ring: Any, view: Any, body: Any, rolling: Any) -> Any:
+def prepare_rolling(contact, ring, view, body, rolling):
     """Work out the `RollingContact` of one raceway; without the effect zeros, which nothing uses."""
     line, load = contact.line, contact.sums.force[0]
     if rolling is None:
@@ -101,7 +101,7 @@ def prepare_rolling(contact: Any, ring: Any, view: Any, body: Any, rolling: Any)
 
 
 @inline
-def stiffen_rolling(matrix: Any, contact: Any, step: Any, rolling: Any) -> Any:
+def stiffen_rolling(matrix, contact, step, rolling):
     """Add the implicit part of the rolling resistance to the roller's matrix."""
     if rolling is None:
         return matrix
@@ -109,7 +109,7 @@ def stiffen_rolling(matrix: Any, contact: Any, step: Any, rolling: Any) -> Any:
 
 
 @inline
-def push_rolling(moment: Any, contact: Any, rolling: Any) -> Any:
+def push_rolling(moment, contact, rolling):
     """Add the couple at the beginning of the step to a moment."""
     if rolling is None:
         return moment
@@ -117,7 +117,7 @@ def push_rolling(moment: Any, contact: Any, rolling: Any) -> Any:
 
 
 @inline
-def settle_rolling(ring: Any, contact: Any, change: Any, total: Any, here: Any, rolling: Any, p: Any) -> Any:
+def settle_rolling(ring, contact, change, total, here, rolling, p):
     """Settle the couple after the solve: on roller and ring alike, with its loss."""
     if rolling is None:
         return total

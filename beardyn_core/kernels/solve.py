@@ -6,14 +6,12 @@ are three velocities and three angular velocities.
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.vectors import Twist, add_scaled, cross, scale
 
 
 @inline
-def inertia_matrix(mass: Any, axial: Any, transverse: Any, axis: Any, zero: Any) -> Any:
+def inertia_matrix(mass, axial, transverse, axis, zero):
     """Fill the matrix with mass and inertia of a body of revolution with unit axis `axis`."""
     d = axial - transverse
     x, y, z = axis
@@ -29,7 +27,7 @@ def inertia_matrix(mass: Any, axial: Any, transverse: Any, axis: Any, zero: Any)
 
 
 @inline
-def add_line(matrix: Any, direction: Any, arm: Any, arm_slope: Any, weights: Any) -> Any:
+def add_line(matrix, direction, arm, arm_slope, weights):
     """Add contacts along a line that resist the velocity in one direction.
 
     Parameters
@@ -49,7 +47,7 @@ def add_line(matrix: Any, direction: Any, arm: Any, arm_slope: Any, weights: Any
 
 
 @inline
-def add_point(matrix: Any, direction: Any, arm: Any, weight: Any) -> Any:
+def add_point(matrix, direction, arm, weight):
     """Add one contact that resists the velocity in one direction; arguments as in `add_line`."""
     p = cross(arm, direction)
     force, b = scale(weight, direction), scale(weight, p)
@@ -67,7 +65,7 @@ def add_point(matrix: Any, direction: Any, arm: Any, weight: Any) -> Any:
 
 
 @inline
-def add_line_everywhere(matrix: Any, arm: Any, arm_slope: Any, weights: Any) -> Any:
+def add_line_everywhere(matrix, arm, arm_slope, weights):
     """Add contacts along a line that resist the velocity in every direction; arguments as in `add_line`.
 
     The sum of `add_line` over three orthogonal directions: with r = arm + x arm_slope the force block is
@@ -80,14 +78,14 @@ def add_line_everywhere(matrix: Any, arm: Any, arm_slope: Any, weights: Any) -> 
 
 
 @inline
-def add_point_everywhere(matrix: Any, arm: Any, weight: Any) -> Any:
+def add_point_everywhere(matrix, arm, weight):
     """Add one contact that resists the velocity in every direction; arguments as in `add_line`."""
     nothing = (0.0, 0.0, 0.0)
     return _add_everywhere(matrix, weight, scale(weight, arm), arm, nothing, nothing)
 
 
 @inline
-def _add_everywhere(m: Any, weight: Any, u: Any, a: Any, v: Any, s: Any) -> Any:
+def _add_everywhere(m, weight, u, a, v, s):
     xx = u[0] * a[0] + v[0] * s[0]
     yy = u[1] * a[1] + v[1] * s[1]
     zz = u[2] * a[2] + v[2] * s[2]
@@ -103,7 +101,7 @@ def _add_everywhere(m: Any, weight: Any, u: Any, a: Any, v: Any, s: Any) -> Any:
 
 
 @inline
-def add_couple(matrix: Any, direction: Any, weight: Any) -> Any:
+def add_couple(matrix, direction, weight):
     """Add a rotary damper about one direction; `weight` is its coefficient times the step."""
     m = matrix
     x, y, z = direction
@@ -116,7 +114,7 @@ def add_couple(matrix: Any, direction: Any, weight: Any) -> Any:
 
 
 @inline
-def _add_blocks(m: Any, d: Any, force: Any, b: Any, p: Any, c: Any, r: Any) -> Any:
+def _add_blocks(m, d, force, b, p, c, r):
     return (
         m[0] + force[0] * d[0],
         m[1] + force[1] * d[0], m[2] + force[1] * d[1],
@@ -131,7 +129,7 @@ def _add_blocks(m: Any, d: Any, force: Any, b: Any, p: Any, c: Any, r: Any) -> A
 
 
 @inline
-def solve(matrix: Any, right: Any) -> Any:
+def solve(matrix, right):
     """Solve the symmetric positive definite 6x6 system by L D L^T: the `Twist` that changes the motion."""
     (
         a00, a10, a11, a20, a21, a22, a30, a31, a32, a33, a40,

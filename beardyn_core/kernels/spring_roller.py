@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
 from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
@@ -39,7 +37,7 @@ _PI = 3.141592653589793
 
 
 @inline
-def spring_load(approach: Any, rate: Any, spring: Any, damping: Any) -> Any:
+def spring_load(approach, rate, spring, damping):
     """Work out the cup load of a roller that is pressed by cup and cone, never pulling, [N].
 
     Parameters
@@ -64,7 +62,7 @@ def spring_load(approach: Any, rate: Any, spring: Any, damping: Any) -> Any:
 
 
 @inline
-def _series(root: Any, series: Any) -> Any:
+def _series(root, series):
     square = root * root
     low = series[0] + root * series[1]
     middle = series[2] + root * series[3]
@@ -74,7 +72,7 @@ def _series(root: Any, series: Any) -> Any:
 
 
 @inline
-def _push(pressed: Any, rate: Any, damping: Any) -> Any:
+def _push(pressed, rate, damping):
     """Take the approach that stands for spring and damper of a 10/9 law, [m]."""
     if damping is None:
         return pressed
@@ -82,9 +80,7 @@ def _push(pressed: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def faulted_load(
-    lanes: Any, block: Any, approach: Any, rate: Any, angle: Any, turns: Any, faults: Any, p: Any
-) -> Any:
+def faulted_load(lanes, block, approach, rate, angle, turns, faults, p):
     """Work out the cup load with the gaps of faults; without faults as `spring_load`.
 
     The laminae of a roller see different gaps. They are taken as two parts of it, one with the gap g and
@@ -120,7 +116,7 @@ def faulted_load(
 
 
 @inline
-def approach_waves(lanes: Any, motion: Any, direction: Any, p: Any) -> Any:
+def approach_waves(lanes, motion, direction, p):
     """Write approach and rate of the rows as affine functions of cosine and sine of the pocket angle.
 
     Returns
@@ -135,7 +131,7 @@ def approach_waves(lanes: Any, motion: Any, direction: Any, p: Any) -> Any:
 
 
 @inline
-def _wave(side: Any, x: Any, y: Any, z: Any, about_x: Any, about_z: Any, direction: Any, p: Any) -> Any:
+def _wave(side, x, y, z, about_x, about_z, direction, p):
     cosine, lever = p.base.cup.cosine, p.spring.lever
     along_z = side * (lever * about_x) + cosine * z
     along_x = side * (-lever * about_z) + cosine * x
@@ -147,17 +143,7 @@ def _wave(side: Any, x: Any, y: Any, z: Any, about_x: Any, about_z: Any, directi
 
 
 @inline
-def load_rollers(
-    lanes: Any,
-    rollers: Any,
-    sums: Any,
-    motion: Any,
-    direction: Any,
-    turns: Any,
-    speeds: Any,
-    trend: Any,
-    p: Any,
-) -> None:
+def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, p):
     """Load all rollers and sum their loads by row.
 
     Parameters
@@ -203,9 +189,7 @@ def load_rollers(
 
 
 @inline
-def torque_and_stiffness(
-    lanes: Any, blocks: Any, sums: Any, motion: Any, direction: Any, speeds: Any, trend: Any, p: Any
-) -> None:
+def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, p):
     """Sum by row what is held for a while, after `load_rollers`, with the same arguments.
 
     Parameters
@@ -239,7 +223,7 @@ def torque_and_stiffness(
 
 
 @inline
-def cup_cone_rib(load: Any, speeds: Any, p: Any) -> Any:
+def cup_cone_rib(load, speeds, p):
     """Work out cup, cone and rib load of rollers from the cup load, [N]."""
     spring = p.spring
     cone = spring.cone_share * (load - idle_load(speeds[1], p))
@@ -248,19 +232,19 @@ def cup_cone_rib(load: Any, speeds: Any, p: Any) -> Any:
 
 
 @inline
-def centrifugal_force(cage_speed: Any, p: Any) -> Any:
+def centrifugal_force(cage_speed, p):
     """Work out the centrifugal force of a roller, [N]."""
     return p.kinematic.centrifugal * cage_speed * cage_speed
 
 
 @inline
-def idle_load(cage_speed: Any, p: Any) -> Any:
+def idle_load(cage_speed, p):
     """Work out the cup load of a roller that the cone does not press, [N]."""
     return p.spring.idle * centrifugal_force(cage_speed, p)
 
 
 @inline
-def sum_rollers(sums: Any, speeds: Any, p: Any) -> Any:
+def sum_rollers(sums, speeds, p):
     """Sum the loads as `cup_wrench` takes them, and the rib loads, from what `load_rollers` stored."""
     spring = p.spring
     cosine, sine = row_totals(sums, LOAD_COSINE), row_totals(sums, LOAD_SINE)
@@ -278,7 +262,7 @@ def sum_rollers(sums: Any, speeds: Any, p: Any) -> Any:
 
 
 @inline
-def show_springs(lanes: Any, rollers: Any, trend: Any, p: Any) -> None:
+def show_springs(lanes, rollers, trend, p):
     """Write all rollers and their contacts as the full tier keeps them; see `show_roller`.
 
     Parameters

@@ -93,7 +93,7 @@ def _overload_mark(timers, stage, _result):
 
 
 @inline
-def time_step(timers: Any, step: Any) -> None:
+def time_step(timers, step):
     """Begin a step: decide whether it is timed.
 
     Parameters
@@ -116,7 +116,7 @@ def time_step(timers: Any, step: Any) -> None:
 
 
 @inline
-def mark(timers: Any, stage: Any) -> None:
+def mark(timers, stage):
     """End a stage: what passed since the last mark is its.
 
     Parameters
@@ -132,7 +132,7 @@ def mark(timers: Any, stage: Any) -> None:
 
 
 @inline
-def mark_result(timers: Any, stage: Any, result: Any) -> None:
+def mark_result(timers, stage, result):
     """End a stage so short that the compiler would mix it with the next one; see `mark`.
 
     Parameters

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.generator_line import Line
 from beardyn_core.kernels.lane_math import floor, magnitude
@@ -14,7 +12,7 @@ _PER_TURN = 0.15915494309189535
 
 
 @inline
-def wave_gap(lanes: Any, block: Any, azimuth: Any, waves: Any) -> Any:
+def wave_gap(lanes, block, azimuth, waves):
     """Look up the gap of one surface's waviness [m] and its slope over the azimuth [m/rad].
 
     Parameters
@@ -39,7 +37,7 @@ def wave_gap(lanes: Any, block: Any, azimuth: Any, waves: Any) -> Any:
 
 
 @inline
-def shift_line(line: Any, gap: Any) -> Any:
+def shift_line(line, gap):
     """Take a gap off the approach of a contact line."""
     a = line.approach
     approach = (a[0] - gap, a[1], a[2], a[3])
@@ -47,9 +45,7 @@ def shift_line(line: Any, gap: Any) -> Any:
 
 
 @inline
-def lean_wrench(
-    lanes: Any, body: Any, sums: Any, climbs: Any, damage: Any, waves: Any, roller_waves: Any
-) -> Any:
+def lean_wrench(lanes, body, sums, climbs, damage, waves, roller_waves):
     """Work out the `Wrench` on the roller where the normal leans with a sloping gap.
 
     The elastic energy depends on the gap and the gap on the azimuths of the roller's orbit and spin: the
@@ -79,6 +75,6 @@ def lean_wrench(
 
 
 @inline
-def add_leaning(wrench: Any, lean: Any) -> Any:
+def add_leaning(wrench, lean):
     """Add the wrench of sloping gaps to that of a contact."""
     return add_wrenches(wrench, lean)
