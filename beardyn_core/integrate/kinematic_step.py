@@ -54,17 +54,7 @@ def cage_direction(bodies):
 
 @inline
 def begin_step(bodies, direction, p):
-    """Move all bodies and the rollers with the cages.
-
-    Returns
-    -------
-    direction : tuple of 2 floats
-        Cosine and sine of the cages' angle.
-    turns : tuple of 3 floats
-        Angle of cages and cone, and of the rollers in their pockets, [rad].
-    speeds : tuple of 2 floats
-        Of shaft and cages, [rad/s].
-    """
+    """Move all bodies, and the rollers with the cages; returns ``direction``, ``turns`` and ``speeds``."""
     direction = turned(direction, p.step * bodies[CAGE_BODY, RATE])
     for body in range(CAGE_BODY):
         for i in range(3):
@@ -81,18 +71,9 @@ def begin_step(bodies, direction, p):
 def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy, p):
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
-    Parameters
-    ----------
-    bodies : float64 array, shape [2 + row, BODY_STATES]
-        Changed.
-    wrenches, box : float64 arrays, shape [2 + row, 6] and [12]
-        Work space.
-    load_before, load : float64 array, shape [10]
-        Load row at the beginning and at the end of the step.
-    signal : float64 array, shape [SIGNAL_CHANNELS]
-        Written.
-    energy : float64 array, shape [ENERGY_TERMS]
-        Not kept by these tiers; a coupled box adds to it.
+    ``bodies`` [2 + row, BODY_STATES]: changed; ``wrenches`` [2 + row, 6], ``box`` [12]: work space;
+    ``load_before``, ``load`` [10]: rows at the beginning and at the end of the step; ``signal``
+    [SIGNAL_CHANNELS]: written; ``energy``: not kept by these tiers, but a coupled box adds to it.
 
     Notes
     -----

@@ -64,16 +64,9 @@ def pressed_tangent(load, tangent):
 def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due, shown, p):
     """Move all rollers one Newton step towards balance and sum their loads by row.
 
-    Parameters
-    ----------
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Places and axes changed in place; everything else written when `shown`.
-    sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Written: ``LOAD_COSINE`` and following.
-    due : bool
-        Whether to work out the torque of the contacts.
-    shown : bool
-        Whether to write what a block of channels shows.
+    ``rollers`` [block, ROLLER_FIELDS, lane]: places and axes changed in place; everything else written when
+    `shown`; ``sums`` [1, SUM_FIELDS, lane]: written: ``LOAD_COSINE`` and following; ``due``: whether to work
+    out the torque of the contacts; ``shown``: whether to write what a block of channels shows.
     """
     k = p.kinematic
     orbit_squared = speeds[1] * speeds[1]

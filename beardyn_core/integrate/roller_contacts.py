@@ -94,28 +94,9 @@ def contact_model(
     rows: int = ROW_COUNT,
     missing: Sequence[tuple[int, int]] = (),
 ) -> ContactModel:
-    """Gather the constants of the contacts.
+    """Gather the constants of the contacts; arguments as of `static.solve`.
 
-    Parameters
-    ----------
-    end_play : float
-        Total axial travel, negative for preload, [m].
-    laminae : int
-        Laminae of each raceway contact.
-    speed : float
-        Shaft speed, [rad/s].
-    roller_phase : float
-        Azimuth of roller 0, [rad].
-    coupling : LaminaCoupling or None
-        Coupling of the laminae.
-    oversize : float64 array, shape [row, roller], optional
-        Radius error of each roller, [m].
-    modes : int
-        Bending modes of the cup, with 2, 3, ... waves.
-    rows : int
-        2, or 1 for row 0 alone.
-    missing : sequence of pairs of int
-        Row and roller of those that are not there.
+    ``modes``: bending modes of the cup, with 2, 3, ... waves.
     """
     error = np.zeros((rows, bearing.roller_count)) if oversize is None else oversize[:rows]
     azimuth = roller_phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count

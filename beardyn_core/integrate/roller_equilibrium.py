@@ -55,10 +55,7 @@ class RollerState:
 def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> RollerState:
     """Find the equilibrium of all rollers.
 
-    Parameters
-    ----------
-    guess : float64 array or None, shape [row, roller, 3]
-        Positions to start from where they have a lower energy than the position of a free roller.
+    Positions of a ``guess`` [row, roller, 3] are where those start that have a lower energy there than free.
     """
     solver = _Rollers(model, pose)
     touching = _on_cup_and_rib(model, pose)

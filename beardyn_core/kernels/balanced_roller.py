@@ -25,19 +25,9 @@ _LONGEST_MOVE = 2.0e-5
 def cup_line(place, axis, radius, cup, roller):
     """Work out the contact line on the cup of a roller without skew: exact and affine in the abscissa.
 
-    Parameters
-    ----------
-    radius : lane value
-        Of the roller at its centre of mass, [m].
-
-    Returns
-    -------
-    approach : tuple of 2 lane values
-        Affine in the abscissa, [m].
-    by_tilt : tuple of 2 lane values
-        Change of the approach with tilt, affine in the abscissa, [m/rad].
-    lever : tuple of 2 lane values
-        Arm of the contact normal about the bearing centre, affine in the abscissa, [m].
+    ``radius``: of the roller at its centre of mass [m]. Returns ``approach`` (2 numbers): affine in the
+    abscissa [m]; ``by_tilt`` (2 numbers): change of the approach with tilt, affine in the abscissa [m/rad];
+    ``lever`` (2 numbers): arm of the contact normal about the bearing centre, affine in the abscissa [m].
     """
     sine, cosine = axis[0], axis[1]
     radial, axial = place[0] + radius * cosine, place[1] - radius * sine
@@ -73,11 +63,7 @@ def cone_line(centre, axis, ring_axis, radius, raceway, roller):
     One pass of the closed form, and series in place of roots: the direction of the force is good to first
     order in the displacement of the cone, the gap to second order, 0.1 nm at 0.1 mm.
 
-    Returns
-    -------
-    arm, arm_slope, normal : vector
-    approach : tuple of 4 lane values
-        As from `generator_line`.
+    Returns ``arm``, ``arm_slope``, ``normal``; ``approach`` (4 numbers): as from `generator_line`.
     """
     from_apex = add_scaled(centre, -roller.apex, ring_axis)
     outward, inverse = short_direction(add_scaled(from_apex, -dot(from_apex, ring_axis), ring_axis))
@@ -208,28 +194,12 @@ def settled(force, stiffness, normal, by_tilt, factor, move, reach):
 def balance(lanes, block, place, axis, views, azimuths, loads, p):
     """Take one Newton step of a block of rollers towards balance.
 
-    Parameters
-    ----------
-    views : tuple of 4 vectors
-        Origin and axis of the cone, velocity of its origin and angular velocity, in the orbit frame and
-        against it.
-    azimuths : tuple of 3 lane values
-        On cup and cone, and of the roller in its pocket, [rad].
-    loads : tuple of 2 floats
-        Centrifugal force and gyroscopic moment, [N], [N m].
-
-    Returns
-    -------
-    move : tuple of 3 lane values
-        Radially, axially, in tilt, [m], [m], [rad].
-    cup, cone : tuples of 2 lane values
-        Load and its first moment along the roller, [N], [N m].
-    rib : lane value
-        [N].
-    lever : tuple of 2 lane values
-        Arm of the cup's load about the bearing centre, affine in the abscissa, [m].
-    deepest : lane value
-        Approach on the cup at the centre of mass, [m].
+    ``views`` (4 vectors): origin and axis of the cone, velocity of its origin and angular velocity, in the
+    orbit frame and against it; ``azimuths`` (3 numbers): on cup and cone, and of the roller in its pocket
+    [rad]; ``loads`` (2 numbers): centrifugal force and gyroscopic moment [N], [N m]. Returns ``move`` (3
+    numbers): radially, axially, in tilt [m], [m], [rad]; ``cup``, ``cone`` (2 numbers): load and its first
+    moment along the roller [N], [N m]; ``rib``: [N]; ``lever`` (2 numbers): arm of the cup's load about the
+    bearing centre, affine in the abscissa [m]; ``deepest``: approach on the cup at the centre of mass [m].
     """
     base, effects = p.base, p.base.effects
     roller, faults, zero = base.roller, effects.faults, lanes.constant(0.0)

@@ -15,14 +15,8 @@ from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNES
 def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches):
     """Sum elastic force with x^0, x^1 and tangent stiffness with x^0, x^1, x^2 over the laminae.
 
-    Parameters
-    ----------
-    approach : tuple of 2 lane values
-        Factors of x^0 and x^1 in the approach, [m].
-    bend : tuple of 2 lane values or None
-        Factors of x^2 and x^3.
-    reach : float
-        Half length of the roller, [m].
+    ``approach`` (2 numbers): factors of x^0 and x^1 in the approach [m]; ``bend`` (2 numbers): factors of x^2
+    and x^3; ``reach``: half length of the roller [m].
 
     References
     ----------

@@ -167,14 +167,9 @@ def fall(gravity):
 def kick_cup(bodies, wrench, load, load_before, energy, box, step, mounting, gravity):
     """Accelerate the axlebox under rollers, suspension and weight; returns the suspension's energy, [J].
 
-    Parameters
-    ----------
-    wrench : float64 array, shape [6]
-        Of the rollers on the cup, [N, N m].
-    load, load_before : float64 array
-        Load row at the end and at the beginning of the step; bogie displacement from `LOAD_BOGIE`.
-    box : float64 array, shape [6]
-        Written: acceleration of the box, linear and angular.
+    ``wrench`` [6]: of the rollers on the cup [N, N m]; ``load``, ``load_before``: load row at the end and at
+    the beginning of the step; bogie displacement from `LOAD_BOGIE`; ``box`` [6]: written: acceleration of the
+    box, linear and angular.
     """
     stored = 0.0
     if mounting.cup_moves == 0.0:

@@ -57,12 +57,7 @@ def any_near(lanes, block, azimuth, surface):
 def find_damage(lanes, block, azimuths, count, surfaces, damage):
     """Tell whether a contact is near a patch, and then work out the gaps of its springs.
 
-    Parameters
-    ----------
-    count : int
-        Laminae.
-    surfaces : tuple of 2 SurfaceParams or None
-        Of ring and roller.
+    ``count``: of laminae; ``surfaces``: `SurfaceParams` of ring and roller, or ``None``.
 
     Notes
     -----

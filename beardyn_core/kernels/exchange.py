@@ -85,12 +85,8 @@ def accumulate_vector(here, field, vector):
 def react(ring, centre, wrench, here):
     """Add the reaction of one contact to its ring: force and moment about the ring's origin.
 
-    Parameters
-    ----------
-    ring : int
-        ``CUP``, ``CONE`` or, for the cage, ``CAGE_BODY``.
-    wrench : Wrench
-        On the roller, about its centre of mass.
+    ``ring``: ``CUP``, ``CONE`` or, for the cage, ``CAGE_BODY``; ``wrench``: on the roller, about its centre
+    of mass.
 
     Notes
     -----
@@ -142,11 +138,7 @@ def account_gravity(here, work, audit):
 def output_contact(lanes, rollers, block, kind, output):
     """Write what the last step says of one contact of a block of rollers.
 
-    Parameters
-    ----------
-    kind : int
-        ``CUP``, ``CONE``, ``RIB`` or ``POCKET``.
-    output : ContactOutput
+    ``kind``: ``CUP``, ``CONE``, ``RIB`` or ``POCKET``.
     """
     first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS
     store_vector(lanes, rollers, block, first + OUTPUT_FORCE, output.force)
@@ -162,10 +154,7 @@ def watch_chatter(here, ring, friction, capacity):
     What flips is its second difference, less half of what it has moved over both steps: a strike that the
     steps resolve moves more than it bends.
 
-    Parameters
-    ----------
-    friction, capacity : lane value
-        Friction of the step, and at full slip in the dry limit, [N].
+    ``friction``, ``capacity``: of the step, and at full slip in the dry limit [N].
     """
     lanes, rollers, block = here.lanes, here.rollers, here.block
     first = CHATTER + ring * CHATTER_FIELDS

@@ -14,12 +14,8 @@ _LOG2_THICKEST_RIGID_FILM = -13.287712379549449  # 0.1 mm, where an unloaded rol
 def log2_entrainment(speed, film):
     """Work out what the film needs of the entrainment speed, once per contact.
 
-    Returns
-    -------
-    speed_part : lane value
-        Speed part of the film thickness with the heating of the inlet, [log2 (m/s)^exponent].
-    log2_rolling : lane value
-        The speed itself, not below 1 mm/s, [log2 m/s].
+    Returns ``speed_part``: speed part of the film thickness with the heating of the inlet [log2
+    (m/s)^exponent]; ``log2_rolling``: the speed itself, not below 1 mm/s [log2 m/s].
     """
     log2_rolling = log2(magnitude(speed) + 1e-3)
     if film is None:

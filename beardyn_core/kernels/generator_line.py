@@ -139,12 +139,9 @@ def power(weights, a, b):
 def line_wrench(line, normal_force, around_force, along_force):
     """Add up the force on the roller and its moment about the centre of mass: a `Wrench`.
 
-    Parameters
-    ----------
-    normal_force : tuple of 3 lane values
-        Sums of the normal force with x^0, x^1, x^2, pressing positive, [N m^k].
-    around_force, along_force : tuple of 2 lane values
-        Sums of the friction against the slip with x^0, x^1, [N m^k].
+    ``normal_force`` (3 numbers): sums of the normal force with x^0, x^1, x^2, pressing positive [N m^k];
+    ``around_force``, ``along_force`` (2 numbers): sums of the friction against the slip with x^0, x^1 [N
+    m^k].
     """
     around_0 = around_force[0] + line.bend * normal_force[1]
     around_1 = around_force[1] + line.bend * normal_force[2]

@@ -25,14 +25,8 @@ STIFFNESS, RESPONSE, WORK = 0, 1, 2  # matrices in the work space
 def add_stiffness(stiff, tangent, cosine, sine):
     """Add a block of rollers to the sums of the tangent stiffness.
 
-    Parameters
-    ----------
-    stiff : tuple of 6 lane values
-        Sums so far; zeros at first.
-    tangent : lane value
-        Of the rollers along the cup's normal, 0 for those that carry nothing, [N/m].
-    cosine, sine : lane value
-        Of the pocket angle.
+    ``stiff`` (6 numbers): sums so far; zeros at first; ``tangent``: of the rollers along the cup's normal, 0
+    for those that carry nothing [N/m]; ``cosine``, ``sine``: of the pocket angle.
     """
     with_c, with_s = tangent * cosine, tangent * sine
     return (
@@ -56,12 +50,8 @@ def store_stiffness(lanes, sums, stiff):
 def spring_matrix(sums, direction, work, p):
     """Work out the tangent stiffness of all rollers against displacement and tilt of the cone, world axes.
 
-    Parameters
-    ----------
-    sums : float64 array, shape [1, 1, SUM_FIELDS, lane]
-        With what `store_stiffness` has stored.
-    work : float64 array, shape [3, 13, lane]
-        Written: the matrix of x, y, z, tilt about x and about z at ``STIFFNESS``.
+    ``sums`` [1, 1, SUM_FIELDS, lane]: with what `store_stiffness` has stored; ``work`` [3, 13, lane]
+    gets the matrix of x, y, z, tilt about x and about z at ``STIFFNESS``.
     """
     for i in range(5):
         for j in range(5):

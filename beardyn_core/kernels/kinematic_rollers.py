@@ -88,13 +88,9 @@ def row_totals(sums, field):
 def cup_wrench(totals, direction, cosine, sine):
     """Work out world force and moment of the rollers on the cup; no moment about the axis.
 
-    Parameters
-    ----------
-    totals : tuple of 5 floats
-        Sums of the rollers' loads along the cup's normal in the cages' frame: load times cosine and sine,
-        load times side, moment times side, cosine and sine.
-    cosine, sine : float
-        Of the cup angle.
+    ``totals`` (5 numbers): sums of the rollers' loads along the cup's normal in the cages' frame: load times
+    cosine and sine, load times side, moment times side, cosine and sine; ``cosine``, ``sine``: of the cup
+    angle.
     """
     load_c, load_s, load_a, moment_c, moment_s = totals
     return (
@@ -111,10 +107,7 @@ def cup_wrench(totals, direction, cosine, sine):
 def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
     """Write a block of rollers as the full tier keeps them.
 
-    Parameters
-    ----------
-    turn : tuple of 2 floats
-        Angle and speed of the cages, [rad], [rad/s].
+    ``turn`` (2 numbers): angle and speed of the cages [rad], [rad/s].
     """
     zero = lanes.constant(0.0)
     k, roller = p.kinematic, p.base.roller
@@ -140,10 +133,7 @@ def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
 def show_contacts(lanes, rollers, block, axis, loads, centres, speeds, p):
     """Write force, place, slip and film of the contacts of a block of rollers.
 
-    Parameters
-    ----------
-    centres : tuple of 2 lane values
-        Pressure centres on cup and cone, from the centre of mass along the axis, [m].
+    ``centres`` (2 numbers): pressure centres on cup and cone, from the centre of mass along the axis [m].
     """
     zero = lanes.constant(0.0)
     k, roller, film, laminae = p.kinematic, p.base.roller, p.base.effects.film, p.base.laminae

@@ -34,11 +34,8 @@ _NOTHING = 1e-300
 def couple_laminae(lanes, laminae, coupling):
     """Turn the depths of the laminae in the work space into tangents and energies.
 
-    Parameters
-    ----------
-    coupling : CouplingParams
-        Row DEPTH of its work space holds the geometric penetrations, [m]. Written: SURFACE, the tangent of
-        each lamina as ten ninths of its load over its penetration, [N/m], and FORCE, its energy, [J].
+    ``coupling``: row DEPTH of its work space holds the geometric penetrations, [m]. Written: SURFACE, the
+    tangent of each lamina as ten ninths of its load over its penetration, [N/m], and FORCE, its energy [J].
 
     Notes
     -----
@@ -192,16 +189,10 @@ def _own_tangent(lanes, coupling, lamina):
 def joint_depth(lanes, depth, lamina, count, damage, exponent):
     """Work out the depth at which a lamina joins the others, [m].
 
-    Parameters
-    ----------
-    depth : lane value
-        Of its sound part, [m].
-    lamina, count : int
-    damage : DamageParams or None
-        Springs of the contact from `find_damage`. The share of the sound part becomes the slope of the joint
-        depth, with which the lamina presses; that of the damaged part how far it gives way with the gap.
-    exponent : float
-        Of the part that stands higher, [-].
+    ``depth``: of its sound part [m]; ``damage``: springs of the contact from
+    `find_damage`. The share of the sound part becomes the slope of the joint depth, with which the lamina
+    presses; that of the damaged part how far it gives way with the gap; ``exponent``: of the part that stands
+    higher [-].
     """
     if damage is None:
         return depth

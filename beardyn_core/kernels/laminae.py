@@ -61,12 +61,8 @@ class Raceway(NamedTuple):
 def lamina_sums(raceway, line, slip, log2_speed, near, damage):
     """Sum the laminae of one raceway contact to `LaminaSums`; far from every patch a damaged one is sound.
 
-    Parameters
-    ----------
-    log2_speed : tuple of 2 lane values
-        From `film.log2_entrainment`.
-    near : bool
-        Whether any roller of the block is near a patch, from `defect.find_damage`.
+    ``log2_speed`` (2 numbers): from `film.log2_entrainment`; ``near``: whether any roller of the block is
+    near a patch, from `defect.find_damage`.
 
     References
     ----------
@@ -206,19 +202,9 @@ def _prepare_coupling(lanes, approach, laminae, damage, coupling):
 def contact_spring(lanes, approach, k, laminae, damage, coupling):
     """Load one spring of a raceway contact.
 
-    Parameters
-    ----------
-    approach : tuple of 4 lane values
-        As in `Line`, [m].
-    k : int
-        The spring.
-    laminae : float64 array, shape [LAMINA_ROWS, spring]
-
-    Returns
-    -------
-    share, depth, tangent, energy : lane value
-        Share of its lamina [-], by which force, stiffness and damping of the contact are multiplied,
-        penetration [m], tangent stiffness [N/m], energy [J].
+    ``approach`` (4 numbers): as in `Line` [m]; ``k``: the spring; ``laminae``: of its springs. Returns
+    ``share``, ``depth``, ``tangent``, ``energy``: share of its lamina [-], by which force, stiffness and
+    damping of the contact are multiplied, penetration [m], tangent stiffness [N/m], energy [J].
     """
     if coupling is None:
         share, gap = spring_damage(lanes, k, damage)

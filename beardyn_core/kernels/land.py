@@ -23,21 +23,9 @@ def short_bearing(eccentricity, velocity, axis, speed_sum, land):
     so it never makes energy but lets a cage whirl. The thickness in the formulas is bounded
     (`most_eccentric`); neglects tilt, starvation, and that an opening film would cavitate.
 
-    Parameters
-    ----------
-    eccentricity, velocity : vector
-        Of the axis of this body from the other's, across it, [m], [m/s].
-    axis : vector
-        Unit axis.
-    speed_sum : float
-        Sum of both angular speeds, [rad/s].
-
-    Returns
-    -------
-    force : vector
-        On the body whose eccentricity is given, [N].
-    ratio : float
-        Bounded eccentricity over clearance.
+    ``eccentricity``, ``velocity``: of the axis of this body from the other's, across it [m], [m/s]; ``axis``:
+    unit axis; ``speed_sum``: sum of both angular speeds [rad/s]. Returns ``force``: on the body whose
+    eccentricity is given [N]; ``ratio``: bounded eccentricity over clearance.
 
     References
     ----------
@@ -81,21 +69,9 @@ def land_twist(bodies, body, lift, land):
 def land_contact(bodies, body, lift, land):
     """Work out the wrench of the guiding ring on one cage about the cage's origin.
 
-    Parameters
-    ----------
-    body : int
-        Of the cage.
-    lift : float
-        Place of the cage at rest from the bearing centre along +y, [m].
-
-    Returns
-    -------
-    force, moment : vector
-        [N], [N m].
-    lost_force, lost_moment : vector
-        Without the elastic part.
-    energy : float
-        Elastic energy of the edges, [J].
+    ``body``: of the cage; ``lift``: place of the cage at rest from the bearing centre along +y [m]. Returns
+    ``force``, ``moment`` [N], [N m]; ``lost_force``, ``lost_moment``: without the elastic part; ``energy``:
+    elastic energy of the edges [J].
     """
     ring = int(land.body)
     axis, ring_axis = ring_direction(bodies, body), ring_direction(bodies, ring)

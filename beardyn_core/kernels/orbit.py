@@ -69,18 +69,9 @@ def angular_velocity(momentum, axis, roller):
 def drift(lanes, rollers, block, reference_velocity, step, roller):
     """Move one block of rollers along its velocities and turn the orbit frames with it.
 
-    Parameters
-    ----------
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Read; the rotation about the own axis is written.
-    reference_velocity : vector
-        Of the cup's origin, in its ring frame, [m/s].
-
-    Returns
-    -------
-    Orbit
-        Velocity and momentum stand in the frame half way through the turn, where a steady orbit has no
-        radial velocity.
+    ``rollers`` [block, ROLLER_FIELDS, lane]: read; the rotation about the own axis is written;
+    ``reference_velocity``: of the cup's origin, in its ring frame [m/s]. Velocity and momentum of the `Orbit`
+    stand in the frame half way through the turn, where a steady orbit has no radial velocity.
     """
     radius = lanes.load(rollers, block, RADIUS)
     azimuth = lanes.load(rollers, block, ANGLE)

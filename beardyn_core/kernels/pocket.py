@@ -86,11 +86,7 @@ class Wall(NamedTuple):
 def prepare_pocket(lanes, rings, block, body, orbit, pockets, p, cage):
     """Work out the pocket contact of one block before the solve, a `PocketContact`; zeros without a cage.
 
-    Parameters
-    ----------
-    pockets : float64 array or None, shape [block, 1, lane]
-        Half of the added clearance of worn pockets, [m].
-    p : Parameters
+    ``pockets`` [block, 1, lane] (or ``None``): half of the added clearance of worn pockets [m].
     """
     if cage is None:
         zero = lanes.constant(0.0)
@@ -365,27 +361,11 @@ def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
     adds to the load and opening takes from it, down to zero: the film cavitates instead of pulling. A gap
     wider than the lubricant's layer is not bridged. Neglects side leakage and the heating of the film.
 
-    Parameters
-    ----------
-    depth : lane value
-        Approach beyond touching, negative for a gap, [m].
-    pressed : lane value
-        Spring and damper of the dry wall, [N].
-    rate : lane value
-        Speed of approach, [m/s].
-    slip : vector
-        Of the roller's surface against the bar, [m/s].
-    direction : vector
-        Normal of the wall, towards it.
-    shape : tuple of vector and lane value
-        Axis of the roller, and its radius here, [m].
-
-    Returns
-    -------
-    load, solid : lane value
-        [N].
-    shear : lane value
-        Friction force of the film over slip, [N s/m].
+    ``depth``: approach beyond touching, negative for a gap [m]; ``pressed``: spring and damper of the dry
+    wall [N]; ``rate``: speed of approach [m/s]; ``slip``: of the roller's surface against the bar [m/s];
+    ``direction``: normal of the wall, towards it; ``shape``: axis of the
+    roller, and its radius here [m]. Returns ``load``, ``solid`` [N]; ``shear``: friction force of the film
+    over slip [N s/m].
 
     References
     ----------

@@ -106,20 +106,9 @@ def _drilling_loss(contact, d_spin, drilling):
 def settle_point(contact, change, here, source, time_constant, drilling, p):
     """Settle a point contact with the cone after the solve: reaction and audit.
 
-    Parameters
-    ----------
-    source : int
-        Which loss the friction counts as.
-    time_constant : float
-        Damping over stiffness, [s].
-    drilling : RibDrillingParams or None
-        Whether the contact resists the spin about its normal.
-    p : Parameters
-
-    Returns
-    -------
-    Wrench
-        On the roller that the step ends with.
+    ``source``: which loss the friction counts as; ``time_constant``: damping over stiffness [s];
+    ``drilling``: whether the contact resists the spin about its normal. Returns the `Wrench` on the
+    roller that the step ends with.
     """
     if not is_pressed(contact):
         still = 0.0 * contact.elastic

@@ -79,12 +79,7 @@ class Settled(NamedTuple):
 
 @inline
 def prepare_raceway(lanes, block, ring, body, oversize, azimuths, p):
-    """Work out everything that one raceway contact needs before the solve: a `RacewayContact`.
-
-    Parameters
-    ----------
-    p : Parameters
-    """
+    """Work out everything that one raceway contact needs before the solve: a `RacewayContact`."""
     faults, view = ring.faults, ring.ring_view
     centre = subtract(body.place, view.origin)
     ring_wave, ring_climb = wave_gap(lanes, block, azimuths[0], faults.waves)
@@ -144,14 +139,7 @@ def _normal_sums(elastic, stiffness, rate, damping):
 def settle_raceway(ring, contact, change, here, p):
     """Settle one raceway contact after the solve: reaction, output and audit.
 
-    Parameters
-    ----------
-    p : Parameters
-
-    Returns
-    -------
-    Wrench
-        On the roller that the step ends with.
+    Returns the `Wrench` on the roller that the step ends with.
     """
     lanes, line, slip = here.lanes, contact.line, contact.slip
     wrench, normal, friction = _react(ring, contact, change, here, p)

@@ -27,12 +27,8 @@ PLACE, SPEED = 0, 1
 def bent_cup(lanes, flex, view, cosine, sine, flexibility):
     """Bend the cup as each roller sees it.
 
-    Returns
-    -------
-    view : View
-        With the origin and the velocity of the piece of raceway at the roller.
-    shift : vector
-        By how much the origin moved, [m].
+    Returns ``view``: with the origin and the velocity of the piece of raceway at the roller;
+    ``shift``: by how much the origin moved [m].
 
     Notes
     -----
@@ -73,10 +69,7 @@ def about_rigid_cup(contact, shift, flexibility):
 def bend_cup(force, here, modes, flexibility):
     """Add the work that the rollers' reaction does on a unit of each amplitude to the sums.
 
-    Parameters
-    ----------
-    force : vector
-        Of the cup on the roller, [N].
+    ``force``: of the cup on the roller [N].
     """
     if flexibility is None:
         return

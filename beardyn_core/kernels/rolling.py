@@ -33,12 +33,7 @@ def rolling_couple(load, speed, ring, rolling):
     load is spread evenly along the roller. Speeds below 1 mm/s are treated as 1 mm/s; below 1 N the
     hydrodynamic couple falls linearly to zero.
 
-    Parameters
-    ----------
-    load : lane value
-        Elastic load of the contact, [N].
-    speed : lane value
-        Entrainment speed, [m/s].
+    ``load``: elastic load of the contact [N]; ``speed``: entrainment speed [m/s].
 
     References
     ----------

@@ -30,14 +30,9 @@ def inertia_matrix(mass, axial, transverse, axis, zero):
 def add_line(matrix, direction, arm, arm_slope, weights):
     """Add contacts along a line that resist the velocity in one direction.
 
-    Parameters
-    ----------
-    direction : vector
-        Unit direction of the resistance.
-    arm, arm_slope : vector
-        Contact at abscissa x from the centre of mass: ``arm + x arm_slope``.
-    weights : tuple of 3 lane values
-        Sums of the resistance with x^0, x^1, x^2, [N s/m], times the step.
+    ``direction``: unit direction of the resistance; ``arm``, ``arm_slope``: contact at abscissa x from the
+    centre of mass: ``arm + x arm_slope``; ``weights`` (3 numbers): sums of the resistance with x^0, x^1, x^2,
+    [N s/m], times the step.
     """
     k0, k1, k2 = weights
     p = cross(arm, direction)

@@ -40,10 +40,7 @@ _PI = 3.141592653589793
 def spring_load(approach, rate, spring, damping):
     """Work out the cup load of a roller that is pressed by cup and cone, never pulling, [N].
 
-    Parameters
-    ----------
-    approach, rate : lane value
-        Of cone and cup along the cup's normal, [m], [m/s].
+    ``approach``, ``rate``: of cone and cup along the cup's normal [m], [m/s].
 
     Notes
     -----
@@ -119,10 +116,7 @@ def faulted_load(lanes, block, approach, rate, angle, turns, faults, p):
 def approach_waves(lanes, motion, direction, p):
     """Write approach and rate of the rows as affine functions of cosine and sine of the pocket angle.
 
-    Returns
-    -------
-    approach, rate : tuples of 3 lane values
-        Factors of cosine, sine and one, [m], [m/s].
+    Returns ``approach``, ``rate`` (3 numbers): factors of cosine, sine and one [m], [m/s].
     """
     side = lanes.load(p.sides, 0, 0)
     approach = _wave(side, motion[0][0], motion[1][0], motion[2][0], motion[3][0], motion[4][0], direction, p)

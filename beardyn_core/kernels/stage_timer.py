@@ -119,12 +119,8 @@ def time_step(timers, step):
 def mark(timers, stage):
     """End a stage: what passed since the last mark is its.
 
-    Parameters
-    ----------
-    timers : float64 array, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS], or None
-        Counters of `model.stages`; ``None``: no timers, and compiles to nothing.
-    stage : int
-        Slot of the stage.
+    ``timers`` [CYCLES + TIMED_STEPS, TIMER_SLOTS]: counters of `model.stages`; ``None``: no timers, and
+    compiles to nothing; ``stage``: slot of the stage.
     """
     if timers is None:
         return
@@ -135,11 +131,7 @@ def mark(timers, stage):
 def mark_result(timers, stage, result):
     """End a stage so short that the compiler would mix it with the next one; see `mark`.
 
-    Parameters
-    ----------
-    stage : int
-    result : lane value
-        What the stage works out, to be ready at the mark.
+    ``result``: what the stage works out, to be ready at the mark.
     """
     if timers is None:
         return

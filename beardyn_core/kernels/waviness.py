@@ -15,10 +15,7 @@ _PER_TURN = 0.15915494309189535
 def wave_gap(lanes, block, azimuth, waves):
     """Look up the gap of one surface's waviness [m] and its slope over the azimuth [m/rad].
 
-    Parameters
-    ----------
-    azimuth : lane value
-        Of the contact in the surface's frame, [rad].
+    ``azimuth``: of the contact in the surface's frame [rad].
 
     Notes
     -----
@@ -52,12 +49,8 @@ def lean_wrench(lanes, body, sums, climbs, damage, waves, roller_waves):
     force normal to the sloping surface has a part along the orbit when the slope is the ring's, and a
     moment about the roller axis when it is the roller's. A smooth ring feels no torque from the latter.
 
-    Parameters
-    ----------
-    climbs : tuple of 2 lane values
-        Slope of the waviness of ring and roller over the azimuth, [m/rad].
-    damage, waves, roller_waves : NamedTuple or None
-        Without any of them the normal cannot lean.
+    ``climbs`` (2 numbers): slope of the waviness of ring and roller over the azimuth [m/rad]; ``damage``,
+    ``waves``, ``roller_waves``: without any of them the normal cannot lean.
     """
     zero = lanes.constant(0.0)
     level = (zero, zero, zero)
