@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, LOAD_SPEED
 from beardyn_core.kernels.box import kick_box
+from beardyn_core.kernels.kinematic_rings import add_response, journal_velocity
 from beardyn_core.kernels.kinematic_rollers import turned
 from beardyn_core.model.layout import (
     ANGULAR,
@@ -68,18 +69,20 @@ def begin_step(bodies, direction, p):
 
 
 @inline
-def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy, p):
+def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy, response, p):
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
     ``bodies`` [2 + row, BODY_STATES]: changed; ``wrenches`` [2 + row, 6], ``box`` [12]: work space;
     ``load_before``, ``load`` [10]: rows at the beginning and at the end of the step; ``signal``
-    [SIGNAL_CHANNELS]: written; ``energy``: not kept by these tiers, but a coupled box adds to it.
+    [SIGNAL_CHANNELS]: written; ``energy``: not kept by these tiers, but a coupled box adds to it;
+    ``response``: the work space of `kernels.kinematic_rings`.
 
     Notes
     -----
     Arrays come one by one: the references to those of a tuple would be counted in every step.
     """
     base, k, wrench = p.base, p.kinematic, drive.wrench
+    before = journal_velocity(bodies)
     signal[SIGNAL_TORQUE] = -(drive.losses[0] + drive.losses[1] * drive.rib_load)
     for i in range(6):
         signal[SIGNAL_FORCE + i] = wrench[i]
@@ -89,6 +92,7 @@ def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy,
     bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
     for body in range(CAGE_BODY, bodies.shape[0]):
         bodies[body, RATE] = k.cage_ratio * load[LOAD_SPEED]
+    add_response(bodies, before, signal, response, p)
 
 
 @inline

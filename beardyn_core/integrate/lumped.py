@@ -19,9 +19,8 @@ from beardyn_core.integrate.kinematic_step import (
     finish_step,
 )
 from beardyn_core.jit import entry
-from beardyn_core.kernels.kinematic_rings import add_response, hold_response, journal_velocity
-from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
-from beardyn_core.kernels.kinematic_torque import held_losses
+from beardyn_core.kernels.kinematic_rings import hold_response
+from beardyn_core.kernels.kinematic_rollers import cup_wrench, held_losses, relative_cone
 from beardyn_core.kernels.spring_roller import (
     TREND_EXTRAS,
     load_rollers,
@@ -37,19 +36,11 @@ _ORBIT_FIELDS = VELOCITY + 2
 
 @entry
 def advance_lumped(lanes, state, work, loads, output, p):
-    """Advance the lumped tier over whole blocks of steps.
+    """Advance the lumped tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    Parameters
-    ----------
-    state : State
-        Changed in place, but for the bending of the cup: rings are rigid.
-    work : WorkSpace
-        The first page of the rings is the work space of `kernels.kinematic_rings`.
-    loads : float64 array, shape [step + 1, 10]
-        As of the full tier's `advance`.
-    output : Output
-        Written; the trend of the rollers, shape [trend, block + TREND_EXTRAS, 1, lane], has the loads, from
-        which `show_lumped` makes the rollers. The energy balance is not kept.
+    Rings are rigid and the energy balance is not kept. The first page of the work space's rings is that of
+    `kernels.kinematic_rings`. The trend of the rollers [trend, block + TREND_EXTRAS, 1, lane] has the loads,
+    from which `show_lumped` makes the rollers.
     """
     rollers, bodies, energy = state.rollers, state.bodies, state.energy
     sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
@@ -74,12 +65,10 @@ def advance_lumped(lanes, state, work, loads, output, p):
             torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
             hold_response(sums, direction, response, p)
-        before = journal_velocity(bodies)
         finish_step(
             bodies, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
-            energy, p,
+            energy, response, p,
         )  # fmt: skip
-        add_response(bodies, before, signals[step], response, p)
         if shown:
             for i, value in enumerate((turns[0], speeds[0], speeds[1])):
                 trend[rollers.shape[0] + i] = value
@@ -89,15 +78,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
 
 @entry
 def show_lumped(lanes, trends, rollers, p):
-    """Write the rollers of some instants as the full tier keeps them.
-
-    Parameters
-    ----------
-    trends : float64 array, shape [time, block + TREND_EXTRAS, 1, lane]
-        From `advance_lumped`.
-    rollers : float64 array, shape [time, block, ROLLER_FIELDS, lane]
-        Written, but for friction memory and the largest approach.
-    """
+    """Write ``rollers`` [time, ...] at the instants of ``trends`` [time, ...], see `show_springs`."""
     for t in range(trends.shape[0]):
         show_springs(lanes, rollers[t], trends[t], p)
 

@@ -53,10 +53,8 @@ cage_bodies       cages as bodies: free, following the rings, or prescribed
 box               axlebox on its springs
 land              land of a cage in cup or cone
 stage_timer       where the time of a step goes
-balanced_springs  laminae of a roller in balance, as springs
-balanced_roller   a roller in balance (quasistatic tier)
-kinematic_rollers rollers that orbit kinematically
-kinematic_torque  torque of rollers in pure rolling
+balanced_roller   a roller in balance, its laminae as springs (quasistatic tier)
+kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
 kinematic_rings   rings of the fast tiers on the springs of all rollers
 spring_roller     a roller as one spring (lumped tier)
 ================= ============================================================

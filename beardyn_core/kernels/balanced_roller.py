@@ -8,17 +8,21 @@ slow change of the load. Forces are those of the balanced, linearised contacts.
 from __future__ import annotations
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.balanced_springs import lamina_springs
+from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
 from beardyn_core.kernels.exchange import damper_time
-from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt
+from beardyn_core.kernels.laminae import SMALLEST_APPROACH, add_moments, contact_spring
+from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, quick_ninth_root, sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import wave_gap
+from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 # A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
 # contact, but enough that it drifts towards a raceway or the rib by about a micrometre a step instead of
 # jumping far into it. It moves at most this far in a step [m].
 _HOLD = 2.0e7
 _LONGEST_MOVE = 2.0e-5
+_PI = 3.141592653589793
 
 
 @inline
@@ -293,4 +297,88 @@ def cone_view(lanes, motion, cosine, sine, orbit_rate, side):
     return origin, axis, velocity, omega
 
 
-_PI = 3.141592653589793
+# --- laminae as springs: their force and tangent stiffness, summed
+
+
+@inline
+def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches):
+    """Sum elastic force with x^0, x^1 and tangent stiffness with x^0, x^1, x^2 over the laminae.
+
+    ``approach`` (2 numbers): factors of x^0 and x^1 in the approach [m]; ``bend`` (2 numbers): factors of x^2
+    and x^3; ``reach``: half length of the roller [m].
+
+    References
+    ----------
+    Palmgren's line contact; see `kernels.raceway.lamina_sums`.
+    """
+    surface, roller_surface, damage = patches
+    near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
+    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
+
+
+@inline
+def _near_or_far(lanes, near, approach, bend, laminae, reach, damage):
+    if damage is None:
+        return _sound_moments(lanes, approach, bend, laminae, reach)
+    if near:
+        return _damaged_moments(lanes, approach, bend, laminae, damage)
+    return _sound_moments(lanes, approach, bend, laminae, reach)
+
+
+@inline
+def _sound_moments(lanes, approach, bend, laminae, reach):
+    zero = lanes.constant(0.0)
+    forces, stiffness = (zero, zero), (zero, zero, zero)
+    # where no roller of the block is in contact this look is all
+    if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
+        for k in range(laminae.shape[1]):
+            x = laminae[LAMINA_PLACE, k]
+            depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
+            touching = at_least(depth, SMALLEST_APPROACH)
+            tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
+            tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+            force = tangent * touching
+            forces = (forces[0] + force, forces[1] + x * force)
+            stiffness = add_moments(stiffness, tangent, x)
+    return forces, scale(10.0 / 9.0, stiffness)
+
+
+@inline
+def _bend(bend, x):
+    """Work out the part of the approach that is not affine in the abscissa, [m]."""
+    if bend is None:
+        return 0.0
+    return (x * x) * (bend[0] + x * bend[1])
+
+
+@inline
+def _most_bend(bend, reach):
+    """Bound of `_bend` along the roller, [m]."""
+    if bend is None:
+        return 0.0
+    return (reach * reach) * (magnitude(bend[0]) + reach * magnitude(bend[1]))
+
+
+@inline
+def _all_factors(approach, bend):
+    if bend is None:
+        zero = 0.0 * approach[0]
+        return approach[0], approach[1], zero, zero
+    return approach[0], approach[1], bend[0], bend[1]
+
+
+@inline
+def _damaged_moments(lanes, approach, bend, laminae, damage):
+    zero = lanes.constant(0.0)
+    forces, stiffness = (zero, zero), (zero, zero, zero)
+    factors = _all_factors(approach, bend)
+    springs = spring_count(laminae, damage, None)
+    laminae = spring_table(laminae, damage)
+    for k in range(springs):
+        x = laminae[LAMINA_PLACE, k]
+        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
+        tangent = share * tangent
+        force = 0.9 * tangent * at_least(depth, 0.0)
+        forces = (forces[0] + force, forces[1] + force * x)
+        stiffness = add_moments(stiffness, tangent, x)
+    return forces, stiffness

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
+from beardyn_core.kernels.exchange import load_vector
 from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
@@ -11,24 +12,17 @@ from beardyn_core.kernels.kinematic_rollers import (
     RIB_SUM,
     TORQUE_RIB,
     TORQUE_ROLLING,
+    rolling_torque,
     row_totals,
     show_contacts,
     show_roller,
+    sliding_torque,
 )
-from beardyn_core.kernels.kinematic_torque import rolling_torque, sliding_torque
 from beardyn_core.kernels.lane_math import at_least, quick_ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.vectors import add_scaled
 from beardyn_core.kernels.waviness import wave_gap
-from beardyn_core.model.layout import (
-    COUNTED,
-    COUNTED_COSINE,
-    COUNTED_SINE,
-    OVERSIZE,
-    PENETRATION,
-    POCKET_ANGLE,
-    POCKET_COSINE,
-    POCKET_SINE,
-)
+from beardyn_core.model.layout import COUNTED, OVERSIZE, PENETRATION, POCKET_ANGLE, POCKET_COSINE, POCKET_SINE
 
 TREND_EXTRAS = 3  # after the loads: angle of the cages [rad], speed of shaft and cages [rad/s]
 _SMALLEST_APPROACH = 1e-12
@@ -140,14 +134,8 @@ def _wave(side, x, y, z, about_x, about_z, direction, p):
 def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, p):
     """Load all rollers and sum their loads by row.
 
-    Parameters
-    ----------
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Written: the largest approach.
-    sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Written: ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM``.
-    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
-        Written: cup loads.
+    Written are the largest approach of the ``rollers``, ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM`` of the
+    ``sums`` and the cup loads of the ``trend`` [block + TREND_EXTRAS, 1, lane].
 
     Notes
     -----
@@ -158,7 +146,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     approach_wave, rate_wave = approach_waves(lanes, motion, direction, p)
     idle = idle_load(speeds[1], p)
     zero = lanes.constant(0.0)
-    load_cosine, load_sine, load_sum = zero, zero, zero
+    loads = (zero, zero, zero)  # sums: plain, times cosine, times sine
     for block in range(rollers.shape[0]):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
         approach = approach_wave[0] * cosine + (approach_wave[1] * sine + approach_wave[2])
@@ -173,28 +161,16 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
             load = at_least(pressed + 0.5 * idle, idle)
             deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
             lanes.store(rollers, block, PENETRATION, deepest)
-        load_cosine = load_cosine + load * lanes.load(p.pockets, block, COUNTED_COSINE)
-        load_sine = load_sine + load * lanes.load(p.pockets, block, COUNTED_SINE)
-        load_sum = load_sum + load * lanes.load(p.pockets, block, COUNTED)
+        loads = add_scaled(loads, load, load_vector(lanes, p.pockets, block, COUNTED))
         lanes.store(trend, block, 0, load)
-    lanes.store(sums, 0, LOAD_COSINE, load_cosine)
-    lanes.store(sums, 0, LOAD_SINE, load_sine)
-    lanes.store(sums, 0, RIB_SUM, load_sum)
+    lanes.store(sums, 0, LOAD_COSINE, loads[1])
+    lanes.store(sums, 0, LOAD_SINE, loads[2])
+    lanes.store(sums, 0, RIB_SUM, loads[0])
 
 
 @inline
 def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, p):
-    """Sum by row what is held for a while, after `load_rollers`, with the same arguments.
-
-    Parameters
-    ----------
-    blocks : int
-        Of rollers.
-    sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Written: torques and stiffness.
-    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
-        Cup loads.
-    """
+    """Sum by row what is held for a while, torques and stiffness; call it after `load_rollers`."""
     effects = p.base.effects
     wave = approach_waves(lanes, motion, direction, p)[0]
     idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
@@ -257,14 +233,9 @@ def sum_rollers(sums, speeds, p):
 
 @inline
 def show_springs(lanes, rollers, trend, p):
-    """Write all rollers and their contacts as the full tier keeps them; see `show_roller`.
+    """Write all rollers and their contacts, but for the largest approach, as the full tier keeps them.
 
-    Parameters
-    ----------
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Written, but for the largest approach.
-    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
-        Cup loads from `load_rollers`, then the instant.
+    The ``trend`` has the cup loads from `load_rollers`, then the instant. See `show_roller`.
     """
     blocks, zero, k = rollers.shape[0], lanes.constant(0.0), p.kinematic
     turn = trend[blocks, 0, 0]
