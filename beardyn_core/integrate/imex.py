@@ -124,7 +124,6 @@ def advance(lanes, state, work, loads, output, p):
         Load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step boundaries.
     output : Output
         Written.
-    p : Parameters
     """
     rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
     rings, sums, wrenches, box = work.rings, work.sums, work.wrenches, work.box
@@ -135,20 +134,19 @@ def advance(lanes, state, work, loads, output, p):
     groups = rings.shape[0]
     blocks_per_group = rollers.shape[0] // groups
     clear_block_sums(rollers)
-    place = cage_place(p.effects.cage)
-    timers = p.effects.timers
+    effects = p.effects
+    cage, flexibility, timers = effects.cage, effects.ring_flexibility, effects.timers
+    place, land = cage_place(cage), land_of(cage)
     for step in range(steps):
         time_step(timers, step)
         drift_bodies(bodies, p.step)
-        place_cages(bodies, p.effects.cage)
-        drift_flex(flex, p.step, p.effects.ring_flexibility)
+        place_cages(bodies, cage)
+        drift_flex(flex, p.step, flexibility)
         show_rings(bodies, rings, place)
         sums[:] = 0.0
         if step == 0:
             copy_sums(energy, audit)
-            audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(
-                flex, p.effects.ring_flexibility
-            )
+            audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(flex, flexibility)
         mark(timers, RINGS)
         for group in range(groups):
             for index in range(blocks_per_group):
@@ -157,16 +155,16 @@ def advance(lanes, state, work, loads, output, p):
                 )
         collect_reactions(sums, wrenches)
         mark(timers, RINGS)
-        lands = push_lands(bodies, wrenches, p.effects.cage, land_of(p.effects.cage))
-        pass_on(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
+        lands = push_lands(bodies, wrenches, cage, land)
+        pass_on(bodies, wrenches, energy, p.step, cage, effects.gravity)
         mark(timers, CAGE)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
-        add_seals(bodies, wrenches, energy, p.step, p.effects.seal)
+        add_seals(bodies, wrenches, energy, p.step, effects.seal)
         mark(timers, LOSS)
         stored = kick_box(
             bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
-            p.effects.gravity, p.mounting.coupling,
+            effects.gravity, p.mounting.coupling,
         )  # fmt: skip
         for i in range(6):
             signals[step, SIGNAL_ACCELERATION + i] = box[i]
@@ -175,20 +173,18 @@ def advance(lanes, state, work, loads, output, p):
         )
         stored += propped
         mark(timers, RINGS)
-        move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
-        stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage, land_of(p.effects.cage))
+        move_cages(bodies, wrenches, energy, p.step, cage, effects.gravity)
+        stored += settle_lands(bodies, lands, energy, p.step, cage, land)
         mark(timers, CAGE)
-        stored += kick_flex(flex, sums, energy, p.step, p.effects.ring_flexibility)
-        collect_energy(sums, energy, p.effects, p.effects.audit)
+        stored += kick_flex(flex, sums, energy, p.step, flexibility)
+        collect_energy(sums, energy, effects, effects.audit)
         mark(timers, RINGS)
         if step == 0:
             for i in range(ENERGY_ELASTIC):
                 audit[i] = 0.5 * (audit[i] + energy[i])
             audit[ENERGY_ELASTIC] = sum_lanes(sums, ELASTIC) + stored
             audit[ENERGY_KINETIC] = 0.5 * (
-                audit[ENERGY_KINETIC]
-                + kinetic_energy(rollers, bodies, p)
-                + flex_energy(flex, p.effects.ring_flexibility)
+                audit[ENERGY_KINETIC] + kinetic_energy(rollers, bodies, p) + flex_energy(flex, flexibility)
             )
         if (step + 1) % stride == 0:
             keep_trend(rollers, bodies, output, (step + 1) // stride - 1)

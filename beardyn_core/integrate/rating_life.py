@@ -110,15 +110,13 @@ def load_classes(load: LoadHistory) -> tuple[LoadClass, ...]:
         weight = turned[held]
         if weight.sum() == 0.0:
             continue
-        mean = {
-            "force": np.average(force[held], axis=0, weights=weight),
-            "moment": np.average(moment[held], axis=0, weights=weight),
-        }
+        force_x, force_y, force_z = np.average(force[held], axis=0, weights=weight).tolist()
+        moment_x, moment_y, moment_z = np.average(moment[held], axis=0, weights=weight).tolist()
         classes.append(
             LoadClass(
                 share=float(weight.sum() / turned.sum()),
-                force=(float(mean["force"][0]), float(mean["force"][1]), float(mean["force"][2])),
-                moment=(float(mean["moment"][0]), float(mean["moment"][1]), float(mean["moment"][2])),
+                force=(force_x, force_y, force_z),
+                moment=(moment_x, moment_y, moment_z),
                 speed=float(np.average(weight, weights=weight)),
             )
         )

@@ -8,7 +8,7 @@ put where a turning bearing would carry it: against cup and rib, just touching.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -203,13 +203,12 @@ def _chosen(mask: NDArray[np.bool_], one: _Trial, other: _Trial) -> _Trial:
 def _without(contact: ContactSet, free: NDArray[np.bool_]) -> ContactSet:
     """Set force, stiffness and energy of the contacts of free rollers to zero."""
     held = ~free[..., None]
-    return ContactSet(
-        approach=contact.approach,
+    matrix = held.reshape(held.shape + (1,) * (contact.stiffness.ndim - held.ndim))
+    return replace(
+        contact,
         force=contact.force * held,
-        stiffness=contact.stiffness * held.reshape(held.shape + (1,) * (contact.stiffness.ndim - held.ndim)),
+        stiffness=contact.stiffness * matrix,
         energy=contact.energy * held,
-        by_roller=contact.by_roller,
-        by_cone=contact.by_cone,
     )
 
 

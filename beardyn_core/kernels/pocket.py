@@ -168,28 +168,25 @@ def free_pocket(pocket, roller, cage):
     small_radius = roller.radius - cage.bar_place * roller.taper
     large_radius = roller.radius + cage.bar_place * roller.taper
     small_arm, large_arm = scale(small, axis), scale(large, axis)
+    small_end, large_end = (axis, small_radius), (axis, large_radius)
     small_front = add_scaled(small_arm, small_radius, front)
     small_behind = add_scaled(small_arm, small_radius, behind)
     walls = _untouched(0.0 * still)
     depth = height + offset + small * (lift + skew) - clearance
-    walls = _touch_wall(
-        walls, Wall(centre, small_front, front, depth), motion, cage, (axis, small_radius), cage.film
-    )
+    wall = Wall(centre, small_front, front, depth)
+    walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
     large_front = add_scaled(large_arm, large_radius, front)
     depth = height + offset + large * (lift + skew) - clearance
-    walls = _touch_wall(
-        walls, Wall(centre, large_front, front, depth), motion, cage, (axis, large_radius), cage.film
-    )
+    wall = Wall(centre, large_front, front, depth)
+    walls = _touch_wall(walls, wall, motion, cage, large_end, cage.film)
     pushed_back = walls.force
     depth = height - offset + small * (lift - skew) - clearance
-    walls = _touch_wall(
-        walls, Wall(centre, small_behind, behind, depth), motion, cage, (axis, small_radius), cage.film
-    )
+    wall = Wall(centre, small_behind, behind, depth)
+    walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
     large_behind = add_scaled(large_arm, large_radius, behind)
     depth = height - offset + large * (lift - skew) - clearance
-    walls = _touch_wall(
-        walls, Wall(centre, large_behind, behind, depth), motion, cage, (axis, large_radius), cage.film
-    )
+    wall = Wall(centre, large_behind, behind, depth)
+    walls = _touch_wall(walls, wall, motion, cage, large_end, cage.film)
     pushed_on = subtract(walls.force, pushed_back)
     slip_squared = where_greater(
         dot(pushed_on, pushed_on),

@@ -73,14 +73,7 @@ def velocity_change(matrix, right, zero, explicit):
 
 @inline
 def step_rollers(lanes, block, rollers, rings, sums, flex, p):
-    """Advance one block of rollers by one step and add what it does to the rings.
-
-    Parameters
-    ----------
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        State, changed in place.
-    p : Parameters
-    """
+    """Advance one block of rollers by one step, their state in place, and add what it does to the rings."""
     step, effects, roller = p.step, p.effects, p.roller
     orbit = drift(lanes, rollers, block, load_vector(lanes, rings, CUP, RING_VELOCITY), step, roller)
     cosine, sine, azimuth, momentum = orbit.cosine, orbit.sine, orbit.azimuth, orbit.momentum

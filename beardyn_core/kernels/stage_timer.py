@@ -94,14 +94,10 @@ def _overload_mark(timers, stage, _result):
 
 @inline
 def time_step(timers, step):
-    """Begin a step: decide whether it is timed.
+    """Begin a step of the block: decide whether it is timed.
 
-    Parameters
-    ----------
-    timers : float64 array, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS], or None
-        Counters of `model.stages`; ``None``: no timers, and compiles to nothing.
-    step : int
-        Of the block.
+    ``timers`` [CYCLES + TIMED_STEPS, TIMER_SLOTS] are the counters of `model.stages`; without them (``None``)
+    this and the marks compile to nothing.
     """
     if timers is None:
         return
@@ -117,11 +113,7 @@ def time_step(timers, step):
 
 @inline
 def mark(timers, stage):
-    """End a stage: what passed since the last mark is its.
-
-    ``timers`` [CYCLES + TIMED_STEPS, TIMER_SLOTS]: counters of `model.stages`; ``None``: no timers, and
-    compiles to nothing; ``stage``: slot of the stage.
-    """
+    """End a stage: what passed since the last mark counts for its slot."""
     if timers is None:
         return
     _mark_plainly(timers, stage, None)
@@ -129,10 +121,7 @@ def mark(timers, stage):
 
 @inline
 def mark_result(timers, stage, result):
-    """End a stage so short that the compiler would mix it with the next one; see `mark`.
-
-    ``result``: what the stage works out, to be ready at the mark.
-    """
+    """End a stage so short that the compiler would mix it with the next one: its result is ready then."""
     if timers is None:
         return
     _mark_plainly(timers, stage, result)

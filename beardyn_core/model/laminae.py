@@ -39,12 +39,7 @@ class CouplingParams(NamedTuple):
 
 
 def for_springs(table: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Repeat a table of laminae, shape [..., 2 x lamina]: near a patch a lamina is two springs.
-
-    Parameters
-    ----------
-    table : float64 array, shape [..., lamina]
-    """
+    """Repeat a table [..., lamina] to [..., 2 x lamina]: near a patch a lamina is two springs."""
     return np.ascontiguousarray(np.concatenate([table, table], axis=-1))
 
 

@@ -89,16 +89,10 @@ def rolling_params(scene: Scene) -> RollingParams | None:
     bearing, lubricant = scene.bearing, scene.lubricant
     radii = np.array([equivalent_radius(bearing, np.zeros(1), ring)[0] for ring in RINGS])
     viscosity = lubricant.dynamic_viscosity(scene.temperature)
+    pressure_viscosity = lubricant.pressure_viscosity_at(scene.temperature)
+    length, modulus = bearing.effective_length, bearing.material.contact_modulus
     units = [
-        laws.RollingContact(
-            1.0,
-            1.0,
-            float(radius),
-            bearing.effective_length,
-            bearing.material.contact_modulus,
-            viscosity,
-            lubricant.pressure_viscosity_at(scene.temperature),
-        )
+        laws.RollingContact(1.0, 1.0, float(radius), length, modulus, viscosity, pressure_viscosity)
         for radius in radii
     ]
     power_law, biboulet_houpert, thermal, hysteresis = None, None, None, None

@@ -19,10 +19,7 @@ _MARGIN = 1.1  # on the frequency, for ribs and moving rings
 def highest_bounce(bearing: Bearing, stiffness: float) -> float:
     """Work out the rate at which a roller bounces between its raceways under the highest pressure, [rad/s].
 
-    Parameters
-    ----------
-    stiffness : float
-        Factor of one raceway contact, all laminae together, [N/m^(10/9)].
+    ``stiffness``: factor of one raceway contact, all laminae together [N/m^(10/9)].
 
     References
     ----------
