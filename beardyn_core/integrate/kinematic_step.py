@@ -77,8 +77,6 @@ def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy,
     [SIGNAL_CHANNELS]: written; ``energy``: not kept by these tiers, but a coupled box adds to it;
     ``response``: the work space of `kernels.kinematic_rings`.
 
-    Notes
-    -----
     Arrays come one by one: the references to those of a tuple would be counted in every step.
     """
     base, k, wrench = p.base, p.kinematic, drive.wrench

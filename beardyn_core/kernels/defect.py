@@ -59,8 +59,6 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
 
     ``count``: of laminae; ``surfaces``: `SurfaceParams` of ring and roller, or ``None``.
 
-    Notes
-    -----
     A patch that covers a part of a lamina leaves the rest as a spring of its own, so that forces are
     continuous in the place and length of a patch. Where several patches meet on one lamina their gaps add;
     when they cover different shares of it, one damaged spring stands for all of them, with the mean share

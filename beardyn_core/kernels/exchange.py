@@ -88,8 +88,6 @@ def react(ring, centre, wrench, here):
     ``ring``: ``CUP``, ``CONE`` or, for the cage, ``CAGE_BODY``; ``wrench``: on the roller, about its centre
     of mass.
 
-    Notes
-    -----
     The compiler ranks what it adds by the order of the arguments, and by that decides which product of a sum
     is fused with it: another order gives other last bits. So `here` comes after the wrench, here and in the
     functions that settle a contact.

@@ -39,8 +39,6 @@ class Slip(NamedTuple):
 def generator_line(centre, axis, ring_axis, oversize, raceway, roller):
     """Work out the contact generator of a tapered roller on a conical raceway: a `Line`.
 
-    Notes
-    -----
     Two passes of the closed form: the contact point of a disc on a cone is taken where the normal points,
     first at the disc centre, then at the point so found. At the centre of mass the gap is good to
     0.001 nm at 1 degree of skew; along the line to 0.05 nm at 2 mrad and 4 nm at 1 degree. The second pass

@@ -79,8 +79,6 @@ def spring_matrix(sums, direction, work, p):
 def hold_response(sums, direction, work, p):
     """Work out what a relative acceleration of the rings adds to the rollers' wrench, and keep it until due.
 
-    Notes
-    -----
     With the tangent stiffness K, the damping C = tau K and the step h, the explicit step becomes
     ``(M + h C/2 + h^2 K/12) a = F``. The second term takes the dampers' forces with the velocity of the
     forces' own instant, of which only that of half a step before is known. The third one makes the second

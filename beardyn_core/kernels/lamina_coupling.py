@@ -37,8 +37,6 @@ def couple_laminae(lanes, laminae, coupling):
     ``coupling``: row DEPTH of its work space holds the geometric penetrations, [m]. Written: SURFACE, the
     tangent of each lamina as ten ninths of its load over its penetration, [N/m], and FORCE, its energy [J].
 
-    Notes
-    -----
     Two sweeps of single laminae under a linear law, forth and back, then one step of all free laminae under
     the true law. Where every lamina is pressed the surface is the roller's and the result exact: the sweeps
     would move nothing, and a block of such rollers goes without. Else loads

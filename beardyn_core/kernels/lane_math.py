@@ -73,8 +73,6 @@ def _seed_minus_ninth(a: Value) -> Value:
 def ninth_root(a):
     """Take the ninth root ``a ** (1/9)`` for ``a > 0``; relative error below 1e-14, without a division.
 
-    Notes
-    -----
     With z near ``a ** (-1/9)`` and ``e = 1 - a z^9``, known exactly, ``a ** (1/9)`` is
     ``a z^8 (1 - e) ** (-8/9)``: one series of the remainder does the work of several Newton steps. The
     seed's remainder is below 0.263; a fitted cubic brings it to 3e-4, a Taylor series does the rest.

@@ -199,14 +199,7 @@ def settled_contact(contact, change, step, spring_time, damping):
     slid = power(sums.friction, around, around) + power(sums.friction, along, along)
     numerical = 0.5 * (power(sums.friction, d_around, around) + power(sums.friction, d_along, along))
     damped = _damping_loss(sums, middle_rate, damping) + sums.released
-    return Settled(
-        wrench=wrench,
-        normal=normal,
-        friction=friction_around[0],
-        slid=step * slid,
-        damped=step * damped,
-        numerical=step * numerical,
-    )
+    return Settled(wrench, normal, friction_around[0], step * slid, step * damped, step * numerical)
 
 
 @inline

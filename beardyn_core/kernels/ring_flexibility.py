@@ -30,8 +30,6 @@ def bent_cup(lanes, flex, view, cosine, sine, flexibility):
     Returns ``view``: with the origin and the velocity of the piece of raceway at the roller;
     ``shift``: by how much the origin moved [m].
 
-    Notes
-    -----
     Neglects the turn of the piece of raceway about the axle.
     """
     zero = lanes.constant(0.0)

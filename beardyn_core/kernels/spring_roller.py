@@ -36,8 +36,6 @@ def spring_load(approach, rate, spring, damping):
 
     ``approach``, ``rate``: of cone and cup along the cup's normal [m], [m/s].
 
-    Notes
-    -----
     Both contacts and the rib have the same time constant, so the spring of all three has it too; its
     tangent stiffness is taken as 10/9 of load over approach.
 
@@ -137,8 +135,6 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     Written are the largest approach of the ``rollers``, ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM`` of the
     ``sums`` and the cup loads of the ``trend`` [block + TREND_EXTRAS, 1, lane].
 
-    Notes
-    -----
     Half of the centrifugal load of the cup comes off the cone: the two contacts are as stiff as each other.
     What is not worked out at every step has functions of its own: with it in here the compiler counts the
     references to all parameter arrays up and down in every step of a faulty bearing, 0.7 us.

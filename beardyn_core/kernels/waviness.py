@@ -17,8 +17,6 @@ def wave_gap(lanes, block, azimuth, waves):
 
     ``azimuth``: of the contact in the surface's frame [rad].
 
-    Notes
-    -----
     Linear between the points of a periodic table, so that the cost does not depend on the orders. Neglects
     changes along the generator line and the width of the contact, which smooths waves shorter than it.
     """

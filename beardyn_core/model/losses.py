@@ -79,6 +79,11 @@ SEALS = 2.0
 CYLINDER_FRICTION, CYLINDER_EXPONENT = 0.105, 0.274
 # Laminar disc, both sides: c = 3.87 / sqrt(Re).
 DISC_FRICTION, DISC_EXPONENT = 3.87, 0.5
+# Couple of a contact, and its exponents of speed and load.
+POWER_LAWS: dict[str, Any] = {
+    "aihara": (laws.aihara_line, laws.AIHARA_SPEED, laws.AIHARA_LOAD),
+    "zhou_hoeprich": (laws.zhou_hoeprich_line, laws.ZHOU_HOEPRICH_SPEED, laws.ZHOU_HOEPRICH_LOAD),
+}
 
 
 def rolling_params(scene: Scene) -> RollingParams | None:
@@ -96,16 +101,9 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         for radius in radii
     ]
     power_law, biboulet_houpert, thermal, hysteresis = None, None, None, None
-    if effect.kind == "aihara":
-        power_law = PowerLawRollingParams(
-            _log2([laws.aihara_line(unit) for unit in units]), laws.AIHARA_SPEED, laws.AIHARA_LOAD
-        )
-    if effect.kind == "zhou_hoeprich":
-        power_law = PowerLawRollingParams(
-            _log2([laws.zhou_hoeprich_line(unit) for unit in units]),
-            laws.ZHOU_HOEPRICH_SPEED,
-            laws.ZHOU_HOEPRICH_LOAD,
-        )
+    if effect.kind in POWER_LAWS:
+        line, *exponents = POWER_LAWS[effect.kind]
+        power_law = PowerLawRollingParams(_log2([line(unit) for unit in units]), *exponents)
     if effect.kind == "biboulet_houpert":
         biboulet_houpert = BibouletHoupertParams(*(_log2(part) for part in _biboulet_houpert_limits(units)))
     if effect.kind != "hysteresis" and effect.thermal:
