@@ -92,10 +92,7 @@ def scene_life(
 def load_classes(load: LoadHistory) -> tuple[LoadClass, ...]:
     """Sort a load history into classes of radial and axial force, weighted by the revolutions under them.
 
-    Returns
-    -------
-    tuple of LoadClass
-        Their shares add up to 1; empty when the shaft never turns.
+    Their shares add up to 1; there are none when the shaft never turns.
     """
     turned = np.abs(load.shaft_speed)
     if not turned.any():

@@ -106,12 +106,8 @@ def _set_axial(rings, ring, field, lane, side, vector):
 def show_rings(bodies, rings, cage_place):
     """Write cup, cone and cages in the row frames of every lane.
 
-    Parameters
-    ----------
-    rings : float64 array, shape [group, ring, RING_FIELDS, lane]
-        Written. Origins are relative to the cup's.
-    cage_place : float
-        Axial place of a cage's centre of mass from the middle plane, [m].
+    ``rings`` [group, ring, RING_FIELDS, lane]: written, origins relative to the cup's; ``cage_place``:
+    axial place of a cage's centre of mass from the middle plane [m].
     """
     width, rows = rings.shape[3], bodies.shape[0] - CAGE_BODY
     for group in range(rings.shape[0]):
@@ -209,12 +205,7 @@ def kick_cone(bodies, wrench, load, energy, step, mounting):
     The prop is a spring with a damper between journal and ground along the axle: the other bearing of the
     wheelset, or the guide of a test rig. The gyroscopic moment of the wheelset is neglected.
 
-    Returns
-    -------
-    torque : float
-        On the shaft, [N m].
-    stored : float
-        Elastic energy of the prop, [J].
+    Returns ``torque``: on the shaft [N m]; ``stored``: elastic energy of the prop [J].
     """
     place, along = bodies[CONE_BODY, POSITION + Y], bodies[CONE_BODY, LINEAR + Y]
     damper = mounting.prop_damping * along

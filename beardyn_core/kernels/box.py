@@ -22,13 +22,8 @@ FORCE = 6  # in the work space, after the acceleration
 def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gravity, coupling):
     """Accelerate the axlebox; arguments and result as `kick_cup`, with full matrices when coupled.
 
-    Parameters
-    ----------
-    box : float64 array, shape [12]
-        Written: acceleration of the bearing centre, linear and angular; then force and moment.
+    ``box`` [12]: written: acceleration of the bearing centre, linear and angular; then force and moment.
 
-    Notes
-    -----
     Small tilts and rates: centrifugal and gyroscopic terms of the box are neglected.
     """
     if coupling is None:

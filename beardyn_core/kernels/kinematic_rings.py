@@ -138,12 +138,8 @@ def add_response(bodies, before, signal, work, p):
     Cup and cone get opposite wrenches. The channels get the dampers' part only: what they say is force and
     acceleration of the instant itself.
 
-    Parameters
-    ----------
-    before : tuple of 5 floats
-        `journal_velocity` before the step.
-    signal : float64 array, shape [SIGNAL_CHANNELS]
-        Changed: force and acceleration.
+    ``before`` (5 numbers): `journal_velocity` before the step; ``signal`` [SIGNAL_CHANNELS]: changed: force
+    and acceleration.
     """
     motion, response = p.motion, p.response
     after = journal_velocity(bodies)

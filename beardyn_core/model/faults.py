@@ -249,14 +249,8 @@ def roller_path(patch: Patch, size: tuple[float, float, float], radius: float, r
     least of ``z(t) + r - sqrt(r^2 - (s - t)^2)``, z the depth of the surface. Over a flat floor with sharp
     edges that is about e^2 / (2 r) at distance e inside of the nearer edge, and never more than the depth.
 
-    Parameters
-    ----------
-    size : tuple of float
-        Width, depth and rim height, [m].
-    radius : float
-        Of the roller, [m].
-    reach : float
-        From `reach_of` or more, [m].
+    ``size``: width, depth and rim height [m]; ``radius``: of the roller [m]; ``reach``: from
+    `reach_of` or more [m].
 
     Notes
     -----
