@@ -27,7 +27,8 @@ from beardyn_core.effects import (
     Traction,
 )
 from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.integrate.torque import entrainment_speeds, raceway_radius, running_torque
+from beardyn_core.integrate.torque import entrainment_speeds, running_torque
+from beardyn_core.model.faults import surface_radius
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import SEALS, drag_params
 from beardyn_core.scene.scene import Scene
@@ -333,4 +334,4 @@ class Losses:
 
 def raceway_speed(scene: Scene, speed: float) -> float:
     """Compute the speed at which rollers pass a point of the cup, [m/s]."""
-    return cage_speed(scene.bearing, abs(speed)) * raceway_radius(scene.bearing, "cup")
+    return cage_speed(scene.bearing, abs(speed)) * surface_radius(scene.bearing, "cup")
