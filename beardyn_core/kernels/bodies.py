@@ -83,9 +83,9 @@ def body_vector(bodies, body, field):
 
 
 @inline
-def full_rotation(bodies, body):
-    """Work out the angular velocity of a body with its spin, [rad/s]."""
-    return add_scaled(body_vector(bodies, body, ANGULAR), bodies[body, RATE], ring_direction(bodies, body))
+def full_rotation(bodies, body, axis):
+    """Work out the angular velocity of a body with its spin about its axis, [rad/s]."""
+    return add_scaled(body_vector(bodies, body, ANGULAR), bodies[body, RATE], axis)
 
 
 @inline
@@ -116,7 +116,7 @@ def show_rings(bodies, rings, cage_place):
             side = 2.0 * row - 1.0
             for ring in range(3):
                 body = ring + row if ring == CAGE_BODY else ring
-                view = rings[group]
+                axis, view = ring_direction(bodies, body), rings[group]
                 lift = side * cage_place if ring == CAGE_BODY else 0.0
                 place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, CUP_BODY, POSITION))
                 place = (place[0], place[1] + lift, place[2])
@@ -125,10 +125,10 @@ def show_rings(bodies, rings, cage_place):
                     _set_axial(view, ring, RING_AXIS, lane, side, body_vector(bodies, body, TILT))
                     view[ring, RING_TURN, lane] = bodies[body, TURN]
                 else:
-                    _set_axial(view, ring, RING_AXIS, lane, side, ring_direction(bodies, body))
+                    _set_axial(view, ring, RING_AXIS, lane, side, axis)
                     view[ring, RING_TURN, lane] = bodies[body, TURN] + bodies[body, TILT + Y]
                 _set_polar(view, ring, RING_VELOCITY, lane, side, body_vector(bodies, body, LINEAR))
-                _set_axial(view, ring, RING_OMEGA, lane, side, full_rotation(bodies, body))
+                _set_axial(view, ring, RING_OMEGA, lane, side, full_rotation(bodies, body, axis))
 
 
 @inline

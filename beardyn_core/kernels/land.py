@@ -58,7 +58,8 @@ def short_bearing(eccentricity, velocity, axis, speed_sum, land):
 def land_twist(bodies, body, lift, land):
     """Work out the velocity of a cage against its guiding ring at the cage's origin, and angular velocity."""
     ring = int(land.body)
-    cage_omega, ring_omega = full_rotation(bodies, body), full_rotation(bodies, ring)
+    cage_omega = full_rotation(bodies, body, ring_direction(bodies, body))
+    ring_omega = full_rotation(bodies, ring, ring_direction(bodies, ring))
     place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, ring, POSITION))
     arm = (place[0], place[1] + lift, place[2])
     velocity = subtract(body_vector(bodies, body, LINEAR), body_vector(bodies, ring, LINEAR))
