@@ -22,19 +22,30 @@ X, Y, Z = 0, 1, 2
 @inline
 def cage_energy(bodies, cage):
     """Sum the kinetic energy of both cages, without a prescribed spin, [J]."""
-    total = 0.0
     if cage is None:
-        return total
-    if cage.kinematic is not None:
-        return total
+        return 0.0
+    return _energy(bodies, cage, cage.rotating, cage.kinematic)
+
+
+@inline
+def _energy(bodies, cage, rotating, kinematic):
+    if kinematic is not None:
+        return 0.0
+    total = 0.0
     for body in range(CAGE_BODY, bodies.shape[0]):
         total += 0.5 * cage.polar_inertia * bodies[body, RATE] ** 2
-        if cage.rotating is None:
-            tumbling = 0.0
-            for i in range(3):
-                tumbling += 0.5 * cage.mass * bodies[body, LINEAR + i] ** 2
-                tumbling += 0.5 * cage.transverse_inertia * bodies[body, ANGULAR + i] ** 2
-            total += tumbling
+        total += _tumbling_energy(bodies, body, cage, rotating)
+    return total
+
+
+@inline
+def _tumbling_energy(bodies, body, cage, rotating):
+    if rotating is not None:
+        return 0.0
+    total = 0.0
+    for i in range(3):
+        total += 0.5 * cage.mass * bodies[body, LINEAR + i] ** 2
+        total += 0.5 * cage.transverse_inertia * bodies[body, ANGULAR + i] ** 2
     return total
 
 
@@ -43,7 +54,12 @@ def place_cages(bodies, cage):
     """Put cages that follow the rings at the mean of cup and cone; a free cage stays where it is."""
     if cage is None:
         return
-    if cage.rotating is None and cage.kinematic is None:
+    _place(bodies, cage, cage.rotating, cage.kinematic)
+
+
+@inline
+def _place(bodies, cage, rotating, kinematic):
+    if rotating is None and kinematic is None:
         return
     for body in range(CAGE_BODY, bodies.shape[0]):
         lift = cage.place if body > CAGE_BODY else -cage.place
@@ -65,7 +81,12 @@ def pass_on(bodies, wrenches, energy, step, cage, gravity):
     """
     if cage is None:
         return
-    if cage.rotating is None and cage.kinematic is None:
+    _pass_on(bodies, wrenches, energy, step, cage, gravity, cage.rotating, cage.kinematic)
+
+
+@inline
+def _pass_on(bodies, wrenches, energy, step, cage, gravity, rotating, kinematic):
+    if rotating is None and kinematic is None:
         return
     for body in range(CAGE_BODY, bodies.shape[0]):
         lift = cage.place if body > CAGE_BODY else -cage.place
@@ -94,13 +115,18 @@ def move_cages(bodies, wrenches, energy, step, cage, gravity):
     """Accelerate both cages, or set their prescribed speed and book the work that takes."""
     if cage is None:
         return
-    if cage.rotating is None and cage.kinematic is None:
+    _move(bodies, wrenches, energy, step, cage, gravity, cage.rotating, cage.kinematic)
+
+
+@inline
+def _move(bodies, wrenches, energy, step, cage, gravity, rotating, kinematic):
+    if rotating is None and kinematic is None:
         kick_cages(bodies, wrenches, energy, step, cage, gravity)
         return
     for body in range(CAGE_BODY, bodies.shape[0]):
         axis = ring_direction(bodies, body)
         about = wrenches[body, 3] * axis[0] + wrenches[body, 4] * axis[1] + wrenches[body, 5] * axis[2]
-        _turn(bodies, body, about, energy, step, cage, cage.kinematic)
+        _turn(bodies, body, about, energy, step, cage, kinematic)
 
 
 @inline
