@@ -114,16 +114,10 @@ def keep_trend(rollers, bodies, output, index):
 
 @entry
 def advance(lanes, state, work, loads, output, p):
-    """Advance the full tier over one block of steps.
+    """Advance the full tier over one block of steps: ``state`` is changed in place and ``output`` written.
 
-    Parameters
-    ----------
-    state : State
-        Changed in place.
-    loads : float64 array, shape [step + 1, 10]
-        Load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step boundaries.
-    output : Output
-        Written.
+    ``loads`` [step + 1, 10]: load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step
+    boundaries; ``work``: a `WorkSpace`.
     """
     rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
     rings, sums, wrenches, box = work.rings, work.sums, work.wrenches, work.box

@@ -92,12 +92,7 @@ def trend_shape(rollers: tuple[int, ...]) -> tuple[int, ...]:
 class SpringTrend:
     """Rollers at some instants, see `observe.kinematics.Instants`.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    trends : float64 array, shape [time, block + TREND_EXTRAS, 1, lane]
-        From `advance_lumped`; nobody changes it any more.
-    parameters : LumpedParameters
+    ``trends`` [time, block + TREND_EXTRAS, 1, lane] are from `advance_lumped`; nobody changes them any more.
     """
 
     def __init__(self, lanes: Any, trends: NDArray[np.float64], parameters: LumpedParameters) -> None:
