@@ -13,7 +13,6 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
-from beardyn_core.integrate.restraint import tilt_restraint
 from beardyn_core.integrate.snapshot import Snapshot
 from beardyn_core.integrate.start import initial_state
 from beardyn_core.integrate.state import Output, State, work_space
@@ -27,6 +26,7 @@ from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
 from beardyn_core.model.faults import grow, roller_oversize
 from beardyn_core.model.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
+from beardyn_core.model.mounting import tilt_restraint
 from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.absence import absence_of
 from beardyn_core.observe.block import Block, EnergyAudit, body_names

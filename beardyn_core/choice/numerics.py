@@ -19,8 +19,7 @@ from beardyn_core.choice.usual_step import served
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
-from beardyn_core.integrate.torque import raceway_radius
-from beardyn_core.model.faults import lamina_cover
+from beardyn_core.model.faults import lamina_cover, surface_radius
 from beardyn_core.scene.defect import Patch
 
 _FINE = 400
@@ -209,7 +208,7 @@ def fault_overshoot(evidence: Evidence, bounce: float) -> float:
     The edge lasts a time e/v; a spring-mass answers to a ramp of that duration with at most 1/(pi f e/v).
     """
     bearing = evidence.scene.bearing
-    speed = cage_speed(bearing, abs(evidence.loads.top_speed)) * raceway_radius(bearing, "cup")
+    speed = cage_speed(bearing, abs(evidence.loads.top_speed)) * surface_radius(bearing, "cup")
     radius = 0.5 * bearing.roller_diameter
     edges = [
         min(0.5 * patch.width, math.sqrt(2.0 * radius * max(patch.depth, 1.0e-9)))

@@ -13,8 +13,7 @@ from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.faults import roller_oversize
-from beardyn_core.model.mounting import moved
-from beardyn_core.model.ring_flexibility import flexibility_params
+from beardyn_core.model.mounting import flexibility_params, moved
 from beardyn_core.scene.scene import Scene
 
 USUAL_LAMINAE = 6

@@ -6,8 +6,6 @@ module             responsibility, in the order of the data
 roller_contacts    contacts of resting rollers, with tangents
 roller_equilibrium every roller in balance
 static             the double row in balance
-restraint          what holds the bearing against tilt
-line_load          load and pressure along one roller
 torque             running torque under static loads
 step_choice        the coarsest step that is converged
 friction_steps     the step that friction asks for, without an equilibrium
@@ -18,8 +16,7 @@ imex               linearly implicit steps of the full tier
 kinematic_step     what the fast tiers share of a step
 quasistatic        explicit steps of the quasistatic tier
 roller_spring      a roller as one spring, for the lumped tier
-lumped             explicit steps of the lumped tier
-spring_trend       rollers of the lumped tier at some instants
+lumped             explicit steps of the lumped tier, and its rollers at some instants
 tiers              what each tier computes with
 warming            slow warming beside the fast motion
 status             status bits and the sentence of each

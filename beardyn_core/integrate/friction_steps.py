@@ -35,18 +35,10 @@ _USUAL_ENTRAINMENT = 5.0  # [m/s]
 
 @dataclass(frozen=True)
 class StepChoice:
-    """Time step of a run.
+    """Time step of a run."""
 
-    Parameters
-    ----------
-    steps_per_sample : float
-        Time steps per waveform sample of 1/25600 s.
-    reason : str
-        What decided.
-    """
-
-    steps_per_sample: float
-    reason: str
+    steps_per_sample: float  # time steps per waveform sample of 1/25600 s
+    reason: str  # what decided
 
 
 def usual_steps(effects: EffectSet, laminae: int) -> int:
@@ -54,11 +46,6 @@ def usual_steps(effects: EffectSet, laminae: int) -> int:
 
     Friction whose slope depends on the speed (load sharing without a film) is taken at an entrainment of
     5 m/s; `choose_steps` knows the slowest speed.
-
-    Parameters
-    ----------
-    effects : EffectSet
-    laminae : int
     """
     slope = fixed_slope(effects)
     if isinstance(effects.traction, LoadSharingTraction) and effects.film is None:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.bodies import (
+    add_seals,
     collect_energy,
     collect_reactions,
     drift_bodies,
@@ -15,11 +14,10 @@ from beardyn_core.kernels.bodies import (
 )
 from beardyn_core.kernels.box import box_energy, kick_box
 from beardyn_core.kernels.cage_bodies import cage_energy, move_cages, pass_on, place_cages
-from beardyn_core.kernels.land import push_lands, settle_lands
+from beardyn_core.kernels.land import land_of, push_lands, settle_lands
 from beardyn_core.kernels.lanes import align_stack
 from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
 from beardyn_core.kernels.roller import step_rollers
-from beardyn_core.kernels.seal import add_seals
 from beardyn_core.kernels.stage_timer import mark, time_step
 from beardyn_core.model.layout import (
     ANGULAR,
@@ -46,7 +44,7 @@ from beardyn_core.model.stages import CAGE, LOSS, RINGS
 
 
 @inline
-def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
+def kinetic_energy(rollers, bodies, p):
     """Sum the kinetic energy of rollers, cages, axlebox and journal without its prescribed spin, [J]."""
     roller = p.roller
     total = 0.0
@@ -72,20 +70,15 @@ def kinetic_energy(rollers: Any, bodies: Any, p: Any) -> Any:
 
 
 @inline
-def cage_place(p: Any) -> Any:
+def cage_place(cage):
     """Take the axial place of the cages' centres from the middle plane, 0 without cages, [m]."""
-    return _cage_place(p.effects.cage)
-
-
-@inline
-def _cage_place(cage: Any) -> Any:
     if cage is None:
         return 0.0
     return cage.place
 
 
 @inline
-def clear_block_sums(rollers: Any) -> None:
+def clear_block_sums(rollers):
     """Start the chatter sums and the largest penetration of a block anew."""
     for block in range(rollers.shape[0]):
         for lane in range(rollers.shape[2]):
@@ -101,14 +94,14 @@ def clear_block_sums(rollers: Any) -> None:
 
 
 @inline
-def copy_sums(source: Any, target: Any) -> None:
+def copy_sums(source, target):
     """Copy an array of one axis."""
     for i in range(source.shape[0]):
         target[i] = source[i]
 
 
 @inline
-def keep_trend(rollers: Any, bodies: Any, output: Any, index: Any) -> None:
+def keep_trend(rollers, bodies, output, index):
     """Copy the state of rollers and bodies into the trends."""
     for i in range(rollers.shape[0]):
         for j in range(rollers.shape[1]):
@@ -120,20 +113,11 @@ def keep_trend(rollers: Any, bodies: Any, output: Any, index: Any) -> None:
 
 
 @entry
-def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) -> None:
-    """Advance the full tier over one block of steps.
+def advance(lanes, state, work, loads, output, p):
+    """Advance the full tier over one block of steps: ``state`` is changed in place and ``output`` written.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    state : State
-        Changed in place.
-    work : WorkSpace
-    loads : float64 array, shape [step + 1, 10]
-        Load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step boundaries.
-    output : Output
-        Written.
-    p : Parameters
+    ``loads`` [step + 1, 10]: load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step
+    boundaries; ``work``: a `WorkSpace`.
     """
     rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
     rings, sums, wrenches, box = work.rings, work.sums, work.wrenches, work.box
@@ -144,20 +128,19 @@ def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) 
     groups = rings.shape[0]
     blocks_per_group = rollers.shape[0] // groups
     clear_block_sums(rollers)
-    place = cage_place(p)
-    timers = p.effects.timers
+    effects = p.effects
+    cage, flexibility, timers = effects.cage, effects.ring_flexibility, effects.timers
+    place, land = cage_place(cage), land_of(cage)
     for step in range(steps):
         time_step(timers, step)
         drift_bodies(bodies, p.step)
-        place_cages(bodies, p.effects.cage)
-        drift_flex(flex, p.step, p.effects.ring_flexibility)
+        place_cages(bodies, cage)
+        drift_flex(flex, p.step, flexibility)
         show_rings(bodies, rings, place)
         sums[:] = 0.0
         if step == 0:
             copy_sums(energy, audit)
-            audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(
-                flex, p.effects.ring_flexibility
-            )
+            audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(flex, flexibility)
         mark(timers, RINGS)
         for group in range(groups):
             for index in range(blocks_per_group):
@@ -166,16 +149,16 @@ def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) 
                 )
         collect_reactions(sums, wrenches)
         mark(timers, RINGS)
-        lands = push_lands(bodies, wrenches, p.effects.cage)
-        pass_on(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
+        lands = push_lands(bodies, wrenches, cage, land)
+        pass_on(bodies, wrenches, energy, p.step, cage, effects.gravity)
         mark(timers, CAGE)
         for i in range(6):
             signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
-        add_seals(bodies, wrenches, energy, p.step, p.effects.seal)
+        add_seals(bodies, wrenches, energy, p.step, effects.seal)
         mark(timers, LOSS)
         stored = kick_box(
             bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
-            p.effects.gravity, p.mounting.coupling,
+            effects.gravity, p.mounting.coupling,
         )  # fmt: skip
         for i in range(6):
             signals[step, SIGNAL_ACCELERATION + i] = box[i]
@@ -184,20 +167,18 @@ def advance(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) 
         )
         stored += propped
         mark(timers, RINGS)
-        move_cages(bodies, wrenches, energy, p.step, p.effects.cage, p.effects.gravity)
-        stored += settle_lands(bodies, lands, energy, p.step, p.effects.cage)
+        move_cages(bodies, wrenches, energy, p.step, cage, effects.gravity)
+        stored += settle_lands(bodies, lands, energy, p.step, cage, land)
         mark(timers, CAGE)
-        stored += kick_flex(flex, sums, energy, p.step, p.effects.ring_flexibility)
-        collect_energy(sums, energy, p.effects, p.effects.audit)
+        stored += kick_flex(flex, sums, energy, p.step, flexibility)
+        collect_energy(sums, energy, effects, effects.audit)
         mark(timers, RINGS)
         if step == 0:
             for i in range(ENERGY_ELASTIC):
                 audit[i] = 0.5 * (audit[i] + energy[i])
             audit[ENERGY_ELASTIC] = sum_lanes(sums, ELASTIC) + stored
             audit[ENERGY_KINETIC] = 0.5 * (
-                audit[ENERGY_KINETIC]
-                + kinetic_energy(rollers, bodies, p)
-                + flex_energy(flex, p.effects.ring_flexibility)
+                audit[ENERGY_KINETIC] + kinetic_energy(rollers, bodies, p) + flex_energy(flex, flexibility)
             )
         if (step + 1) % stride == 0:
             keep_trend(rollers, bodies, output, (step + 1) // stride - 1)

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, LOAD_SPEED
 from beardyn_core.kernels.box import kick_box
+from beardyn_core.kernels.kinematic_rings import add_response, journal_velocity
 from beardyn_core.kernels.kinematic_rollers import turned
 from beardyn_core.model.layout import (
     ANGULAR,
@@ -41,30 +42,20 @@ class Drive(NamedTuple):
 
 
 @inline
-def begin_advance(rollers: Any) -> None:
+def begin_advance(rollers):
     """Start the largest penetration anew."""
     rollers[:, PENETRATION] = 0.0
 
 
 @inline
-def cage_direction(bodies: Any) -> Any:
+def cage_direction(bodies):
     """Take the direction of the cages, as cosine and sine."""
     return math.cos(bodies[CAGE_BODY, TURN]), math.sin(bodies[CAGE_BODY, TURN])
 
 
 @inline
-def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
-    """Move all bodies and the rollers with the cages.
-
-    Returns
-    -------
-    direction : tuple of 2 floats
-        Cosine and sine of the cages' angle.
-    turns : tuple of 3 floats
-        Angle of cages and cone, and of the rollers in their pockets, [rad].
-    speeds : tuple of 2 floats
-        Of shaft and cages, [rad/s].
-    """
+def begin_step(bodies, direction, p):
+    """Move all bodies, and the rollers with the cages; returns ``direction``, ``turns`` and ``speeds``."""
     direction = turned(direction, p.step * bodies[CAGE_BODY, RATE])
     for body in range(CAGE_BODY):
         for i in range(3):
@@ -78,39 +69,18 @@ def begin_step(bodies: Any, direction: Any, p: Any) -> Any:
 
 
 @inline
-def finish_step(
-    bodies: Any,
-    drive: Any,
-    wrenches: Any,
-    box: Any,
-    load_before: Any,
-    load: Any,
-    signal: Any,
-    energy: Any,
-    p: Any,
-) -> None:
+def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy, response, p):
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
-    Parameters
-    ----------
-    bodies : float64 array, shape [2 + row, BODY_STATES]
-        Changed.
-    drive : Drive
-    wrenches, box : float64 arrays, shape [2 + row, 6] and [12]
-        Work space.
-    load_before, load : float64 array, shape [10]
-        Load row at the beginning and at the end of the step.
-    signal : float64 array, shape [SIGNAL_CHANNELS]
-        Written.
-    energy : float64 array, shape [ENERGY_TERMS]
-        Not kept by these tiers; a coupled box adds to it.
-    p : LumpedParameters or QuasistaticParameters
+    ``bodies`` [2 + row, BODY_STATES]: changed; ``wrenches`` [2 + row, 6], ``box`` [12]: work space;
+    ``load_before``, ``load`` [10]: rows at the beginning and at the end of the step; ``signal``
+    [SIGNAL_CHANNELS]: written; ``energy``: not kept by these tiers, but a coupled box adds to it;
+    ``response``: the work space of `kernels.kinematic_rings`.
 
-    Notes
-    -----
     Arrays come one by one: the references to those of a tuple would be counted in every step.
     """
     base, k, wrench = p.base, p.kinematic, drive.wrench
+    before = journal_velocity(bodies)
     signal[SIGNAL_TORQUE] = -(drive.losses[0] + drive.losses[1] * drive.rib_load)
     for i in range(6):
         signal[SIGNAL_FORCE + i] = wrench[i]
@@ -120,20 +90,11 @@ def finish_step(
     bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
     for body in range(CAGE_BODY, bodies.shape[0]):
         bodies[body, RATE] = k.cage_ratio * load[LOAD_SPEED]
+    add_response(bodies, before, signal, response, p)
 
 
 @inline
-def _kick_box(
-    bodies: Any,
-    wrenches: Any,
-    box: Any,
-    load_before: Any,
-    load: Any,
-    signal: Any,
-    energy: Any,
-    coupling: Any,
-    p: Any,
-) -> None:
+def _kick_box(bodies, wrenches, box, load_before, load, signal, energy, coupling, p):
     """Accelerate the axlebox under the wrench in the signals, and write its acceleration there."""
     if coupling is None:
         _kick_free_box(bodies, load_before, load, signal, p.step, p.base.mounting, p.motion)
@@ -149,9 +110,7 @@ def _kick_box(
 
 
 @inline
-def _kick_free_box(
-    bodies: Any, load_before: Any, load: Any, signal: Any, step: Any, mounting: Any, motion: Any
-) -> None:
+def _kick_free_box(bodies, load_before, load, signal, step, mounting, motion):
     for i in range(3):
         bogie = load[LOAD_BOGIE + i]
         bogie_speed = (bogie - load_before[LOAD_BOGIE + i]) * motion.rate
@@ -169,7 +128,7 @@ def _kick_free_box(
 
 
 @inline
-def _kick_journal(bodies: Any, wrench: Any, load: Any, weight: Any, step: Any, motion: Any) -> None:
+def _kick_journal(bodies, wrench, load, weight, step, motion):
     push, turn = step * motion.journal_push, step * motion.journal_turn
     bodies[CONE_BODY, LINEAR] += push * (load[0] - wrench[0])
     bodies[CONE_BODY, LINEAR + 1] += push * (load[1] - wrench[1])
@@ -179,7 +138,7 @@ def _kick_journal(bodies: Any, wrench: Any, load: Any, weight: Any, step: Any, m
 
 
 @inline
-def _prop_journal(bodies: Any, step: Any, motion: Any, mounting: Any) -> None:
+def _prop_journal(bodies, step, motion, mounting):
     """Push the journal by its axial prop, as `kernels.bodies.kick_cone` does."""
     speed = bodies[CONE_BODY, LINEAR + 1]
     push = mounting.prop_stiffness * bodies[CONE_BODY, POSITION + 1] + mounting.prop_damping * speed

@@ -1,8 +1,14 @@
-"""Steps of the lumped tier: rings on suspension and journal, rollers as springs that orbit."""
+"""Steps of the lumped tier: rings on suspension and journal, rollers as springs that orbit.
+
+At the instants of a trend only loads are kept; all else of the rollers is made when it is asked for.
+"""
 
 from __future__ import annotations
 
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from beardyn_core.integrate.kinematic_step import (
     TRENDS_PER_BLOCK,
@@ -13,29 +19,28 @@ from beardyn_core.integrate.kinematic_step import (
     finish_step,
 )
 from beardyn_core.jit import entry
-from beardyn_core.kernels.kinematic_rings import add_response, hold_response, journal_velocity
-from beardyn_core.kernels.kinematic_rollers import cup_wrench, relative_cone
-from beardyn_core.kernels.kinematic_torque import held_losses
-from beardyn_core.kernels.spring_roller import load_rollers, show_springs, sum_rollers, torque_and_stiffness
+from beardyn_core.kernels.kinematic_rings import hold_response
+from beardyn_core.kernels.kinematic_rollers import cup_wrench, held_losses, relative_cone
+from beardyn_core.kernels.spring_roller import (
+    TREND_EXTRAS,
+    load_rollers,
+    show_springs,
+    sum_rollers,
+    torque_and_stiffness,
+)
+from beardyn_core.model.layout import ANGLE, POCKET_ANGLE, RADIUS, ROLLER_FIELDS, VELOCITY
+from beardyn_core.model.tier_parameters import LumpedParameters
+
+_ORBIT_FIELDS = VELOCITY + 2
 
 
 @entry
-def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) -> None:
-    """Advance the lumped tier over whole blocks of steps.
+def advance_lumped(lanes, state, work, loads, output, p):
+    """Advance the lumped tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    state : State
-        Changed in place, but for the bending of the cup: rings are rigid.
-    work : WorkSpace
-        The first page of the rings is the work space of `kernels.kinematic_rings`.
-    loads : float64 array, shape [step + 1, 10]
-        As of the full tier's `advance`.
-    output : Output
-        Written; the trend of the rollers, shape [trend, block + TREND_EXTRAS, 1, lane], has the loads, from
-        which `show_lumped` makes the rollers. The energy balance is not kept.
-    p : LumpedParameters
+    Rings are rigid and the energy balance is not kept. The first page of the work space's rings is that of
+    `kernels.kinematic_rings`. The trend of the rollers [trend, block + TREND_EXTRAS, 1, lane] has the loads,
+    from which `show_lumped` makes the rollers.
     """
     rollers, bodies, energy = state.rollers, state.bodies, state.energy
     sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
@@ -60,12 +65,10 @@ def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p
             torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
             hold_response(sums, direction, response, p)
-        before = journal_velocity(bodies)
         finish_step(
             bodies, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
-            energy, p,
+            energy, response, p,
         )  # fmt: skip
-        add_response(bodies, before, signals[step], response, p)
         if shown:
             for i, value in enumerate((turns[0], speeds[0], speeds[1])):
                 trend[rollers.shape[0] + i] = value
@@ -74,16 +77,54 @@ def advance_lumped(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p
 
 
 @entry
-def show_lumped(lanes: Any, trends: Any, rollers: Any, p: Any) -> None:
-    """Write the rollers of some instants as the full tier keeps them.
-
-    Parameters
-    ----------
-    trends : float64 array, shape [time, block + TREND_EXTRAS, 1, lane]
-        From `advance_lumped`.
-    rollers : float64 array, shape [time, block, ROLLER_FIELDS, lane]
-        Written, but for friction memory and the largest approach.
-    p : LumpedParameters
-    """
+def show_lumped(lanes, trends, rollers, p):
+    """Write ``rollers`` [time, ...] at the instants of ``trends`` [time, ...], see `show_springs`."""
     for t in range(trends.shape[0]):
         show_springs(lanes, rollers[t], trends[t], p)
+
+
+def trend_shape(rollers: tuple[int, ...]) -> tuple[int, ...]:
+    """Shape what `advance_lumped` writes at an instant, from the shape of the rollers' state."""
+    block, _fields, lane = rollers
+    return block + TREND_EXTRAS, 1, lane
+
+
+class SpringTrend:
+    """Rollers at some instants, see `observe.kinematics.Instants`.
+
+    ``trends`` [time, block + TREND_EXTRAS, 1, lane] are from `advance_lumped`; nobody changes them any more.
+    """
+
+    def __init__(self, lanes: Any, trends: NDArray[np.float64], parameters: LumpedParameters) -> None:
+        self._lanes, self._trends, self._parameters = lanes, trends, parameters
+
+    def __getitem__(self, times: slice) -> SpringTrend:
+        return SpringTrend(self._lanes, self._trends[times], self._parameters)
+
+    def _empty(self, fields: int) -> NDArray[np.float64]:
+        times, blocks, _one, lane = self._trends.shape
+        return np.zeros((times, blocks - TREND_EXTRAS, fields, lane))
+
+    def whole(self) -> NDArray[np.float64]:
+        """Make the state as the full tier has it, shape [time, block, ROLLER_FIELDS, lane]."""
+        rollers = self._empty(ROLLER_FIELDS)
+        show_lumped(self._lanes, np.ascontiguousarray(self._trends), rollers, self._parameters)
+        return rollers
+
+    def orbits(self) -> NDArray[np.float64]:
+        """Make angle, and speed as if at the radius 1: the first fields, shape [time, block, field, lane]."""
+        rollers = self._empty(_ORBIT_FIELDS)
+        _orbits(self._trends, self._parameters.base.rollers, rollers)
+        return rollers
+
+
+@entry
+def _orbits(trends, constants, rollers):
+    blocks = rollers.shape[1]
+    for t in range(rollers.shape[0]):
+        turn, speed = trends[t, blocks, 0, 0], trends[t, blocks + 2, 0, 0]
+        for block in range(blocks):
+            for lane in range(rollers.shape[3]):
+                rollers[t, block, RADIUS, lane] = 1.0
+                rollers[t, block, ANGLE, lane] = constants[block, POCKET_ANGLE, lane] + turn
+                rollers[t, block, VELOCITY + 1, lane] = speed

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.integrate.kinematic_step import (
     TRENDS_PER_BLOCK,
     Drive,
@@ -14,13 +12,8 @@ from beardyn_core.integrate.kinematic_step import (
 )
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
-from beardyn_core.kernels.kinematic_rings import (
-    add_response,
-    add_stiffness,
-    hold_response,
-    journal_velocity,
-    store_stiffness,
-)
+from beardyn_core.kernels.exchange import load_vector, store_vector
+from beardyn_core.kernels.kinematic_rings import add_stiffness, hold_response, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_AXIAL,
     LOAD_COSINE,
@@ -31,19 +24,20 @@ from beardyn_core.kernels.kinematic_rollers import (
     TORQUE_RIB,
     TORQUE_ROLLING,
     cup_wrench,
+    held_losses,
     lane_total,
     relative_cone,
+    rolling_torque,
     show_contacts,
     show_roller,
+    sliding_torque,
 )
-from beardyn_core.kernels.kinematic_torque import held_losses, rolling_torque, sliding_torque
 from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
+from beardyn_core.kernels.vectors import add_scaled
 from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
     COUNTED,
-    COUNTED_COSINE,
-    COUNTED_SINE,
     OVERSIZE,
     PENETRATION,
     POCKET_ANGLE,
@@ -56,74 +50,40 @@ _SMALLEST_LOAD = 1e-3
 
 
 @inline
-def pressed_tangent(load: Any, tangent: Any) -> Any:
+def pressed_tangent(load, tangent):
     """Work out the stiffness of rollers that press on the cone with a load; 0 where they do not, [N/m]."""
     stiffness = tangent * exp2(0.1 * log2(at_least(load, _SMALLEST_LOAD)))
     return where_greater(load, _SMALLEST_LOAD, stiffness, 0.0 * load)
 
 
 @inline
-def balance_rollers(
-    lanes: Any,
-    rollers: Any,
-    sums: Any,
-    motion: Any,
-    direction: Any,
-    turns: Any,
-    speeds: Any,
-    due: Any,
-    shown: Any,
-    p: Any,
-) -> None:
+def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due, shown, p):
     """Move all rollers one Newton step towards balance and sum their loads by row.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Places and axes changed in place; everything else written when `shown`.
-    sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Written: ``LOAD_COSINE`` and following.
-    motion : tuple
-        From `relative_cone`.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
-    turns : tuple of 3 floats
-        Angle of cages, cone, and rollers in their pockets, [rad].
-    speeds : tuple of 2 floats
-        Of shaft and cages, [rad/s].
-    due : bool
-        Whether to work out the torque of the contacts.
-    shown : bool
-        Whether to write what a block of channels shows.
-    p : QuasistaticParameters
+    ``rollers`` [block, ROLLER_FIELDS, lane]: places and axes changed in place; everything else written when
+    `shown`; ``sums`` [1, SUM_FIELDS, lane]: written: ``LOAD_COSINE`` and following; ``due``: whether to work
+    out the torque of the contacts; ``shown``: whether to write what a block of channels shows.
     """
     k = p.kinematic
     orbit_squared = speeds[1] * speeds[1]
     inertia = (k.centrifugal * orbit_squared, k.gyroscopic * orbit_squared)
     side = lanes.load(p.sides, 0, 0)
     zero = lanes.constant(0.0)
-    load_cosine, load_sine, load_sum = zero, zero, zero
-    moment_cosine, moment_sine, rib_sum = zero, zero, zero
-    rolling, sliding = zero, zero
+    # sums over the rollers: plain, times cosine, times sine
+    loads, moments = (zero, zero, zero), (zero, zero, zero)
+    rib_sum, rolling, sliding = zero, zero, zero
     stiff = (zero, zero, zero, zero, zero, zero)
     for block in range(rollers.shape[0]):
-        pocket_cosine, pocket_sine = (
-            lanes.load(p.pockets, block, POCKET_COSINE),
-            lanes.load(p.pockets, block, POCKET_SINE),
-        )
+        pocket_cosine = lanes.load(p.pockets, block, POCKET_COSINE)
+        pocket_sine = lanes.load(p.pockets, block, POCKET_SINE)
         cosine = pocket_cosine * direction[0] - pocket_sine * direction[1]
         sine = pocket_sine * direction[0] + pocket_cosine * direction[1]
         angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
         place = (lanes.load(rollers, block, RADIUS), lanes.load(rollers, block, AXIAL))
         axis = (lanes.load(rollers, block, AXIS), lanes.load(rollers, block, AXIS + 2))
         azimuth = angle + turns[0]
-        azimuths = (
-            azimuth,
-            azimuth - turns[1],
-            lanes.constant(turns[2]),
-            lanes.load(p.base.rollers, block, OVERSIZE),
-        )
+        oversize = lanes.load(p.base.rollers, block, OVERSIZE)
+        azimuths = (azimuth, azimuth - turns[1], lanes.constant(turns[2]), oversize)
         view = cone_view(lanes, motion, cosine, sine, speeds[1], side)
         move, cup, cone, rib, lever, deepest = balance(lanes, block, place, axis, view, azimuths, inertia, p)
         place = (place[0] + move[0], place[1] + move[1])
@@ -134,35 +94,23 @@ def balance_rollers(
         lanes.store(rollers, block, AXIS + 2, axis[1])
         deepest = at_least(lanes.load(rollers, block, PENETRATION), deepest)
         lanes.store(rollers, block, PENETRATION, deepest)
-        counted = lanes.load(p.pockets, block, COUNTED)
-        counted_cosine = lanes.load(p.pockets, block, COUNTED_COSINE)
-        counted_sine = lanes.load(p.pockets, block, COUNTED_SINE)
-        moment = lever[0] * cup[0] + lever[1] * cup[1]
-        load_cosine = load_cosine + cup[0] * counted_cosine
-        load_sine = load_sine + cup[0] * counted_sine
-        load_sum = load_sum + cup[0] * counted
-        moment_cosine = moment_cosine + moment * counted_cosine
-        moment_sine = moment_sine + moment * counted_sine
+        waves = load_vector(lanes, p.pockets, block, COUNTED)
+        counted = waves[0]
+        loads = add_scaled(loads, cup[0], waves)
+        moments = add_scaled(moments, lever[0] * cup[0] + lever[1] * cup[1], waves)
         rib_sum = rib_sum + counted * rib
+        forces = (cup[0], cone[0], rib)
         if due:
-            forces = (cup[0], cone[0], rib)
             rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
             sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
         if shown:
-            centres = (
-                cup[1] / at_least(cup[0], _SMALLEST_LOAD),
-                cone[1] / at_least(cone[0], _SMALLEST_LOAD),
-            )
+            centres = (cup[1] / at_least(cup[0], _SMALLEST_LOAD), cone[1] / at_least(cone[0], _SMALLEST_LOAD))
             show_roller(lanes, rollers, block, place, axis, (turns[0], speeds[1]), angle, p)
-            show_contacts(lanes, rollers, block, axis, (cup[0], cone[0], rib), centres, speeds, p)
-    lanes.store(sums, 0, LOAD_COSINE, load_cosine)
-    lanes.store(sums, 0, LOAD_SINE, load_sine)
-    lanes.store(sums, 0, LOAD_AXIAL, side * load_sum)
-    lanes.store(sums, 0, MOMENT_COSINE, side * moment_cosine)
-    lanes.store(sums, 0, MOMENT_SINE, side * moment_sine)
-    lanes.store(sums, 0, RIB_SUM, rib_sum)
+            show_contacts(lanes, rollers, block, axis, forces, centres, speeds, p)
+    store_vector(lanes, sums, 0, LOAD_COSINE, (loads[1], loads[2], side * loads[0]))
+    store_vector(lanes, sums, 0, MOMENT_COSINE, (side * moments[1], side * moments[2], rib_sum))
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     if due:
@@ -170,21 +118,11 @@ def balance_rollers(
 
 
 @entry
-def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: Any, p: Any) -> None:
-    """Advance the quasistatic tier over whole blocks of steps.
+def advance_quasistatic(lanes, state, work, loads, output, p):
+    """Advance the quasistatic tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    state : State
-        Changed in place, but for the bending of the cup: rings are rigid.
-    work : WorkSpace
-        The first page of the rings is the work space of `kernels.kinematic_rings`.
-    loads : float64 array, shape [step + 1, 10]
-        As of the full tier's `advance`.
-    output : Output
-        Written; the energy balance is not kept.
-    p : QuasistaticParameters
+    Rings are rigid and the energy balance is not kept. The first page of the work space's rings is that of
+    `kernels.kinematic_rings`.
     """
     rollers, bodies, energy = state.rollers, state.bodies, state.energy
     sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
@@ -200,7 +138,6 @@ def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: A
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
         due, shown = step % stride == 0, (step + 1) % stride == 0
-        before = journal_velocity(bodies)
         balance_rollers(
             lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p
         )
@@ -218,9 +155,8 @@ def advance_quasistatic(lanes: Any, state: Any, work: Any, loads: Any, output: A
             hold_response(sums, direction, response, p)
         finish_step(
             bodies, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
-            energy, p,
+            energy, response, p,
         )  # fmt: skip
-        add_response(bodies, before, signals[step], response, p)
         if shown:
             roller_trend[(step + 1) // stride - 1] = rollers
             body_trend[(step + 1) // stride - 1] = bodies

@@ -35,22 +35,12 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LoadClass:
-    """One class of a load history.
+    """One class of a load history: means on the journal, axlebox frame."""
 
-    Parameters
-    ----------
-    share : float
-        Of all revolutions, 0 to 1.
-    force, moment : tuple of 3 floats
-        Mean on the journal, axlebox frame, [N], [N m].
-    speed : float
-        Mean of the shaft speed's magnitude, [rad/s].
-    """
-
-    share: float
-    force: tuple[float, float, float]
-    moment: tuple[float, float, float]
-    speed: float
+    share: float  # of all revolutions, 0 to 1
+    force: tuple[float, float, float]  # [N]
+    moment: tuple[float, float, float]  # [N m]
+    speed: float  # of the shaft, magnitude [rad/s]
 
 
 @dataclass(frozen=True)
@@ -103,14 +93,7 @@ def scene_life(
 def load_classes(load: LoadHistory) -> tuple[LoadClass, ...]:
     """Sort a load history into classes of radial and axial force, weighted by the revolutions under them.
 
-    Parameters
-    ----------
-    load : LoadHistory
-
-    Returns
-    -------
-    tuple of LoadClass
-        Their shares add up to 1; empty when the shaft never turns.
+    Their shares add up to 1; there are none when the shaft never turns.
     """
     turned = np.abs(load.shaft_speed)
     if not turned.any():
@@ -125,15 +108,13 @@ def load_classes(load: LoadHistory) -> tuple[LoadClass, ...]:
         weight = turned[held]
         if weight.sum() == 0.0:
             continue
-        mean = {
-            "force": np.average(force[held], axis=0, weights=weight),
-            "moment": np.average(moment[held], axis=0, weights=weight),
-        }
+        force_x, force_y, force_z = np.average(force[held], axis=0, weights=weight).tolist()
+        moment_x, moment_y, moment_z = np.average(moment[held], axis=0, weights=weight).tolist()
         classes.append(
             LoadClass(
                 share=float(weight.sum() / turned.sum()),
-                force=(float(mean["force"][0]), float(mean["force"][1]), float(mean["force"][2])),
-                moment=(float(mean["moment"][0]), float(mean["moment"][1]), float(mean["moment"][2])),
+                force=(force_x, force_y, force_z),
+                moment=(moment_x, moment_y, moment_z),
                 speed=float(np.average(weight, weights=weight)),
             )
         )
@@ -155,9 +136,6 @@ def rating_life(
 
     Parameters
     ----------
-    bearing : Bearing
-    classes : tuple of LoadClass
-    lubricant : Lubricant
     temperature : float
         Of lubricant and bearing, [K].
     end_play : float

@@ -35,52 +35,24 @@ _ON_AXIS = 1.0e-3
 
 @dataclass(frozen=True)
 class ContactModel:
-    """Constants of the contacts of both rows.
-
-    Parameters
-    ----------
-    bearing : Bearing
-    radial, axial, tilt_axis : float64 arrays, shape [row, roller, 3]
-        Unit vectors of each meridian plane: radial outwards, axial outwards along the row, and the axis
-        about which a positive tilt turns the large end radially outwards.
-    centre : float64 array, shape [row, roller, 3]
-        Nominal mid-length points of the rollers, [m].
-    abscissa, drop : float64 arrays, shape [lamina]
-        Lamina position from mid-length and profile drop, [m].
-    radius : float64 array, shape [row, roller, lamina]
-        Roller radius at the laminae with the roller's error, [m].
-    oversize : float64 array, shape [row, roller, 1]
-        Radius error, [m].
-    clearance : float
-        Normal gap at the cup raceway with the cone centred, [m].
-    lamina_factor, rib_factor : float
-        Stiffness factors of one lamina contact and of the rib, [N/m^(10/9)], [N/m^1.5].
-    inertia_load : float64 array, shape [3]
-        Radial force, axial force and tilt moment of the orbiting roller at its mid-length, [N, N, N m].
-    coupling : LaminaRoot or None
-        Matrices of coupled laminae.
-    bending : float64 array, shape [row, roller, 2 x mode]
-        Radial deflection of the cup at each roller per amplitude of its bending modes, [-].
-    missing : bool array, shape [row, roller]
-        Rollers that are not there.
-    """
+    """Constants of the contacts of both rows."""
 
     bearing: Bearing
-    radial: Float
-    axial: Float
-    tilt_axis: Float
-    centre: Float
-    abscissa: Float
-    radius: Float
-    oversize: Float
-    drop: Float
-    clearance: float
-    lamina_factor: float
-    rib_factor: float
-    inertia_load: Float
-    bending: Float
-    missing: NDArray[np.bool_]
-    coupling: LaminaRoot | None = None
+    radial: Float  # [row, roller, 3], unit vectors of each meridian plane: radially outwards,
+    axial: Float  # axially outwards along the row,
+    tilt_axis: Float  # and the axis about which a positive tilt turns the large end radially outwards
+    centre: Float  # [row, roller, 3], nominal mid-length points of the rollers [m]
+    abscissa: Float  # [lamina], from mid-length [m]
+    radius: Float  # [row, roller, lamina], roller radius at the laminae with the roller's error [m]
+    oversize: Float  # [row, roller, 1], radius error [m]
+    drop: Float  # [lamina], of the profile [m]
+    clearance: float  # normal gap at the cup raceway with the cone centred [m]
+    lamina_factor: float  # stiffness factor of one lamina contact [N/m^(10/9)]
+    rib_factor: float  # [N/m^1.5]
+    inertia_load: Float  # [3], radial, axial and tilting, of the orbiting roller at mid-length [N, N, N m]
+    bending: Float  # [row, roller, 2 x mode], radial deflection of the cup per amplitude of its modes [-]
+    missing: NDArray[np.bool_]  # [row, roller], rollers that are not there
+    coupling: LaminaRoot | None = None  # matrices of coupled laminae
 
     @property
     def apex_axial(self) -> float:
@@ -91,47 +63,23 @@ class ContactModel:
 
 @dataclass(frozen=True)
 class ConePose:
-    """Pose of the cone relative to the cup.
+    """Pose of the cone relative to the cup."""
 
-    Parameters
-    ----------
-    displacement : float64 array, shape [3]
-        Of the bearing centre fixed to the cone, [m].
-    rotation : float64 array, shape [3, 3]
-        From cone axes to cup axes.
-    bending : float64 array, shape [2 x mode]
-        Amplitudes of the cup's bending modes, [m].
-    """
-
-    displacement: Float
-    rotation: Float
-    bending: Float = field(default_factory=lambda: np.zeros(0))
+    displacement: Float  # [3], of the bearing centre fixed to the cone [m]
+    rotation: Float  # [3, 3], from cone axes to cup axes
+    bending: Float = field(default_factory=lambda: np.zeros(0))  # [2 x mode], amplitudes of the cup's [m]
 
 
 @dataclass(frozen=True)
 class ContactSet:
-    """One kind of contact of every roller.
+    """One kind of contact of every roller; arrays [row, roller, lamina, ...]."""
 
-    Parameters
-    ----------
-    approach : float64 array, shape [row, roller, lamina]
-        Positive when in contact, [m].
-    force, stiffness, energy : float64 arrays, shape [row, roller, lamina]
-        [N], [N/m], [J]. Of coupled laminae the stiffness is a matrix [row, roller, lamina, lamina] and the
-        energy that of the line, [row, roller, 1].
-    by_roller : float64 array, shape [row, roller, lamina, 3]
-        Change of approach with radial, axial and tilt motion of the roller, [-, -, m/rad].
-    by_cone : float64 array, shape [row, roller, lamina, 5 + 2 x mode]
-        Change of approach with cone displacement (3), tilt about x and z and bending of the cup,
-        [-, m/rad, -].
-    """
-
-    approach: Float
-    force: Float
-    stiffness: Float
-    energy: Float
-    by_roller: Float
-    by_cone: Float
+    approach: Float  # positive when in contact [m]
+    force: Float  # [N]
+    stiffness: Float  # [N/m]; of coupled laminae a matrix [..., lamina, lamina]
+    energy: Float  # [J]; of coupled laminae that of the line, [row, roller, 1]
+    by_roller: Float  # [..., 3], change of approach with its radial, axial and tilt motion [-, -, m/rad]
+    by_cone: Float  # [..., 5 + 2 x mode], with displacement, tilt about x and z, cup bending [-, m/rad, -]
 
 
 def contact_model(
@@ -146,29 +94,9 @@ def contact_model(
     rows: int = ROW_COUNT,
     missing: Sequence[tuple[int, int]] = (),
 ) -> ContactModel:
-    """Gather the constants of the contacts.
+    """Gather the constants of the contacts; arguments as of `static.solve`.
 
-    Parameters
-    ----------
-    bearing : Bearing
-    end_play : float
-        Total axial travel, negative for preload, [m].
-    laminae : int
-        Laminae of each raceway contact.
-    speed : float
-        Shaft speed, [rad/s].
-    roller_phase : float
-        Azimuth of roller 0, [rad].
-    coupling : LaminaCoupling or None
-        Coupling of the laminae.
-    oversize : float64 array, shape [row, roller], optional
-        Radius error of each roller, [m].
-    modes : int
-        Bending modes of the cup, with 2, 3, ... waves.
-    rows : int
-        2, or 1 for row 0 alone.
-    missing : sequence of pairs of int
-        Row and roller of those that are not there.
+    ``modes``: bending modes of the cup, with 2, 3, ... waves.
     """
     error = np.zeros((rows, bearing.roller_count)) if oversize is None else oversize[:rows]
     azimuth = roller_phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count

@@ -8,7 +8,7 @@ put where a turning bearing would carry it: against cup and rib, just touching.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,46 +37,25 @@ _ROUNDING_GAP = 1.0e-15
 
 @dataclass(frozen=True)
 class RollerState:
-    """Rollers in equilibrium at one pose of the cone.
+    """Rollers in equilibrium at one pose of the cone."""
 
-    Parameters
-    ----------
-    position : float64 array, shape [row, roller, 3]
-        Radial and axial displacement of mid-length and tilt, [m, m, rad].
-    cup, cone, rib : ContactSet
-    residual : float
-        Largest force that is left on a roller, [N].
-    cone_force : float64 array, shape [5 + 2 x mode]
-        Force of the rollers on the cone, its moment about x and z, [N, N m], and their force on the
-        amplitudes of the cup's bending, [N].
-    cone_stiffness : float64 array, shape [5 + 2 x mode, 5 + 2 x mode]
-        Change of the opposite of `cone_force` with the cone pose, rollers following.
-    follow : float64 array, shape [row, roller, 3, 5 + 2 x mode]
-        Change of roller position with the cone pose.
-    energy : float
-        Contact energy less the work of the inertia loads, [J].
-    """
-
-    position: Float
+    position: Float  # [row, roller, 3], radial and axial displacement of mid-length and tilt [m, m, rad]
     cup: ContactSet
     cone: ContactSet
     rib: ContactSet
-    residual: float
+    residual: float  # largest force that is left on a roller [N]
+    # [5 + 2 x mode], force of the rollers on the cone, its moment about x and z, [N, N m], and their force on
+    # the amplitudes of the cup's bending [N]
     cone_force: Float
-    cone_stiffness: Float
-    follow: Float
-    energy: float
+    cone_stiffness: Float  # change of the opposite of `cone_force` with the cone pose, rollers following
+    follow: Float  # [row, roller, 3, 5 + 2 x mode], change of roller position with the cone pose
+    energy: float  # contact energy less the work of the inertia loads [J]
 
 
 def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> RollerState:
     """Find the equilibrium of all rollers.
 
-    Parameters
-    ----------
-    model : ContactModel
-    pose : ConePose
-    guess : float64 array or None, shape [row, roller, 3]
-        Positions to start from where they have a lower energy than the position of a free roller.
+    Positions of a ``guess`` [row, roller, 3] are where those start that have a lower energy there than free.
     """
     solver = _Rollers(model, pose)
     touching = _on_cup_and_rib(model, pose)
@@ -224,13 +203,12 @@ def _chosen(mask: NDArray[np.bool_], one: _Trial, other: _Trial) -> _Trial:
 def _without(contact: ContactSet, free: NDArray[np.bool_]) -> ContactSet:
     """Set force, stiffness and energy of the contacts of free rollers to zero."""
     held = ~free[..., None]
-    return ContactSet(
-        approach=contact.approach,
+    matrix = held.reshape(held.shape + (1,) * (contact.stiffness.ndim - held.ndim))
+    return replace(
+        contact,
         force=contact.force * held,
-        stiffness=contact.stiffness * held.reshape(held.shape + (1,) * (contact.stiffness.ndim - held.ndim)),
+        stiffness=contact.stiffness * matrix,
         energy=contact.energy * held,
-        by_roller=contact.by_roller,
-        by_cone=contact.by_cone,
     )
 
 

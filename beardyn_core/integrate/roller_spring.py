@@ -25,9 +25,7 @@ def load_of_approach(bearing: Bearing, laminae: int) -> tuple[Float, Float]:
 
     Both cones are pressed axially against one row, so that every roller of it has the same approach.
 
-    Returns
-    -------
-    approach, load : float64 arrays, shape [sample], [m], [N]
+    Returns ``approach`` [sample], [m], and ``load`` [sample], [N].
     """
     low, high = _SMALLEST_APPROACH ** (1.0 / 9.0), _LARGEST_APPROACH ** (1.0 / 9.0)
     nodes = np.cos(np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES)

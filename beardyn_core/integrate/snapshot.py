@@ -16,26 +16,12 @@ from beardyn_core.scene.load_buffer import LoadBuffer
 
 @dataclass(frozen=True)
 class Snapshot:
-    """Everything the rest of a run depends on.
+    """Everything the rest of a run depends on."""
 
-    Parameters
-    ----------
-    index : int
-        Of the next block.
-    state : State
-    parameters : Parameters
-    load : LoadBuffer
-    observer : Observer
-        A copy, with the states of all filters.
-    first_audit : float64 array or None, shape [ENERGY_TERMS]
-        Energies at the start of the run, [J].
-    warmth : Warmth or None
-    """
-
-    index: int
+    index: int  # of the next block
     state: State
     parameters: Parameters
     load: LoadBuffer
-    observer: Any
-    first_audit: NDArray[np.float64] | None
+    observer: Any  # a copy, with the states of all filters
+    first_audit: NDArray[np.float64] | None  # [ENERGY_TERMS], energies at the start of the run [J]
     warmth: Warmth | None = None

@@ -44,27 +44,9 @@ def kinematic_spin(bearing: Bearing, cage_speed: float) -> float:
 
 
 def initial_state(
-    bearing: Bearing,
-    arrangement: Arrangement,
-    static: StaticSolution,
-    shaft_speed: float,
-    cage_speed: float,
+    bearing: Bearing, arrangement: Arrangement, static: StaticSolution, shaft_speed: float, cage_speed: float
 ) -> State:
-    """Make the state in static equilibrium, rolling at the given speeds.
-
-    Parameters
-    ----------
-    bearing : Bearing
-    arrangement : Arrangement
-    static : StaticSolution
-        Equilibrium under the first load.
-    shaft_speed, cage_speed : float
-        [rad/s].
-
-    Returns
-    -------
-    State
-    """
+    """Make the state in static equilibrium under the first load, rolling at the given speeds [rad/s]."""
     lanes = arrangement.to_lanes
     rollers = aligned_zeros(arrangement.block_count, ROLLER_FIELDS, arrangement.width)
     angle = bearing.contact_angle + lanes(static.roller_tilt)
@@ -101,15 +83,8 @@ def initial_state(
 def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: float) -> Float:
     """Find the pose of the cone in the static equilibrium of the lumped tier.
 
-    Parameters
-    ----------
-    p : LumpedParameters
-    pose : float64 array, shape [5]
-        Displacement and tilt about x and z to start from, [m], [rad].
-    load : float64 array, shape [5] or [3]
-        Force on the cup and, with a free tilt, moment about x and z, [N], [N m].
-    cage_rate : float
-        [rad/s].
+    ``pose`` [5]: displacement and tilt about x and z to start from [m], [rad]; ``load`` [5] or [3]: force on
+    the cup and, with a free tilt, moment about x and z [N], [N m]; ``cage_rate``: [rad/s].
 
     Raises
     ------

@@ -126,7 +126,6 @@ def solve(
 
     Parameters
     ----------
-    bearing : Bearing
     force, moment : array_like, shape [3]
         On the cone at the bearing centre, axlebox frame, [N], [N m]. The component of the moment about
         the axle is the shaft's and must be 0; the others matter only when tilt is free.
@@ -155,10 +154,6 @@ def solve(
         2, or 1 for row 0 alone; the cone leans on it towards +y only.
     missing : sequence of pairs of int
         Row and roller of those that are not there; their loads are 0.
-
-    Returns
-    -------
-    StaticSolution
 
     Raises
     ------

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from enum import IntFlag
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,17 +55,7 @@ class Status(IntFlag):
 
 
 # what compiled code can see of them
-_NOT_FINITE, _PENETRATION, _CHATTER, _OFF_RIB, _FILM_RANGE, _RIB_EDGE = (
-    int(each)
-    for each in (
-        Status.NOT_FINITE,
-        Status.PENETRATION,
-        Status.CHATTER,
-        Status.OFF_RIB,
-        Status.FILM_RANGE,
-        Status.RIB_EDGE,
-    )
-)
+_NOT_FINITE, _PENETRATION, _CHATTER, _OFF_RIB, _FILM_RANGE, _RIB_EDGE = map(int, Status)
 
 SENTENCES = {
     Status.NOT_FINITE: "a number became NaN or infinite: use a smaller time step "
@@ -117,17 +106,12 @@ def assess(state: State, step_count: int, large_end_radius: float, rib: RibParam
 
     Parameters
     ----------
-    state : State
     step_count : int
         Steps of the block.
     large_end_radius : float
         Of a roller, [m].
     rib : RibParams or None
         Rib contact of the run.
-
-    Returns
-    -------
-    Status
     """
     face = (0.0, 0.0, 0.0, -math.inf, math.inf)  # without a window no place is beyond it
     if rib is not None and rib.window is not None:
@@ -168,7 +152,7 @@ def _judge(rollers, bodies, step_count, large_end_radius, face):
 
 
 @inline
-def _chatters(rollers: Any, block: Any, lane: Any, step_count: Any) -> Any:
+def _chatters(rollers, block, lane, step_count):
     """Tell whether the chatter index of a roller is too large on cup or cone; see `chatter_index`."""
     found = False
     for ring in range(2):
@@ -180,14 +164,14 @@ def _chatters(rollers: Any, block: Any, lane: Any, step_count: Any) -> Any:
 
 
 @inline
-def _contact_load(rollers: Any, block: Any, kind: Any, lane: Any) -> Any:
+def _contact_load(rollers, block, kind, lane):
     first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS + OUTPUT_FORCE
     x, y, z = rollers[block, first, lane], rollers[block, first + 1, lane], rollers[block, first + 2, lane]
     return math.sqrt(x * x + y * y + z * z)
 
 
 @inline
-def _from_axis(rollers: Any, block: Any, lane: Any) -> Any:
+def _from_axis(rollers, block, lane):
     """Work out the distance of the rib contact from the roller's axis, [m]."""
     first = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_ARM
     arm = (rollers[block, first, lane], rollers[block, first + 1, lane], rollers[block, first + 2, lane])
@@ -197,7 +181,7 @@ def _from_axis(rollers: Any, block: Any, lane: Any) -> Any:
 
 
 @inline
-def _beyond_face(rollers: Any, block: Any, lane: Any, face: Any) -> Any:
+def _beyond_face(rollers, block, lane, face):
     """Tell how far the rib contact is beyond the edges of its face, the cone's place neglected, [m]."""
     sphere_place, normal_radial, normal_axial, low, high = face
     along = sphere_place * rollers[block, AXIS, lane]

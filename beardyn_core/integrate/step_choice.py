@@ -27,12 +27,7 @@ import numpy as np
 
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.effects import (
-    Cage,
-    EffectSet,
-    LoadSharingTraction,
-    RotatingCage,
-)
+from beardyn_core.effects import Cage, EffectSet, LoadSharingTraction, RotatingCage
 from beardyn_core.integrate.friction_steps import (
     LARGEST_EXPECTED_INDEX,
     LARGEST_STEPS,
@@ -73,13 +68,10 @@ def choose_steps(
 
     Parameters
     ----------
-    bearing : Bearing
     loads : tuple of float
         Smallest and largest radial load, [N].
     speeds : tuple of float
         Slowest and fastest shaft speed, [rad/s].
-    effects : EffectSet
-    laminae : int
     axial : float
         Axial load that goes with the largest radial one, [N].
     end_play : float, optional
@@ -89,10 +81,6 @@ def choose_steps(
     band : float
         Up to here third-octave levels of the vibration stay within 1.5 dB, [Hz]; 0 when only forces, torque
         and motion matter.
-
-    Returns
-    -------
-    StepChoice
 
     Raises
     ------

@@ -10,11 +10,10 @@ import numpy as np
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.integrate.imex import advance
-from beardyn_core.integrate.lumped import advance_lumped
+from beardyn_core.integrate.lumped import SpringTrend, advance_lumped, trend_shape
 from beardyn_core.integrate.quasistatic import advance_quasistatic
 from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.roller_spring import spring_params
-from beardyn_core.integrate.spring_trend import SpringTrend, trend_shape
 from beardyn_core.integrate.start import initial_state, settle_lumped
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.static import StaticSolution
@@ -42,26 +41,18 @@ class Tier:
 
     All tiers share the arrays of the full one (`model.layout`), so that whatever reads a state or a block
     works with any of them; what a tier does not compute stays zero.
-
-    Parameters
-    ----------
-    advance : callable
-        Compiled; advances all states over a block of steps. Arguments as of `imex.advance`.
-    parameters : callable
-        Kernel parameters from the scene and the parameters of the full tier.
-    start : callable
-        State at t = 0 from the scene, the arrangement, the kernel parameters, the static equilibrium and
-        the first load (wrench and shaft speed).
-    trend_shape : callable
-        Shape of what the kernel keeps of the rollers at an instant, from that of their state.
-    shown : callable
-        Rollers at the instants from lanes, what the kernel kept, and kernel parameters.
     """
 
+    # Compiled; advances all states over a block of steps. Arguments as of `imex.advance`
     advance: Callable[..., None]
+    # Kernel parameters from the scene and the parameters of the full tier
     parameters: Callable[[Scene, Parameters], Any]
+    # State at t = 0 from the scene, the arrangement, the kernel parameters, the static equilibrium and the
+    # first load (wrench and shaft speed)
     start: Callable[[Scene, Arrangement, Any, StaticSolution, Float], State]
+    # Shape of what the kernel keeps of the rollers at an instant, from that of their state
     trend_shape: Callable[[tuple[int, ...]], tuple[int, ...]] = lambda shape: shape
+    # Rollers at the instants from lanes, what the kernel kept, and kernel parameters
     shown: Callable[[Any, Float, Any], Any] = lambda _lanes, trend, _parameters: trend
 
 

@@ -27,6 +27,7 @@ from beardyn_core.bearing.rolling_resistance import (
 from beardyn_core.errors import InputError
 from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.model.faults import surface_radius
 from beardyn_core.model.laminae import equivalent_radius
 
 LINE_FORMS = {
@@ -38,19 +39,11 @@ LINE_FORMS = {
 
 @dataclass(frozen=True)
 class RunningTorque:
-    """Running torque of a bearing, by where it arises.
+    """Running torque of a bearing, by where it arises."""
 
-    Parameters
-    ----------
-    cup_couple, cone_couple : float64 arrays, shape [row, roller]
-        Couple on each roller against its rolling on the raceway, [N m].
-    rolling, rib : float
-        Torque on the shaft, [N m].
-    """
-
-    cup_couple: Float
+    cup_couple: Float  # [row, roller], on each roller against its rolling on the raceway [N m]
     cone_couple: Float
-    rolling: float
+    rolling: float  # on the shaft [N m]
     rib: float
 
     @property
@@ -59,16 +52,10 @@ class RunningTorque:
         return self.rolling + self.rib
 
 
-def raceway_radius(bearing: Bearing, ring: str) -> float:
-    """Work out the radius of a raceway at the mid-length of its rollers, [m]."""
-    angle = bearing.cup_angle if ring == "cup" else bearing.cone_angle
-    return bearing.apex_distance / math.cos(bearing.half_angle) * math.sin(angle)
-
-
 def entrainment_speeds(bearing: Bearing, speed: float) -> tuple[float, float]:
     """Work out entrainment speeds on cup and cone in pure rolling, contact-fixed frame, [m/s]."""
     orbit = cage_speed(bearing, abs(speed))
-    return orbit * raceway_radius(bearing, "cup"), (abs(speed) - orbit) * raceway_radius(bearing, "cone")
+    return orbit * surface_radius(bearing, "cup"), (abs(speed) - orbit) * surface_radius(bearing, "cone")
 
 
 def running_torque(
@@ -87,11 +74,8 @@ def running_torque(
 
     Parameters
     ----------
-    bearing : Bearing
-    lubricant : Lubricant
     temperature : float
         Of the lubricant at the inlets, [K].
-    static : StaticSolution
     speed : float
         Of the shaft, [rad/s].
     form : str
@@ -121,33 +105,22 @@ def running_torque(
     modulus, length = bearing.material.contact_modulus, bearing.effective_length
     couples = []
     speeds = entrainment_speeds(bearing, speed)
-    for ring, loads, entrainment in (
-        ("cup", static.cup_load, speeds[0]),
-        ("cone", static.cone_load, speeds[1]),
+    for ring, loads, entrainment in zip(
+        ("cup", "cone"), (static.cup_load, static.cone_load), speeds, strict=True
     ):
         radius = float(equivalent_radius(bearing, np.zeros(1), ring)[0])
         reduction = 1.0
         if thermal:
-            reduction = thermal_reduction(
-                thermal_loading(
-                    viscosity,
-                    lubricant.temperature_coefficient,
-                    entrainment,
-                    lubricant.thermal_conductivity,
-                )
-            )
+            oil = lubricant.temperature_coefficient, lubricant.thermal_conductivity
+            reduction = thermal_reduction(thermal_loading(viscosity, oil[0], entrainment, oil[1]))
         couple = np.zeros_like(loads)
         for index in zip(*np.nonzero(loads > 0.0), strict=True):
             load = float(loads[index])
-            contact = RollingContact(
-                load, entrainment, radius, length, modulus, viscosity, pressure_viscosity
-            )
-            half_width = hertz_half_width(load / length, radius, modulus)
-            couple[index] = reduction * LINE_FORMS[form](contact) + hysteresis_line(
-                load, half_width, hysteresis
-            )
+            unit = RollingContact(load, entrainment, radius, length, modulus, viscosity, pressure_viscosity)
+            width = hertz_half_width(load / length, radius, modulus)
+            couple[index] = reduction * LINE_FORMS[form](unit) + hysteresis_line(load, width, hysteresis)
         couples.append(couple)
-    cup_radius, cone_radius = raceway_radius(bearing, "cup"), raceway_radius(bearing, "cone")
+    cup_radius, cone_radius = surface_radius(bearing, "cup"), surface_radius(bearing, "cone")
     rolling = float(cup_radius * couples[1].sum() + cone_radius * couples[0].sum()) / bearing.roller_diameter
     return RunningTorque(couples[0], couples[1], rolling, _rib_torque(bearing, static, rib_friction))
 

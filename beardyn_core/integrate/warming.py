@@ -22,22 +22,12 @@ _NOTICEABLE_CLOSURE = 2.0e-8  # [m]
 
 @dataclass(frozen=True)
 class Warmth:
-    """Temperatures at the end of a block, and the energy that was lost until then.
+    """Temperatures at the end of a block, and the energy that was lost until then."""
 
-    Parameters
-    ----------
-    temperature : float64 array, shape [node]
-        Of `model.heat.NODES`, [K].
-    lost : float64 array, shape [source]
-        Since the start of the run, [J].
-    film_temperature, end_play : float
-        That the kernels work with now, [K], [m].
-    """
-
-    temperature: Float
-    lost: Float
-    film_temperature: float
-    end_play: float
+    temperature: Float  # [node], of `model.heat.NODES` [K]
+    lost: Float  # [source], since the start of the run [J]
+    film_temperature: float  # that the kernels work with now [K]
+    end_play: float  # likewise [m]
 
 
 def film_temperature(temperature: Float) -> float:
@@ -61,8 +51,6 @@ def warmed(
 
     Parameters
     ----------
-    scene : Scene
-    thermal : Thermal
     now : Warmth
         At its beginning.
     energy : float64 array, shape [ENERGY_TERMS]

@@ -2,6 +2,28 @@
 
 A contact is one file, its functions in the order of a step: prepare, stiffen, push, settle.
 
+Arguments mean the same in all kernels; a function's own words tell what is special there:
+
+- ``lanes``, ``block``, ``p``: the lane width, the block of rollers, and the parameters of the tier.
+- Parameters of an effect bear its name (``rib``: `RibParams`) and are ``None`` where it is absent; ``cage``,
+  ``roller``, ``damping`` and the like are the tuples of `model` too.
+- ``rollers`` [block, ROLLER_FIELDS, lane], ``rings`` [ring, RING_FIELDS, lane], ``sums`` [1, SUM_FIELDS +
+  2 x mode, lane], ``bodies`` [body, BODY_STATES], ``wrenches`` [body, 6], ``energy`` [ENERGY_TERMS], ``flex``
+  [mode, 2, 2], ``laminae`` [LAMINA_ROWS, lamina]: C-contiguous float64 arrays, see `model.layout`.
+- ``body``, ``view``, ``here``, ``change``: a `Body`, the `View` of the ring that it meets, `Here`, and the
+  `Twist` of the roller over the step; ``step`` [s]; ``ring``: ``CUP`` or ``CONE``.
+- ``centre``: centre of mass of the roller from the ring's origin [m]; ``axis``, ``ring_axis``: unit axes,
+  towards the large end; ``oversize``: radius error of the roller [m].
+- ``azimuths``: of the roller in the ring's frame, and of the contact in the roller's [rad]; ``cosine`` and
+  ``sine`` are those of the orbit azimuth.
+
+In the fast tiers, whose rollers stay in their meridian planes:
+
+- ``direction``: cosine and sine of the cage angle; ``turns``: angle of cages, cone, and rollers in their
+  pockets [rad]; ``speeds``: of shaft and cages [rad/s]; ``angle``: of the pocket [rad].
+- ``place``: radius and axial place of the centre of mass [m]; ``axis``: its radial and axial part.
+- ``motion``: from `relative_cone`; ``loads``: cup, cone and rib load [N].
+
 ================= ============================================================
 module            responsibility, in the order of the data
 ================= ============================================================
@@ -14,8 +36,7 @@ solve             the 6x6 system of one roller
 generator_line    contact line of a roller on a raceway
 defect            gap over patches of raceways and rollers
 waviness          gap of waviness; the force along a sloping gap
-lamina_coupling   laminae that sink with each other
-joint_lamina      one of them that lies partly over a patch
+lamina_coupling   laminae that sink with each other, also partly over a patch
 film              film thickness of a lamina
 traction          friction of a lamina: dry, of a full film, of both
 laminae           the springs of a raceway contact and their sums
@@ -23,21 +44,17 @@ raceway           contact of a roller with a raceway
 ring_flexibility  bending of the cup
 rolling           couple against rolling
 drag              medium around the rollers
-point_contact     contact with the cone at a point: what both ribs share
+point_contact     contact with the cone at a point, and the small rib
 rib               large end on the cone rib
-small_rib         small roller end at the small rib of the cone
 pocket            roller in its cage pocket
 roller            one step of a block of rollers
-bodies            cup, cone and cages as scalar rigid bodies
+bodies            cup, cone and cages as scalar rigid bodies, and the seals between them
 cage_bodies       cages as bodies: free, following the rings, or prescribed
 box               axlebox on its springs
 land              land of a cage in cup or cone
-seal              seals between cup and shaft
 stage_timer       where the time of a step goes
-balanced_springs  laminae of a roller in balance, as springs
-balanced_roller   a roller in balance (quasistatic tier)
-kinematic_rollers rollers that orbit kinematically
-kinematic_torque  torque of rollers in pure rolling
+balanced_roller   a roller in balance, its laminae as springs (quasistatic tier)
+kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
 kinematic_rings   rings of the fast tiers on the springs of all rollers
 spring_roller     a roller as one spring (lumped tier)
 ================= ============================================================

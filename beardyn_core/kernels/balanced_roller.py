@@ -7,48 +7,31 @@ slow change of the load. Forces are those of the balanced, linearised contacts.
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
-from beardyn_core.kernels.balanced_springs import lamina_springs
+from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
 from beardyn_core.kernels.exchange import damper_time
-from beardyn_core.kernels.lane_math import (
-    at_least,
-    at_most,
-    magnitude,
-    sqrt,
-)
+from beardyn_core.kernels.laminae import SMALLEST_APPROACH, add_moments, contact_spring
+from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, quick_ninth_root, sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import wave_gap
+from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 # A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
 # contact, but enough that it drifts towards a raceway or the rib by about a micrometre a step instead of
 # jumping far into it. It moves at most this far in a step [m].
 _HOLD = 2.0e7
 _LONGEST_MOVE = 2.0e-5
+_PI = 3.141592653589793
 
 
 @inline
-def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
+def cup_line(place, axis, radius, cup, roller):
     """Work out the contact line on the cup of a roller without skew: exact and affine in the abscissa.
 
-    Parameters
-    ----------
-    place : tuple of 2 lane values
-        Radius and axial place of the centre of mass, [m].
-    axis : tuple of 2 lane values
-        Radial and axial part of the roller axis.
-    radius : lane value
-        Of the roller at its centre of mass, [m].
-
-    Returns
-    -------
-    approach : tuple of 2 lane values
-        Affine in the abscissa, [m].
-    by_tilt : tuple of 2 lane values
-        Change of the approach with tilt, affine in the abscissa, [m/rad].
-    lever : tuple of 2 lane values
-        Arm of the contact normal about the bearing centre, affine in the abscissa, [m].
+    ``radius``: of the roller at its centre of mass [m]. Returns ``approach`` (2 numbers): affine in the
+    abscissa [m]; ``by_tilt`` (2 numbers): change of the approach with tilt, affine in the abscissa [m/rad];
+    ``lever`` (2 numbers): arm of the contact normal about the bearing centre, affine in the abscissa [m].
     """
     sine, cosine = axis[0], axis[1]
     radial, axial = place[0] + radius * cosine, place[1] - radius * sine
@@ -65,7 +48,7 @@ def cup_line(place: Any, axis: Any, radius: Any, cup: Any, roller: Any) -> Any:
 
 
 @inline
-def short_direction(across: Any) -> Any:
+def short_direction(across):
     """Work out the unit vector of a vector that is nearly radial, and one over its length.
 
     A series in the squared lean q from the radial direction; the error is 0.3 q^3, below 1e-12 for
@@ -78,17 +61,13 @@ def short_direction(across: Any) -> Any:
 
 
 @inline
-def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any, roller: Any) -> Any:
+def cone_line(centre, axis, ring_axis, radius, raceway, roller):
     """Work out the contact line on the cone: see `generator_line`, for a roller without skew of its own.
 
     One pass of the closed form, and series in place of roots: the direction of the force is good to first
     order in the displacement of the cone, the gap to second order, 0.1 nm at 0.1 mm.
 
-    Returns
-    -------
-    arm, arm_slope, normal : vector
-    approach : tuple of 4 lane values
-        As from `generator_line`.
+    Returns ``arm``, ``arm_slope``, ``normal``; ``approach`` (4 numbers): as from `generator_line`.
     """
     from_apex = add_scaled(centre, -roller.apex, ring_axis)
     outward, inverse = short_direction(add_scaled(from_apex, -dot(from_apex, ring_axis), ring_axis))
@@ -117,7 +96,7 @@ def cone_line(centre: Any, axis: Any, ring_axis: Any, radius: Any, raceway: Any,
 
 
 @inline
-def damped(springs: Any, rate: Any, damping: Any) -> Any:
+def damped(springs, rate, damping):
     """Add to the force sums what the damper adds at an affine approach rate."""
     if damping is None:
         return springs[0]
@@ -129,7 +108,7 @@ def damped(springs: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def cone_rate(line: Any, centre: Any, motion: Any) -> Any:
+def cone_rate(line, centre, motion):
     """Take the affine approach rate of a raceway or rib that moves, the roller at rest in its orbit frame."""
     arm, slope, normal = line[0], line[1], line[2]
     velocity, omega = motion
@@ -138,13 +117,13 @@ def cone_rate(line: Any, centre: Any, motion: Any) -> Any:
 
 
 @inline
-def tilt_arm(arm: Any, normal: Any) -> Any:
+def tilt_arm(arm, normal):
     """Change of approach with tilt of a contact at `arm` from the centre of mass, [m/rad]."""
     return normal[0] * arm[2] - normal[2] * arm[0]
 
 
 @inline
-def rib_spring(centre: Any, axis: Any, ring_axis: Any, motion: Any, rib: Any) -> Any:
+def rib_spring(centre, axis, ring_axis, motion, rib):
     """Work out the rib contact: force, tangent stiffness, change with place and tilt, approach rate.
 
     References
@@ -165,7 +144,7 @@ def rib_spring(centre: Any, axis: Any, ring_axis: Any, motion: Any, rib: Any) ->
 
 
 @inline
-def add_raceway(system: Any, force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any) -> Any:
+def add_raceway(system, force, stiffness, normal, by_tilt, factor):
     """Add a raceway's contact to matrix (upper triangle by rows) and right side."""
     m, r = system
     tilt_0 = by_tilt[0] * stiffness[0] + by_tilt[1] * stiffness[1]
@@ -189,7 +168,7 @@ def add_raceway(system: Any, force: Any, stiffness: Any, normal: Any, by_tilt: A
 
 
 @inline
-def solve_three(system: Any) -> Any:
+def solve_three(system):
     """Solve a symmetric positive definite system of three."""
     m, r = system
     d0 = 1.0 / m[0]
@@ -206,7 +185,7 @@ def solve_three(system: Any) -> Any:
 
 
 @inline
-def settled(force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any, move: Any, reach: Any) -> Any:
+def settled(force, stiffness, normal, by_tilt, factor, move, reach):
     """Work out the force sums of a raceway with x^0 and x^1 after a move, pressing and within the roller."""
     deeper = normal[0] * move[0] + normal[1] * move[1] + by_tilt[0] * move[2]
     steeper = by_tilt[1] * move[2]
@@ -216,37 +195,15 @@ def settled(force: Any, stiffness: Any, normal: Any, by_tilt: Any, factor: Any, 
 
 
 @inline
-def balance(
-    lanes: Any, block: Any, place: Any, axis: Any, views: Any, azimuths: Any, loads: Any, p: Any
-) -> Any:
+def balance(lanes, block, place, axis, views, azimuths, loads, p):
     """Take one Newton step of a block of rollers towards balance.
 
-    Parameters
-    ----------
-    place : tuple of 2 lane values
-        Radius and axial place of the centre of mass, [m].
-    axis : tuple of 2 lane values
-        Radial and axial part of the roller axis.
-    views : tuple of 4 vectors
-        Origin and axis of the cone, velocity of its origin and angular velocity, in the orbit frame and
-        against it.
-    azimuths : tuple of 3 lane values
-        On cup and cone, and of the roller in its pocket, [rad].
-    loads : tuple of 2 floats
-        Centrifugal force and gyroscopic moment, [N], [N m].
-
-    Returns
-    -------
-    move : tuple of 3 lane values
-        Radially, axially, in tilt, [m], [m], [rad].
-    cup, cone : tuples of 2 lane values
-        Load and its first moment along the roller, [N], [N m].
-    rib : lane value
-        [N].
-    lever : tuple of 2 lane values
-        Arm of the cup's load about the bearing centre, affine in the abscissa, [m].
-    deepest : lane value
-        Approach on the cup at the centre of mass, [m].
+    ``views`` (4 vectors): origin and axis of the cone, velocity of its origin and angular velocity, in the
+    orbit frame and against it; ``azimuths`` (3 numbers): on cup and cone, and of the roller in its pocket
+    [rad]; ``loads`` (2 numbers): centrifugal force and gyroscopic moment [N], [N m]. Returns ``move`` (3
+    numbers): radially, axially, in tilt [m], [m], [rad]; ``cup``, ``cone`` (2 numbers): load and its first
+    moment along the roller [N], [N m]; ``rib``: [N]; ``lever`` (2 numbers): arm of the cup's load about the
+    bearing centre, affine in the abscissa [m]; ``deepest``: approach on the cup at the centre of mass [m].
     """
     base, effects = p.base, p.base.effects
     roller, faults, zero = base.roller, effects.faults, lanes.constant(0.0)
@@ -303,7 +260,7 @@ def balance(
 
 
 @inline
-def damper_force(stiffness: Any, rate: Any, damping: Any) -> Any:
+def damper_force(stiffness, rate, damping):
     """Work out the force of a point contact's damper, [N]."""
     if damping is None:
         return 0.0
@@ -311,7 +268,7 @@ def damper_force(stiffness: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def turned_axis(axis: Any, tilt: Any) -> Any:
+def turned_axis(axis, tilt):
     """Turn the roller axis (radial, axial) by a small tilt."""
     square = tilt * tilt
     cosine, sine = 1.0 - 0.5 * square, tilt * (1.0 - square * (1.0 / 6.0))
@@ -322,14 +279,8 @@ def turned_axis(axis: Any, tilt: Any) -> Any:
 
 
 @inline
-def cone_view(lanes: Any, motion: Any, cosine: Any, sine: Any, orbit_rate: Any, side: Any) -> Any:
-    """Turn the cone into the orbit frames: origin, axis, and how both move against these turning frames.
-
-    Parameters
-    ----------
-    motion : tuple
-        From `relative_cone`.
-    """
+def cone_view(lanes, motion, cosine, sine, orbit_rate, side):
+    """Turn the cone into the orbit frames: origin, axis, and how both move against these turning frames."""
     zero = lanes.constant(0.0)
     about_x, about_z = motion[3][0], motion[4][0]
     length = 1.0 / sqrt(
@@ -346,4 +297,88 @@ def cone_view(lanes: Any, motion: Any, cosine: Any, sine: Any, orbit_rate: Any, 
     return origin, axis, velocity, omega
 
 
-_PI = 3.141592653589793
+# --- laminae as springs: their force and tangent stiffness, summed
+
+
+@inline
+def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches):
+    """Sum elastic force with x^0, x^1 and tangent stiffness with x^0, x^1, x^2 over the laminae.
+
+    ``approach`` (2 numbers): factors of x^0 and x^1 in the approach [m]; ``bend`` (2 numbers): factors of x^2
+    and x^3; ``reach``: half length of the roller [m].
+
+    References
+    ----------
+    Palmgren's line contact; see `kernels.raceway.lamina_sums`.
+    """
+    surface, roller_surface, damage = patches
+    near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
+    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
+
+
+@inline
+def _near_or_far(lanes, near, approach, bend, laminae, reach, damage):
+    if damage is None:
+        return _sound_moments(lanes, approach, bend, laminae, reach)
+    if near:
+        return _damaged_moments(lanes, approach, bend, laminae, damage)
+    return _sound_moments(lanes, approach, bend, laminae, reach)
+
+
+@inline
+def _sound_moments(lanes, approach, bend, laminae, reach):
+    zero = lanes.constant(0.0)
+    forces, stiffness = (zero, zero), (zero, zero, zero)
+    # where no roller of the block is in contact this look is all
+    if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
+        for k in range(laminae.shape[1]):
+            x = laminae[LAMINA_PLACE, k]
+            depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
+            touching = at_least(depth, SMALLEST_APPROACH)
+            tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
+            tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+            force = tangent * touching
+            forces = (forces[0] + force, forces[1] + x * force)
+            stiffness = add_moments(stiffness, tangent, x)
+    return forces, scale(10.0 / 9.0, stiffness)
+
+
+@inline
+def _bend(bend, x):
+    """Work out the part of the approach that is not affine in the abscissa, [m]."""
+    if bend is None:
+        return 0.0
+    return (x * x) * (bend[0] + x * bend[1])
+
+
+@inline
+def _most_bend(bend, reach):
+    """Bound of `_bend` along the roller, [m]."""
+    if bend is None:
+        return 0.0
+    return (reach * reach) * (magnitude(bend[0]) + reach * magnitude(bend[1]))
+
+
+@inline
+def _all_factors(approach, bend):
+    if bend is None:
+        zero = 0.0 * approach[0]
+        return approach[0], approach[1], zero, zero
+    return approach[0], approach[1], bend[0], bend[1]
+
+
+@inline
+def _damaged_moments(lanes, approach, bend, laminae, damage):
+    zero = lanes.constant(0.0)
+    forces, stiffness = (zero, zero), (zero, zero, zero)
+    factors = _all_factors(approach, bend)
+    springs = spring_count(laminae, damage, None)
+    laminae = spring_table(laminae, damage)
+    for k in range(springs):
+        x = laminae[LAMINA_PLACE, k]
+        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
+        tangent = share * tangent
+        force = 0.9 * tangent * at_least(depth, 0.0)
+        forces = (forces[0] + force, forces[1] + force * x)
+        stiffness = add_moments(stiffness, tangent, x)
+    return forces, stiffness

@@ -7,9 +7,9 @@ velocities half a step later. Tilts are small rotation vectors; the spin about +
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.vectors import add_scaled, subtract
 from beardyn_core.model.layout import (
     ANGULAR,
     CAGE_BODY,
@@ -24,6 +24,7 @@ from beardyn_core.model.layout import (
     LOSS_POCKET,
     LOSS_RIB,
     LOSS_ROLLING,
+    LOSS_SEAL,
     LOSS_SLIDING,
     LOSS_SMALL_RIB,
     LOSS_SUSPENSION,
@@ -47,7 +48,7 @@ LOAD_SPEED, LOAD_BOGIE = 6, 7  # after the six components of the load
 
 
 @inline
-def row_of(group: Any, lane: Any, width: Any, rows: Any) -> Any:
+def row_of(group, lane, width, rows):
     """Tell which row's rollers a lane of a group holds."""
     if width == 1:
         return group
@@ -55,7 +56,7 @@ def row_of(group: Any, lane: Any, width: Any, rows: Any) -> Any:
 
 
 @inline
-def drift_bodies(bodies: Any, step: Any) -> None:
+def drift_bodies(bodies, step):
     """Move all bodies along their velocities."""
     for body in range(bodies.shape[0]):
         for i in range(3):
@@ -65,7 +66,7 @@ def drift_bodies(bodies: Any, step: Any) -> None:
 
 
 @inline
-def ring_direction(bodies: Any, body: Any) -> Any:
+def ring_direction(bodies, body):
     """Work out the unit axis of a body that stands along +y without tilt, to second order in the tilt."""
     a, b, c = bodies[body, TILT + X], bodies[body, TILT + Y], bodies[body, TILT + Z]
     x = -c + 0.5 * a * b
@@ -76,30 +77,37 @@ def ring_direction(bodies: Any, body: Any) -> Any:
 
 
 @inline
-def _set_polar(rings: Any, ring: Any, field: Any, lane: Any, side: Any, x: Any, y: Any, z: Any) -> None:
-    rings[ring, field, lane] = z
-    rings[ring, field + 1, lane] = x
-    rings[ring, field + 2, lane] = side * y
+def body_vector(bodies, body, field):
+    """Take three numbers of a body that stand one after the other."""
+    return bodies[body, field], bodies[body, field + 1], bodies[body, field + 2]
 
 
 @inline
-def _set_axial(rings: Any, ring: Any, field: Any, lane: Any, side: Any, x: Any, y: Any, z: Any) -> None:
-    rings[ring, field, lane] = side * z
-    rings[ring, field + 1, lane] = side * x
-    rings[ring, field + 2, lane] = y
+def full_rotation(bodies, body, axis):
+    """Work out the angular velocity of a body with its spin about its axis, [rad/s]."""
+    return add_scaled(body_vector(bodies, body, ANGULAR), bodies[body, RATE], axis)
 
 
 @inline
-def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
+def _set_polar(rings, ring, field, lane, side, vector):
+    rings[ring, field, lane] = vector[2]
+    rings[ring, field + 1, lane] = vector[0]
+    rings[ring, field + 2, lane] = side * vector[1]
+
+
+@inline
+def _set_axial(rings, ring, field, lane, side, vector):
+    rings[ring, field, lane] = side * vector[2]
+    rings[ring, field + 1, lane] = side * vector[0]
+    rings[ring, field + 2, lane] = vector[1]
+
+
+@inline
+def show_rings(bodies, rings, cage_place):
     """Write cup, cone and cages in the row frames of every lane.
 
-    Parameters
-    ----------
-    bodies : float64 array, shape [body, BODY_STATES]
-    rings : float64 array, shape [group, ring, RING_FIELDS, lane]
-        Written. Origins are relative to the cup's.
-    cage_place : float
-        Axial place of a cage's centre of mass from the middle plane, [m].
+    ``rings`` [group, ring, RING_FIELDS, lane]: written, origins relative to the cup's; ``cage_place``:
+    axial place of a cage's centre of mass from the middle plane [m].
     """
     width, rows = rings.shape[3], bodies.shape[0] - CAGE_BODY
     for group in range(rings.shape[0]):
@@ -108,39 +116,23 @@ def show_rings(bodies: Any, rings: Any, cage_place: Any) -> None:
             side = 2.0 * row - 1.0
             for ring in range(3):
                 body = ring + row if ring == CAGE_BODY else ring
-                ax, ay, az = ring_direction(bodies, body)
-                rate = bodies[body, RATE]
+                axis, view = ring_direction(bodies, body), rings[group]
                 lift = side * cage_place if ring == CAGE_BODY else 0.0
-                view = rings[group]
-                _set_polar(
-                    view, ring, RING_ORIGIN, lane, side,
-                    bodies[body, POSITION + X] - bodies[CUP_BODY, POSITION + X],
-                    bodies[body, POSITION + Y] - bodies[CUP_BODY, POSITION + Y] + lift,
-                    bodies[body, POSITION + Z] - bodies[CUP_BODY, POSITION + Z],
-                )  # fmt: skip
+                place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, CUP_BODY, POSITION))
+                place = (place[0], place[1] + lift, place[2])
+                _set_polar(view, ring, RING_ORIGIN, lane, side, place)
                 if ring == CAGE_BODY:
-                    _set_axial(
-                        view, ring, RING_AXIS, lane, side,
-                        bodies[body, TILT + X], bodies[body, TILT + Y], bodies[body, TILT + Z],
-                    )  # fmt: skip
+                    _set_axial(view, ring, RING_AXIS, lane, side, body_vector(bodies, body, TILT))
                     view[ring, RING_TURN, lane] = bodies[body, TURN]
                 else:
-                    _set_axial(view, ring, RING_AXIS, lane, side, ax, ay, az)
+                    _set_axial(view, ring, RING_AXIS, lane, side, axis)
                     view[ring, RING_TURN, lane] = bodies[body, TURN] + bodies[body, TILT + Y]
-                _set_polar(
-                    view, ring, RING_VELOCITY, lane, side,
-                    bodies[body, LINEAR + X], bodies[body, LINEAR + Y], bodies[body, LINEAR + Z],
-                )  # fmt: skip
-                _set_axial(
-                    view, ring, RING_OMEGA, lane, side,
-                    bodies[body, ANGULAR + X] + rate * ax,
-                    bodies[body, ANGULAR + Y] + rate * ay,
-                    bodies[body, ANGULAR + Z] + rate * az,
-                )  # fmt: skip
+                _set_polar(view, ring, RING_VELOCITY, lane, side, body_vector(bodies, body, LINEAR))
+                _set_axial(view, ring, RING_OMEGA, lane, side, full_rotation(bodies, body, axis))
 
 
 @inline
-def collect_reactions(sums: Any, wrenches: Any) -> None:
+def collect_reactions(sums, wrenches):
     """Sum the lane reactions into world wrenches [body, 6] about each body's origin."""
     width, rows = sums.shape[3], wrenches.shape[0] - CAGE_BODY
     wrenches[:, :] = 0.0
@@ -160,7 +152,7 @@ def collect_reactions(sums: Any, wrenches: Any) -> None:
 
 
 @inline
-def fall(gravity: Any) -> Any:
+def fall(gravity):
     """Work out the acceleration of free fall, 0 without gravity, [m/s^2]."""
     if gravity is None:
         return 0.0
@@ -168,29 +160,12 @@ def fall(gravity: Any) -> Any:
 
 
 @inline
-def kick_cup(
-    bodies: Any,
-    wrench: Any,
-    load: Any,
-    load_before: Any,
-    energy: Any,
-    box: Any,
-    step: Any,
-    mounting: Any,
-    gravity: Any,
-) -> Any:
+def kick_cup(bodies, wrench, load, load_before, energy, box, step, mounting, gravity):
     """Accelerate the axlebox under rollers, suspension and weight; returns the suspension's energy, [J].
 
-    Parameters
-    ----------
-    wrench : float64 array, shape [6]
-        Of the rollers on the cup, [N, N m].
-    load, load_before : float64 array
-        Load row at the end and at the beginning of the step; bogie displacement from `LOAD_BOGIE`.
-    energy : float64 array, shape [ENERGY_TERMS]
-        Added to.
-    box : float64 array, shape [6]
-        Written: acceleration of the box, linear and angular.
+    ``wrench`` [6]: of the rollers on the cup [N, N m]; ``load``, ``load_before``: load row at the end and at
+    the beginning of the step; bogie displacement from `LOAD_BOGIE`; ``box`` [6]: written: acceleration of the
+    box, linear and angular.
     """
     stored = 0.0
     if mounting.cup_moves == 0.0:
@@ -224,18 +199,13 @@ def kick_cup(
 
 
 @inline
-def kick_cone(bodies: Any, wrench: Any, load: Any, energy: Any, step: Any, mounting: Any) -> Any:
+def kick_cone(bodies, wrench, load, energy, step, mounting):
     """Accelerate the journal under rollers, load and axial prop at prescribed spin.
 
     The prop is a spring with a damper between journal and ground along the axle: the other bearing of the
     wheelset, or the guide of a test rig. The gyroscopic moment of the wheelset is neglected.
 
-    Returns
-    -------
-    torque : float
-        On the shaft, [N m].
-    stored : float
-        Elastic energy of the prop, [J].
+    Returns ``torque``: on the shaft [N m]; ``stored``: elastic energy of the prop [J].
     """
     place, along = bodies[CONE_BODY, POSITION + Y], bodies[CONE_BODY, LINEAR + Y]
     damper = mounting.prop_damping * along
@@ -264,10 +234,8 @@ def kick_cone(bodies: Any, wrench: Any, load: Any, energy: Any, step: Any, mount
 
 
 @inline
-def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+def kick_cages(bodies, wrenches, energy, step, cage, gravity):
     """Accelerate both cages under pocket forces and weight, gyroscopic moment included."""
-    if cage is None:
-        return
     for body in range(CAGE_BODY, bodies.shape[0]):
         for i in range(3):
             pull = -cage.mass * fall(gravity) if i == Z else 0.0
@@ -294,7 +262,7 @@ def kick_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
 
 
 @inline
-def collect_energy(sums: Any, energy: Any, effects: Any, audit: Any) -> None:
+def collect_energy(sums, energy, effects, audit):
     """Add to the audit what the rollers lost in this step and what weight gave them.
 
     Sources of effects that are absent are not summed: 16 lanes one after the other take time.
@@ -313,17 +281,39 @@ def collect_energy(sums: Any, energy: Any, effects: Any, audit: Any) -> None:
 
 
 @inline
-def _collect_loss(sums: Any, energy: Any, source: Any, effect: Any) -> None:
+def _collect_loss(sums, energy, source, effect):
     if effect is None:
         return
     energy[ENERGY_LOST + source] += sum_lanes(sums, WORK_LOST + source)
 
 
 @inline
-def sum_lanes(sums: Any, field: Any) -> Any:
+def sum_lanes(sums, field):
     """Sum of one field over groups and lanes."""
     total = 0.0
     for group in range(sums.shape[0]):
         for lane in range(sums.shape[3]):
             total += sums[group, 0, field, lane]
     return total
+
+
+@inline
+def add_seals(bodies, wrenches, energy, step, seal):
+    """Add the torque of both seals to shaft and cup, equal and opposite, about the shaft's axis.
+
+    Dry friction, smooth through standstill, and a part that grows with speed. Neglects the radial and
+    axial force of the lips.
+    """
+    if seal is None:
+        return
+    ax, ay, az = ring_direction(bodies, CONE_BODY)
+    axis = (ax, ay, az)
+    speed = bodies[CONE_BODY, RATE]
+    for i in range(3):
+        speed += axis[i] * (bodies[CONE_BODY, ANGULAR + i] - bodies[CUP_BODY, ANGULAR + i])
+    dry = seal.torque / math.sqrt(speed * speed + seal.regularisation * seal.regularisation)
+    torque = (dry + seal.speed_coefficient) * speed
+    for i in range(3):
+        wrenches[CONE_BODY, 3 + i] -= torque * axis[i]
+        wrenches[CUP_BODY, 3 + i] += torque * axis[i]
+    energy[ENERGY_LOST + LOSS_SEAL] += step * torque * speed

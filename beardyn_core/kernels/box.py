@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, fall, kick_cup
 from beardyn_core.model.layout import (
@@ -21,28 +19,11 @@ FORCE = 6  # in the work space, after the acceleration
 
 
 @inline
-def kick_box(
-    bodies: Any,
-    wrench: Any,
-    load: Any,
-    load_before: Any,
-    energy: Any,
-    box: Any,
-    step: Any,
-    mounting: Any,
-    gravity: Any,
-    coupling: Any,
-) -> Any:
+def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gravity, coupling):
     """Accelerate the axlebox; arguments and result as `kick_cup`, with full matrices when coupled.
 
-    Parameters
-    ----------
-    box : float64 array, shape [12]
-        Written: acceleration of the bearing centre, linear and angular; then force and moment.
-    coupling : BoxCoupling or None
+    ``box`` [12]: written: acceleration of the bearing centre, linear and angular; then force and moment.
 
-    Notes
-    -----
     Small tilts and rates: centrifugal and gyroscopic terms of the box are neglected.
     """
     if coupling is None:
@@ -82,7 +63,7 @@ def kick_box(
 
 
 @inline
-def box_energy(bodies: Any, mounting: Any, coupling: Any) -> Any:
+def box_energy(bodies, mounting, coupling):
     """Sum the kinetic energy of the axlebox with the cup, [J]."""
     total = 0.0
     if coupling is None:
@@ -97,21 +78,21 @@ def box_energy(bodies: Any, mounting: Any, coupling: Any) -> Any:
 
 
 @inline
-def _stretch(bodies: Any, load: Any, i: Any) -> Any:
+def _stretch(bodies, load, i):
     if i < 3:
         return bodies[CUP_BODY, POSITION + i] - load[LOAD_BOGIE + i]
     return bodies[CUP_BODY, TILT + i - 3]
 
 
 @inline
-def _speed(bodies: Any, i: Any) -> Any:
+def _speed(bodies, i):
     if i < 3:
         return bodies[CUP_BODY, LINEAR + i]
     return bodies[CUP_BODY, ANGULAR + i - 3]
 
 
 @inline
-def _bogie_speed(load: Any, load_before: Any, step: Any, i: Any) -> Any:
+def _bogie_speed(load, load_before, step, i):
     if i < 3:
         return (load[LOAD_BOGIE + i] - load_before[LOAD_BOGIE + i]) / step
     return 0.0

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import fall, kick_cages, ring_direction
 from beardyn_core.model.layout import (
@@ -22,7 +20,7 @@ X, Y, Z = 0, 1, 2
 
 
 @inline
-def cage_energy(bodies: Any, cage: Any) -> Any:
+def cage_energy(bodies, cage):
     """Sum the kinetic energy of both cages, without a prescribed spin, [J]."""
     if cage is None:
         return 0.0
@@ -30,7 +28,7 @@ def cage_energy(bodies: Any, cage: Any) -> Any:
 
 
 @inline
-def _energy(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> Any:
+def _energy(bodies, cage, rotating, kinematic):
     if kinematic is not None:
         return 0.0
     total = 0.0
@@ -41,7 +39,7 @@ def _energy(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> Any:
 
 
 @inline
-def _tumbling_energy(bodies: Any, body: Any, cage: Any, rotating: Any) -> Any:
+def _tumbling_energy(bodies, body, cage, rotating):
     if rotating is not None:
         return 0.0
     total = 0.0
@@ -52,7 +50,7 @@ def _tumbling_energy(bodies: Any, body: Any, cage: Any, rotating: Any) -> Any:
 
 
 @inline
-def place_cages(bodies: Any, cage: Any) -> None:
+def place_cages(bodies, cage):
     """Put cages that follow the rings at the mean of cup and cone; a free cage stays where it is."""
     if cage is None:
         return
@@ -60,7 +58,7 @@ def place_cages(bodies: Any, cage: Any) -> None:
 
 
 @inline
-def _place(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> None:
+def _place(bodies, cage, rotating, kinematic):
     if rotating is None and kinematic is None:
         return
     for body in range(CAGE_BODY, bodies.shape[0]):
@@ -75,7 +73,7 @@ def _place(bodies: Any, cage: Any, rotating: Any, kinematic: Any) -> None:
 
 
 @inline
-def pass_on(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+def pass_on(bodies, wrenches, energy, step, cage, gravity):
     """Give what pushes cages that follow the rings, weight included, to cup and cone, half each.
 
     Only the moment about the cage's axis is left to the cage. That is exact: the cage moves with the mean of
@@ -87,16 +85,7 @@ def pass_on(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravi
 
 
 @inline
-def _pass_on(
-    bodies: Any,
-    wrenches: Any,
-    energy: Any,
-    step: Any,
-    cage: Any,
-    gravity: Any,
-    rotating: Any,
-    kinematic: Any,
-) -> None:
+def _pass_on(bodies, wrenches, energy, step, cage, gravity, rotating, kinematic):
     if rotating is None and kinematic is None:
         return
     for body in range(CAGE_BODY, bodies.shape[0]):
@@ -122,7 +111,7 @@ def _pass_on(
 
 
 @inline
-def move_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gravity: Any) -> None:
+def move_cages(bodies, wrenches, energy, step, cage, gravity):
     """Accelerate both cages, or set their prescribed speed and book the work that takes."""
     if cage is None:
         return
@@ -130,16 +119,7 @@ def move_cages(bodies: Any, wrenches: Any, energy: Any, step: Any, cage: Any, gr
 
 
 @inline
-def _move(
-    bodies: Any,
-    wrenches: Any,
-    energy: Any,
-    step: Any,
-    cage: Any,
-    gravity: Any,
-    rotating: Any,
-    kinematic: Any,
-) -> None:
+def _move(bodies, wrenches, energy, step, cage, gravity, rotating, kinematic):
     if rotating is None and kinematic is None:
         kick_cages(bodies, wrenches, energy, step, cage, gravity)
         return
@@ -150,7 +130,7 @@ def _move(
 
 
 @inline
-def _turn(bodies: Any, body: Any, about: Any, energy: Any, step: Any, cage: Any, kinematic: Any) -> None:
+def _turn(bodies, body, about, energy, step, cage, kinematic):
     if kinematic is None:
         bodies[body, RATE] += step * about / cage.polar_inertia
         return

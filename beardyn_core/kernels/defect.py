@@ -6,8 +6,6 @@ sound and its damaged part, the damaged one with the gap from the path of the ro
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
 from beardyn_core.kernels.lanes import any_positive
@@ -31,21 +29,21 @@ _SPRINGS = 0  # the work space has one page
 
 
 @inline
-def patch_arc(azimuth: Any, patch: Any, surface: Any) -> Any:
+def patch_arc(azimuth, patch, surface):
     """Work out the arc from the nearest centre of a patch, [m]."""
     turn = surface.places[patch, PLACE_REPEATS] * (azimuth - surface.places[patch, PLACE_AZIMUTH])
     return wrap(turn) * surface.places[patch, PLACE_ARC_RADIUS]
 
 
 @inline
-def patch_nearness(lanes: Any, block: Any, azimuth: Any, patch: Any, surface: Any) -> Any:
+def patch_nearness(lanes, block, azimuth, patch, surface):
     """Tell how far a roller is inside the reach of a patch; not positive where it does not feel it, [m]."""
     inside = surface.places[patch, PLACE_REACH] - magnitude(patch_arc(azimuth, patch, surface))
     return lanes.load(surface.present, block, patch) * inside
 
 
 @inline
-def any_near(lanes: Any, block: Any, azimuth: Any, surface: Any) -> Any:
+def any_near(lanes, block, azimuth, surface):
     """Tell whether any lane is within the reach of any patch of a surface."""
     if surface is None:
         return False
@@ -56,21 +54,11 @@ def any_near(lanes: Any, block: Any, azimuth: Any, surface: Any) -> Any:
 
 
 @inline
-def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any, damage: Any) -> Any:
+def find_damage(lanes, block, azimuths, count, surfaces, damage):
     """Tell whether a contact is near a patch, and then work out the gaps of its springs.
 
-    Parameters
-    ----------
-    azimuths : tuple of 2 lane values
-        Of the roller in the ring's frame, and of the contact in the roller's, [rad].
-    count : int
-        Laminae.
-    surfaces : tuple of 2 SurfaceParams or None
-        Of ring and roller.
-    damage : DamageParams or None
+    ``count``: of laminae; ``surfaces``: `SurfaceParams` of ring and roller, or ``None``.
 
-    Notes
-    -----
     A patch that covers a part of a lamina leaves the rest as a spring of its own, so that forces are
     continuous in the place and length of a patch. Where several patches meet on one lamina their gaps add;
     when they cover different shares of it, one damaged spring stands for all of them, with the mean share
@@ -103,9 +91,7 @@ def find_damage(lanes: Any, block: Any, azimuths: Any, count: Any, surfaces: Any
 
 
 @inline
-def add_patches(
-    lanes: Any, block: Any, azimuth: Any, count: Any, slope_field: Any, surface: Any, springs: Any
-) -> None:
+def add_patches(lanes, block, azimuth, count, slope_field, surface, springs):
     """Add the moments of the gaps of one surface's patches to the springs of a contact.
 
     Into the fields of the damaged spring go the sums of ``c |g|`` (share), ``c g`` (gap) and ``c dg/dtheta``
@@ -137,12 +123,12 @@ def add_patches(
 
 
 @inline
-def _increase(lanes: Any, springs: Any, field: Any, value: Any) -> None:
+def _increase(lanes, springs, field, value):
     lanes.store(springs, _SPRINGS, field, lanes.load(springs, _SPRINGS, field) + value)
 
 
 @inline
-def spring_table(laminae: Any, damage: Any) -> Any:
+def spring_table(laminae, damage):
     """Take the lamina table with a column for every spring."""
     if damage is None:
         return laminae
@@ -150,7 +136,7 @@ def spring_table(laminae: Any, damage: Any) -> Any:
 
 
 @inline
-def spring_count(laminae: Any, damage: Any, coupling: Any) -> Any:
+def spring_count(laminae, damage, coupling):
     """Count the springs of a contact, two of each lamina near a patch; coupled laminae are not divided."""
     if damage is None:
         return laminae.shape[1]
@@ -160,7 +146,7 @@ def spring_count(laminae: Any, damage: Any, coupling: Any) -> Any:
 
 
 @inline
-def spring_damage(lanes: Any, spring: Any, damage: Any) -> Any:
+def spring_damage(lanes, spring, damage):
     """Share of its lamina [-] and gap [m] of a spring."""
     if damage is None:
         return 1.0, 0.0
@@ -172,7 +158,7 @@ def spring_damage(lanes: Any, spring: Any, damage: Any) -> Any:
 
 
 @inline
-def gap_moments(lanes: Any, near: Any, lamina: Any, count: Any, damage: Any) -> Any:
+def gap_moments(lanes, near, lamina, count, damage):
     """Work out the mean gap [m] and mean squared gap [m^2] along one lamina."""
     zero = lanes.constant(0.0)
     if damage is None:
@@ -186,7 +172,7 @@ def gap_moments(lanes: Any, near: Any, lamina: Any, count: Any, damage: Any) -> 
 
 
 @inline
-def spring_slopes(lanes: Any, spring: Any, damage: Any) -> Any:
+def spring_slopes(lanes, spring, damage):
     """Take the slope of a spring's gap near a patch over the ring's and the roller's azimuth, [m/rad]."""
     field = SPRING_FIELDS * spring
     return (
@@ -196,7 +182,7 @@ def spring_slopes(lanes: Any, spring: Any, damage: Any) -> Any:
 
 
 @inline
-def pocket_wear(lanes: Any, block: Any, pockets: Any) -> Any:
+def pocket_wear(lanes, block, pockets):
     """Work out the half of the added clearance of each roller's pocket, [m]."""
     if pockets is None:
         return 0.0

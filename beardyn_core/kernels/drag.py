@@ -36,23 +36,12 @@ class DragContact(NamedTuple):
 
 
 @inline
-def prepare_drag(body: Any, view: Any, drag: Any) -> Any:
-    """Work out drag and churning; without the effect zeros of the same type, which nothing uses.
+def prepare_drag(body, view, drag):
+    """Work out drag and churning, a `DragContact`; without the effect zeros, which nothing uses.
 
     The orbit speed is the tangential one against the cup's motion at the roller's centre, the spin that
     about the roller axis against the cup. Neglects wakes, the cage and the stirring of the medium, and
     takes the Reynolds numbers of the lubricant.
-
-    Parameters
-    ----------
-    body : Body
-    view : View
-        Of the cup.
-    drag : DragParams or None
-
-    Returns
-    -------
-    DragContact
 
     References
     ----------
@@ -70,14 +59,14 @@ def prepare_drag(body: Any, view: Any, drag: Any) -> Any:
 
 
 @inline
-def churning_rate(spin: Any, drag: Any) -> Any:
+def churning_rate(spin, drag):
     """Work out the couple of the medium on a roller's ends and mantle over its spin, [N m s/rad]."""
     fast = magnitude(spin) + _SMALLEST_SPIN
     return drag.disc * sqrt(fast) + drag.cylinder * exp2(drag.cylinder_exponent * log2(fast))
 
 
 @inline
-def stiffen_drag(matrix: Any, contact: Any, step: Any, drag: Any) -> Any:
+def stiffen_drag(matrix, contact, step, drag):
     """Add the implicit part of drag and churning to the roller's matrix."""
     if drag is None:
         return matrix
@@ -89,7 +78,7 @@ def stiffen_drag(matrix: Any, contact: Any, step: Any, drag: Any) -> Any:
 
 
 @inline
-def push_drag(total: Any, contact: Any, drag: Any) -> Any:
+def push_drag(total, contact, drag):
     """Add drag and churning at the beginning of the step to the wrench of the roller."""
     if drag is None:
         return total
@@ -98,7 +87,7 @@ def push_drag(total: Any, contact: Any, drag: Any) -> Any:
 
 
 @inline
-def settle_drag(contact: Any, change: Any, total: Any, here: Any, drag: Any, p: Any) -> Any:
+def settle_drag(contact, change, total, here, drag, p):
     """Settle drag and churning after the solve: on roller and cup alike, with their loss."""
     if drag is None:
         return total

@@ -50,7 +50,7 @@ class ContactOutput(NamedTuple):
 
 
 @inline
-def load_vector(lanes: Any, array: Any, block: Any, field: Any) -> Any:
+def load_vector(lanes, array, block, field):
     """Load three lane values stored one after the other."""
     return (
         lanes.load(array, block, field),
@@ -60,7 +60,7 @@ def load_vector(lanes: Any, array: Any, block: Any, field: Any) -> Any:
 
 
 @inline
-def store_vector(lanes: Any, array: Any, block: Any, field: Any, vector: Any) -> None:
+def store_vector(lanes, array, block, field, vector):
     """Store three lane values one after the other."""
     lanes.store(array, block, field, vector[0])
     lanes.store(array, block, field + 1, vector[1])
@@ -68,13 +68,13 @@ def store_vector(lanes: Any, array: Any, block: Any, field: Any, vector: Any) ->
 
 
 @inline
-def accumulate(here: Any, field: Any, value: Any) -> None:
+def accumulate(here, field, value):
     """Add a lane value to a sum over the blocks."""
     here.lanes.store(here.sums, 0, field, here.lanes.load(here.sums, 0, field) + value)
 
 
 @inline
-def accumulate_vector(here: Any, field: Any, vector: Any) -> None:
+def accumulate_vector(here, field, vector):
     """Add three lane values to sums stored one after the other."""
     accumulate(here, field, vector[0])
     accumulate(here, field + 1, vector[1])
@@ -82,21 +82,12 @@ def accumulate_vector(here: Any, field: Any, vector: Any) -> None:
 
 
 @inline
-def react(ring: Any, centre: Any, wrench: Any, here: Any) -> None:
+def react(ring, centre, wrench, here):
     """Add the reaction of one contact to its ring: force and moment about the ring's origin.
 
-    Parameters
-    ----------
-    ring : int
-        ``CUP``, ``CONE`` or, for the cage, ``CAGE_BODY``.
-    centre : vector
-        Centre of mass of the roller from the ring's origin, [m].
-    wrench : Wrench
-        On the roller, about its centre of mass.
-    here : Here
+    ``ring``: ``CUP``, ``CONE`` or, for the cage, ``CAGE_BODY``; ``wrench``: on the roller, about its centre
+    of mass.
 
-    Notes
-    -----
     The compiler ranks what it adds by the order of the arguments, and by that decides which product of a sum
     is fused with it: another order gives other last bits. So `here` comes after the wrench, here and in the
     functions that settle a contact.
@@ -110,14 +101,14 @@ def react(ring: Any, centre: Any, wrench: Any, here: Any) -> None:
 
 
 @inline
-def react_couple(ring: Any, couple: Any, here: Any) -> None:
+def react_couple(ring, couple, here):
     """Add the reaction of a couple on the roller to its ring."""
     turn = turn_out(scale(-here.mask, couple), here.cosine, here.sine)
     accumulate_vector(here, REACTION + 6 * ring + 3, turn)
 
 
 @inline
-def account(here: Any, numerical: Any, elastic: Any, audit: Any) -> None:
+def account(here, numerical, elastic, audit):
     """Add what a contact lost to the time step and what it stores to the audit, [J]."""
     if audit is None:
         return
@@ -126,7 +117,7 @@ def account(here: Any, numerical: Any, elastic: Any, audit: Any) -> None:
 
 
 @inline
-def account_loss(here: Any, source: Any, lost: Any, audit: Any) -> None:
+def account_loss(here, source, lost, audit):
     """Add what a contact dissipated over the step to the audit, under its source (``LOSS_...``), [J]."""
     if audit is None:
         return
@@ -134,7 +125,7 @@ def account_loss(here: Any, source: Any, lost: Any, audit: Any) -> None:
 
 
 @inline
-def account_gravity(here: Any, work: Any, audit: Any) -> None:
+def account_gravity(here, work, audit):
     """Add the work of gravity to the audit, [J]."""
     if audit is None:
         return
@@ -142,18 +133,10 @@ def account_gravity(here: Any, work: Any, audit: Any) -> None:
 
 
 @inline
-def output_contact(lanes: Any, rollers: Any, block: Any, kind: Any, output: Any) -> None:
+def output_contact(lanes, rollers, block, kind, output):
     """Write what the last step says of one contact of a block of rollers.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Written.
-    block : int
-    kind : int
-        ``CUP``, ``CONE``, ``RIB`` or ``POCKET``.
-    output : ContactOutput
+    ``kind``: ``CUP``, ``CONE``, ``RIB`` or ``POCKET``.
     """
     first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS
     store_vector(lanes, rollers, block, first + OUTPUT_FORCE, output.force)
@@ -163,18 +146,13 @@ def output_contact(lanes: Any, rollers: Any, block: Any, kind: Any, output: Any)
 
 
 @inline
-def watch_chatter(here: Any, ring: Any, friction: Any, capacity: Any) -> None:
+def watch_chatter(here, ring, friction, capacity):
     """Sum the squares of what flips in the friction force, and of its capacity.
 
     What flips is its second difference, less half of what it has moved over both steps: a strike that the
     steps resolve moves more than it bends.
 
-    Parameters
-    ----------
-    here : Here
-    ring : int
-    friction, capacity : lane value
-        Friction of the step, and at full slip in the dry limit, [N].
+    ``friction``, ``capacity``: of the step, and at full slip in the dry limit [N].
     """
     lanes, rollers, block = here.lanes, here.rollers, here.block
     first = CHATTER + ring * CHATTER_FIELDS
@@ -193,13 +171,13 @@ def watch_chatter(here: Any, ring: Any, friction: Any, capacity: Any) -> None:
 
 
 @inline
-def implicit_time(spring_time: Any, damping: Any) -> Any:
+def implicit_time(spring_time, damping):
     """Work out the time that makes tangent stiffness an implicit resistance: dampers act in mid-step, [s]."""
     return spring_time + 0.5 * damper_time(damping)
 
 
 @inline
-def damper_time(damping: Any) -> Any:
+def damper_time(damping):
     """Take the damping of a contact over its tangent stiffness, 0 without damping, [s]."""
     if damping is None:
         return 0.0

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude
 from beardyn_core.model.layout import LAMINA_FILM
@@ -13,15 +11,11 @@ _LOG2_THICKEST_RIGID_FILM = -13.287712379549449  # 0.1 mm, where an unloaded rol
 
 
 @inline
-def log2_entrainment(speed: Any, film: Any) -> Any:
+def log2_entrainment(speed, film):
     """Work out what the film needs of the entrainment speed, once per contact.
 
-    Returns
-    -------
-    speed_part : lane value
-        Speed part of the film thickness with the heating of the inlet, [log2 (m/s)^exponent].
-    log2_rolling : lane value
-        The speed itself, not below 1 mm/s, [log2 m/s].
+    Returns ``speed_part``: speed part of the film thickness with the heating of the inlet [log2
+    (m/s)^exponent]; ``log2_rolling``: the speed itself, not below 1 mm/s [log2 m/s].
     """
     log2_rolling = log2(magnitude(speed) + 1e-3)
     if film is None:
@@ -30,7 +24,7 @@ def log2_entrainment(speed: Any, film: Any) -> Any:
 
 
 @inline
-def log2_thermal_factor(log2_rolling: Any, thermal: Any) -> Any:
+def log2_thermal_factor(log2_rolling, thermal):
     """Take log2 of the film reduction by inlet heating, 1 / (1 + c L^n), L = eta beta u^2 / k."""
     if thermal is None:
         return 0.0
@@ -40,15 +34,13 @@ def log2_thermal_factor(log2_rolling: Any, thermal: Any) -> Any:
 
 
 @inline
-def log2_load(load: Any) -> Any:
+def log2_load(load):
     """Work out the binary logarithm of the load of a lamina, not below that of 1e-12 N, [log2 N]."""
     return log2(at_least(load, 1e-12))
 
 
 @inline
-def log2_film_thickness(
-    log2_force: Any, log2_speed: Any, lamina: Any, ring: Any, laminae: Any, film: Any
-) -> Any:
+def log2_film_thickness(log2_force, log2_speed, lamina, ring, laminae, film):
     """Work out the binary logarithm of the film thickness of one lamina, [log2 m].
 
     Power law in speed and load, the rest of the formula is in the lamina table; with the guard of rigid
@@ -67,7 +59,7 @@ def log2_film_thickness(
 
 
 @inline
-def thicker_film(elastic: Any, load_log2: Any, log2_rolling: Any, lamina: Any, ring: Any, rigid: Any) -> Any:
+def thicker_film(elastic, load_log2, log2_rolling, lamina, ring, rigid):
     """Take the elastohydrodynamic film, or that of rigid surfaces where it is thicker, [log2 m].
 
     References
@@ -81,7 +73,7 @@ def thicker_film(elastic: Any, load_log2: Any, log2_rolling: Any, lamina: Any, r
 
 
 @inline
-def film_output(load: Any, log2_speed: Any, ring: Any, laminae: Any, film: Any) -> Any:
+def film_output(load, log2_speed, ring, laminae, film):
     """Work out the film thickness of the middle lamina under the mean lamina load, [m]; 0 without a film."""
     if film is None:
         return 0.0

@@ -36,26 +36,9 @@ class Slip(NamedTuple):
 
 
 @inline
-def generator_line(centre: Any, axis: Any, ring_axis: Any, oversize: Any, raceway: Any, roller: Any) -> Any:
-    """Work out the contact generator of a tapered roller on a conical raceway.
+def generator_line(centre, axis, ring_axis, oversize, raceway, roller):
+    """Work out the contact generator of a tapered roller on a conical raceway: a `Line`.
 
-    Parameters
-    ----------
-    centre : vector
-        Centre of mass of the roller from the ring's origin, [m].
-    axis, ring_axis : vector
-        Unit axes of roller and ring, towards the large end.
-    oversize : lane value
-        Radius error of the roller, [m].
-    raceway : RacewayParams
-    roller : RollerParams
-
-    Returns
-    -------
-    Line
-
-    Notes
-    -----
     Two passes of the closed form: the contact point of a disc on a cone is taken where the normal points,
     first at the disc centre, then at the point so found. At the centre of mass the gap is good to
     0.001 nm at 1 degree of skew; along the line to 0.05 nm at 2 mrad and 4 nm at 1 degree. The second pass
@@ -94,7 +77,7 @@ def generator_line(centre: Any, axis: Any, ring_axis: Any, oversize: Any, racewa
 
 
 @inline
-def _edge_towards(outward: Any, axis: Any, ring_axis: Any, raceway: Any) -> Any:
+def _edge_towards(outward, axis, ring_axis, raceway):
     """Take the radial direction of the roller that points along the raceway's normal at an azimuth."""
     normal = scale(raceway.side, add_scaled(scale(raceway.cosine, outward), -raceway.sine, ring_axis))
     lean = dot(normal, axis)
@@ -102,7 +85,7 @@ def _edge_towards(outward: Any, axis: Any, ring_axis: Any, raceway: Any) -> Any:
 
 
 @inline
-def _radial_direction(point: Any, ring_axis: Any) -> Any:
+def _radial_direction(point, ring_axis):
     """Work out the unit vector from the ring axis to a point, and the distance."""
     across = add_scaled(point, -dot(point, ring_axis), ring_axis)
     distance = sqrt(dot(across, across))
@@ -110,18 +93,8 @@ def _radial_direction(point: Any, ring_axis: Any) -> Any:
 
 
 @inline
-def line_slip(line: Any, centre: Any, body: Any, view: Any) -> Any:
-    """Work out the velocity of the roller against the ring along the generator: a `Slip`.
-
-    Parameters
-    ----------
-    line : Line
-    centre : vector
-        Centre of mass of the roller from the ring's origin, [m].
-    body : Body
-    view : View
-        Of the ring.
-    """
+def line_slip(line, centre, body, view):
+    """Work out the velocity of the roller against the ring along the generator: a `Slip`."""
     relative_omega = subtract(body.omega, view.omega)
     at_centre = subtract(subtract(body.velocity, view.velocity), cross(view.omega, centre))
     at_middle = add(at_centre, cross(relative_omega, line.arm))
@@ -135,45 +108,38 @@ def line_slip(line: Any, centre: Any, body: Any, view: Any) -> Any:
 
 
 @inline
-def affine_change(line: Any, direction: Any, change: Any) -> Any:
+def affine_change(line, direction, change):
     """Work out how a twist changes the velocity along a direction on the line, affine in the abscissa."""
     at_middle = add(change.velocity, cross(change.omega, line.arm))
     return dot(at_middle, direction), dot(cross(change.omega, line.arm_slope), direction)
 
 
 @inline
-def shifted(affine: Any, change: Any, part: Any) -> Any:
+def shifted(affine, change, part):
     """Add a part of a change to a function that is affine in the abscissa."""
     return affine[0] + part * change[0], affine[1] + part * change[1]
 
 
 @inline
-def weighted(weights: Any, affine: Any) -> Any:
+def weighted(weights, affine):
     """Sum ``w (a0 + a1 x)`` and ``w (a0 + a1 x) x`` over the laminae from the moments of w."""
-    return (
-        weights[0] * affine[0] + weights[1] * affine[1],
-        weights[1] * affine[0] + weights[2] * affine[1],
-    )
+    return (weights[0] * affine[0] + weights[1] * affine[1], weights[1] * affine[0] + weights[2] * affine[1])
 
 
 @inline
-def power(weights: Any, a: Any, b: Any) -> Any:
+def power(weights, a, b):
     """Sum ``w (a0 + a1 x)(b0 + b1 x)`` over the laminae from the moments of w."""
     sums = weighted(weights, a)
     return sums[0] * b[0] + sums[1] * b[1]
 
 
 @inline
-def line_wrench(line: Any, normal_force: Any, around_force: Any, along_force: Any) -> Any:
+def line_wrench(line, normal_force, around_force, along_force):
     """Add up the force on the roller and its moment about the centre of mass: a `Wrench`.
 
-    Parameters
-    ----------
-    line : Line
-    normal_force : tuple of 3 lane values
-        Sums of the normal force with x^0, x^1, x^2, pressing positive, [N m^k].
-    around_force, along_force : tuple of 2 lane values
-        Sums of the friction against the slip with x^0, x^1, [N m^k].
+    ``normal_force`` (3 numbers): sums of the normal force with x^0, x^1, x^2, pressing positive [N m^k];
+    ``around_force``, ``along_force`` (2 numbers): sums of the friction against the slip with x^0, x^1 [N
+    m^k].
     """
     around_0 = around_force[0] + line.bend * normal_force[1]
     around_1 = around_force[1] + line.bend * normal_force[2]
@@ -183,6 +149,6 @@ def line_wrench(line: Any, normal_force: Any, around_force: Any, along_force: An
 
 
 @inline
-def _combine(line: Any, normal_part: Any, around_part: Any, along_part: Any) -> Any:
+def _combine(line, normal_part, around_part, along_part):
     pressed = scale(-normal_part, line.normal)
     return add_scaled(add_scaled(pressed, -around_part, line.around), -along_part, line.along)

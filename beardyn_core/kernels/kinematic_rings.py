@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
+from beardyn_core.kernels.bodies import body_vector
+from beardyn_core.kernels.exchange import store_vector
 from beardyn_core.kernels.kinematic_rollers import row_totals
 from beardyn_core.model.layout import (
     ANGULAR,
@@ -22,17 +22,11 @@ STIFFNESS, RESPONSE, WORK = 0, 1, 2  # matrices in the work space
 
 
 @inline
-def add_stiffness(stiff: Any, tangent: Any, cosine: Any, sine: Any) -> Any:
+def add_stiffness(stiff, tangent, cosine, sine):
     """Add a block of rollers to the sums of the tangent stiffness.
 
-    Parameters
-    ----------
-    stiff : tuple of 6 lane values
-        Sums so far; zeros at first.
-    tangent : lane value
-        Of the rollers along the cup's normal, 0 for those that carry nothing, [N/m].
-    cosine, sine : lane value
-        Of the pocket angle.
+    ``stiff`` (6 numbers): sums so far; zeros at first; ``tangent``: of the rollers along the cup's normal, 0
+    for those that carry nothing [N/m]; ``cosine``, ``sine``: of the pocket angle.
     """
     with_c, with_s = tangent * cosine, tangent * sine
     return (
@@ -46,28 +40,18 @@ def add_stiffness(stiff: Any, tangent: Any, cosine: Any, sine: Any) -> Any:
 
 
 @inline
-def store_stiffness(lanes: Any, sums: Any, stiff: Any) -> None:
+def store_stiffness(lanes, sums, stiff):
     """Keep the sums of `add_stiffness`."""
-    lanes.store(sums, 0, STIFF_SUM, stiff[0])
-    lanes.store(sums, 0, STIFF_COSINE, stiff[1])
-    lanes.store(sums, 0, STIFF_SINE, stiff[2])
-    lanes.store(sums, 0, STIFF_CC, stiff[3])
-    lanes.store(sums, 0, STIFF_SS, stiff[4])
-    lanes.store(sums, 0, STIFF_CS, stiff[5])
+    store_vector(lanes, sums, 0, STIFF_SUM, stiff)
+    store_vector(lanes, sums, 0, STIFF_CC, stiff[3:])
 
 
 @inline
-def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
+def spring_matrix(sums, direction, work, p):
     """Work out the tangent stiffness of all rollers against displacement and tilt of the cone, world axes.
 
-    Parameters
-    ----------
-    sums : float64 array, shape [1, 1, SUM_FIELDS, lane]
-        With what `store_stiffness` has stored.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
-    work : float64 array, shape [3, 13, lane]
-        Written: the matrix of x, y, z, tilt about x and about z at ``STIFFNESS``.
+    ``sums`` [1, 1, SUM_FIELDS, lane]: with what `store_stiffness` has stored; ``work`` [3, 13, lane]
+    gets the matrix of x, y, z, tilt about x and about z at ``STIFFNESS``.
     """
     for i in range(5):
         for j in range(5):
@@ -92,11 +76,9 @@ def spring_matrix(sums: Any, direction: Any, work: Any, p: Any) -> None:
 
 
 @inline
-def hold_response(sums: Any, direction: Any, work: Any, p: Any) -> None:
+def hold_response(sums, direction, work, p):
     """Work out what a relative acceleration of the rings adds to the rollers' wrench, and keep it until due.
 
-    Notes
-    -----
     With the tangent stiffness K, the damping C = tau K and the step h, the explicit step becomes
     ``(M + h C/2 + h^2 K/12) a = F``. The second term takes the dampers' forces with the velocity of the
     forces' own instant, of which only that of half a step before is known. The third one makes the second
@@ -143,31 +125,21 @@ def hold_response(sums: Any, direction: Any, work: Any, p: Any) -> None:
 
 
 @inline
-def journal_velocity(bodies: Any) -> Any:
+def journal_velocity(bodies):
     """Take the velocity and tilt rate of the journal, 5 floats."""
-    return (
-        bodies[CONE_BODY, LINEAR],
-        bodies[CONE_BODY, LINEAR + 1],
-        bodies[CONE_BODY, LINEAR + 2],
-        bodies[CONE_BODY, ANGULAR],
-        bodies[CONE_BODY, ANGULAR + 2],
-    )
+    x, y, z = body_vector(bodies, CONE_BODY, LINEAR)
+    return x, y, z, bodies[CONE_BODY, ANGULAR], bodies[CONE_BODY, ANGULAR + 2]
 
 
 @inline
-def add_response(bodies: Any, before: Any, signal: Any, work: Any, p: Any) -> None:
+def add_response(bodies, before, signal, work, p):
     """Add the wrench of `hold_response` to a step that has been taken without it.
 
     Cup and cone get opposite wrenches. The channels get the dampers' part only: what they say is force and
     acceleration of the instant itself.
 
-    Parameters
-    ----------
-    before : tuple of 5 floats
-        `journal_velocity` before the step.
-    signal : float64 array, shape [SIGNAL_CHANNELS]
-        Changed: force and acceleration.
-    work : float64 array, shape [3, 13, lane]
+    ``before`` (5 numbers): `journal_velocity` before the step; ``signal`` [SIGNAL_CHANNELS]: changed: force
+    and acceleration.
     """
     motion, response = p.motion, p.response
     after = journal_velocity(bodies)
@@ -176,14 +148,11 @@ def add_response(bodies: Any, before: Any, signal: Any, work: Any, p: Any) -> No
     z = (after[2] - before[2]) * motion.rate - signal[SIGNAL_ACCELERATION + 2]
     about_x = (after[3] - before[3]) * motion.rate - signal[SIGNAL_ACCELERATION + 3]
     about_z = (after[4] - before[4]) * motion.rate - signal[SIGNAL_ACCELERATION + 5]
+    more = (x, y, z, about_x, about_z)
     wrench = (
-        _row(work, 0, x, y, z, about_x, about_z),
-        _row(work, 1, x, y, z, about_x, about_z),
-        _row(work, 2, x, y, z, about_x, about_z),
-        _row(work, 3, x, y, z, about_x, about_z),
-        0.0,
-        _row(work, 4, x, y, z, about_x, about_z),
-    )
+        _row(work, 0, more), _row(work, 1, more), _row(work, 2, more), _row(work, 3, more), 0.0,
+        _row(work, 4, more),
+    )  # fmt: skip
     push, turn = p.step * motion.journal_push, p.step * motion.journal_turn
     bodies[CONE_BODY, LINEAR] = after[0] - push * wrench[0]
     bodies[CONE_BODY, LINEAR + 1] = after[1] - push * wrench[1]
@@ -197,13 +166,14 @@ def add_response(bodies: Any, before: Any, signal: Any, work: Any, p: Any) -> No
 
 
 @inline
-def _row(work: Any, i: Any, x: Any, y: Any, z: Any, about_x: Any, about_z: Any) -> Any:
+def _row(work, i, more):
+    x, y, z, about_x, about_z = more
     linear = work[RESPONSE, i, 0] * x + work[RESPONSE, i, 1] * y + work[RESPONSE, i, 2] * z
     return linear + (work[RESPONSE, i, 3] * about_x + work[RESPONSE, i, 4] * about_z)
 
 
 @inline
-def _push_box(bodies: Any, wrench: Any, signal: Any, share: Any, p: Any, coupling: Any) -> None:
+def _push_box(bodies, wrench, signal, share, p, coupling):
     for i in range(3):
         linear = _box_acceleration(wrench, i, p, coupling)
         angular = _box_acceleration(wrench, 3 + i, p, coupling)
@@ -214,7 +184,7 @@ def _push_box(bodies: Any, wrench: Any, signal: Any, share: Any, p: Any, couplin
 
 
 @inline
-def _box_acceleration(wrench: Any, i: Any, p: Any, coupling: Any) -> Any:
+def _box_acceleration(wrench, i, p, coupling):
     if coupling is None:
         return p.motion.box_push[i] * wrench[i]
     total = 0.0

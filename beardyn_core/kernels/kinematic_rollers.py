@@ -6,12 +6,15 @@ Each row is written in its own ring frame, as in the full tier: radial at azimut
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import X, Y, Z
+from beardyn_core.kernels.drag import churning_rate
 from beardyn_core.kernels.exchange import ContactOutput, output_contact, store_vector
 from beardyn_core.kernels.film import film_output, log2_entrainment
+from beardyn_core.kernels.lane_math import at_least, exp2, log2
+from beardyn_core.kernels.rib import rib_friction, rib_log2_film, spin_reach, with_spin
+from beardyn_core.kernels.rolling import rolling_couple
 from beardyn_core.model.layout import (
     ANGLE,
     ANGULAR,
@@ -35,10 +38,11 @@ from beardyn_core.model.layout import (
 # Sums of the cup forces along the cup's normal, in the cages' frame; axial force and moments times the side.
 LOAD_COSINE, LOAD_SINE, LOAD_AXIAL, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(REACTION, REACTION + 6)
 TORQUE_ROLLING, TORQUE_RIB = REACTION + 6, REACTION + 7
+_SMALLEST_LOAD = 1e-3
 
 
 @inline
-def relative_motion(bodies: Any, i: Any, place: Any, speed: Any) -> Any:
+def relative_motion(bodies, i, place, speed):
     """Take the motion of the cone against the cup on one world axis: displacement and velocity."""
     return (
         bodies[CONE_BODY, place + i] - bodies[CUP_BODY, place + i],
@@ -47,7 +51,7 @@ def relative_motion(bodies: Any, i: Any, place: Any, speed: Any) -> Any:
 
 
 @inline
-def relative_cone(bodies: Any) -> Any:
+def relative_cone(bodies):
     """Take displacement, velocity, tilt and tilt rate of the cone against the cup; tilts to first order."""
     return (
         relative_motion(bodies, X, POSITION, LINEAR),
@@ -59,7 +63,7 @@ def relative_cone(bodies: Any) -> Any:
 
 
 @inline
-def turned(direction: Any, angle: Any) -> Any:
+def turned(direction, angle):
     """Turn a direction (cosine, sine) by an angle of a few hundredths; the error is below 1e-15 there."""
     square = angle * angle
     cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
@@ -68,14 +72,14 @@ def turned(direction: Any, angle: Any) -> Any:
 
 
 @inline
-def lane_total(sums: Any, field: Any) -> Any:
+def lane_total(sums, field):
     """Sum of a field over the lanes."""
     inner, outer = row_totals(sums, field)
     return inner + outer
 
 
 @inline
-def row_totals(sums: Any, field: Any) -> Any:
+def row_totals(sums, field):
     """Sum of a field over the lanes of each row."""
     half = sums.shape[3] // 2
     inner, outer = 0.0, 0.0
@@ -86,18 +90,12 @@ def row_totals(sums: Any, field: Any) -> Any:
 
 
 @inline
-def cup_wrench(totals: Any, direction: Any, cosine: Any, sine: Any) -> Any:
+def cup_wrench(totals, direction, cosine, sine):
     """Work out world force and moment of the rollers on the cup; no moment about the axis.
 
-    Parameters
-    ----------
-    totals : tuple of 5 floats
-        Sums of the rollers' loads along the cup's normal in the cages' frame: load times cosine and sine,
-        load times side, moment times side, cosine and sine.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
-    cosine, sine : float
-        Of the cup angle.
+    ``totals`` (5 numbers): sums of the rollers' loads along the cup's normal in the cages' frame: load times
+    cosine and sine, load times side, moment times side, cosine and sine; ``cosine``, ``sine``: of the cup
+    angle.
     """
     load_c, load_s, load_a, moment_c, moment_s = totals
     return (
@@ -111,21 +109,10 @@ def cup_wrench(totals: Any, direction: Any, cosine: Any, sine: Any) -> Any:
 
 
 @inline
-def show_roller(
-    lanes: Any, rollers: Any, block: Any, place: Any, axis: Any, turn: Any, angle: Any, p: Any
-) -> Any:
+def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
     """Write a block of rollers as the full tier keeps them.
 
-    Parameters
-    ----------
-    place : tuple of 2 lane values
-        Radius and axial place of the centre of mass, [m].
-    axis : tuple of 2 lane values
-        Radial and axial part of the roller axis.
-    turn : tuple of 2 floats
-        Angle and speed of the cages, [rad], [rad/s].
-    angle : lane value
-        Pocket angle, [rad].
+    ``turn`` (2 numbers): angle and speed of the cages [rad], [rad/s].
     """
     zero = lanes.constant(0.0)
     k, roller = p.kinematic, p.base.roller
@@ -148,21 +135,10 @@ def show_roller(
 
 
 @inline
-def show_contacts(
-    lanes: Any, rollers: Any, block: Any, axis: Any, loads: Any, centres: Any, speeds: Any, p: Any
-) -> None:
+def show_contacts(lanes, rollers, block, axis, loads, centres, speeds, p):
     """Write force, place, slip and film of the contacts of a block of rollers.
 
-    Parameters
-    ----------
-    axis : tuple of 2 lane values
-        Radial and axial part of the roller axis.
-    loads : tuple of 3 lane values
-        Cup, cone and rib load, [N].
-    centres : tuple of 2 lane values
-        Pressure centres on cup and cone, from the centre of mass along the axis, [m].
-    speeds : tuple of 2 floats
-        Speed of shaft and cages, [rad/s].
+    ``centres`` (2 numbers): pressure centres on cup and cone, from the centre of mass along the axis [m].
     """
     zero = lanes.constant(0.0)
     k, roller, film, laminae = p.kinematic, p.base.roller, p.base.effects.film, p.base.laminae
@@ -189,7 +165,7 @@ def show_contacts(
 
 
 @inline
-def show_rib(lanes: Any, rollers: Any, block: Any, axis: Any, load: Any, slip: Any, rib: Any) -> None:
+def show_rib(lanes, rollers, block, axis, load, slip, rib):
     """Write force, place and slip of the rib contacts."""
     if rib is None:
         return
@@ -201,3 +177,87 @@ def show_rib(lanes: Any, rollers: Any, block: Any, axis: Any, load: Any, slip: A
     )
     force = (-rib.normal_radial * load, zero, -rib.normal_axial * load)
     output_contact(lanes, rollers, block, RIB, ContactOutput(force, arm, math.fabs(slip) + zero, zero))
+
+
+# --- torque on the shaft of rollers in pure rolling: every loss as lost power over shaft speed, by the laws
+# --- of the full tier; evaluated 400 times a second and held in between: loads of single rollers change
+# --- slowly, and the rib's share follows the sum of the rib loads at every step
+
+
+@inline
+def rolling_torque(loads, speeds, k, rolling):
+    """Work out the rolling resistance's torque of a block of rollers, along the shaft's rotation, [N m].
+
+    References
+    ----------
+    Zhao et al. (2026), see `integrate.torque`: T = sum (R_o M_i + R_i M_o) / D.
+    """
+    if rolling is None:
+        return 0.0 * loads[0]
+    cup = rolling_couple(loads[0], speeds[1] * k.cup_radius, CUP, rolling)
+    cone = rolling_couple(loads[1], (speeds[0] - speeds[1]) * k.cone_radius, CONE, rolling)
+    on_cup = smooth_lever(k.rolling_on_cup, speeds[0], rolling.regularisation[CUP])
+    return on_cup * cup + smooth_lever(k.rolling_on_cone, speeds[0], rolling.regularisation[CONE]) * cone
+
+
+@inline
+def smooth_lever(lever, speed, floor):
+    """Smooth the lever of a couple against a rotation at `lever` times the shaft's speed at standstill."""
+    rate = lever * speed
+    return lever * rate / math.sqrt(rate * rate + floor * floor)
+
+
+@inline
+def sliding_torque(load, speeds, p, rib):
+    """Work out the torque of large ends that slide on their ribs, along the shaft's rotation, [N m].
+
+    The contact is taken in the roller's meridian plane at its nominal height.
+    """
+    if rib is None:
+        return 0.0 * load
+    k = p.kinematic
+    slip = k.rib_slip * speeds[0]
+    radius = k.radius + rib.sphere_place * k.axis_radial + rib.sphere_radius * rib.normal_radial
+    entrainment = (speeds[0] - speeds[1]) * radius - 0.5 * slip
+    # load = K depth^1.5
+    root = exp2((1.0 / 3.0) * log2(at_least(load, _SMALLEST_LOAD) * (1.0 / rib.stiffness)))
+    along = p.base.cone.sine * rib.normal_radial + p.base.cone.cosine * rib.normal_axial
+    spin = k.rib_spin * along * speeds[0]
+    squared = with_spin(slip * slip, spin_reach(root * root, rib.drilling), spin, rib.drilling)
+    log2_film = rib_log2_film(load, entrainment, rib.film)
+    friction = rib_friction(load, root, squared, log2_film, rib, rib.film)
+    return friction * squared_over(squared, speeds[0])
+
+
+@inline
+def squared_over(squared, speed):
+    """Divide squared slip by the shaft speed; zero at rest."""
+    return squared * (speed / (speed * speed + 1e-12))
+
+
+@inline
+def drag_torque(speeds, k, drag):
+    """Work out the torque of the drag on all rollers, along the shaft's rotation, [N m]."""
+    if drag is None:
+        return 0.0
+    flow, spin = speeds[1] * k.radius, speeds[1] * (k.spin_ratio + k.axis_axial)
+    power = drag.orbit * math.fabs(flow) * flow * flow + churning_rate(spin, drag) * spin * spin
+    return squared_over(k.rolling_count * power, speeds[0])
+
+
+@inline
+def seal_torque(speed, seal):
+    """Work out the torque of both seals, along the shaft's rotation, [N m]."""
+    if seal is None:
+        return 0.0
+    dry = seal.torque / math.sqrt(speed * speed + seal.regularisation * seal.regularisation)
+    return (dry + seal.speed_coefficient) * speed
+
+
+@inline
+def held_losses(sums, speeds, rib_load, p):
+    """Work out the torque of all but the ribs [N m], and that of the ribs over the sum of their loads [m]."""
+    effects, k = p.base.effects, p.kinematic
+    steady = drag_torque(speeds, k, effects.drag) + seal_torque(speeds[0], effects.seal)
+    rib = lane_total(sums, TORQUE_RIB) / max(rib_load, _SMALLEST_LOAD)
+    return steady + lane_total(sums, TORQUE_ROLLING), rib

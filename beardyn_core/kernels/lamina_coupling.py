@@ -6,34 +6,37 @@ number of passes from a fixed start, so that a force depends on the present stat
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
-from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
+from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.model.layout import COUPLING_ROWS, LAMINA_STIFFNESS
+from beardyn_core.model.layout import (
+    COUPLING_ROWS,
+    LAMINA_STIFFNESS,
+    SPRING_FIELDS,
+    SPRING_GAP,
+    SPRING_RING_SLOPE,
+    SPRING_ROLLER_SLOPE,
+    SPRING_SHARE,
+)
 
 # rows of the work space
 DEPTH, SURFACE, SPRING, FORCE, SHARE = range(COUPLING_ROWS)
 BALANCE = SPRING  # of which the sweeps have no need yet
+_SPRINGS = 0  # the work space near a patch has one page
 _SMALLEST = 1e-15
+_NO_ENERGY = 1e-40  # of a depth of 1e-19 m
+_SMALLEST_PART = 1e-30
+_SMALLEST_LOOSE = 1e-12
 _NOTHING = 1e-300
 
 
 @inline
-def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
+def couple_laminae(lanes, laminae, coupling):
     """Turn the depths of the laminae in the work space into tangents and energies.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    laminae : float64 array, shape [LAMINA_ROWS, lamina]
-    coupling : CouplingParams
-        Row DEPTH of its work space holds the geometric penetrations, [m]. Written: SURFACE, the tangent of
-        each lamina as ten ninths of its load over its penetration, [N/m], and FORCE, its energy, [J].
+    ``coupling``: row DEPTH of its work space holds the geometric penetrations, [m]. Written: SURFACE, the
+    tangent of each lamina as ten ninths of its load over its penetration, [N/m], and FORCE, its energy [J].
 
-    Notes
-    -----
     Two sweeps of single laminae under a linear law, forth and back, then one step of all free laminae under
     the true law. Where every lamina is pressed the surface is the roller's and the result exact: the sweeps
     would move nothing, and a block of such rollers goes without. Else loads
@@ -69,14 +72,14 @@ def couple_laminae(lanes: Any, laminae: Any, coupling: Any) -> None:
 
 
 @inline
-def _moved(lanes: Any, work: Any, lamina: Any, balance: Any) -> Any:
+def _moved(lanes, work, lamina, balance):
     """Work out by how much the others move the surface at a lamina, [m]."""
     surface = at_least(lanes.load(work, DEPTH, lamina), balance)
     return magnitude(surface - lanes.load(work, SURFACE, lamina))
 
 
 @inline
-def _tangent(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
+def _tangent(lanes, coupling, lamina, load):
     """Take ten ninths of the load of a lamina over its penetration, [N/m]."""
     depth = lanes.load(coupling.work, DEPTH, lamina)
     left_behind = at_least(lanes.load(coupling.work, SURFACE, lamina) - depth, 0.0)
@@ -86,7 +89,7 @@ def _tangent(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
 
 
 @inline
-def _sweep(lanes: Any, count: Any, coupling: Any) -> None:
+def _sweep(lanes, count, coupling):
     """Sweep forth and back: a lamina that moves changes those after it at once, so that none waits for a sum.
 
     BALANCE holds on entry what the pressed surfaces ask of every lamina. On the way back it holds what the
@@ -112,7 +115,7 @@ def _sweep(lanes: Any, count: Any, coupling: Any) -> None:
 
 
 @inline
-def _free_laminae(lanes: Any, count: Any, coupling: Any) -> None:
+def _free_laminae(lanes, count, coupling):
     """Take the step of the free laminae under the true law."""
     work = coupling.work
     for j in range(0, count, 2):
@@ -124,7 +127,7 @@ def _free_laminae(lanes: Any, count: Any, coupling: Any) -> None:
 
 
 @inline
-def _freed(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
+def _freed(lanes, coupling, lamina, load):
     """Work out the surface at a lamina after its step, [m]."""
     surface = lanes.load(coupling.work, SURFACE, lamina)
     depth = lanes.load(coupling.work, DEPTH, lamina)
@@ -133,7 +136,7 @@ def _freed(lanes: Any, coupling: Any, lamina: Any, load: Any) -> Any:
 
 
 @inline
-def _products(lanes: Any, matrix: Any, row: Any, other: Any, work: Any, field: Any) -> Any:
+def _products(lanes, matrix, row, other, work, field):
     """Multiply two rows of a matrix by a row of the work space; four sums need not wait on each other."""
     count = matrix.shape[1]
     first, second = lanes.constant(0.0), lanes.constant(0.0)
@@ -152,7 +155,7 @@ def _products(lanes: Any, matrix: Any, row: Any, other: Any, work: Any, field: A
 
 
 @inline
-def _load_springs(lanes: Any, laminae: Any, coupling: Any) -> None:
+def _load_springs(lanes, laminae, coupling):
     """Share of the surface of every lamina's own spring, its secant stiffness and force there."""
     count = laminae.shape[1]
     for j in range(0, count, 2):
@@ -163,7 +166,7 @@ def _load_springs(lanes: Any, laminae: Any, coupling: Any) -> None:
 
 
 @inline
-def _load_spring(lanes: Any, laminae: Any, coupling: Any, lamina: Any, depth: Any) -> None:
+def _load_spring(lanes, laminae, coupling, lamina, depth):
     spring = laminae[LAMINA_STIFFNESS, lamina] * ninth_root(at_least(magnitude(depth), _SMALLEST))
     lanes.store(coupling.work, SPRING, lamina, spring)
     lanes.store(coupling.work, SHARE, lamina, depth)
@@ -171,7 +174,69 @@ def _load_spring(lanes: Any, laminae: Any, coupling: Any, lamina: Any, depth: An
 
 
 @inline
-def _own_tangent(lanes: Any, coupling: Any, lamina: Any) -> Any:
+def _own_tangent(lanes, coupling, lamina):
     """Work out the tangent stiffness of one lamina with the others held, [N/m]."""
     own = (10.0 / 9.0) * coupling.own_stiffness[lamina]
     return own * lanes.load(coupling.work, SPRING, lamina)
+
+
+# --- a lamina that lies partly over a patch, as one spring; the law is in `bearing.lamina_coupling`
+
+
+@inline
+def joint_depth(lanes, depth, lamina, count, damage, exponent):
+    """Work out the depth at which a lamina joins the others, [m].
+
+    ``depth``: of its sound part [m]; ``damage``: springs of the contact from
+    `find_damage`. The share of the sound part becomes the slope of the joint depth, with which the lamina
+    presses; that of the damaged part how far it gives way with the gap; ``exponent``: of the part that stands
+    higher [-].
+    """
+    if damage is None:
+        return depth
+    springs = damage.springs
+    sound = SPRING_FIELDS * lamina + SPRING_SHARE
+    damaged = SPRING_FIELDS * (count + lamina)
+    cover = lanes.load(springs, _SPRINGS, damaged + SPRING_SHARE)
+    gap = lanes.load(springs, _SPRINGS, damaged + SPRING_GAP)
+    kept = at_most(at_least(where_greater(0.0 * gap, gap, cover, 1.0 - cover), _SMALLEST_PART), 1.0)
+    held = exp2(exponent * log2(kept))
+    loose = at_least(1.0 - held, _SMALLEST_LOOSE)
+    reach = (1.0 - kept) / loose
+    higher = depth - at_most(gap, 0.0)
+    lower = at_least(higher - reach * magnitude(gap), 0.0)
+    higher = at_least(higher, 0.0)
+    higher_force = held * higher * ninth_root(at_least(higher, _SMALLEST))
+    lower_force = loose * lower * ninth_root(at_least(lower, _SMALLEST))
+    energy = higher_force * higher + lower_force * lower
+    pressed = at_least(energy, _NO_ENERGY)
+    force = higher_force + lower_force
+    joint = exp2((9.0 / 19.0) * log2(pressed))
+    with_gap = reach * lower_force / at_least(force, _NO_ENERGY)
+    with_gap = where_greater(0.0 * gap, gap, 1.0 - with_gap, with_gap)
+    partly = where_greater(cover, 0.0, energy, 0.0 * energy)
+    share = where_greater(partly, _NO_ENERGY, force * joint / pressed, 1.0)
+    lanes.store(springs, _SPRINGS, sound, share)
+    lanes.store(springs, _SPRINGS, damaged + SPRING_SHARE, where_greater(partly, _NO_ENERGY, with_gap, cover))
+    apart = at_most(depth - cover * gap, 0.0)
+    joint = where_greater(energy, _NO_ENERGY, joint, apart)
+    return where_greater(cover, 0.0, joint, depth)
+
+
+@inline
+def joint_share(lanes, lamina, damage):
+    """Work out the part of its load that a lamina presses with: slope of its joint depth, [-]."""
+    if damage is None:
+        return 1.0
+    return lanes.load(damage.springs, _SPRINGS, SPRING_FIELDS * lamina + SPRING_SHARE)
+
+
+@inline
+def joint_slopes(lanes, lamina, count, damage):
+    """Work out by how much a lamina gives way with the ring's and the roller's azimuth, [m/rad]."""
+    field = SPRING_FIELDS * (count + lamina)
+    share = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE)
+    return (
+        share * lanes.load(damage.springs, _SPRINGS, field + SPRING_RING_SLOPE),
+        share * lanes.load(damage.springs, _SPRINGS, field + SPRING_ROLLER_SLOPE),
+    )

@@ -11,8 +11,15 @@ from typing import Any, NamedTuple
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import spring_count, spring_damage, spring_slopes, spring_table
 from beardyn_core.kernels.film import log2_film_thickness, log2_load
-from beardyn_core.kernels.joint_lamina import joint_depth, joint_share, joint_slopes
-from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
+from beardyn_core.kernels.lamina_coupling import (
+    DEPTH,
+    FORCE,
+    SURFACE,
+    couple_laminae,
+    joint_depth,
+    joint_share,
+    joint_slopes,
+)
 from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.stage_timer import mark_result
@@ -51,23 +58,11 @@ class Raceway(NamedTuple):
 
 
 @inline
-def lamina_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, near: Any, damage: Any) -> Any:
-    """Sum the laminae of one raceway contact; far from every patch a damaged contact is a sound one.
+def lamina_sums(raceway, line, slip, log2_speed, near, damage):
+    """Sum the laminae of one raceway contact to `LaminaSums`; far from every patch a damaged one is sound.
 
-    Parameters
-    ----------
-    raceway : Raceway
-    line : Line
-    slip : Slip
-    log2_speed : tuple of 2 lane values
-        From `film.log2_entrainment`.
-    near : bool
-        Whether any roller of the block is near a patch, from `defect.find_damage`.
-    damage : DamageParams or None
-
-    Returns
-    -------
-    LaminaSums
+    ``log2_speed`` (2 numbers): from `film.log2_entrainment`; ``near``: whether any roller of the block is
+    near a patch, from `defect.find_damage`.
 
     References
     ----------
@@ -81,7 +76,7 @@ def lamina_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, near: Any, 
 
 
 @inline
-def _sound_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any) -> Any:
+def _sound_sums(raceway, line, slip, log2_speed):
     """Sum a sound contact: a block of rollers of which none touches costs one bound."""
     if may_touch(raceway.lanes, line.approach, raceway.reach):
         return _spring_sums(raceway, line, slip, log2_speed, None)
@@ -91,7 +86,7 @@ def _sound_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any) -> Any:
 
 
 @inline
-def may_touch(lanes: Any, approach: Any, reach: Any) -> Any:
+def may_touch(lanes, approach, reach):
     """Tell whether any lane may penetrate within a reach of the middle; a NaN may, too."""
     slope = magnitude(approach[1]) + reach * (magnitude(approach[2]) + reach * magnitude(approach[3]))
     zero = lanes.constant(0.0)
@@ -99,14 +94,12 @@ def may_touch(lanes: Any, approach: Any, reach: Any) -> Any:
 
 
 @inline
-def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: Any) -> Any:
+def _spring_sums(raceway, line, slip, log2_speed, damage):
     """Sum over the springs in two passes, as short loops keep several laminae in flight."""
     lanes, ring, work, effects = raceway.lanes, raceway.ring, raceway.work, raceway.effects
     laminae, approach = raceway.laminae, line.approach
     zero = lanes.constant(0.0)
-    force_0, force_1, force_2 = zero, zero, zero
-    stiffness_0, stiffness_1, stiffness_2 = zero, zero, zero
-    friction_0, friction_1, friction_2 = zero, zero, zero
+    force, stiffness, friction = (zero, zero, zero), (zero, zero, zero), (zero, zero, zero)
     energy = zero
     lean = (zero, zero)
     released = zero
@@ -130,12 +123,7 @@ def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: An
         elastic, tangent = share * elastic, share * tangent
         released = _release(released, whole - elastic, opening, effects.damping, effects.audit)
         deepest = _deepest_so_far(deepest, share, depth, damage)
-        force_0 = force_0 + elastic
-        force_1 = force_1 + elastic * x
-        force_2 = force_2 + elastic * (x * x)
-        stiffness_0 = stiffness_0 + tangent
-        stiffness_1 = stiffness_1 + tangent * x
-        stiffness_2 = stiffness_2 + tangent * (x * x)
+        force, stiffness = add_moments(force, elastic, x), add_moments(stiffness, tangent, x)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
         load = lanes.load(work, _LOADS, k)
@@ -147,26 +135,20 @@ def _spring_sums(raceway: Any, line: Any, slip: Any, log2_speed: Any, damage: An
         log2_film = log2_film_thickness(log2_force, log2_speed, k, ring, laminae, effects.film)
         mark_result(effects.timers, FILM, log2_film)
         contact = LaminaContact(load, log2_force, square, log2_film, log2_speed[1], k, ring, laminae)
-        friction = friction_rate(contact, effects)
-        mark_result(effects.timers, TRACTION, friction)
-        friction = _share_of(lanes, k, damage, effects.coupling) * friction
-        friction_0 = friction_0 + friction
-        friction_1 = friction_1 + friction * x
-        friction_2 = friction_2 + friction * (x * x)
-    return LaminaSums(
-        (force_0, force_1, force_2),
-        (stiffness_0, stiffness_1, stiffness_2),
-        (friction_0, friction_1, friction_2),
-        energy,
-        lean,
-        True,
-        released,
-        deepest,
-    )
+        rate = friction_rate(contact, effects)
+        mark_result(effects.timers, TRACTION, rate)
+        friction = add_moments(friction, _share_of(lanes, k, damage, effects.coupling) * rate, x)
+    return LaminaSums(force, stiffness, friction, energy, lean, True, released, deepest)
 
 
 @inline
-def _spring_push(approach: Any, rate: Any, damping: Any) -> Any:
+def add_moments(sums, value, x):
+    """Add a value at an abscissa to its sums with x^0, x^1, x^2."""
+    return sums[0] + value, sums[1] + value * x, sums[2] + value * (x * x)
+
+
+@inline
+def _spring_push(approach, rate, damping):
     """Add 9/10 of the approach (10/9 law) and the damping: tangent stiffness times this is force, [m]."""
     if damping is None:
         return 0.9 * approach
@@ -174,7 +156,7 @@ def _spring_push(approach: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def _release(power: Any, lost: Any, rate: Any, damping: Any, audit: Any) -> Any:
+def _release(power, lost, rate, damping, audit):
     """Add what the damper of one spring takes where the contact opens faster than the spring follows, [W].
 
     A contact does not pull: the spring then expands against its own damper, and its energy ends there. What
@@ -188,7 +170,7 @@ def _release(power: Any, lost: Any, rate: Any, damping: Any, audit: Any) -> Any:
 
 
 @inline
-def _deepest_so_far(deepest: Any, share: Any, depth: Any, damage: Any) -> Any:
+def _deepest_so_far(deepest, share, depth, damage):
     """Take the larger penetration of springs near a patch; a sound contact is measured at its middle, [m]."""
     if damage is None:
         return deepest
@@ -196,7 +178,7 @@ def _deepest_so_far(deepest: Any, share: Any, depth: Any, damage: Any) -> Any:
 
 
 @inline
-def _geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
+def _geometric_depth(approach, gap, k, laminae):
     """Work out the penetration of one lamina or spring, negative when apart, [m]."""
     x = laminae[LAMINA_PLACE, k]
     return (
@@ -205,7 +187,7 @@ def _geometric_depth(approach: Any, gap: Any, k: Any, laminae: Any) -> Any:
 
 
 @inline
-def _prepare_coupling(lanes: Any, approach: Any, laminae: Any, damage: Any, coupling: Any) -> None:
+def _prepare_coupling(lanes, approach, laminae, damage, coupling):
     """Load the springs of coupled laminae all at once; one over the edge of a patch joins as one."""
     if coupling is None:
         return
@@ -217,25 +199,12 @@ def _prepare_coupling(lanes: Any, approach: Any, laminae: Any, damage: Any, coup
 
 
 @inline
-def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any, coupling: Any) -> Any:
+def contact_spring(lanes, approach, k, laminae, damage, coupling):
     """Load one spring of a raceway contact.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    approach : tuple of 4 lane values
-        As in `Line`, [m].
-    k : int
-        The spring.
-    laminae : float64 array, shape [LAMINA_ROWS, spring]
-    damage : DamageParams or None
-    coupling : CouplingParams or None
-
-    Returns
-    -------
-    share, depth, tangent, energy : lane value
-        Share of its lamina [-], by which force, stiffness and damping of the contact are multiplied,
-        penetration [m], tangent stiffness [N/m], energy [J].
+    ``approach`` (4 numbers): as in `Line` [m]; ``k``: the spring; ``laminae``: of its springs. Returns
+    ``share``, ``depth``, ``tangent``, ``energy``: share of its lamina [-], by which force, stiffness and
+    damping of the contact are multiplied, penetration [m], tangent stiffness [N/m], energy [J].
     """
     if coupling is None:
         share, gap = spring_damage(lanes, k, damage)
@@ -250,7 +219,7 @@ def contact_spring(lanes: Any, approach: Any, k: Any, laminae: Any, damage: Any,
 
 
 @inline
-def _share_of(lanes: Any, k: Any, damage: Any, coupling: Any) -> Any:
+def _share_of(lanes, k, damage, coupling):
     """Take the share of its lamina of a spring, [-]."""
     if coupling is None:
         return spring_damage(lanes, k, damage)[0]
@@ -258,7 +227,7 @@ def _share_of(lanes: Any, k: Any, damage: Any, coupling: Any) -> Any:
 
 
 @inline
-def _add_lean(lanes: Any, lean: Any, elastic: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
+def _add_lean(lanes, lean, elastic, k, count, damage, coupling):
     """Add elastic force times slope of a spring's gap over the azimuth in ring and roller, [N m/rad]."""
     if damage is None:
         return lean
@@ -267,7 +236,7 @@ def _add_lean(lanes: Any, lean: Any, elastic: Any, k: Any, count: Any, damage: A
 
 
 @inline
-def _slopes_of(lanes: Any, k: Any, count: Any, damage: Any, coupling: Any) -> Any:
+def _slopes_of(lanes, k, count, damage, coupling):
     """Take by how much a spring gives way with the azimuth in ring and in roller, [m/rad]."""
     if coupling is None:
         return spring_slopes(lanes, k, damage)

@@ -6,40 +6,26 @@ Scalar and in world axes, once per cage and step.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.bodies import ring_direction
+from beardyn_core.kernels.bodies import body_vector, full_rotation, ring_direction
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
-from beardyn_core.model.layout import ANGULAR, CAGE_BODY, ENERGY_LOST, LINEAR, LOSS_LAND, POSITION, RATE
+from beardyn_core.model.layout import CAGE_BODY, ENERGY_LOST, LINEAR, LOSS_LAND, POSITION, RATE
 
 _SMALLEST = 1e-30
 
 
 @inline
-def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, land: Any) -> Any:
+def short_bearing(eccentricity, velocity, axis, speed_sum, land):
     """Work out the film force on the inner or outer body of a short journal bearing against its eccentricity.
 
     Half-Sommerfeld film: seen from a frame that turns at half the sum of the two speeds it is a pure damper,
     so it never makes energy but lets a cage whirl. The thickness in the formulas is bounded
     (`most_eccentric`); neglects tilt, starvation, and that an opening film would cavitate.
 
-    Parameters
-    ----------
-    eccentricity, velocity : vector
-        Of the axis of this body from the other's, across it, [m], [m/s].
-    axis : vector
-        Unit axis.
-    speed_sum : float
-        Sum of both angular speeds, [rad/s].
-    land : LandParams
-
-    Returns
-    -------
-    force : vector
-        On the body whose eccentricity is given, [N].
-    ratio : float
-        Bounded eccentricity over clearance.
+    ``eccentricity``, ``velocity``: of the axis of this body from the other's, across it [m], [m/s]; ``axis``:
+    unit axis; ``speed_sum``: sum of both angular speeds [rad/s]. Returns ``force``: on the body whose
+    eccentricity is given [N]; ``ratio``: bounded eccentricity over clearance.
 
     References
     ----------
@@ -69,49 +55,30 @@ def short_bearing(eccentricity: Any, velocity: Any, axis: Any, speed_sum: Any, l
 
 
 @inline
-def _three(bodies: Any, body: Any, field: Any) -> Any:
-    return bodies[body, field], bodies[body, field + 1], bodies[body, field + 2]
-
-
-@inline
-def land_twist(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
+def land_twist(bodies, body, lift, land):
     """Work out the velocity of a cage against its guiding ring at the cage's origin, and angular velocity."""
     ring = int(land.body)
-    cage_omega = add_scaled(_three(bodies, body, ANGULAR), bodies[body, RATE], ring_direction(bodies, body))
-    ring_omega = add_scaled(_three(bodies, ring, ANGULAR), bodies[ring, RATE], ring_direction(bodies, ring))
-    place = subtract(_three(bodies, body, POSITION), _three(bodies, ring, POSITION))
+    cage_omega = full_rotation(bodies, body, ring_direction(bodies, body))
+    ring_omega = full_rotation(bodies, ring, ring_direction(bodies, ring))
+    place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, ring, POSITION))
     arm = (place[0], place[1] + lift, place[2])
-    velocity = subtract(_three(bodies, body, LINEAR), _three(bodies, ring, LINEAR))
+    velocity = subtract(body_vector(bodies, body, LINEAR), body_vector(bodies, ring, LINEAR))
     return subtract(velocity, cross(ring_omega, arm)), subtract(cage_omega, ring_omega)
 
 
 @inline
-def land_contact(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
+def land_contact(bodies, body, lift, land):
     """Work out the wrench of the guiding ring on one cage about the cage's origin.
 
-    Parameters
-    ----------
-    bodies : float64 array, shape [body, BODY_STATES]
-    body : int
-        Of the cage.
-    lift : float
-        Place of the cage at rest from the bearing centre along +y, [m].
-    land : LandParams
-
-    Returns
-    -------
-    force, moment : vector
-        [N], [N m].
-    lost_force, lost_moment : vector
-        Without the elastic part.
-    energy : float
-        Elastic energy of the edges, [J].
+    ``body``: of the cage; ``lift``: place of the cage at rest from the bearing centre along +y [m]. Returns
+    ``force``, ``moment`` [N], [N m]; ``lost_force``, ``lost_moment``: without the elastic part; ``energy``:
+    elastic energy of the edges [J].
     """
     ring = int(land.body)
     axis, ring_axis = ring_direction(bodies, body), ring_direction(bodies, ring)
     velocity, omega = land_twist(bodies, body, lift, land)
     side = 1.0 if lift > 0.0 else -1.0
-    place = subtract(_three(bodies, body, POSITION), _three(bodies, ring, POSITION))
+    place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, ring, POSITION))
     origin = (place[0], place[1] + lift, place[2])  # of the cage from the ring's
     ring_spin = scale(bodies[ring, RATE], ring_axis)
 
@@ -151,18 +118,18 @@ def land_contact(bodies: Any, body: Any, lift: Any, land: Any) -> Any:
 
 
 @inline
-def _across(vector: Any, axis: Any) -> Any:
+def _across(vector, axis):
     return add_scaled(vector, -dot(vector, axis), axis)
 
 
 @inline
-def _push(bodies: Any, wrenches: Any, body: Any, cage: Any, land: Any) -> Any:
+def _push(bodies, wrenches, body, cage, land):
     if body >= bodies.shape[0]:  # the cage of a row that is not there
         return _nothing()
     lift = cage.place if body > CAGE_BODY else -cage.place
     force, moment, lost_force, lost_moment, energy = land_contact(bodies, body, lift, land)
     ring = int(land.body)
-    place = subtract(_three(bodies, body, POSITION), _three(bodies, ring, POSITION))
+    place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, ring, POSITION))
     about_ring = add(moment, cross((place[0], place[1] + lift, place[2]), force))
     for i in range(3):
         wrenches[body, i] += force[i]
@@ -173,21 +140,16 @@ def _push(bodies: Any, wrenches: Any, body: Any, cage: Any, land: Any) -> Any:
 
 
 @inline
-def push_lands(bodies: Any, wrenches: Any, cage: Any) -> Any:
-    """Add the wrenches of both lands to cages and rings; without lands zeros, which nothing uses."""
+def land_of(cage):
+    """Take the land of a cage, ``None`` where there is none."""
     if cage is None:
-        return _nothing(), _nothing()
-    return _push_lands(bodies, wrenches, cage, cage.land)
+        return None
+    return cage.land
 
 
 @inline
-def _nothing() -> Any:
-    zero = (0.0, 0.0, 0.0)
-    return zero, zero, (zero, zero), 0.0
-
-
-@inline
-def _push_lands(bodies: Any, wrenches: Any, cage: Any, land: Any) -> Any:
+def push_lands(bodies, wrenches, cage, land):
+    """Add the wrenches of both lands to cages and rings; without lands zeros, which nothing uses."""
     if land is None:
         return _nothing(), _nothing()
     return (
@@ -197,15 +159,14 @@ def _push_lands(bodies: Any, wrenches: Any, cage: Any, land: Any) -> Any:
 
 
 @inline
-def settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any) -> Any:
-    """Account for what the lands lost at the middle of the step, and return their elastic energy, [J]."""
-    if cage is None:
-        return 0.0
-    return _settle_lands(bodies, pushed, energy, step, cage, cage.land)
+def _nothing():
+    zero = (0.0, 0.0, 0.0)
+    return zero, zero, (zero, zero), 0.0
 
 
 @inline
-def _settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any, land: Any) -> Any:
+def settle_lands(bodies, pushed, energy, step, cage, land):
+    """Account for what the lands lost at the middle of the step, and return their elastic energy, [J]."""
     if land is None:
         return 0.0
     energy[ENERGY_LOST + LOSS_LAND] -= step * (
@@ -216,7 +177,7 @@ def _settle_lands(bodies: Any, pushed: Any, energy: Any, step: Any, cage: Any, l
 
 
 @inline
-def _power(bodies: Any, pushed: Any, body: Any, cage: Any, land: Any) -> Any:
+def _power(bodies, pushed, body, cage, land):
     if body >= bodies.shape[0]:
         return 0.0
     lift = cage.place if body > CAGE_BODY else -cage.place

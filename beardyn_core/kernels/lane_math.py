@@ -70,11 +70,9 @@ def _seed_minus_ninth(a: Value) -> Value:
 
 
 @inline
-def ninth_root(a: Value) -> Value:
+def ninth_root(a):
     """Take the ninth root ``a ** (1/9)`` for ``a > 0``; relative error below 1e-14, without a division.
 
-    Notes
-    -----
     With z near ``a ** (-1/9)`` and ``e = 1 - a z^9``, known exactly, ``a ** (1/9)`` is
     ``a z^8 (1 - e) ** (-8/9)``: one series of the remainder does the work of several Newton steps. The
     seed's remainder is below 0.263; a fitted cubic brings it to 3e-4, a Taylor series does the rest.
@@ -92,7 +90,7 @@ def ninth_root(a: Value) -> Value:
 
 
 @inline
-def quick_ninth_root(a: Value) -> Value:
+def quick_ninth_root(a):
     """Take the ninth root for ``a > 0``; relative error below 2e-7 (one fitted series of the remainder)."""
     z = _seed_minus_ninth(a)
     z2 = z * z
@@ -128,7 +126,7 @@ def _mantissa(a: Value) -> Value:
 
 
 @inline
-def log2(a: Value) -> Value:
+def log2(a):
     """Take the binary logarithm for ``a > 0``; absolute error below 1e-11 (odd minimax of degree 9)."""
     m = _mantissa(a)
     t = (m - 1.4142135623730951) / (m + 1.4142135623730951)
@@ -154,7 +152,7 @@ def _power_of_two_rounded(a: Value) -> Value:
 
 
 @inline
-def exp2(a: Value) -> Value:
+def exp2(a):
     """Raise two to a power from -1000 to 1000; relative error below 1e-10, none for whole numbers.
 
     Minimax polynomial of degree 7 over half a unit on either side of a whole number.
@@ -170,49 +168,20 @@ def exp2(a: Value) -> Value:
 
 
 @inline
-def wrap(angle: Value) -> Value:
+def wrap(angle):
     """Turn an angle by whole turns into [-pi, pi), [rad]."""
     return angle - 6.283185307179586 * floor(angle * 0.15915494309189535 + 0.5)
 
 
 @inline
-def cos_sin(angle: Value) -> Value:
+def cos_sin(angle):
     """Take cosine and sine of an angle of a few turns, [rad]; absolute error below 2e-15."""
     x = 0.25 * wrap(angle)
     x2 = x * x
-    s = x * (
-        1.0
-        + x2
-        * (
-            -1 / 6
-            + x2
-            * (
-                1 / 120
-                + x2
-                * (
-                    -1 / 5040
-                    + x2 * (1 / 362880 + x2 * (-1 / 39916800 + x2 * (1 / 6227020800 - x2 / 1307674368000)))
-                )
-            )
-        )
-    )
-    versine = x2 * (
-        0.5
-        + x2
-        * (
-            -1 / 24
-            + x2
-            * (
-                1 / 720
-                + x2
-                * (
-                    -1 / 40320
-                    + x2
-                    * (1 / 3628800 + x2 * (-1 / 479001600 + x2 * (1 / 87178291200 - x2 / 20922789888000)))
-                )
-            )
-        )
-    )
+    tail = x2 * (1 / 362880 + x2 * (-1 / 39916800 + x2 * (1 / 6227020800 - x2 / 1307674368000)))
+    s = x * (1.0 + x2 * (-1 / 6 + x2 * (1 / 120 + x2 * (-1 / 5040 + tail))))
+    tail = x2 * (1 / 3628800 + x2 * (-1 / 479001600 + x2 * (1 / 87178291200 - x2 / 20922789888000)))
+    versine = x2 * (0.5 + x2 * (-1 / 24 + x2 * (1 / 720 + x2 * (-1 / 40320 + tail))))
     c = 1.0 - versine
     s_half = 2.0 * s * c
     c_half = 1.0 - 2.0 * s * s
@@ -229,7 +198,7 @@ _SERIES_BELOW = 0.03
 
 
 @inline
-def decay_over(x: Any) -> Any:
+def decay_over(x):
     """Work out (1 - exp(-x)) / x for x >= 0; relative error below 1e-7."""
     series = 1.0 - x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120))))
     decayed = (1.0 - exp2(-LOG2_E * x)) / at_least(x, _SERIES_BELOW)
@@ -237,7 +206,7 @@ def decay_over(x: Any) -> Any:
 
 
 @inline
-def decay_rate(per_slip: Any, slip: Any, inverse_slip: Any) -> Any:
+def decay_rate(per_slip, slip, inverse_slip):
     """Work out (1 - exp(-per_slip slip)) / slip where 1 / slip is known; errors as of `decay_over`."""
     x = per_slip * slip
     series = per_slip * (1.0 - x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120)))))
@@ -245,7 +214,7 @@ def decay_rate(per_slip: Any, slip: Any, inverse_slip: Any) -> Any:
 
 
 @inline
-def asinh_over(x: Any) -> Any:
+def asinh_over(x):
     """Work out asinh(x) / x for 0 <= x < 1e100; relative error below 1e-8."""
     x2 = x * x
     series = 1.0 - x2 * (1 / 6 - x2 * (3 / 40 - x2 * (15 / 336)))
@@ -254,13 +223,13 @@ def asinh_over(x: Any) -> Any:
 
 
 @inline
-def arctangent_over(x: Any) -> Any:
+def arctangent_over(x):
     """Work out atan(x) / x for x >= 0; relative error below 1e-9."""
     return arctangent_with(x, 1.0 / at_least(x, 1e-30))
 
 
 @inline
-def arctangent_with(x: Any, inverse: Any) -> Any:
+def arctangent_with(x, inverse):
     """Work out atan(x) / x where 1 / x is known: a minimax polynomial in the square of min(x, 1/x)."""
     folded = at_most(x, inverse)
     s = folded * folded

@@ -7,16 +7,7 @@ from typing import Any, NamedTuple
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import load_vector
 from beardyn_core.kernels.lane_math import cos_sin, sqrt
-from beardyn_core.kernels.vectors import (
-    Vector,
-    add,
-    add_scaled,
-    cross,
-    dot,
-    scale,
-    subtract,
-    turn_in,
-)
+from beardyn_core.kernels.vectors import Vector, add, add_scaled, cross, dot, scale, subtract, turn_in
 from beardyn_core.model.layout import (
     ANGLE,
     AXIAL,
@@ -68,33 +59,19 @@ class View(NamedTuple):
 
 
 @inline
-def angular_velocity(momentum: Any, axis: Any, roller: Any) -> Any:
+def angular_velocity(momentum, axis, roller):
     """Work out the angular velocity of a body of revolution from its angular momentum, [rad/s]."""
     extra = dot(momentum, axis) * (1.0 / roller.axial_inertia - 1.0 / roller.transverse_inertia)
     return add_scaled(scale(1.0 / roller.transverse_inertia, momentum), extra, axis)
 
 
 @inline
-def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: Any, roller: Any) -> Any:
+def drift(lanes, rollers, block, reference_velocity, step, roller):
     """Move one block of rollers along its velocities and turn the orbit frames with it.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Read; the rotation about the own axis is written.
-    block : int
-    reference_velocity : vector
-        Of the cup's origin, in its ring frame, [m/s].
-    step : float
-        [s].
-    roller : RollerParams
-
-    Returns
-    -------
-    Orbit
-        Velocity and momentum stand in the frame half way through the turn, where a steady orbit has no
-        radial velocity.
+    ``rollers`` [block, ROLLER_FIELDS, lane]: read; the rotation about the own axis is written;
+    ``reference_velocity``: of the cup's origin, in its ring frame [m/s]. Velocity and momentum of the `Orbit`
+    stand in the frame half way through the turn, where a steady orbit has no radial velocity.
     """
     radius = lanes.load(rollers, block, RADIUS)
     azimuth = lanes.load(rollers, block, ANGLE)
@@ -139,7 +116,7 @@ def drift(lanes: Any, rollers: Any, block: Any, reference_velocity: Any, step: A
 
 
 @inline
-def ring_view(lanes: Any, rings: Any, ring: Any, cosine: Any, sine: Any) -> Any:
+def ring_view(lanes, rings, ring, cosine, sine):
     """Turn a ring into the orbit frames of a block of rollers: a `View`."""
     return View(
         turn_in(load_vector(lanes, rings, ring, RING_ORIGIN), cosine, sine),
@@ -150,19 +127,10 @@ def ring_view(lanes: Any, rings: Any, ring: Any, cosine: Any, sine: Any) -> Any:
 
 
 @inline
-def entrainment_speed(line: Any, centre: Any, body: Any, view: Any) -> Any:
+def entrainment_speed(line, centre, body, view):
     """Work out the mean surface speed of roller and ring against their contact point, [m/s].
 
     Around the ring, at mid-length; the contact point orbits with the roller.
-
-    Parameters
-    ----------
-    line : Line
-    centre : vector
-        Centre of mass of the roller from the ring's origin, [m].
-    body : Body
-    view : View
-        Of the ring.
     """
     arm, around = line.arm, line.around
     point = add(centre, arm)
@@ -173,7 +141,7 @@ def entrainment_speed(line: Any, centre: Any, body: Any, view: Any) -> Any:
 
 
 @inline
-def weight(cosine: Any, sine: Any, mass: Any, gravity: Any) -> Any:
+def weight(cosine, sine, mass, gravity):
     """Turn the weight of a roller into its orbit frame, [N]."""
     if gravity is None:
         return 0.0 * cosine, 0.0 * cosine, 0.0 * cosine

@@ -83,26 +83,10 @@ class Wall(NamedTuple):
 
 
 @inline
-def prepare_pocket(
-    lanes: Any, rings: Any, block: Any, body: Any, orbit: Any, pockets: Any, p: Any, cage: Any
-) -> Any:
-    """Work out the pocket contact of one block before the solve; zeros without a cage.
+def prepare_pocket(lanes, rings, block, body, orbit, pockets, p, cage):
+    """Work out the pocket contact of one block before the solve, a `PocketContact`; zeros without a cage.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    rings : float64 array, shape [ring, RING_FIELDS, lane]
-    block : int
-    body : Body
-    orbit : Orbit
-    pockets : float64 array or None, shape [block, 1, lane]
-        Half of the added clearance of worn pockets, [m].
-    p : Parameters
-    cage : CageParams or None
-
-    Returns
-    -------
-    PocketContact
+    ``pockets`` [block, 1, lane] (or ``None``): half of the added clearance of worn pockets [m].
     """
     if cage is None:
         zero = lanes.constant(0.0)
@@ -118,7 +102,7 @@ def prepare_pocket(
 
 
 @inline
-def _touch(pocket: Any, roller: Any, cage: Any, rotating: Any, kinematic: Any) -> Any:
+def _touch(pocket, roller, cage, rotating, kinematic):
     if kinematic is not None:
         return kinematic_pocket(pocket, cage, kinematic)
     if rotating is not None:
@@ -127,7 +111,7 @@ def _touch(pocket: Any, roller: Any, cage: Any, rotating: Any, kinematic: Any) -
 
 
 @inline
-def push_pocket(total: Any, contact: Any, cage: Any) -> Any:
+def push_pocket(total, contact, cage):
     """Add the pocket's wrench to that of the roller."""
     if cage is None:
         return total
@@ -135,7 +119,7 @@ def push_pocket(total: Any, contact: Any, cage: Any) -> Any:
 
 
 @inline
-def settle_pocket(contact: Any, change: Any, here: Any, cage: Any, p: Any) -> None:
+def settle_pocket(contact, change, here, cage, p):
     """Write reaction, output and audit of the pocket contact, which is explicit.
 
     The loss is taken at the middle of a step that changes the roller's velocities.
@@ -155,23 +139,13 @@ def settle_pocket(contact: Any, change: Any, here: Any, cage: Any, p: Any) -> No
 
 
 @inline
-def free_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
-    """Work out the force of a free cage on the roller, and what it loses.
+def free_pocket(pocket, roller, cage):
+    """Work out the force of a free cage on the roller, and what it loses, as a `PocketContact`.
 
     Disc against plane at two abscissae of both bars, and end against plane at both pocket ends: linear
     springs with damping that never pull, and regularised Coulomb friction; at the bars a lubricant film if
     the cage has one. The bar faces lean, so that the rollers guide the cage radially. Neglects the bending of
     the bars, and the turn of the touching points under skew (1 um per mrad).
-
-    Parameters
-    ----------
-    pocket : Pocket
-    roller : RollerParams
-    cage : CageParams
-
-    Returns
-    -------
-    PocketContact
     """
     centre, axis, tilt, motion = pocket.centre, pocket.axis, pocket.tilt, pocket.motion
     cosine, sine = cos_sin(pocket.advance)
@@ -194,28 +168,25 @@ def free_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
     small_radius = roller.radius - cage.bar_place * roller.taper
     large_radius = roller.radius + cage.bar_place * roller.taper
     small_arm, large_arm = scale(small, axis), scale(large, axis)
+    small_end, large_end = (axis, small_radius), (axis, large_radius)
     small_front = add_scaled(small_arm, small_radius, front)
     small_behind = add_scaled(small_arm, small_radius, behind)
     walls = _untouched(0.0 * still)
     depth = height + offset + small * (lift + skew) - clearance
-    walls = _touch_wall(
-        walls, Wall(centre, small_front, front, depth), motion, cage, (axis, small_radius), cage.film
-    )
+    wall = Wall(centre, small_front, front, depth)
+    walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
     large_front = add_scaled(large_arm, large_radius, front)
     depth = height + offset + large * (lift + skew) - clearance
-    walls = _touch_wall(
-        walls, Wall(centre, large_front, front, depth), motion, cage, (axis, large_radius), cage.film
-    )
+    wall = Wall(centre, large_front, front, depth)
+    walls = _touch_wall(walls, wall, motion, cage, large_end, cage.film)
     pushed_back = walls.force
     depth = height - offset + small * (lift - skew) - clearance
-    walls = _touch_wall(
-        walls, Wall(centre, small_behind, behind, depth), motion, cage, (axis, small_radius), cage.film
-    )
+    wall = Wall(centre, small_behind, behind, depth)
+    walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
     large_behind = add_scaled(large_arm, large_radius, behind)
     depth = height - offset + large * (lift - skew) - clearance
-    walls = _touch_wall(
-        walls, Wall(centre, large_behind, behind, depth), motion, cage, (axis, large_radius), cage.film
-    )
+    wall = Wall(centre, large_behind, behind, depth)
+    walls = _touch_wall(walls, wall, motion, cage, large_end, cage.film)
     pushed_on = subtract(walls.force, pushed_back)
     slip_squared = where_greater(
         dot(pushed_on, pushed_on),
@@ -234,7 +205,7 @@ def free_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
 
 
 @inline
-def rotating_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
+def rotating_pocket(pocket, roller, cage):
     """Work out the contact with the nearer bar at both ends of the roller; as `free_pocket`.
 
     Without play there is no nearer bar; the side a roller is on then pushes it back, as both bars would.
@@ -266,10 +237,10 @@ def rotating_pocket(pocket: Any, roller: Any, cage: Any) -> Any:
 
 
 @inline
-def kinematic_pocket(pocket: Any, cage: Any, kinematic: Any) -> Any:
+def kinematic_pocket(pocket, cage, kinematic):
     """Hold the roller's axis at its pocket's place by two weak springs with dampers, without play.
 
-    They hold the skew too. Parameters and returns as of `free_pocket`; kinematic : KinematicCageParams.
+    They hold the skew too.
     """
     centre, axis, motion = pocket.centre, pocket.axis, pocket.motion
     ahead, offset, skew = _along_pitch_circle(pocket)
@@ -282,7 +253,7 @@ def kinematic_pocket(pocket: Any, cage: Any, kinematic: Any) -> Any:
 
 
 @inline
-def _along_pitch_circle(pocket: Any) -> Any:
+def _along_pitch_circle(pocket):
     """Take the direction of growing azimuth at the pocket; offset [m] and skew of the roller along it."""
     cosine, sine = cos_sin(pocket.advance)
     ahead = (sine, cosine, 0.0 * sine)
@@ -291,9 +262,7 @@ def _along_pitch_circle(pocket: Any) -> Any:
 
 
 @inline
-def _pair_slip_squared(
-    centre: Any, small_arm: Any, large_arm: Any, motion: Any, small_force: Any, both_force: Any
-) -> Any:
+def _pair_slip_squared(centre, small_arm, large_arm, motion, small_force, both_force):
     """Square the slip at the large end where more than half of the force is there, else at the small end."""
     large_force = subtract(both_force, small_force)
     small_slip, large_slip = _wall_slip(centre, small_arm, motion), _wall_slip(centre, large_arm, motion)
@@ -306,13 +275,13 @@ def _pair_slip_squared(
 
 
 @inline
-def _slip_squared(centre: Any, arm: Any, motion: Any) -> Any:
+def _slip_squared(centre, arm, motion):
     slip = _wall_slip(centre, arm, motion)
     return dot(slip, slip)
 
 
 @inline
-def _wall_slip(centre: Any, arm: Any, motion: Any) -> Any:
+def _wall_slip(centre, arm, motion):
     """Work out the velocity of the roller against the cage at a point, [m/s]."""
     velocity, omega, cage_velocity, cage_omega = motion
     return subtract(
@@ -324,14 +293,14 @@ def _wall_slip(centre: Any, arm: Any, motion: Any) -> Any:
 
 
 @inline
-def _untouched(zero: Any) -> Any:
+def _untouched(zero):
     """Make sums over no walls from a zero, or a NaN, which stays one."""
     nothing = (zero, zero, zero)
     return Walls(nothing, nothing, zero, zero, nothing, nothing)
 
 
 @inline
-def _add_touch(walls: Any, arm: Any, slip: Any, force: Any, lost: Any, energy: Any) -> Any:
+def _add_touch(walls, arm, slip, force, lost, energy):
     """Add one wall to the sums over the walls of a pocket."""
     return Walls(
         add(walls.force, force),
@@ -344,7 +313,7 @@ def _add_touch(walls: Any, arm: Any, slip: Any, force: Any, lost: Any, energy: A
 
 
 @inline
-def _touch_wall(walls: Any, wall: Any, motion: Any, cage: Any, shape: Any, film: Any) -> Any:
+def _touch_wall(walls, wall, motion, cage, shape, film):
     """Add one wall to the sums: a spring-damper with friction; one that no roller reaches costs nothing.
 
     ``shape`` is the roller's axis and its radius at the wall, for the film if there is one.
@@ -358,7 +327,7 @@ def _touch_wall(walls: Any, wall: Any, motion: Any, cage: Any, shape: Any, film:
 
 
 @inline
-def _is_reached(depth: Any, film: Any) -> Any:
+def _is_reached(depth, film):
     """Tell whether the wall acts on any lane; a film acts within the thickness of its layer."""
     if film is None:
         return any_positive(depth)
@@ -366,9 +335,7 @@ def _is_reached(depth: Any, film: Any) -> Any:
 
 
 @inline
-def _press_wall(
-    walls: Any, arm: Any, slip: Any, direction: Any, depth: Any, cage: Any, shape: Any, film: Any
-) -> Any:
+def _press_wall(walls, arm, slip, direction, depth, cage, shape, film):
     inside = at_least(depth, 0.0)
     rate = dot(slip, direction)
     spring = cage.stiffness * inside
@@ -383,9 +350,7 @@ def _press_wall(
 
 
 @inline
-def pocket_loads(
-    depth: Any, pressed: Any, rate: Any, slip: Any, direction: Any, shape: Any, film: Any
-) -> Any:
+def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
     """Split the load of a wall into that of its film, that which rubs solid on solid, and viscous friction.
 
     An isoviscous film between rigid faces carries the bar until the gap has closed to `film.thinnest`, where
@@ -393,28 +358,11 @@ def pocket_loads(
     adds to the load and opening takes from it, down to zero: the film cavitates instead of pulling. A gap
     wider than the lubricant's layer is not bridged. Neglects side leakage and the heating of the film.
 
-    Parameters
-    ----------
-    depth : lane value
-        Approach beyond touching, negative for a gap, [m].
-    pressed : lane value
-        Spring and damper of the dry wall, [N].
-    rate : lane value
-        Speed of approach, [m/s].
-    slip : vector
-        Of the roller's surface against the bar, [m/s].
-    direction : vector
-        Normal of the wall, towards it.
-    shape : tuple of vector and lane value
-        Axis of the roller, and its radius here, [m].
-    film : PocketFilmParams or None
-
-    Returns
-    -------
-    load, solid : lane value
-        [N].
-    shear : lane value
-        Friction force of the film over slip, [N s/m].
+    ``depth``: approach beyond touching, negative for a gap [m]; ``pressed``: spring and damper of the dry
+    wall [N]; ``rate``: speed of approach [m/s]; ``slip``: of the roller's surface against the bar [m/s];
+    ``direction``: normal of the wall, towards it; ``shape``: axis of the
+    roller, and its radius here [m]. Returns ``load``, ``solid`` [N]; ``shear``: friction force of the film
+    over slip [N s/m].
 
     References
     ----------
@@ -441,7 +389,7 @@ def pocket_loads(
 
 
 @inline
-def _hold(walls: Any, centre: Any, arm: Any, direction: Any, offset: Any, motion: Any, kinematic: Any) -> Any:
+def _hold(walls, centre, arm, direction, offset, motion, kinematic):
     """Add one spring-damper that pulls as well as it pushes."""
     slip = _wall_slip(centre, arm, motion)
     damper = kinematic.damping * dot(slip, direction)

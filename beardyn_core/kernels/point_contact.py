@@ -1,4 +1,4 @@
-"""A contact of a roller with the cone at one point, within a time step: what both ribs share."""
+"""Contact of a roller with the cone at one point: what both ribs share, and the small rib."""
 
 from __future__ import annotations
 
@@ -6,11 +6,21 @@ from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account, account_loss, implicit_time, react
-from beardyn_core.kernels.lane_math import where_greater
+from beardyn_core.kernels.lane_math import at_least, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.solve import add_couple, add_point, add_point_everywhere
-from beardyn_core.kernels.vectors import Vector, Wrench, add, add_scaled, cross, dot, scale
-from beardyn_core.model.layout import CONE, LOSS_DAMPING
+from beardyn_core.kernels.vectors import (
+    Vector,
+    Wrench,
+    add,
+    add_scaled,
+    add_wrenches,
+    cross,
+    dot,
+    scale,
+    subtract,
+)
+from beardyn_core.model.layout import CONE, LOSS_DAMPING, LOSS_SMALL_RIB
 
 _NOTHING = 1e-300
 
@@ -37,20 +47,20 @@ class PointContact(NamedTuple):
 
 
 @inline
-def absent_point(zero: Any) -> Any:
+def absent_point(zero):
     """Make a `PointContact` of zeros, for a rib that is absent and that nothing uses."""
     nothing = (zero, zero, zero)
     return PointContact(nothing, nothing, nothing, zero, zero, zero, zero, zero, nothing, zero, zero, zero)
 
 
 @inline
-def is_pressed(contact: Any) -> Any:
+def is_pressed(contact):
     """Tell whether a point contact of any roller of the block is pressed; a NaN is, too."""
     return any_positive(where_greater(_NOTHING, contact.elastic, 0.0, 1.0))
 
 
 @inline
-def stiffen_point(matrix: Any, contact: Any, damping: Any, drilling: Any, p: Any) -> Any:
+def stiffen_point(matrix, contact, damping, drilling, p):
     """Add the implicit part of a pressed point contact to the roller's matrix."""
     rough = p.step * contact.friction
     matrix = add_point_everywhere(matrix, contact.arm, rough)
@@ -60,14 +70,14 @@ def stiffen_point(matrix: Any, contact: Any, damping: Any, drilling: Any, p: Any
 
 
 @inline
-def _resist_spin(matrix: Any, contact: Any, step: Any, drilling: Any) -> Any:
+def _resist_spin(matrix, contact, step, drilling):
     if drilling is None:
         return matrix
     return add_couple(matrix, contact.normal, step * contact.drilling)
 
 
 @inline
-def push_point(contact: Any, drilling: Any) -> Any:
+def push_point(contact, drilling):
     """Work out the wrench on the roller from the velocities at the beginning of the step."""
     normal, slip = contact.normal, contact.slip
     tangential = add_scaled(slip, -dot(slip, normal), normal)
@@ -76,7 +86,7 @@ def push_point(contact: Any, drilling: Any) -> Any:
 
 
 @inline
-def _drilled(moment: Any, contact: Any, spin: Any, drilling: Any) -> Any:
+def _drilled(moment, contact, spin, drilling):
     """Add the moment of the friction against the spin about the normal."""
     if drilling is None:
         return moment
@@ -84,7 +94,7 @@ def _drilled(moment: Any, contact: Any, spin: Any, drilling: Any) -> Any:
 
 
 @inline
-def _drilling_loss(contact: Any, d_spin: Any, drilling: Any) -> Any:
+def _drilling_loss(contact, d_spin, drilling):
     """Work out the power of the friction against the spin, and of its implicit step, [W]."""
     if drilling is None:
         return 0.0, 0.0
@@ -93,29 +103,12 @@ def _drilling_loss(contact: Any, d_spin: Any, drilling: Any) -> Any:
 
 
 @inline
-def settle_point(
-    contact: Any, change: Any, here: Any, source: Any, time_constant: Any, drilling: Any, p: Any
-) -> Any:
+def settle_point(contact, change, here, source, time_constant, drilling, p):
     """Settle a point contact with the cone after the solve: reaction and audit.
 
-    Parameters
-    ----------
-    contact : PointContact
-    change : Twist
-        Of the roller over the step.
-    here : Here
-    source : int
-        Which loss the friction counts as.
-    time_constant : float
-        Damping over stiffness, [s].
-    drilling : RibDrillingParams or None
-        Whether the contact resists the spin about its normal.
-    p : Parameters
-
-    Returns
-    -------
-    Wrench
-        On the roller that the step ends with.
+    ``source``: which loss the friction counts as; ``time_constant``: damping over stiffness [s];
+    ``drilling``: whether the contact resists the spin about its normal. Returns the `Wrench` on the
+    roller that the step ends with.
     """
     if not is_pressed(contact):
         still = 0.0 * contact.elastic
@@ -146,3 +139,75 @@ def settle_point(
     account_loss(here, LOSS_DAMPING, p.step * damped, audit)
     account(here, p.step * numerical, contact.energy, audit)
     return wrench
+
+
+# --- the small rib: the flat small end of a roller against a circle of the rib
+
+
+@inline
+def prepare_small_rib(body, view, zero, rib):
+    """Work out the small-rib contact before the solve; without one zeros, which nothing uses."""
+    if rib is None:
+        return absent_point(zero)
+    return small_rib_contact(subtract(body.place, view.origin), body, view, rib)
+
+
+@inline
+def small_rib_contact(centre, body, view, rib):
+    """Work out the force of the small rib on the roller: plane on circle, closed form.
+
+    Adds the stop that holds a roller when the load is away. The rib bears on a circle at half its height;
+    of all its points the one furthest behind the plane of the roller end lies in the direction in which the
+    roller axis leans away from the cone's. Neglects the width of the rib's face.
+    """
+    axis, ring_axis = body.axis, view.axis
+    along = dot(axis, ring_axis)
+    across = add_scaled(axis, -along, ring_axis)
+    lean = sqrt(dot(across, across))
+    point = add_scaled(scale(rib.place, ring_axis), rib.radius / lean, across)
+    arm = subtract(point, centre)
+    depth = dot(arm, axis) - rib.end_place
+    normal = scale(-1.0, axis)
+    at_arm = add(body.velocity, cross(body.omega, arm))
+    slip = subtract(subtract(at_arm, view.velocity), cross(view.omega, add(centre, arm)))
+    touching = at_least(depth, 0.0)
+    rate = dot(slip, normal)
+    push = touching + where_greater(depth, 0.0, rib.damping.time_constant * rate, 0.0 * depth)
+    tangent = where_greater(push, 0.0, rib.stiffness + 0.0 * depth, 0.0 * depth)
+    load = tangent * push
+    tangential = add_scaled(slip, -rate, normal)
+    speed = sqrt(dot(tangential, tangential) + rib.regularisation * rib.regularisation)
+    zero = 0.0 * depth
+    elastic = rib.stiffness * touching
+    energy = 0.5 * rib.stiffness * touching * touching
+    friction = rib.friction * load / speed
+    return PointContact(centre, normal, arm, load, tangent, friction, elastic, energy, slip, zero, zero, zero)
+
+
+@inline
+def stiffen_small_rib(matrix, contact, rib, p):
+    """Add the implicit part of the small-rib contact to the roller's matrix."""
+    if rib is None:
+        return matrix
+    if not is_pressed(contact):
+        return matrix
+    return stiffen_point(matrix, contact, rib.damping, None, p)
+
+
+@inline
+def push_small_rib(total, contact, rib):
+    """Add the small rib's wrench at the beginning of the step to that of the roller."""
+    if rib is None:
+        return total
+    if not is_pressed(contact):
+        return total
+    return add_wrenches(total, push_point(contact, None))
+
+
+@inline
+def settle_small_rib(contact, change, total, here, rib, p):
+    """Settle the small-rib contact after the solve and add its wrench to the roller's."""
+    if rib is None:
+        return total
+    time_constant = rib.damping.time_constant
+    return add_wrenches(total, settle_point(contact, change, here, LOSS_SMALL_RIB, time_constant, None, p))

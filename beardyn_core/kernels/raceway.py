@@ -31,7 +31,7 @@ from beardyn_core.kernels.lane_math import at_least, at_most, sqrt
 from beardyn_core.kernels.orbit import entrainment_speed
 from beardyn_core.kernels.solve import add_line, add_line_everywhere
 from beardyn_core.kernels.traction import traction_capacity
-from beardyn_core.kernels.vectors import Vector, Wrench, add_scaled, subtract
+from beardyn_core.kernels.vectors import Vector, Wrench, add_scaled, scale, subtract
 from beardyn_core.kernels.waviness import add_leaning, lean_wrench, shift_line, wave_gap
 from beardyn_core.model.layout import LOSS_DAMPING, LOSS_SLIDING, PENETRATION
 
@@ -78,23 +78,8 @@ class Settled(NamedTuple):
 
 
 @inline
-def prepare_raceway(
-    lanes: Any, block: Any, ring: Any, body: Any, oversize: Any, azimuths: Any, p: Any
-) -> Any:
-    """Work out everything that one raceway contact needs before the solve: a `RacewayContact`.
-
-    Parameters
-    ----------
-    lanes : Lanes
-    block : int
-    ring : Ring
-    body : Body
-    oversize : lane value
-        Radius error of the roller, [m].
-    azimuths : tuple of 2 lane values
-        Of the roller in the ring's frame, and of the contact in the roller's, [rad].
-    p : Parameters
-    """
+def prepare_raceway(lanes, block, ring, body, oversize, azimuths, p):
+    """Work out everything that one raceway contact needs before the solve: a `RacewayContact`."""
     faults, view = ring.faults, ring.ring_view
     centre = subtract(body.place, view.origin)
     ring_wave, ring_climb = wave_gap(lanes, block, azimuths[0], faults.waves)
@@ -115,25 +100,21 @@ def prepare_raceway(
 
 
 @inline
-def stiffen_raceway(matrix: Any, contact: Any, p: Any) -> Any:
+def stiffen_raceway(matrix, contact, p):
     """Add the implicit part of one raceway contact to the roller's matrix."""
     if not contact.sums.touches:
         return matrix
     line, stiffness, friction, step = contact.line, contact.sums.stiffness, contact.sums.friction, p.step
     time = step * implicit_time(p.spring_time, p.effects.damping)
-    rough = (step * friction[0], step * friction[1], step * friction[2])
+    rough = scale(step, friction)
     # friction resists in the tangent plane: in every direction less along the normal
-    stiff = (
-        time * stiffness[0] - rough[0],
-        time * stiffness[1] - rough[1],
-        time * stiffness[2] - rough[2],
-    )
+    stiff = subtract(scale(time, stiffness), rough)
     matrix = add_line_everywhere(matrix, line.arm, line.arm_slope, rough)
     return add_line(matrix, line.normal, line.arm, line.arm_slope, stiff)
 
 
 @inline
-def push_raceway(contact: Any, damping: Any) -> Any:
+def push_raceway(contact, damping):
     """Work out the wrench on the roller from the velocities at the beginning of the step."""
     slip, sums = contact.slip, contact.sums
     normal = _normal_sums(sums.force, sums.stiffness, slip.rate, damping)
@@ -142,7 +123,7 @@ def push_raceway(contact: Any, damping: Any) -> Any:
 
 
 @inline
-def _normal_sums(elastic: Any, stiffness: Any, rate: Any, damping: Any) -> Any:
+def _normal_sums(elastic, stiffness, rate, damping):
     """Add the damping to the elastic normal force with x^0, x^1, x^2, [N m^k]."""
     if damping is None:
         return elastic
@@ -155,23 +136,10 @@ def _normal_sums(elastic: Any, stiffness: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def settle_raceway(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> Any:
+def settle_raceway(ring, contact, change, here, p):
     """Settle one raceway contact after the solve: reaction, output and audit.
 
-    Parameters
-    ----------
-    ring : int
-        ``CUP`` or ``CONE``.
-    contact : RacewayContact
-    change : Twist
-        Of the roller over the step.
-    here : Here
-    p : Parameters
-
-    Returns
-    -------
-    Wrench
-        On the roller that the step ends with.
+    Returns the `Wrench` on the roller that the step ends with.
     """
     lanes, line, slip = here.lanes, contact.line, contact.slip
     wrench, normal, friction = _react(ring, contact, change, here, p)
@@ -190,7 +158,7 @@ def settle_raceway(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> A
 
 
 @inline
-def _react(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> Any:
+def _react(ring, contact, change, here, p):
     """Add reaction and audit; wrench, normal force and friction after the solve, zeros without touch."""
     if not contact.sums.touches:
         zero = here.lanes.constant(0.0)
@@ -205,7 +173,7 @@ def _react(ring: Any, contact: Any, change: Any, here: Any, p: Any) -> Any:
 
 
 @inline
-def settled_contact(contact: Any, change: Any, step: Any, spring_time: Any, damping: Any) -> Any:
+def settled_contact(contact, change, step, spring_time, damping):
     """Work out the wrench on the roller that the step ends with, and its energy terms: a `Settled`.
 
     Friction is that of the end of the step, contact damping that of its middle, and the spring takes in a
@@ -231,18 +199,11 @@ def settled_contact(contact: Any, change: Any, step: Any, spring_time: Any, damp
     slid = power(sums.friction, around, around) + power(sums.friction, along, along)
     numerical = 0.5 * (power(sums.friction, d_around, around) + power(sums.friction, d_along, along))
     damped = _damping_loss(sums, middle_rate, damping) + sums.released
-    return Settled(
-        wrench=wrench,
-        normal=normal,
-        friction=friction_around[0],
-        slid=step * slid,
-        damped=step * damped,
-        numerical=step * numerical,
-    )
+    return Settled(wrench, normal, friction_around[0], step * slid, step * damped, step * numerical)
 
 
 @inline
-def _damping_loss(sums: Any, rate: Any, damping: Any) -> Any:
+def _damping_loss(sums, rate, damping):
     """Work out the power of the contact damping at a rate of approach, [W]."""
     if damping is None:
         return 0.0
@@ -250,12 +211,12 @@ def _damping_loss(sums: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def faults_of_cup(faults: Any) -> Any:
+def faults_of_cup(faults):
     """Take the faults that a contact with the cup meets: `RingFaults`."""
     return RingFaults(faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves)
 
 
 @inline
-def faults_of_cone(faults: Any) -> Any:
+def faults_of_cone(faults):
     """Take the faults that a contact with the cone meets: `RingFaults`."""
     return RingFaults(faults.cone, faults.roller, faults.cone_damage, faults.cone_waves, faults.roller_waves)

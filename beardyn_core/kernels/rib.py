@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import ContactOutput, damper_time, output_contact
 from beardyn_core.kernels.lane_math import (
@@ -46,47 +44,19 @@ _LARGEST_LOG2_THICKENING = 30.0
 
 
 @inline
-def prepare_rib(body: Any, view: Any, zero: Any, rib: Any, damping: Any) -> Any:
-    """Work out the rib contact before the solve; without a rib zeros of the same type, which nothing uses.
-
-    Parameters
-    ----------
-    body : Body
-    view : View
-        Of the cone.
-    zero : lane value
-    rib : RibParams or None
-    damping : DampingParams or None
-
-    Returns
-    -------
-    PointContact
-    """
+def prepare_rib(body, view, zero, rib, damping):
+    """Work out the rib contact before the solve, a `PointContact`; without a rib zeros that nothing uses."""
     if rib is None:
         return absent_point(zero)
     return rib_contact(subtract(body.place, view.origin), body, view, rib, damping)
 
 
 @inline
-def rib_contact(centre: Any, body: Any, view: Any, rib: Any, damping: Any) -> Any:
-    """Work out the force of the rib on the roller: sphere on cone, closed form.
+def rib_contact(centre, body, view, rib, damping):
+    """Work out the force of the rib on the roller as a `PointContact`: sphere on cone, closed form.
 
     Adds the axial guidance of the rollers. The stiffness is that of the face, also on an edge of the rib or
     on the rim of the roller end, where a Hertz contact is up to a third softer.
-
-    Parameters
-    ----------
-    centre : vector
-        Centre of mass of the roller from the cone's origin, [m].
-    body : Body
-    view : View
-        Of the cone.
-    rib : RibParams
-    damping : DampingParams or None
-
-    Returns
-    -------
-    PointContact
 
     References
     ----------
@@ -115,14 +85,14 @@ def rib_contact(centre: Any, body: Any, view: Any, rib: Any, damping: Any) -> An
 
 
 @inline
-def _push(depth: Any, rate: Any, damping: Any) -> Any:
+def _push(depth, rate, damping):
     if damping is None:
         return depth * (1.0 / 1.5)
     return depth * (1.0 / 1.5) + damping.time_constant * rate
 
 
 @inline
-def _rub(load: Any, root: Any, sliding: Any, place: Any, body: Any, view: Any, rib: Any) -> Any:
+def _rub(load, root, sliding, place, body, view, rib):
     """Work out friction over slip speed and film thickness; nothing where no roller is pressed."""
     if not any_positive(load):
         return 0.0 * load, 0.0 * load  # a NaN stays one
@@ -133,7 +103,7 @@ def _rub(load: Any, root: Any, sliding: Any, place: Any, body: Any, view: Any, r
 
 
 @inline
-def stiffen_rib(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
+def stiffen_rib(matrix, contact, rib, p):
     """Add the implicit part of the rib contact to the roller's matrix."""
     if rib is None:
         return matrix
@@ -143,7 +113,7 @@ def stiffen_rib(matrix: Any, contact: Any, rib: Any, p: Any) -> Any:
 
 
 @inline
-def push_rib(total: Any, contact: Any, rib: Any) -> Any:
+def push_rib(total, contact, rib):
     """Add the rib's wrench at the beginning of the step to that of the roller."""
     if rib is None:
         return total
@@ -153,7 +123,7 @@ def push_rib(total: Any, contact: Any, rib: Any) -> Any:
 
 
 @inline
-def settle_rib(contact: Any, change: Any, total: Any, here: Any, rib: Any, p: Any) -> Any:
+def settle_rib(contact, change, total, here, rib, p):
     """Settle the rib contact after the solve and add its wrench to the roller's."""
     if rib is None:
         return total
@@ -169,7 +139,7 @@ def settle_rib(contact: Any, change: Any, total: Any, here: Any, rib: Any, p: An
 
 
 @inline
-def rib_gap(centre: Any, axis: Any, ring_axis: Any, rib: Any, window: Any, end: Any) -> Any:
+def rib_gap(centre, axis, ring_axis, rib, window, end):
     """Work out penetration, normal and place of the rib contact.
 
     The rib face is a cone between two circles: the undercut below and the rib's outer corner above. The
@@ -180,10 +150,6 @@ def rib_gap(centre: Any, axis: Any, ring_axis: Any, rib: Any, window: Any, end: 
 
     Parameters
     ----------
-    centre : vector
-        Centre of mass of the roller from the cone's origin, [m].
-    axis, ring_axis : vector
-    rib : RibParams
     window : RibWindowParams or None
         Edges of the rib face; without it the face is an unlimited cone.
     end : RibEndParams or None
@@ -210,7 +176,7 @@ def rib_gap(centre: Any, axis: Any, ring_axis: Any, rib: Any, window: Any, end: 
 
 
 @inline
-def _on_the_face(depth: Any, along: Any, distance: Any, rib: Any, window: Any) -> Any:
+def _on_the_face(depth, along, distance, rib, window):
     """Keep the nearest point on the face: depth and normal; a rounded edge is a torus."""
     if window is None:
         return depth, rib.normal_axial, rib.normal_radial
@@ -230,9 +196,7 @@ def _on_the_face(depth: Any, along: Any, distance: Any, rib: Any, window: Any) -
 
 
 @inline
-def _within_the_rim(
-    depth: Any, normal: Any, arm: Any, centre: Any, axis: Any, ring_axis: Any, rib: Any, end: Any
-) -> Any:
+def _within_the_rim(depth, normal, arm, centre, axis, ring_axis, rib, end):
     """Take the contact of the rim circle where the sphere's lies beyond the rim of the roller end."""
     if end is None:
         return depth, normal, arm
@@ -260,7 +224,7 @@ def _within_the_rim(
 
 
 @inline
-def _deeper(radial: Any, middle: Any, axis: Any, ring_axis: Any, rib: Any, end: Any) -> Any:
+def _deeper(radial, middle, axis, ring_axis, rib, end):
     """Take one safeguarded Newton step along the rim towards its deepest point behind the cone."""
     ahead = cross(axis, radial)
     point = add_scaled(middle, end.radius, radial)
@@ -279,7 +243,7 @@ def _deeper(radial: Any, middle: Any, axis: Any, ring_axis: Any, rib: Any, end: 
 
 
 @inline
-def _rib_entrainment(centre: Any, arm: Any, normal: Any, body: Any, view: Any, film: Any) -> Any:
+def _rib_entrainment(centre, arm, normal, body, view, film):
     """Work out the mean surface speed of roller end and rib against the contact, which orbits, [m/s]."""
     if film is None:
         return 0.0
@@ -293,7 +257,7 @@ def _rib_entrainment(centre: Any, arm: Any, normal: Any, body: Any, view: Any, f
 
 
 @inline
-def rib_log2_film(load: Any, speed: Any, film: Any) -> Any:
+def rib_log2_film(load, speed, film):
     """Take the binary logarithm of the central film thickness, [log2 m]; loads below 1 mN count as 1 mN.
 
     References
@@ -310,7 +274,7 @@ def rib_log2_film(load: Any, speed: Any, film: Any) -> Any:
 
 
 @inline
-def _film_output(load: Any, log2_film: Any, film: Any) -> Any:
+def _film_output(load, log2_film, film):
     """Take the film thickness of a loaded rib contact, [m]; 0 without a film or load."""
     if film is None:
         return 0.0 * load
@@ -319,7 +283,7 @@ def _film_output(load: Any, log2_film: Any, film: Any) -> Any:
 
 
 @inline
-def rib_friction(load: Any, root_depth: Any, speed_squared: Any, log2_film: Any, rib: Any, film: Any) -> Any:
+def rib_friction(load, root_depth, speed_squared, log2_film, rib, film):
     """Work out friction over slip speed, [N s/m]: dry, or shared by asperities and film.
 
     The film carries the share 1 - exp(-1.8 Lambda^1.2) of the load. Neglects heating of the film.
@@ -338,9 +302,7 @@ def rib_friction(load: Any, root_depth: Any, speed_squared: Any, log2_film: Any,
 
 
 @inline
-def _film_friction(
-    load: Any, root_depth: Any, speed_squared: Any, dry: Any, log2_film: Any, film: Any, sheared: Any
-) -> Any:
+def _film_friction(load, root_depth, speed_squared, dry, log2_film, film, sheared):
     """Shear the film: constant coefficient, or Newtonian at mean Hertz pressure up to a limiting stress."""
     if sheared is None:
         return film.film_friction * dry
@@ -353,7 +315,7 @@ def _film_friction(
 
 
 @inline
-def spin_reach(touching: Any, drilling: Any) -> Any:
+def spin_reach(touching, drilling):
     """Square the radius at which spin about the normal counts as slip, 0.18 a^2, [m^2].
 
     A Hertz ellipse that slides with u and spins with w dissipates mu Q sqrt(u^2 + 0.18 a^2 w^2) to good
@@ -369,7 +331,7 @@ def spin_reach(touching: Any, drilling: Any) -> Any:
 
 
 @inline
-def with_spin(sliding: Any, reach: Any, spin: Any, drilling: Any) -> Any:
+def with_spin(sliding, reach, spin, drilling):
     """Add the square of the spin's speed to that of the slip, [m^2/s^2]."""
     if drilling is None:
         return sliding

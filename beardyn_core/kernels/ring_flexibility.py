@@ -12,8 +12,6 @@ what makes the normal force conservative, so the energy audit closes.
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import sum_lanes
 from beardyn_core.kernels.exchange import accumulate
@@ -26,28 +24,12 @@ PLACE, SPEED = 0, 1
 
 
 @inline
-def bent_cup(lanes: Any, flex: Any, view: Any, cosine: Any, sine: Any, flexibility: Any) -> Any:
+def bent_cup(lanes, flex, view, cosine, sine, flexibility):
     """Bend the cup as each roller sees it.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    flex : float64 array, shape [mode, 2, 2]
-    view : View
-        Of the rigid cup.
-    cosine, sine : lane values
-        Of the orbit azimuth.
-    flexibility : FlexibilityParams or None
+    Returns ``view``: with the origin and the velocity of the piece of raceway at the roller;
+    ``shift``: by how much the origin moved [m].
 
-    Returns
-    -------
-    view : View
-        With the origin and the velocity of the piece of raceway at the roller.
-    shift : vector
-        By how much the origin moved, [m].
-
-    Notes
-    -----
     Neglects the turn of the piece of raceway about the axle.
     """
     zero = lanes.constant(0.0)
@@ -73,7 +55,7 @@ def bent_cup(lanes: Any, flex: Any, view: Any, cosine: Any, sine: Any, flexibili
 
 
 @inline
-def about_rigid_cup(contact: Any, shift: Any, flexibility: Any) -> Any:
+def about_rigid_cup(contact, shift, flexibility):
     """Place a contact from the origin of the rigid cup, about which reactions are summed."""
     if flexibility is None:
         return contact
@@ -82,16 +64,10 @@ def about_rigid_cup(contact: Any, shift: Any, flexibility: Any) -> Any:
 
 
 @inline
-def bend_cup(force: Any, here: Any, modes: Any, flexibility: Any) -> None:
+def bend_cup(force, here, modes, flexibility):
     """Add the work that the rollers' reaction does on a unit of each amplitude to the sums.
 
-    Parameters
-    ----------
-    force : vector
-        Of the cup on the roller, [N].
-    here : Here
-    modes : int
-    flexibility : FlexibilityParams or None
+    ``force``: of the cup on the roller [N].
     """
     if flexibility is None:
         return
@@ -110,7 +86,7 @@ def bend_cup(force: Any, here: Any, modes: Any, flexibility: Any) -> None:
 
 
 @inline
-def drift_flex(flex: Any, step: Any, flexibility: Any) -> None:
+def drift_flex(flex, step, flexibility):
     """Move all amplitudes of the bending along their velocities."""
     if flexibility is None:
         return
@@ -120,7 +96,7 @@ def drift_flex(flex: Any, step: Any, flexibility: Any) -> None:
 
 
 @inline
-def kick_flex(flex: Any, sums: Any, energy: Any, step: Any, flexibility: Any) -> Any:
+def kick_flex(flex, sums, energy, step, flexibility):
     """Accelerate the amplitudes under the rollers and return the bending energy, [J].
 
     Spring and damper are implicit like those of the contacts, so a mode may be as stiff as one likes.
@@ -143,7 +119,7 @@ def kick_flex(flex: Any, sums: Any, energy: Any, step: Any, flexibility: Any) ->
 
 
 @inline
-def flex_energy(flex: Any, flexibility: Any) -> Any:
+def flex_energy(flex, flexibility):
     """Sum the kinetic energy of the modes, [J]."""
     if flexibility is None:
         return 0.0

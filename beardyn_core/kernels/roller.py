@@ -11,13 +11,17 @@ the beginning instead (`velocity_change`).
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
 from beardyn_core.kernels.exchange import Here, account_gravity, load_vector, store_vector
 from beardyn_core.kernels.orbit import Body, angular_velocity, drift, ring_view, weight
 from beardyn_core.kernels.pocket import prepare_pocket, push_pocket, settle_pocket
+from beardyn_core.kernels.point_contact import (
+    prepare_small_rib,
+    push_small_rib,
+    settle_small_rib,
+    stiffen_small_rib,
+)
 from beardyn_core.kernels.raceway import (
     Ring,
     faults_of_cone,
@@ -30,15 +34,9 @@ from beardyn_core.kernels.raceway import (
 from beardyn_core.kernels.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
 from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, bent_cup
 from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_rolling, stiffen_rolling
-from beardyn_core.kernels.small_rib import (
-    prepare_small_rib,
-    push_small_rib,
-    settle_small_rib,
-    stiffen_small_rib,
-)
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.stage_timer import mark
-from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, turn_in
+from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in
 from beardyn_core.model.layout import (
     ANGLE,
     AXIAL,
@@ -60,7 +58,7 @@ _PI = 3.141592653589793
 
 
 @inline
-def velocity_change(matrix: Any, right: Any, zero: Any, explicit: Any) -> Any:
+def velocity_change(matrix, right, zero, explicit):
     """Solve for the change of velocity and angular velocity that the contacts are settled with.
 
     With the explicit step it is zero: every contact keeps the force it has at the beginning of the step, on
@@ -74,23 +72,8 @@ def velocity_change(matrix: Any, right: Any, zero: Any, explicit: Any) -> Any:
 
 
 @inline
-def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, flex: Any, p: Any) -> None:
-    """Advance one block of rollers by one step and add what it does to the rings.
-
-    Parameters
-    ----------
-    lanes : Lanes
-    block : int
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        State, changed in place.
-    rings : float64 array, shape [ring, RING_FIELDS, lane]
-        Cup, cone and cage as the rollers of each row see them, at the end of the drift.
-    sums : float64 array, shape [1, SUM_FIELDS + 2 x mode, lane]
-        Reactions, energy terms and modal forces, added to.
-    flex : float64 array, shape [mode, 2, 2]
-        Bending of the cup.
-    p : Parameters
-    """
+def step_rollers(lanes, block, rollers, rings, sums, flex, p):
+    """Advance one block of rollers by one step, their state in place, and add what it does to the rings."""
     step, effects, roller = p.step, p.effects, p.roller
     orbit = drift(lanes, rollers, block, load_vector(lanes, rings, CUP, RING_VELOCITY), step, roller)
     cosine, sine, azimuth, momentum = orbit.cosine, orbit.sine, orbit.azimuth, orbit.momentum
@@ -149,16 +132,10 @@ def step_rollers(lanes: Any, block: Any, rollers: Any, rings: Any, sums: Any, fl
         force[1] - roller.mass * orbit.rate * orbit.velocity[0],
         force[2],
     )
-    turning_moment = (
-        moment[0] + orbit.rate * momentum[1],
-        moment[1] - orbit.rate * momentum[0],
-        moment[2],
+    turning_moment = (moment[0] + orbit.rate * momentum[1], moment[1] - orbit.rate * momentum[0], moment[2])
+    change = velocity_change(
+        matrix, scale(step, turning_force) + scale(step, turning_moment), zero, p.explicit
     )
-    right = (
-        step * turning_force[0], step * turning_force[1], step * turning_force[2],
-        step * turning_moment[0], step * turning_moment[1], step * turning_moment[2],
-    )  # fmt: skip
-    change = velocity_change(matrix, right, zero, p.explicit)
     mark(timers, SOLVE)
 
     on_cup = settle_raceway(CUP, cup, change, here, p)

@@ -26,21 +26,14 @@ class RollingContact(NamedTuple):
 
 
 @inline
-def rolling_couple(load: Any, speed: Any, ring: Any, rolling: Any) -> Any:
+def rolling_couple(load, speed, ring, rolling):
     """Work out the couple of one raceway contact against rolling, [N m].
 
     Hydrodynamic couple of the inlet, reduced by its heating and by its supply, plus elastic hysteresis. The
     load is spread evenly along the roller. Speeds below 1 mm/s are treated as 1 mm/s; below 1 N the
     hydrodynamic couple falls linearly to zero.
 
-    Parameters
-    ----------
-    load : lane value
-        Elastic load of the contact, [N].
-    speed : lane value
-        Entrainment speed, [m/s].
-    ring : int
-    rolling : RollingParams
+    ``load``: elastic load of the contact [N]; ``speed``: entrainment speed [m/s].
 
     References
     ----------
@@ -57,14 +50,14 @@ def rolling_couple(load: Any, speed: Any, ring: Any, rolling: Any) -> Any:
 
 
 @inline
-def _power_law(log2_load: Any, log2_speed: Any, ring: Any, law: Any) -> Any:
+def _power_law(log2_load, log2_speed, ring, law):
     if law is None:
         return 0.0
     return exp2(law.log2_couple[ring] + law.speed_exponent * log2_speed + law.load_exponent * log2_load)
 
 
 @inline
-def _biboulet_houpert(log2_load: Any, log2_speed: Any, ring: Any, law: Any) -> Any:
+def _biboulet_houpert(log2_load, log2_speed, ring, law):
     if law is None:
         return 0.0
     rigid = law.log2_rigid[ring] + 0.5 * (log2_speed + log2_load)
@@ -73,7 +66,7 @@ def _biboulet_houpert(log2_load: Any, log2_speed: Any, ring: Any, law: Any) -> A
 
 
 @inline
-def _thermal_reduction(log2_speed: Any, thermal: Any) -> Any:
+def _thermal_reduction(log2_speed, thermal):
     if thermal is None:
         return 1.0
     loading = thermal.log2_loading + 2.0 * log2_speed
@@ -81,30 +74,15 @@ def _thermal_reduction(log2_speed: Any, thermal: Any) -> Any:
 
 
 @inline
-def _hysteresis(load: Any, ring: Any, hysteresis: Any) -> Any:
+def _hysteresis(load, ring, hysteresis):
     if hysteresis is None:
         return 0.0
     return hysteresis.couple[ring] * load * sqrt(load)
 
 
 @inline
-def prepare_rolling(contact: Any, ring: Any, view: Any, body: Any, rolling: Any) -> Any:
-    """Work out the couple of one raceway contact; without the effect zeros, which nothing uses.
-
-    Parameters
-    ----------
-    contact : RacewayContact
-    ring : int
-        ``CUP`` or ``CONE``.
-    view : View
-        Of the ring.
-    body : Body
-    rolling : RollingParams or None
-
-    Returns
-    -------
-    RollingContact
-    """
+def prepare_rolling(contact, ring, view, body, rolling):
+    """Work out the `RollingContact` of one raceway; without the effect zeros, which nothing uses."""
     line, load = contact.line, contact.sums.force[0]
     if rolling is None:
         return RollingContact(0.0 * load, 0.0 * load, line.along)
@@ -118,7 +96,7 @@ def prepare_rolling(contact: Any, ring: Any, view: Any, body: Any, rolling: Any)
 
 
 @inline
-def stiffen_rolling(matrix: Any, contact: Any, step: Any, rolling: Any) -> Any:
+def stiffen_rolling(matrix, contact, step, rolling):
     """Add the implicit part of the rolling resistance to the roller's matrix."""
     if rolling is None:
         return matrix
@@ -126,7 +104,7 @@ def stiffen_rolling(matrix: Any, contact: Any, step: Any, rolling: Any) -> Any:
 
 
 @inline
-def push_rolling(moment: Any, contact: Any, rolling: Any) -> Any:
+def push_rolling(moment, contact, rolling):
     """Add the couple at the beginning of the step to a moment."""
     if rolling is None:
         return moment
@@ -134,7 +112,7 @@ def push_rolling(moment: Any, contact: Any, rolling: Any) -> Any:
 
 
 @inline
-def settle_rolling(ring: Any, contact: Any, change: Any, total: Any, here: Any, rolling: Any, p: Any) -> Any:
+def settle_rolling(ring, contact, change, total, here, rolling, p):
     """Settle the couple after the solve: on roller and ring alike, with its loss."""
     if rolling is None:
         return total

@@ -6,14 +6,12 @@ are three velocities and three angular velocities.
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
-from beardyn_core.kernels.vectors import Twist, cross
+from beardyn_core.kernels.vectors import Twist, add_scaled, cross, scale
 
 
 @inline
-def inertia_matrix(mass: Any, axial: Any, transverse: Any, axis: Any, zero: Any) -> Any:
+def inertia_matrix(mass, axial, transverse, axis, zero):
     """Fill the matrix with mass and inertia of a body of revolution with unit axis `axis`."""
     d = axial - transverse
     x, y, z = axis
@@ -29,36 +27,26 @@ def inertia_matrix(mass: Any, axial: Any, transverse: Any, axis: Any, zero: Any)
 
 
 @inline
-def add_line(matrix: Any, direction: Any, arm: Any, arm_slope: Any, weights: Any) -> Any:
+def add_line(matrix, direction, arm, arm_slope, weights):
     """Add contacts along a line that resist the velocity in one direction.
 
-    Parameters
-    ----------
-    matrix : tuple of 21 lane values
-    direction : vector
-        Unit direction of the resistance.
-    arm, arm_slope : vector
-        Contact at abscissa x from the centre of mass: ``arm + x arm_slope``.
-    weights : tuple of 3 lane values
-        Sums of the resistance with x^0, x^1, x^2, [N s/m], times the step.
+    ``direction``: unit direction of the resistance; ``arm``, ``arm_slope``: contact at abscissa x from the
+    centre of mass: ``arm + x arm_slope``; ``weights`` (3 numbers): sums of the resistance with x^0, x^1, x^2,
+    [N s/m], times the step.
     """
     k0, k1, k2 = weights
     p = cross(arm, direction)
     r = cross(arm_slope, direction)
-    force = (k0 * direction[0], k0 * direction[1], k0 * direction[2])
-    b = (k0 * p[0] + k1 * r[0], k0 * p[1] + k1 * r[1], k0 * p[2] + k1 * r[2])
-    c = (k1 * p[0] + k2 * r[0], k1 * p[1] + k2 * r[1], k1 * p[2] + k2 * r[2])
-    return _add_blocks(matrix, direction, force, b, p, c, r)
+    b, c = add_scaled(scale(k0, p), k1, r), add_scaled(scale(k1, p), k2, r)
+    return _add_blocks(matrix, direction, scale(k0, direction), b, p, c, r)
 
 
 @inline
-def add_point(matrix: Any, direction: Any, arm: Any, weight: Any) -> Any:
+def add_point(matrix, direction, arm, weight):
     """Add one contact that resists the velocity in one direction; arguments as in `add_line`."""
     p = cross(arm, direction)
-    force = (weight * direction[0], weight * direction[1], weight * direction[2])
-    b = (weight * p[0], weight * p[1], weight * p[2])
-    m = matrix
-    d = direction
+    force, b = scale(weight, direction), scale(weight, p)
+    m, d = matrix, direction
     return (
         m[0] + force[0] * d[0],
         m[1] + force[1] * d[0], m[2] + force[1] * d[1],
@@ -72,7 +60,7 @@ def add_point(matrix: Any, direction: Any, arm: Any, weight: Any) -> Any:
 
 
 @inline
-def add_line_everywhere(matrix: Any, arm: Any, arm_slope: Any, weights: Any) -> Any:
+def add_line_everywhere(matrix, arm, arm_slope, weights):
     """Add contacts along a line that resist the velocity in every direction; arguments as in `add_line`.
 
     The sum of `add_line` over three orthogonal directions: with r = arm + x arm_slope the force block is
@@ -80,21 +68,19 @@ def add_line_everywhere(matrix: Any, arm: Any, arm_slope: Any, weights: Any) -> 
     """
     k0, k1, k2 = weights
     a, s = arm, arm_slope
-    u = (k0 * a[0] + k1 * s[0], k0 * a[1] + k1 * s[1], k0 * a[2] + k1 * s[2])
-    v = (k1 * a[0] + k2 * s[0], k1 * a[1] + k2 * s[1], k1 * a[2] + k2 * s[2])
+    u, v = add_scaled(scale(k0, a), k1, s), add_scaled(scale(k1, a), k2, s)
     return _add_everywhere(matrix, k0, u, a, v, s)
 
 
 @inline
-def add_point_everywhere(matrix: Any, arm: Any, weight: Any) -> Any:
+def add_point_everywhere(matrix, arm, weight):
     """Add one contact that resists the velocity in every direction; arguments as in `add_line`."""
-    u = (weight * arm[0], weight * arm[1], weight * arm[2])
     nothing = (0.0, 0.0, 0.0)
-    return _add_everywhere(matrix, weight, u, arm, nothing, nothing)
+    return _add_everywhere(matrix, weight, scale(weight, arm), arm, nothing, nothing)
 
 
 @inline
-def _add_everywhere(m: Any, weight: Any, u: Any, a: Any, v: Any, s: Any) -> Any:
+def _add_everywhere(m, weight, u, a, v, s):
     xx = u[0] * a[0] + v[0] * s[0]
     yy = u[1] * a[1] + v[1] * s[1]
     zz = u[2] * a[2] + v[2] * s[2]
@@ -110,11 +96,11 @@ def _add_everywhere(m: Any, weight: Any, u: Any, a: Any, v: Any, s: Any) -> Any:
 
 
 @inline
-def add_couple(matrix: Any, direction: Any, weight: Any) -> Any:
+def add_couple(matrix, direction, weight):
     """Add a rotary damper about one direction; `weight` is its coefficient times the step."""
     m = matrix
     x, y, z = direction
-    b = (weight * x, weight * y, weight * z)
+    b = scale(weight, direction)
     return (
         m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9] + b[0] * x,
         m[10], m[11], m[12], m[13] + b[1] * x, m[14] + b[1] * y,
@@ -123,7 +109,7 @@ def add_couple(matrix: Any, direction: Any, weight: Any) -> Any:
 
 
 @inline
-def _add_blocks(m: Any, d: Any, force: Any, b: Any, p: Any, c: Any, r: Any) -> Any:
+def _add_blocks(m, d, force, b, p, c, r):
     return (
         m[0] + force[0] * d[0],
         m[1] + force[1] * d[0], m[2] + force[1] * d[1],
@@ -138,7 +124,7 @@ def _add_blocks(m: Any, d: Any, force: Any, b: Any, p: Any, c: Any, r: Any) -> A
 
 
 @inline
-def solve(matrix: Any, right: Any) -> Any:
+def solve(matrix, right):
     """Solve the symmetric positive definite 6x6 system by L D L^T: the `Twist` that changes the motion."""
     (
         a00, a10, a11, a20, a21, a22, a30, a31, a32, a33, a40,

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
+from beardyn_core.kernels.exchange import load_vector
 from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
@@ -13,24 +12,17 @@ from beardyn_core.kernels.kinematic_rollers import (
     RIB_SUM,
     TORQUE_RIB,
     TORQUE_ROLLING,
+    rolling_torque,
     row_totals,
     show_contacts,
     show_roller,
+    sliding_torque,
 )
-from beardyn_core.kernels.kinematic_torque import rolling_torque, sliding_torque
 from beardyn_core.kernels.lane_math import at_least, quick_ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.vectors import add_scaled
 from beardyn_core.kernels.waviness import wave_gap
-from beardyn_core.model.layout import (
-    COUNTED,
-    COUNTED_COSINE,
-    COUNTED_SINE,
-    OVERSIZE,
-    PENETRATION,
-    POCKET_ANGLE,
-    POCKET_COSINE,
-    POCKET_SINE,
-)
+from beardyn_core.model.layout import COUNTED, OVERSIZE, PENETRATION, POCKET_ANGLE, POCKET_COSINE, POCKET_SINE
 
 TREND_EXTRAS = 3  # after the loads: angle of the cages [rad], speed of shaft and cages [rad/s]
 _SMALLEST_APPROACH = 1e-12
@@ -39,18 +31,11 @@ _PI = 3.141592653589793
 
 
 @inline
-def spring_load(approach: Any, rate: Any, spring: Any, damping: Any) -> Any:
+def spring_load(approach, rate, spring, damping):
     """Work out the cup load of a roller that is pressed by cup and cone, never pulling, [N].
 
-    Parameters
-    ----------
-    approach, rate : lane value
-        Of cone and cup along the cup's normal, [m], [m/s].
-    spring : SpringParams
-    damping : DampingParams or None
+    ``approach``, ``rate``: of cone and cup along the cup's normal [m], [m/s].
 
-    Notes
-    -----
     Both contacts and the rib have the same time constant, so the spring of all three has it too; its
     tangent stiffness is taken as 10/9 of load over approach.
 
@@ -66,7 +51,7 @@ def spring_load(approach: Any, rate: Any, spring: Any, damping: Any) -> Any:
 
 
 @inline
-def _series(root: Any, series: Any) -> Any:
+def _series(root, series):
     square = root * root
     low = series[0] + root * series[1]
     middle = series[2] + root * series[3]
@@ -76,7 +61,7 @@ def _series(root: Any, series: Any) -> Any:
 
 
 @inline
-def _push(pressed: Any, rate: Any, damping: Any) -> Any:
+def _push(pressed, rate, damping):
     """Take the approach that stands for spring and damper of a 10/9 law, [m]."""
     if damping is None:
         return pressed
@@ -84,22 +69,12 @@ def _push(pressed: Any, rate: Any, damping: Any) -> Any:
 
 
 @inline
-def faulted_load(
-    lanes: Any, block: Any, approach: Any, rate: Any, angle: Any, turns: Any, faults: Any, p: Any
-) -> Any:
+def faulted_load(lanes, block, approach, rate, angle, turns, faults, p):
     """Work out the cup load with the gaps of faults; without faults as `spring_load`.
 
     The laminae of a roller see different gaps. They are taken as two parts of it, one with the gap g and
     the share f, one without: f g and f g^2 are the means of gap and squared gap over the laminae. Exact
     for a patch of one depth over part of the length. Neglects the tilt of the roller that follows.
-
-    Parameters
-    ----------
-    angle : lane value
-        Pocket angle, [rad].
-    turns : tuple of 3 floats
-        Angle of cages and cone and of the rollers in their pockets, [rad].
-    faults : FaultParams or None
     """
     if faults is None:
         return spring_load(approach, rate, p.spring, p.base.effects.damping)
@@ -130,20 +105,10 @@ def faulted_load(
 
 
 @inline
-def approach_waves(lanes: Any, motion: Any, direction: Any, p: Any) -> Any:
+def approach_waves(lanes, motion, direction, p):
     """Write approach and rate of the rows as affine functions of cosine and sine of the pocket angle.
 
-    Parameters
-    ----------
-    motion : tuple
-        From `relative_cone`.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
-
-    Returns
-    -------
-    approach, rate : tuples of 3 lane values
-        Factors of cosine, sine and one, [m], [m/s].
+    Returns ``approach``, ``rate`` (3 numbers): factors of cosine, sine and one [m], [m/s].
     """
     side = lanes.load(p.sides, 0, 0)
     approach = _wave(side, motion[0][0], motion[1][0], motion[2][0], motion[3][0], motion[4][0], direction, p)
@@ -152,7 +117,7 @@ def approach_waves(lanes: Any, motion: Any, direction: Any, p: Any) -> Any:
 
 
 @inline
-def _wave(side: Any, x: Any, y: Any, z: Any, about_x: Any, about_z: Any, direction: Any, p: Any) -> Any:
+def _wave(side, x, y, z, about_x, about_z, direction, p):
     cosine, lever = p.base.cup.cosine, p.spring.lever
     along_z = side * (lever * about_x) + cosine * z
     along_x = side * (-lever * about_z) + cosine * x
@@ -164,40 +129,12 @@ def _wave(side: Any, x: Any, y: Any, z: Any, about_x: Any, about_z: Any, directi
 
 
 @inline
-def load_rollers(
-    lanes: Any,
-    rollers: Any,
-    sums: Any,
-    motion: Any,
-    direction: Any,
-    turns: Any,
-    speeds: Any,
-    trend: Any,
-    p: Any,
-) -> None:
+def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, p):
     """Load all rollers and sum their loads by row.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Written: the largest approach.
-    sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Written: ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM``.
-    motion : tuple
-        From `relative_cone`.
-    direction : tuple of 2 floats
-        Cosine and sine of the cage angle.
-    turns : tuple of 3 floats
-        Angle of cages, cone, and rollers in their pockets, [rad].
-    speeds : tuple of 2 floats
-        Of shaft and cages, [rad/s].
-    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
-        Written: cup loads.
-    p : LumpedParameters
+    Written are the largest approach of the ``rollers``, ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM`` of the
+    ``sums`` and the cup loads of the ``trend`` [block + TREND_EXTRAS, 1, lane].
 
-    Notes
-    -----
     Half of the centrifugal load of the cup comes off the cone: the two contacts are as stiff as each other.
     What is not worked out at every step has functions of its own: with it in here the compiler counts the
     references to all parameter arrays up and down in every step of a faulty bearing, 0.7 us.
@@ -205,7 +142,7 @@ def load_rollers(
     approach_wave, rate_wave = approach_waves(lanes, motion, direction, p)
     idle = idle_load(speeds[1], p)
     zero = lanes.constant(0.0)
-    load_cosine, load_sine, load_sum = zero, zero, zero
+    loads = (zero, zero, zero)  # sums: plain, times cosine, times sine
     for block in range(rollers.shape[0]):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
         approach = approach_wave[0] * cosine + (approach_wave[1] * sine + approach_wave[2])
@@ -220,30 +157,16 @@ def load_rollers(
             load = at_least(pressed + 0.5 * idle, idle)
             deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
             lanes.store(rollers, block, PENETRATION, deepest)
-        load_cosine = load_cosine + load * lanes.load(p.pockets, block, COUNTED_COSINE)
-        load_sine = load_sine + load * lanes.load(p.pockets, block, COUNTED_SINE)
-        load_sum = load_sum + load * lanes.load(p.pockets, block, COUNTED)
+        loads = add_scaled(loads, load, load_vector(lanes, p.pockets, block, COUNTED))
         lanes.store(trend, block, 0, load)
-    lanes.store(sums, 0, LOAD_COSINE, load_cosine)
-    lanes.store(sums, 0, LOAD_SINE, load_sine)
-    lanes.store(sums, 0, RIB_SUM, load_sum)
+    lanes.store(sums, 0, LOAD_COSINE, loads[1])
+    lanes.store(sums, 0, LOAD_SINE, loads[2])
+    lanes.store(sums, 0, RIB_SUM, loads[0])
 
 
 @inline
-def torque_and_stiffness(
-    lanes: Any, blocks: Any, sums: Any, motion: Any, direction: Any, speeds: Any, trend: Any, p: Any
-) -> None:
-    """Sum by row what is held for a while, after `load_rollers`, with the same arguments.
-
-    Parameters
-    ----------
-    blocks : int
-        Of rollers.
-    sums : float64 array, shape [1, SUM_FIELDS, lane]
-        Written: torques and stiffness.
-    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
-        Cup loads.
-    """
+def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, p):
+    """Sum by row what is held for a while, torques and stiffness; call it after `load_rollers`."""
     effects = p.base.effects
     wave = approach_waves(lanes, motion, direction, p)[0]
     idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
@@ -266,7 +189,7 @@ def torque_and_stiffness(
 
 
 @inline
-def cup_cone_rib(load: Any, speeds: Any, p: Any) -> Any:
+def cup_cone_rib(load, speeds, p):
     """Work out cup, cone and rib load of rollers from the cup load, [N]."""
     spring = p.spring
     cone = spring.cone_share * (load - idle_load(speeds[1], p))
@@ -275,19 +198,19 @@ def cup_cone_rib(load: Any, speeds: Any, p: Any) -> Any:
 
 
 @inline
-def centrifugal_force(cage_speed: Any, p: Any) -> Any:
+def centrifugal_force(cage_speed, p):
     """Work out the centrifugal force of a roller, [N]."""
     return p.kinematic.centrifugal * cage_speed * cage_speed
 
 
 @inline
-def idle_load(cage_speed: Any, p: Any) -> Any:
+def idle_load(cage_speed, p):
     """Work out the cup load of a roller that the cone does not press, [N]."""
     return p.spring.idle * centrifugal_force(cage_speed, p)
 
 
 @inline
-def sum_rollers(sums: Any, speeds: Any, p: Any) -> Any:
+def sum_rollers(sums, speeds, p):
     """Sum the loads as `cup_wrench` takes them, and the rib loads, from what `load_rollers` stored."""
     spring = p.spring
     cosine, sine = row_totals(sums, LOAD_COSINE), row_totals(sums, LOAD_SINE)
@@ -305,15 +228,10 @@ def sum_rollers(sums: Any, speeds: Any, p: Any) -> Any:
 
 
 @inline
-def show_springs(lanes: Any, rollers: Any, trend: Any, p: Any) -> None:
-    """Write all rollers and their contacts as the full tier keeps them; see `show_roller`.
+def show_springs(lanes, rollers, trend, p):
+    """Write all rollers and their contacts, but for the largest approach, as the full tier keeps them.
 
-    Parameters
-    ----------
-    rollers : float64 array, shape [block, ROLLER_FIELDS, lane]
-        Written, but for the largest approach.
-    trend : float64 array, shape [block + TREND_EXTRAS, 1, lane]
-        Cup loads from `load_rollers`, then the instant.
+    The ``trend`` has the cup loads from `load_rollers`, then the instant. See `show_roller`.
     """
     blocks, zero, k = rollers.shape[0], lanes.constant(0.0), p.kinematic
     turn = trend[blocks, 0, 0]

@@ -93,15 +93,11 @@ def _overload_mark(timers, stage, _result):
 
 
 @inline
-def time_step(timers: Any, step: Any) -> None:
-    """Begin a step: decide whether it is timed.
+def time_step(timers, step):
+    """Begin a step of the block: decide whether it is timed.
 
-    Parameters
-    ----------
-    timers : float64 array, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS], or None
-        Counters of `model.stages`; ``None``: no timers, and compiles to nothing.
-    step : int
-        Of the block.
+    ``timers`` [CYCLES + TIMED_STEPS, TIMER_SLOTS] are the counters of `model.stages`; without them (``None``)
+    this and the marks compile to nothing.
     """
     if timers is None:
         return
@@ -116,32 +112,16 @@ def time_step(timers: Any, step: Any) -> None:
 
 
 @inline
-def mark(timers: Any, stage: Any) -> None:
-    """End a stage: what passed since the last mark is its.
-
-    Parameters
-    ----------
-    timers : float64 array, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS], or None
-        Counters of `model.stages`; ``None``: no timers, and compiles to nothing.
-    stage : int
-        Slot of the stage.
-    """
+def mark(timers, stage):
+    """End a stage: what passed since the last mark counts for its slot."""
     if timers is None:
         return
     _mark_plainly(timers, stage, None)
 
 
 @inline
-def mark_result(timers: Any, stage: Any, result: Any) -> None:
-    """End a stage so short that the compiler would mix it with the next one; see `mark`.
-
-    Parameters
-    ----------
-    timers : float64 array, shape [CYCLES + TIMED_STEPS, TIMER_SLOTS], or None
-    stage : int
-    result : lane value
-        What the stage works out, to be ready at the mark.
-    """
+def mark_result(timers, stage, result):
+    """End a stage so short that the compiler would mix it with the next one: its result is ready then."""
     if timers is None:
         return
     _mark_plainly(timers, stage, result)

@@ -54,19 +54,13 @@ class LaminaContact(NamedTuple):
 
 
 @inline
-def friction_rate(contact: Any, effects: Any) -> Any:
-    """Work out the friction of one lamina over its slip speed, 0 without traction, [N s/m].
-
-    Parameters
-    ----------
-    contact : LaminaContact
-    effects : EffectParams
-    """
+def friction_rate(contact, effects):
+    """Work out the friction of one lamina over its slip speed, 0 without traction, [N s/m]."""
     return _rate(contact, effects.film, effects.coulomb, effects.mixed, effects.load_sharing)
 
 
 @inline
-def _rate(contact: Any, film: Any, coulomb: Any, mixed: Any, load_sharing: Any) -> Any:
+def _rate(contact, film, coulomb, mixed, load_sharing):
     if load_sharing is not None:
         return load_sharing_rate(contact, film, load_sharing)
     if mixed is not None:
@@ -75,7 +69,7 @@ def _rate(contact: Any, film: Any, coulomb: Any, mixed: Any, load_sharing: Any) 
 
 
 @inline
-def traction_capacity(load: Any, coulomb: Any, mixed: Any, load_sharing: Any) -> Any:
+def traction_capacity(load, coulomb, mixed, load_sharing):
     """Take the friction at full slip in the dry limit, the scale of the chatter index, [N]."""
     if load_sharing is not None:
         return load_sharing.friction * load
@@ -90,7 +84,7 @@ def traction_capacity(load: Any, coulomb: Any, mixed: Any, load_sharing: Any) ->
 
 
 @inline
-def coulomb_rate(contact: Any, coulomb: Any) -> Any:
+def coulomb_rate(contact, coulomb):
     """Work out dry friction over slip speed, mu N / u with its corner at zero slip rounded, [N s/m].
 
     Adds friction of constant coefficient; neglects stiction and any lubricant.
@@ -102,7 +96,7 @@ def coulomb_rate(contact: Any, coulomb: Any) -> Any:
 
 
 @inline
-def slip_rate(force: Any, slip_squared: Any, speed: Any, law: Any) -> Any:
+def slip_rate(force, slip_squared, speed, law):
     """Divide friction of the size ``force`` at full slip by the slip speed, its corner rounded, [N s/m].
 
     Without a named law the friction is u / sqrt(u^2 + speed^2) of the force: 71 % at that slip speed.
@@ -118,7 +112,7 @@ def slip_rate(force: Any, slip_squared: Any, speed: Any, law: Any) -> Any:
 
 
 @inline
-def threlfall_rate(force: Any, slip: Any, speed: Any, steepness: Any) -> Any:
+def threlfall_rate(force, slip, speed, steepness):
     """Take 1 - exp(-3 u / speed) of the force below the speed, 0.95 of it beyond, for a steepness of 3.
 
     References
@@ -134,7 +128,7 @@ def threlfall_rate(force: Any, slip: Any, speed: Any, steepness: Any) -> Any:
 
 
 @inline
-def ambrosio_rate(force: Any, slip: Any, full: Any, start: Any) -> Any:
+def ambrosio_rate(force, slip, full, start):
     """Take none of the force up to the slip speed ``start``, all of it from ``full`` on, linear in between.
 
     References
@@ -150,7 +144,7 @@ def ambrosio_rate(force: Any, slip: Any, full: Any, start: Any) -> Any:
 
 
 @inline
-def arctangent_rate(force: Any, slip: Any, speed: Any, steepness: Any) -> Any:
+def arctangent_rate(force, slip, speed, steepness):
     """Take 2/pi atan(u / speed) of the force: half of it at that slip speed for a steepness of 1."""
     if steepness is None:
         return 0.0
@@ -162,7 +156,7 @@ def arctangent_rate(force: Any, slip: Any, speed: Any, steepness: Any) -> Any:
 
 
 @inline
-def mixed_rate(contact: Any, film: Any, mixed: Any) -> Any:
+def mixed_rate(contact, film, mixed):
     """Blend boundary and full-film friction over slip speed, [N s/m].
 
     The blend weight is the sixth-power law of the mixed regime over the film parameter. Neglects heating
@@ -179,7 +173,7 @@ def mixed_rate(contact: Any, film: Any, mixed: Any) -> Any:
 
 
 @inline
-def boundary_share(film_parameter: Any, mixed: Any) -> Any:
+def boundary_share(film_parameter, mixed):
     """Weigh the boundary friction: 1 below the boundary film parameter, 0 above the full-film one."""
     share = (mixed.full_film - film_parameter) / (mixed.full_film - mixed.boundary_film)
     share = at_most(at_least(share, 0.0), 1.0)
@@ -188,7 +182,7 @@ def boundary_share(film_parameter: Any, mixed: Any) -> Any:
 
 
 @inline
-def _full_film_rate(contact: Any, dry: Any, film: Any, mixed: Any, sheared_film: Any) -> Any:
+def _full_film_rate(contact, dry, film, mixed, sheared_film):
     """Take the full film's friction over slip speed, [N s/m]: constant coefficient, or a film that shears."""
     if sheared_film is None:
         return mixed.film_friction * dry
@@ -196,7 +190,7 @@ def _full_film_rate(contact: Any, dry: Any, film: Any, mixed: Any, sheared_film:
 
 
 @inline
-def load_sharing_rate(contact: Any, film: Any, sharing: Any) -> Any:
+def load_sharing_rate(contact, film, sharing):
     """Share the load between asperities and film, each with its own friction over slip speed, [N s/m].
 
     The film carries 1 - exp(-1.8 Lambda^1.2); asperities have mu_0 2/pi atan(slope s), s slip over
@@ -216,7 +210,7 @@ def load_sharing_rate(contact: Any, film: Any, sharing: Any) -> Any:
 
 
 @inline
-def _shared_rate(contact: Any, slip: Any, inverse_slip: Any, asperities: Any, film: Any, sharing: Any) -> Any:
+def _shared_rate(contact, slip, inverse_slip, asperities, film, sharing):
     if film is None:
         return asperities
     wet = (
@@ -234,13 +228,13 @@ def _shared_rate(contact: Any, slip: Any, inverse_slip: Any, asperities: Any, fi
 
 
 @inline
-def mean_pressure(contact: Any) -> Any:
+def mean_pressure(contact):
     """Work out the mean Hertz pressure of a lamina, [Pa]."""
     return sqrt(contact.load * contact.laminae[LAMINA_PRESSURE + contact.ring, contact.lamina])
 
 
 @inline
-def log2_thickening(pressure: Any, film: Any) -> Any:
+def log2_thickening(pressure, film):
     """Take the binary logarithm of the viscosity at a pressure over the ambient one, at most 30.
 
     References
@@ -253,14 +247,14 @@ def log2_thickening(pressure: Any, film: Any) -> Any:
 
 
 @inline
-def _log2_thickening(pressure: Any, pressure_viscosity: Any, roelands: Any) -> Any:
+def _log2_thickening(pressure, pressure_viscosity, roelands):
     if roelands is None:
         return pressure * (pressure_viscosity * LOG2_E)
     return roelands.log2_level * (exp2(roelands.exponent * log2(1.0 + 5.1e-9 * pressure)) - 1.0)
 
 
 @inline
-def aihara_rate(contact: Any, slip: Any, inverse_slip: Any, aihara: Any) -> Any:
+def aihara_rate(contact, slip, inverse_slip, aihara):
     """Work out traction as fitted to tests of rolling contacts, [N s/m].
 
     mu = mu_max (1 - exp(-2.6 s / s_max)), s slip over entrainment speed, with eta in cP, u in mm/s and the
@@ -291,7 +285,7 @@ def aihara_rate(contact: Any, slip: Any, inverse_slip: Any, aihara: Any) -> Any:
 
 
 @inline
-def eyring_rate(contact: Any, slip: Any, film: Any, eyring: Any) -> Any:
+def eyring_rate(contact, slip, film, eyring):
     """Shear the Hertz area with the stress tau_0 asinh(eta u / (h tau_0)), over slip speed, [N s/m].
 
     References
@@ -307,7 +301,7 @@ def eyring_rate(contact: Any, slip: Any, film: Any, eyring: Any) -> Any:
 
 
 @inline
-def bair_winer_rate(contact: Any, slip: Any, film: Any, limit: Any) -> Any:
+def bair_winer_rate(contact, slip, film, limit):
     """Shear with tau_L (1 - exp(-eta u / (h tau_L))), tau_L a share of the mean pressure, [N s/m].
 
     References
@@ -324,7 +318,7 @@ def bair_winer_rate(contact: Any, slip: Any, film: Any, limit: Any) -> Any:
 
 
 @inline
-def inlet_rate(contact: Any, factor: Any) -> Any:
+def inlet_rate(contact, factor):
     """Shear the oil at ambient viscosity in the parabolic gap around a contact, over slip speed, [N s/m].
 
     eta l times the integral of dx/h from the far inlet to Reynolds' exit, h + x^2/2R: all the friction of
@@ -341,7 +335,7 @@ def inlet_rate(contact: Any, factor: Any) -> Any:
 
 
 @inline
-def limited_newton_rate(contact: Any, film: Any, limit: Any) -> Any:
+def limited_newton_rate(contact, film, limit):
     """Bend the Newtonian stress into the limiting one, tau_N tau_L / sqrt(tau_N^2 + tau_L^2), [N s/m].
 
     References

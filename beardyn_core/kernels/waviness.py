@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from beardyn_core.jit import inline
 from beardyn_core.kernels.generator_line import Line
 from beardyn_core.kernels.lane_math import floor, magnitude
@@ -14,19 +12,11 @@ _PER_TURN = 0.15915494309189535
 
 
 @inline
-def wave_gap(lanes: Any, block: Any, azimuth: Any, waves: Any) -> Any:
+def wave_gap(lanes, block, azimuth, waves):
     """Look up the gap of one surface's waviness [m] and its slope over the azimuth [m/rad].
 
-    Parameters
-    ----------
-    lanes : Lanes
-    block : int
-    azimuth : lane value
-        Of the contact in the surface's frame, [rad].
-    waves : WaveParams or None
+    ``azimuth``: of the contact in the surface's frame [rad].
 
-    Notes
-    -----
     Linear between the points of a periodic table, so that the cost does not depend on the orders. Neglects
     changes along the generator line and the width of the contact, which smooths waves shorter than it.
     """
@@ -42,7 +32,7 @@ def wave_gap(lanes: Any, block: Any, azimuth: Any, waves: Any) -> Any:
 
 
 @inline
-def shift_line(line: Any, gap: Any) -> Any:
+def shift_line(line, gap):
     """Take a gap off the approach of a contact line."""
     a = line.approach
     approach = (a[0] - gap, a[1], a[2], a[3])
@@ -50,28 +40,15 @@ def shift_line(line: Any, gap: Any) -> Any:
 
 
 @inline
-def lean_wrench(
-    lanes: Any, body: Any, sums: Any, climbs: Any, damage: Any, waves: Any, roller_waves: Any
-) -> Any:
-    """Work out the wrench on the roller where the normal leans with a sloping gap.
+def lean_wrench(lanes, body, sums, climbs, damage, waves, roller_waves):
+    """Work out the `Wrench` on the roller where the normal leans with a sloping gap.
 
     The elastic energy depends on the gap and the gap on the azimuths of the roller's orbit and spin: the
     force normal to the sloping surface has a part along the orbit when the slope is the ring's, and a
     moment about the roller axis when it is the roller's. A smooth ring feels no torque from the latter.
 
-    Parameters
-    ----------
-    lanes : Lanes
-    body : Body
-    sums : LaminaSums
-    climbs : tuple of 2 lane values
-        Slope of the waviness of ring and roller over the azimuth, [m/rad].
-    damage, waves, roller_waves : NamedTuple or None
-        Without any of them the normal cannot lean.
-
-    Returns
-    -------
-    Wrench
+    ``climbs`` (2 numbers): slope of the waviness of ring and roller over the azimuth [m/rad]; ``damage``,
+    ``waves``, ``roller_waves``: without any of them the normal cannot lean.
     """
     zero = lanes.constant(0.0)
     level = (zero, zero, zero)
@@ -89,6 +66,6 @@ def lean_wrench(
 
 
 @inline
-def add_leaning(wrench: Any, lean: Any) -> Any:
+def add_leaning(wrench, lean):
     """Add the wrench of sloping gaps to that of a contact."""
     return add_wrenches(wrench, lean)

@@ -13,10 +13,8 @@ traction         friction of the raceway contacts
 losses           rolling resistance, drag and seals
 ribs             ribs at both roller ends
 cage             pockets, lands and cheaper cages
-ring_flexibility bending of the cup
-patch_path       path of a roller over a patch
-faults           patches, waviness, wear and size errors
-mounting         rings and suspension
+faults           patches and the path of a roller over one, waviness, wear and size errors
+mounting         rings, their bending, suspension
 spring_share     how much of a spring's change a step takes in
 heat             nodes of the thermal network and where losses go
 build            a scene to parameters

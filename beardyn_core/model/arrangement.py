@@ -18,23 +18,12 @@ class Arrangement:
     With one lane each block is one roller, all of row 0 first; a bearing with one row has it in all lanes.
     Filler lanes at the end shadow the last roller of their row, and the lane of a missing roller shadows the
     roller before it: they go through the same numbers and are masked out of every sum.
-
-    Parameters
-    ----------
-    roller_count : int
-        Rollers of each row when none is missing.
-    width : int
-        Lanes of a block: 1, or an even number.
-    rows : int
-        Rows that are there: 2, or 1 for row 0 alone.
-    missing : tuple of pairs of int
-        Row and roller of those that are missing.
     """
 
-    roller_count: int
-    width: int
-    rows: int = BOTH_ROWS
-    missing: tuple[tuple[int, int], ...] = ()
+    roller_count: int  # rollers of each row when none is missing
+    width: int  # lanes of a block: 1, or an even number
+    rows: int = BOTH_ROWS  # rows that are there: 2, or 1 for row 0 alone
+    missing: tuple[tuple[int, int], ...] = ()  # row and roller of those that are missing
 
     @property
     def group_count(self) -> int:

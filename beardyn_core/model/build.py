@@ -14,7 +14,7 @@ from beardyn_core.model.film import film_params
 from beardyn_core.model.laminae import coupling_params, lamina_table
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
 from beardyn_core.model.losses import drag_params, rolling_params, seal_params
-from beardyn_core.model.mounting import mounting_params
+from beardyn_core.model.mounting import flexibility_params, mounting_params
 from beardyn_core.model.parameters import (
     AuditParams,
     DampingParams,
@@ -26,7 +26,6 @@ from beardyn_core.model.parameters import (
     RollerParams,
 )
 from beardyn_core.model.ribs import rib_params, small_rib_params
-from beardyn_core.model.ring_flexibility import flexibility_params
 from beardyn_core.model.spring_share import spring_time
 from beardyn_core.model.stages import new_timers
 from beardyn_core.model.traction import traction_params
@@ -51,14 +50,8 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
 
     Parameters
     ----------
-    scene : Scene
-    arrangement : Arrangement
     preload : float64 array, shape [6]
         Force and moment of the suspension on the axlebox at rest, [N, N m].
-
-    Returns
-    -------
-    parameters : Parameters
     """
     bearing, effects = scene.bearing, scene.effects
     offset = bearing.roller_mass_offset

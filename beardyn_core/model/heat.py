@@ -81,8 +81,6 @@ def thermal_network(
 
     Parameters
     ----------
-    bearing : Bearing
-    thermal : Thermal
     box_mass : float
         Axlebox without the cup, [kg].
     shaft_speed : float

@@ -38,12 +38,7 @@ class CouplingParams(NamedTuple):
 
 
 def for_springs(table: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Repeat a table of laminae, shape [..., 2 x lamina]: near a patch a lamina is two springs.
-
-    Parameters
-    ----------
-    table : float64 array, shape [..., lamina]
-    """
+    """Repeat a table [..., lamina] to [..., 2 x lamina]: near a patch a lamina is two springs."""
     return np.ascontiguousarray(np.concatenate([table, table], axis=-1))
 
 
@@ -60,6 +55,25 @@ def equivalent_radius(bearing: Bearing, place: NDArray[np.float64], ring: str) -
     raceway = cone_distance / math.cos(bearing.half_angle) * math.tan(angle)
     side = -1.0 if ring == "cup" else 1.0
     return 1.0 / (1.0 / roller + side / raceway)
+
+
+def lamina_pressure(bearing: Bearing, lamina_load: NDArray[np.float64], ring: str) -> NDArray[np.float64]:
+    """Work out the Hertz pressure of the laminae of raceway contacts with ``cup`` or ``cone``.
+
+    Parameters
+    ----------
+    lamina_load : float64 array, shape [..., lamina]
+        [N].
+
+    Returns
+    -------
+    float64 array, shape [..., lamina]
+        p0 = sqrt(q E* / (pi R)), [Pa].
+    """
+    count = lamina_load.shape[-1]
+    per_length = lamina_load * count / bearing.effective_length
+    radius = equivalent_radius(bearing, lamina_places(bearing, count), ring)
+    return np.asarray(np.sqrt(per_length * 0.5 * bearing.material.contact_modulus / (math.pi * radius)))
 
 
 def log2_film_factor(

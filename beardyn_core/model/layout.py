@@ -64,32 +64,12 @@ RING_FIELDS = 13
 
 # --- where energy is lost
 LOSS_NAMES = (
-    "raceway_sliding",
-    "contact_damping",
-    "rolling_resistance",
-    "rib",
-    "small_rib",
-    "pocket",
-    "cage_land",
-    "drag",
-    "seal",
-    "suspension",
-    "ring_bending",
-)
-(
-    LOSS_SLIDING,
-    LOSS_DAMPING,
-    LOSS_ROLLING,
-    LOSS_RIB,
-    LOSS_SMALL_RIB,
-    LOSS_POCKET,
-    LOSS_LAND,
-    LOSS_DRAG,
-    LOSS_SEAL,
-    LOSS_SUSPENSION,
-    LOSS_RING_BENDING,
-) = range(11)
-LOSSES = 11
+    "raceway_sliding", "contact_damping", "rolling_resistance", "rib", "small_rib", "pocket", "cage_land",
+    "drag", "seal", "suspension", "ring_bending",
+)  # fmt: skip
+LOSSES = len(LOSS_NAMES)
+LOSS_SLIDING, LOSS_DAMPING, LOSS_ROLLING, LOSS_RIB, LOSS_SMALL_RIB, LOSS_POCKET = range(6)
+LOSS_LAND, LOSS_DRAG, LOSS_SEAL, LOSS_SUSPENSION, LOSS_RING_BENDING = range(6, LOSSES)
 
 # --- sums over the rollers, lanes [0, field, lane]
 REACTION = 0  # 3 rings x (force, moment)

@@ -79,6 +79,11 @@ SEALS = 2.0
 CYLINDER_FRICTION, CYLINDER_EXPONENT = 0.105, 0.274
 # Laminar disc, both sides: c = 3.87 / sqrt(Re).
 DISC_FRICTION, DISC_EXPONENT = 3.87, 0.5
+# Couple of a contact, and its exponents of speed and load.
+POWER_LAWS: dict[str, Any] = {
+    "aihara": (laws.aihara_line, laws.AIHARA_SPEED, laws.AIHARA_LOAD),
+    "zhou_hoeprich": (laws.zhou_hoeprich_line, laws.ZHOU_HOEPRICH_SPEED, laws.ZHOU_HOEPRICH_LOAD),
+}
 
 
 def rolling_params(scene: Scene) -> RollingParams | None:
@@ -89,29 +94,16 @@ def rolling_params(scene: Scene) -> RollingParams | None:
     bearing, lubricant = scene.bearing, scene.lubricant
     radii = np.array([equivalent_radius(bearing, np.zeros(1), ring)[0] for ring in RINGS])
     viscosity = lubricant.dynamic_viscosity(scene.temperature)
+    pressure_viscosity = lubricant.pressure_viscosity_at(scene.temperature)
+    length, modulus = bearing.effective_length, bearing.material.contact_modulus
     units = [
-        laws.RollingContact(
-            1.0,
-            1.0,
-            float(radius),
-            bearing.effective_length,
-            bearing.material.contact_modulus,
-            viscosity,
-            lubricant.pressure_viscosity_at(scene.temperature),
-        )
+        laws.RollingContact(1.0, 1.0, float(radius), length, modulus, viscosity, pressure_viscosity)
         for radius in radii
     ]
     power_law, biboulet_houpert, thermal, hysteresis = None, None, None, None
-    if effect.kind == "aihara":
-        power_law = PowerLawRollingParams(
-            _log2([laws.aihara_line(unit) for unit in units]), laws.AIHARA_SPEED, laws.AIHARA_LOAD
-        )
-    if effect.kind == "zhou_hoeprich":
-        power_law = PowerLawRollingParams(
-            _log2([laws.zhou_hoeprich_line(unit) for unit in units]),
-            laws.ZHOU_HOEPRICH_SPEED,
-            laws.ZHOU_HOEPRICH_LOAD,
-        )
+    if effect.kind in POWER_LAWS:
+        line, *exponents = POWER_LAWS[effect.kind]
+        power_law = PowerLawRollingParams(_log2([line(unit) for unit in units]), *exponents)
     if effect.kind == "biboulet_houpert":
         biboulet_houpert = BibouletHoupertParams(*(_log2(part) for part in _biboulet_houpert_limits(units)))
     if effect.kind != "hysteresis" and effect.thermal:

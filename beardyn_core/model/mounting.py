@@ -1,4 +1,4 @@
-"""Rings and suspension as kernel parameters; the axlebox may hang beside the bearing centre."""
+"""Rings, their bending and the suspension as kernel parameters; the box may hang beside the centre."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
+from beardyn_core.effects import EffectSet
 from beardyn_core.scene.mounting import Mounting
 
 
@@ -36,6 +38,14 @@ class MountingParams(NamedTuple):
     coupling: BoxCoupling | None
     prop_stiffness: float  # axial, of journal against ground [N/m]
     prop_damping: float  # [N s/m]
+
+
+class FlexibilityParams(NamedTuple):
+    """Bending modes of the cup, from two waves upwards, each in two directions."""
+
+    mass: Any  # [mode], [kg]
+    stiffness: Any  # [mode], [N/m]
+    damping: Any  # [mode], [N s/m]
 
 
 Float = NDArray[np.float64]
@@ -91,3 +101,33 @@ def mounting_params(bearing: Bearing, mounting: Mounting, preload: NDArray[np.fl
         prop_stiffness=mounting.axial_prop_stiffness,
         prop_damping=mounting.axial_prop_damping,
     )
+
+
+def tilt_restraint(mounting: Mounting, parameters: MountingParams) -> Float:
+    """Work out the stiffness of the suspension against the tilt of the bearing about x and z, [N m/rad].
+
+    A journal free to tilt leans the whole moment on the box, whatever holds that.
+    """
+    if mounting.cup == "held" or mounting.journal_tilt == "free":
+        return np.zeros(2)
+    stiffness = parameters.stiffness
+    if parameters.coupling is not None:
+        # the bearing centre stays where it is, so its springs beside it restrain the tilt too
+        stiffness = np.diag(parameters.coupling.stiffness)
+    return np.asarray(stiffness)[[3, 5]]
+
+
+def flexibility_params(bearing: Bearing, effects: EffectSet) -> FlexibilityParams | None:
+    """Work out the modes of the cup with the housing wall around it."""
+    ring = effects.ring_flexibility
+    if ring is None:
+        return None
+    parts = [cup_ring(bearing)]
+    if ring.housing_wall > 0.0:
+        parts.append(housing_ring(bearing, ring.housing_wall, ring.housing_modulus, ring.housing_density))
+    waves = range(2, ring.highest_mode + 1)
+    stiffness = np.array(
+        [ring.stiffness_factor * sum(part.modal_stiffness(n) for part in parts) for n in waves]
+    )
+    mass = np.array([sum(part.modal_mass(n) for part in parts) for n in waves])
+    return FlexibilityParams(mass, stiffness, 2.0 * ring.damping_ratio * np.sqrt(stiffness * mass))

@@ -14,9 +14,8 @@ if TYPE_CHECKING:  # each of them imports this module
     from beardyn_core.model.film import FilmParams
     from beardyn_core.model.laminae import CouplingParams
     from beardyn_core.model.losses import DragParams, RollingParams, SealParams
-    from beardyn_core.model.mounting import MountingParams
+    from beardyn_core.model.mounting import FlexibilityParams, MountingParams
     from beardyn_core.model.ribs import RibParams, SmallRibParams
-    from beardyn_core.model.ring_flexibility import FlexibilityParams
     from beardyn_core.model.traction import CoulombParams, LoadSharingParams, MixedParams
 
 

@@ -19,11 +19,7 @@ _MARGIN = 1.1  # on the frequency, for ribs and moving rings
 def highest_bounce(bearing: Bearing, stiffness: float) -> float:
     """Work out the rate at which a roller bounces between its raceways under the highest pressure, [rad/s].
 
-    Parameters
-    ----------
-    bearing : Bearing
-    stiffness : float
-        Factor of one raceway contact, all laminae together, [N/m^(10/9)].
+    ``stiffness``: factor of one raceway contact, all laminae together [N/m^(10/9)].
 
     References
     ----------
@@ -39,15 +35,9 @@ def highest_bounce(bearing: Bearing, stiffness: float) -> float:
 def spring_time(bearing: Bearing, laminae: NDArray[np.float64], step: float, damped: bool) -> float:
     """Share of the step over which contact springs are implicit, from the lamina table, [s].
 
-    Parameters
-    ----------
-    bearing : Bearing
-    laminae : float64 array, shape [LAMINA_ROWS, lamina]
-    step : float
-        [s].
-    damped : bool
-        Whether contacts are damped. A share between 1/12 and 1/4 is stable for a linear mode; contacts that
-        lift off without a damper make energy with it, and much less with 1/4.
+    ``laminae`` [LAMINA_ROWS, lamina]; ``step``: [s]; ``damped``: whether contacts are damped. A share between
+    1/12 and 1/4 is stable for a linear mode; contacts that lift off without a damper make energy with it, and
+    much less with 1/4.
     """
     bounce = highest_bounce(bearing, float(laminae[LAMINA_STIFFNESS].sum()))
     share = implicit_spring_share(bounce, step)
@@ -57,20 +47,9 @@ def spring_time(bearing: Bearing, laminae: NDArray[np.float64], step: float, dam
 def implicit_spring_share(bounce: float, step: float) -> float:
     """Choose Newmark's beta: the least that is stable, and 1/12 where the step resolves the bounce.
 
-    Parameters
-    ----------
-    bounce : float
-        Highest rate of a mode of rollers on their contacts, [rad/s].
-    step : float
-        [s].
+    ``bounce``: highest rate of a mode of rollers on their contacts [rad/s]; ``step``: [s]. From 1/12
+    to 1/4.
 
-    Returns
-    -------
-    float
-        1/12 to 1/4.
-
-    Notes
-    -----
     With velocities half a step after positions the frequency w of an undamped mode comes out as w' with
     4 sin^2(w' h / 2) = (w h)^2 (1 - 4 beta sin^2(w' h / 2)): stable up to (w h)^2 (1 - 4 beta) = 4, and for
     beta = 1/12 right to the fourth order in the step, for anything else to the second.

@@ -15,7 +15,8 @@ from beardyn_core.bearing.life import edge_concentration
 from beardyn_core.bearing.profile import PROFILE_KINDS, Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.integrate.line_load import lamina_pressure, line_load
+from beardyn_core.model.laminae import lamina_pressure
+from test.analytic.line_load import line_load
 
 HALF, DIAMETER, MODULUS = 25.0e-3, 26.7e-3, 226.4e9
 HS = load_bearing("HS130x230")
@@ -184,12 +185,6 @@ def test_pressure_of_lamina_loads_of_a_whole_bearing_keeps_its_shape() -> None:
     np.testing.assert_allclose(
         pressure[0, 0], line_load(HS, 9.8e3, laminae=6).pressure, rtol=1e-9
     )  # fmt: skip
-
-
-@pytest.mark.parametrize("load", [0.0, -1.0, math.nan, math.inf])
-def test_load_along_a_line_must_press(load: float) -> None:
-    with pytest.raises(ValueError, match="positive"):
-        line_load(HS, load)
 
 
 # --- stress concentration of rating life

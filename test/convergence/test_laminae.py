@@ -11,8 +11,8 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.integrate.line_load import LineLoad, line_load
 from beardyn_core.integrate.static import solve
+from test.analytic.line_load import LineLoad, line_load
 
 HS = load_bearing("HS130x230")
 COUNTS = (8, 20, 40)

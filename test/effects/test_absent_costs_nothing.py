@@ -55,8 +55,8 @@ CUT = {
     "flex_energy": ("flex, flexibility", "0.0"),
     # seals, lands, cages that follow the rings
     "add_seals": ("bodies, wrenches, energy, step, seal", "None"),
-    "push_lands": ("bodies, wrenches, cage", "0.0"),
-    "settle_lands": ("bodies, pushed, energy, step, cage", "0.0"),
+    "push_lands": ("bodies, wrenches, cage, land", "0.0"),
+    "settle_lands": ("bodies, pushed, energy, step, cage, land", "0.0"),
     "place_cages": ("bodies, cage", "None"),
     "pass_on": ("bodies, wrenches, energy, step, cage, gravity", "None"),
     # coupled laminae, faults and waviness

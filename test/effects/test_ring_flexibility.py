@@ -32,7 +32,7 @@ from beardyn_core.model.layout import (
     SUM_FIELDS,
     VELOCITY,
 )
-from beardyn_core.model.ring_flexibility import flexibility_params
+from beardyn_core.model.mounting import flexibility_params
 from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
 from test.kernels.rig import LOAD_80_KN, Float, Rig, constant_load, scene_with, standard_scene, started
 from test.kernels.test_step import shaken

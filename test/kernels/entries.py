@@ -32,10 +32,9 @@ from beardyn_core.kernels.lane_math import (
 )
 from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.pocket import Motion, Pocket, free_pocket
-from beardyn_core.kernels.point_contact import push_point
+from beardyn_core.kernels.point_contact import push_point, push_small_rib, small_rib_contact
 from beardyn_core.kernels.raceway import RacewayContact, push_raceway
 from beardyn_core.kernels.rib import rib_contact, rib_gap
-from beardyn_core.kernels.small_rib import push_small_rib, small_rib_contact
 from beardyn_core.kernels.solve import (
     add_line,
     add_line_everywhere,

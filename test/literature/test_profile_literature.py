@@ -11,7 +11,7 @@ import pytest
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.integrate.line_load import line_load
+from test.analytic.line_load import line_load
 
 HS = load_bearing("HS130x230")
 

@@ -2,66 +2,30 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.model.laminae import equivalent_radius, lamina_places
+from beardyn_core.model.laminae import lamina_places, lamina_pressure
 
 Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class LineLoad:
-    """One raceway contact of a roller, lamina by lamina from the small to the large end.
+    """One raceway contact of a roller, lamina by lamina from the small to the large end."""
 
-    Parameters
-    ----------
-    place : float64 array, shape [lamina]
-        Abscissa from mid-length, [m].
-    load_per_length : float64 array, shape [lamina]
-        [N/m].
-    pressure : float64 array, shape [lamina]
-        Hertz pressure in the middle of the contact's width, [Pa].
-    approach : float
-        Of roller and ring at mid-length, profile drop not taken off, [m].
-    moment : float
-        Of the load about mid-length, positive when the large end carries more, [N m].
-    """
-
-    place: Float
-    load_per_length: Float
-    pressure: Float
-    approach: float
-    moment: float
-
-
-def lamina_pressure(bearing: Bearing, lamina_load: Float, ring: str) -> Float:
-    """Work out the Hertz pressure of the laminae of raceway contacts with ``cup`` or ``cone``.
-
-    Parameters
-    ----------
-    bearing : Bearing
-    lamina_load : float64 array, shape [..., lamina]
-        [N].
-    ring : str
-
-    Returns
-    -------
-    float64 array, shape [..., lamina]
-        p0 = sqrt(q E* / (pi R)), [Pa].
-    """
-    count = lamina_load.shape[-1]
-    per_length = lamina_load * count / bearing.effective_length
-    radius = equivalent_radius(bearing, lamina_places(bearing, count), ring)
-    pressure: Float = np.sqrt(per_length * 0.5 * bearing.material.contact_modulus / (math.pi * radius))
-    return pressure
+    place: Float  # [lamina], abscissa from mid-length [m]
+    load_per_length: Float  # [lamina], [N/m]
+    pressure: Float  # [lamina], Hertz pressure in the middle of the contact's width [Pa]
+    approach: float  # of roller and ring at mid-length, profile drop not taken off [m]
+    moment: float  # of the load about mid-length, positive when the large end carries more [N m]
 
 
 def line_load(
@@ -77,28 +41,20 @@ def line_load(
 
     Parameters
     ----------
-    bearing : Bearing
     load : float
         Of the contact, [N].
     tilt : float
         Between the roller's generator and the raceway, positive when the large end is pressed deeper, [rad].
     ring : str
         ``cup`` or ``cone``.
-    laminae : int
     coupling : LaminaCoupling or None
         Coupling of the laminae.
-
-    Returns
-    -------
-    LineLoad
 
     Notes
     -----
     Without coupling a straight, aligned roller is loaded evenly whatever happens at its ends; with coupling
     its ends carry more, and the more the finer the laminae: the pressure under a sharp end has no limit.
     """
-    if not (math.isfinite(load) and load > 0.0):
-        raise ValueError(f"load is {load:g} N; a positive number is needed.")
     place = lamina_places(bearing, laminae)
     material, length = bearing.material, bearing.effective_length
     factor = line_contact_factor(material, length) / laminae
@@ -111,8 +67,6 @@ def line_load(
             force: Float = factor * np.maximum(depth, 0.0) ** LINE_EXPONENT
             return force
         return coupled_law(depth, factor, matrices)[0]
-
-    from scipy.optimize import brentq  # takes a while, and no run needs it
 
     # one lamina that touches bounds the approach from below; each carrying the whole load, from above
     lowest = float(np.min(drop - tilt * place))
