@@ -33,10 +33,9 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects.lamina_coupling import LaminaCoupling
-
-Float = NDArray[np.float64]
 
 _SWEEPS = 200
 _TOLERANCE = 1.0e-14

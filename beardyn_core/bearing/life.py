@@ -8,11 +8,9 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
-
-Float = NDArray[np.float64]
 
 # of C_0r and of C_r: beyond these a force is refused, or doubted
 LARGEST_SHARE, SMALLEST_SHARE = 4.0, 1e-3

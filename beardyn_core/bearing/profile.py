@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from beardyn_core.arrays import Float
 from beardyn_core.edge import At
-
-Float = NDArray[np.float64]
 
 PROFILE_KINDS = ("straight", "crowned", "logarithmic", "lundberg", "johns_gohar", "iso_16281", "fujiwara")
 # The logarithm is singular at the very end of the contact; the drop is held constant beyond this abscissa.

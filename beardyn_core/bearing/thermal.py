@@ -14,12 +14,10 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.edge import UNITS, At
-
-Float = NDArray[np.float64]
 
 STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
 

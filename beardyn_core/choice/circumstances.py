@@ -6,15 +6,13 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.operation import ConstantOperation, MeasuredOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene
-
-Float = NDArray[np.float64]
 
 # A load that depends on chance is looked at this long.
 _LONGEST_LOOK = 1.0

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
@@ -31,7 +31,6 @@ from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import SEALS, drag_params
 from beardyn_core.scene.scene import Scene
 
-Float = NDArray[np.float64]
 _SPIN_SHARE = 0.18
 _STANDARD_GRAVITY = 9.80665
 _DEEP_SLIP = 1.0

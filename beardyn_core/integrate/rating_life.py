@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import (
     LIFE_EXPONENT,
@@ -29,8 +30,6 @@ from beardyn_core.scene.scene import Scene
 USUAL_CONTAMINATION = 0.6
 _RADIAL_CLASSES, _AXIAL_CLASSES = 8, 4
 _MILLION = 1.0e6
-
-Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.contact_law import (
     LINE_EXPONENT,
     POINT_EXPONENT,
@@ -24,8 +25,6 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_spin
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, bearing_lamina_root, coupled_law
 from beardyn_core.effects import LaminaCoupling
-
-Float = NDArray[np.float64]
 
 ROW_COUNT = 2
 # The end sphere of a forced bearing that is centred this close to the bearing axis, where its direction from

@@ -13,13 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
 from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_forces
 from beardyn_core.integrate.roller_contacts import (
     ConePose,
     ContactModel,
     ContactSet,
-    Float,
     cone_contacts,
     cup_contacts,
     rib_contacts,

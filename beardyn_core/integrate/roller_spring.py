@@ -6,9 +6,10 @@ from functools import cache
 
 import numpy as np
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_forces
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.integrate.roller_contacts import ConePose, Float, contact_model
+from beardyn_core.integrate.roller_contacts import ConePose, contact_model
 from beardyn_core.integrate.roller_equilibrium import solve_rollers
 from beardyn_core.model.tier_parameters import SpringParams, lever_of_cup
 

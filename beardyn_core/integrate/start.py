@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.state import State
@@ -31,8 +31,6 @@ from beardyn_core.model.layout import (
     VELOCITY,
 )
 from beardyn_core.model.tier_parameters import LumpedParameters
-
-Float = NDArray[np.float64]
 
 _ITERATIONS = 60
 _TOLERANCE = 1e-9

@@ -14,11 +14,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.consistency import require_sound
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.integrate.roller_contacts import ROW_COUNT, ConePose, ContactModel, Float, contact_model
+from beardyn_core.integrate.roller_contacts import ROW_COUNT, ConePose, ContactModel, contact_model
 from beardyn_core.integrate.roller_equilibrium import RollerState, solve_rollers
 
 TILT_MODES = ("locked", "free")

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.lumped import SpringTrend, advance_lumped, trend_shape
 from beardyn_core.integrate.quasistatic import advance_quasistatic
-from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.roller_spring import spring_params
 from beardyn_core.integrate.start import initial_state, settle_lumped
 from beardyn_core.integrate.state import State

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
@@ -25,7 +26,6 @@ from beardyn_core.bearing.rolling_resistance import (
     zhou_hoeprich_line,
 )
 from beardyn_core.errors import InputError
-from beardyn_core.integrate.roller_contacts import Float
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.faults import surface_radius
 from beardyn_core.model.laminae import equivalent_radius

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.thermal import PartTemperatures, end_play_change
 from beardyn_core.effects import Thermal
 from beardyn_core.model.heat import CONE_NODE, CUP_NODE, NODES, ROLLER_NODE, heat_shares, thermal_network
 from beardyn_core.model.layout import ENERGY_LOST, LOSSES
 from beardyn_core.scene.scene import Scene
-
-Float = NDArray[np.float64]
 
 # Parameters are rebuilt when the film has warmed by this much or the end play has moved that far.
 _NOTICEABLE_WARMING = 0.02  # [K]

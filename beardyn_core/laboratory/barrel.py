@@ -15,16 +15,15 @@ from functools import cached_property
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq, root
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.contact_law import ExactPointContact
 from beardyn_core.bearing.geometry import Material
 from beardyn_core.laboratory.compiled import batch
 from beardyn_core.laboratory.search import SURFACES, Pair
 from beardyn_core.laboratory.shapes import Arc, placed
 
-Float = NDArray[np.float64]
 POINT_EXPONENT = 1.5
 ROWS = 2
 _MANY = 20_000

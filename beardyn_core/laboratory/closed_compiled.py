@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.generator_line import generator_line
@@ -31,7 +31,6 @@ from beardyn_core.laboratory.nine_contacts import (
 from beardyn_core.model.parameters import RacewayParams, RollerParams
 from beardyn_core.model.ribs import RibEndParams, RibParams
 
-Float = NDArray[np.float64]
 _UP = (0.0, 0.0, 1.0)
 _ALWAYS_THE_RIM = 2.0  # no cosine is larger
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory.nine_contacts import (
     Contact,
@@ -21,7 +21,6 @@ from beardyn_core.laboratory.nine_contacts import (
 )
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Shape, Straight, unit
 
-Float = NDArray[np.float64]
 _ROUNDS = 4
 _AXIS = np.array([0.0, 0.0, 1.0])
 

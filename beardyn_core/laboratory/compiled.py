@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.laboratory.search import DIFFERENCE, MOST_ITERATIONS, ROWS, TOLERANCE, Pair
 from beardyn_core.laboratory.shapes import (
@@ -29,7 +30,6 @@ from beardyn_core.laboratory.shapes import (
     STRAIGHT,
 )
 
-Float = NDArray[np.float64]
 WORK_NUMBERS = 160  # vectors [7, 3], slopes [4, 7, 3], system [4, 5], moved parameters [4]
 _SLOPES, _SYSTEM, _MOVED = 24, 110, 132
 _STRIDE = 3 * ROWS

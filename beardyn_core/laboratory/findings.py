@@ -7,9 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Annotated as A
 
-import numpy as np
-from numpy.typing import NDArray
-
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory import closed_forms
 from beardyn_core.laboratory.barrel import BARREL_22317, BarrelBearing, BarrelLoads, solve_barrel
@@ -28,8 +26,6 @@ from beardyn_core.laboratory.timing import (
     form_results,
     random_results,
 )
-
-Float = NDArray[np.float64]
 
 # The run of Santos (2017): Runge-Kutta 4(5) made steps of 1.33 us in the mean on a copy of its model, six
 # evaluations each.

@@ -15,13 +15,11 @@ from dataclasses import dataclass, replace
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory.search import LINES_ALONG_NORMAL, SURFACE_LINE, SURFACES, Form, Pair
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, placed, unit
-
-Float = NDArray[np.float64]
 
 SLICES = 6
 SMALL_RIB_RELIEF = math.radians(1.0)

@@ -9,8 +9,8 @@ from functools import partial
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.integrate.static import solve
 from beardyn_core.laboratory import closed_forms
@@ -18,7 +18,6 @@ from beardyn_core.laboratory.nine_contacts import RollerPose, nominal_centre, no
 from beardyn_core.laboratory.search import LINES, SURFACE_LINE, SURFACES, Form, Pair
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Placement, Shape, Straight, placed
 
-Float = NDArray[np.float64]
 Random = np.random.Generator
 
 _SHIFT, _TURN = 50e-6, 2e-3  # of a roller at random: +-, [m] and [rad]

@@ -18,14 +18,12 @@ from typing import Annotated as A
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.laboratory.compiled import WORK_NUMBERS, solve_pair
 from beardyn_core.laboratory.search import SURFACE_LINE
 from beardyn_core.laboratory.shapes import Cone, Placement
-
-Float = NDArray[np.float64]
 
 GRAVITY = 9.81
 # columns of the state: place, attitude (w, x, y, z), velocity, angular velocity (body axes), losses

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import fsolve
 
+from beardyn_core.arrays import Float
 from beardyn_core.laboratory.shapes import Frame, Shape
 
-Float = NDArray[np.float64]
 Method = Literal["fsolve", "numeric", "analytic"]
 
 # rows of the table of vectors

@@ -14,9 +14,9 @@ from typing import Annotated as A
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Float = NDArray[np.float64]
+from beardyn_core.arrays import Float
 
 # layout of a shape as numbers, for the compiled search
 KIND, FIRST, SECOND, SIDE, ORIGIN, EAST, NORTH, POLE = 0, 1, 2, 3, 4, 7, 10, 13

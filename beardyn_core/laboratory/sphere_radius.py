@@ -13,9 +13,9 @@ from typing import Annotated as A
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.jit import entry
@@ -25,7 +25,6 @@ from beardyn_core.laboratory.nine_contacts import RibFace, RollerPose, end_spher
 from beardyn_core.laboratory.search import SURFACES, Pair, condition_number, search
 from beardyn_core.model.ribs import RibEndParams, RibWindowParams
 
-Float = NDArray[np.float64]
 SPHERE_RATIOS = (0.80, 0.85, 0.90, 0.95, 1.00, 1.05, 1.20)
 PUSH = 10e-6  # how far the roller is pushed into the rib, [m]
 SKEW = 0.5e-3  # of the roller, [rad]: at an even placement a search may sit on what it cannot hold

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import fsolve
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory import closed_forms
 from beardyn_core.laboratory.closed_compiled import ClosedForms, pose_rows
@@ -32,8 +33,6 @@ from beardyn_core.laboratory.nine_contacts import (
 from beardyn_core.laboratory.placements import RANDOM_CASES, near_start, random_start
 from beardyn_core.laboratory.search import SURFACES, Form, Pair, condition_number, search
 from beardyn_core.laboratory.shapes import Cone, Shape, Straight
-
-Float = NDArray[np.float64]
 
 METHODS = (
     "fsolve, plain",

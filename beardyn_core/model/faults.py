@@ -6,8 +6,8 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.laminae import for_springs, lamina_places
@@ -24,8 +24,6 @@ from beardyn_core.model.layout import (
 )
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
-
-Float = NDArray[np.float64]
 
 
 class SurfaceParams(NamedTuple):

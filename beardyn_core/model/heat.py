@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.thermal import ThermalNetwork
 from beardyn_core.effects import Thermal
 from beardyn_core.model.layout import LOSS_NAMES
-
-Float = NDArray[np.float64]
 
 NODES = ("cup", "cone", "rollers", "cages", "grease", "axlebox")
 CUP_NODE, CONE_NODE, ROLLER_NODE, CAGE_NODE, GREASE_NODE, BOX_NODE = range(6)

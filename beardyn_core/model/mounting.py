@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
 from beardyn_core.effects import EffectSet
@@ -48,9 +49,6 @@ class FlexibilityParams(NamedTuple):
     damping: Any  # [mode], [N s/m]
 
 
-Float = NDArray[np.float64]
-
-
 def cross_matrix(arm: ArrayLike) -> Float:
     """Make the matrix that turns a vector v into arm x v, shape [3, 3]."""
     x, y, z = np.asarray(arm, dtype=float)
@@ -85,7 +83,7 @@ def box_coupling(bearing: Bearing, mounting: Mounting) -> BoxCoupling | None:
     )
 
 
-def mounting_params(bearing: Bearing, mounting: Mounting, preload: NDArray[np.float64]) -> MountingParams:
+def mounting_params(bearing: Bearing, mounting: Mounting, preload: Float) -> MountingParams:
     """Collect rings and suspension, with the cup and cone masses added."""
     return MountingParams(
         cup_moves=float(mounting.cup == "suspended"),

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
@@ -22,8 +22,6 @@ from beardyn_core.scene.operation import (
     SteppedOperation,
 )
 from beardyn_core.scene.speed import distance_at, speed_at
-
-Float = NDArray[np.float64]
 
 SAMPLE_NS = 500_000
 # a strike of the wheel lasts about half a millisecond

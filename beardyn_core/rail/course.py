@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, GRAVITY, WHEEL
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.running import Curve
-
-Float = NDArray[np.float64]
 
 # half the distance of the rolling circles; cant is measured over twice of it
 HALF_GAUGE = 0.75

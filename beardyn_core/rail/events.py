@@ -7,7 +7,6 @@ from math import pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from beardyn_core.rail.excitation import waves_of
 from beardyn_core.scene.excitation import (
@@ -25,7 +24,6 @@ from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperat
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.speed import distance_at, speed_at
 
-Float = NDArray[np.float64]
 Event = dict[str, Any]
 
 MOST_TIMES = 200  # of one kind of event; more are only counted

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.rail.spectra import wave_gain
 from beardyn_core.scene.excitation import (
     Corrugation,
@@ -17,8 +17,6 @@ from beardyn_core.scene.excitation import (
     WheelOutOfRound,
     WheelPolygon,
 )
-
-Float = NDArray[np.float64]
 
 _STREAM = 0x7768656C  # keeps the wheel's random numbers apart from those of rail and sensors
 

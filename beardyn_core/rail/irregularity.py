@@ -8,12 +8,11 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.rail.spectra import SHORT_WAVE_BAND, iso_3095_density, patch_gain, target_density
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.excitation import Irregularity
-
-Float = NDArray[np.float64]
 
 _SHORTEST_PERIOD = 4096.0
 _SHORT_WAVE_PERIOD = 512.0

@@ -7,15 +7,13 @@ from functools import partial
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.rail.course import HALF_GAUGE, Course
 from beardyn_core.rail.vehicle import GRAVITY, linked
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
-
-Float = NDArray[np.float64]
 
 SIDEWAYS, YAW, FRAME, CAR = range(4)
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
-
-Float = NDArray[np.float64]
 
 
 def low_pass(length: int, cutoff: float, beta: float) -> Float:

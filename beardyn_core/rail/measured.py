@@ -26,8 +26,8 @@ from pathlib import Path
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import note_read
 from beardyn_core.rail.low_pass import decimated, thinning_kernel
@@ -35,8 +35,6 @@ from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.load import LoadHistory, sampled_load
 from beardyn_core.scene.operation import MeasuredOperation
 from beardyn_core.scene.speed import speed_at
-
-Float = NDArray[np.float64]
 
 TIME = "time_s"
 SPEEDS = ("speed_rpm", "shaft_speed_rad_s")

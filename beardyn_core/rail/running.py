@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.rail.course import Course, course, load_transfer
 from beardyn_core.rail.irregularity import rail_profile
 from beardyn_core.rail.lateral import FRAME, LateralMotion, lateral_motion, lateral_vehicle
@@ -16,8 +16,6 @@ from beardyn_core.rail.vehicle import BOGIE, WHEEL
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.speed import Profile, distance_at, speed_at
-
-Float = NDArray[np.float64]
 
 # brakes and drives build up within this time, [s]
 _BUILD_UP = 1.0

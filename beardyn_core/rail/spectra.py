@@ -6,13 +6,11 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.excitation import DIRECTIONS, SPECTRA, VERTICAL_ONLY, Irregularity
-
-Float = NDArray[np.float64]
 
 # ERRI B176: break wavenumbers [rad/m] and roughness constants [m^2 rad/m], vertical and alignment
 _GERMAN_CUTOFF = 0.8246

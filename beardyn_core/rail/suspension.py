@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import inline
 from beardyn_core.rail.low_pass import first_order
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.suspension import ProgressiveSuspension
-
-Float = NDArray[np.float64]
 
 # members of the row of numbers the kernel takes
 SOFT, STIFF, MEET, AT_REST, STATIC, FRICTION, CREEP, LINEAR, VISCOUS = range(9)

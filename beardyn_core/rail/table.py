@@ -11,10 +11,10 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import note_read
 
-Float = NDArray[np.float64]
 Rows = list[list[str]]
 
 _SHOWN = 5

@@ -8,9 +8,8 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.scene.operation import Track
-
-Float = NDArray[np.float64]
 
 # waves per metre of rail: the shortest is 0.38 m long, about 5 kHz
 _WAVES_PER_METRE = 8.0 / 3.0

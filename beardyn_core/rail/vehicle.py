@@ -8,15 +8,13 @@ from functools import partial
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.rail.suspension import excess_force, law
 from beardyn_core.rail.track import RailWaves, rail_waves
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
-
-Float = NDArray[np.float64]
 
 GRAVITY = 9.80665
 BODY, BOGIE, WHEEL, BOX = range(4)

@@ -10,11 +10,9 @@ from typing import Annotated as A
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.edge import At, refuse
-
-Float = NDArray[np.float64]
 
 
 class SpeedPoint(NamedTuple):

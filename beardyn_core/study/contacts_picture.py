@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.laboratory.findings import Findings
 from beardyn_core.laboratory.nine_contacts import (
     NAMES,
@@ -21,7 +21,6 @@ from beardyn_core.laboratory.nine_contacts import (
 )
 from beardyn_core.laboratory.rolling import PLACE, Rolling
 
-Float = NDArray[np.float64]
 DPI = 100
 _ROLLER, _CUP, _CONE, _CAGE = "#DD8452", "#4C72B0", "#55A868", "#8172B3"
 _POINT = "#C44E52"

@@ -11,8 +11,8 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
@@ -27,8 +27,6 @@ from beardyn_core.record.sinks import MemorySink, Sink
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
-
-Float = NDArray[np.float64]
 
 
 def run(

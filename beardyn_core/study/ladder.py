@@ -14,8 +14,8 @@ from typing import Annotated as A
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import cage_speed_ratio
 from beardyn_core.effects import KinematicCage
 from beardyn_core.errors import ValidityError
@@ -29,8 +29,6 @@ from beardyn_core.study.ladder_result import Cost, Ladder, LevelResult
 from beardyn_core.study.measures import FaultLine, Outcome, fault_line_of, outcome
 from beardyn_core.study.signals import SignalCollector
 from beardyn_core.twin import Twin
-
-Float = NDArray[np.float64]
 
 COMPLETE = "complete"
 SETTLING_S = 0.4

@@ -16,12 +16,10 @@ from itertools import chain
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import t as student
 
+from beardyn_core.arrays import Float
 from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS, Measure, Outcome
-
-Float = NDArray[np.float64]
 
 CONFIDENCE = 0.95
 BAND_LIMIT_DB = 1.5

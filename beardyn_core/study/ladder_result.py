@@ -6,14 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import Annotated as A
 
-import numpy as np
-from numpy.typing import NDArray
-
+from beardyn_core.arrays import Float
 from beardyn_core.study.ladder_errors import QuantityError
 from beardyn_core.study.ladder_levels import Level
 from beardyn_core.study.measures import FaultLine
-
-Float = NDArray[np.float64]
 
 # a dearer level has to lower the worst error by this share
 _WORTH_IT = 0.1

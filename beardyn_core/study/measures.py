@@ -10,6 +10,7 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.observe.chain import MonitorSettings
@@ -18,8 +19,6 @@ from beardyn_core.scene.excitation import WheelPolygon
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.signals import Signals
-
-Float = NDArray[np.float64]
 
 # IEC 61260-1, base ten, and its nominal frequencies, [Hz]
 NOMINAL_BANDS = (

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.observe.block import CONTACT_KINDS, Block
-
-Float = NDArray[np.float64]
 
 _CUP_BODY, _CONE_BODY, _FIRST_ROLLER = 0, 1, 4  # order of `Twin.body_names`
 _CUP_CONTACT = CONTACT_KINDS.index("cup")

@@ -11,9 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
-from numpy.typing import NDArray
 
-Float = NDArray[np.float64]
+from beardyn_core.arrays import Float
 
 WIDTH_PX, HEIGHT_PX, DPI = 1600, 1000, 100
 _AXIS_COLOURS = ("#4C72B0", "#55A868", "#C44E52")
