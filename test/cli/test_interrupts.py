@@ -190,9 +190,10 @@ def small_trial(tmp_path: Path) -> list[str]:
     return ["trial", "small.yaml", "-o", "out"]
 
 
-@pytest.mark.parametrize("jobs", ["1", "2"])
+# as soon as the processes begin, and after the first run
+@pytest.mark.parametrize(("jobs", "moments"), [("1", (1,)), ("2", (0, 1))], ids=["1", "2"])
 def test_an_interrupted_trial_keeps_every_run_that_was_done(
-    jobs: str, small_trial: list[str], tmp_path: Path
+    jobs: str, moments: tuple[int, ...], small_trial: list[str], tmp_path: Path
 ) -> None:
     """Its processes end with it, without tracebacks, also while they begin."""
     words = [*small_trial, "--jobs", jobs]
@@ -201,7 +202,7 @@ def test_an_interrupted_trial_keeps_every_run_that_was_done(
     def count() -> int:
         return len(runs.read_text().splitlines()) - 1 if runs.exists() else -1
 
-    for least in (0, 1):  # as soon as the processes begin, and after the first run
+    for least in moments:
         before = max(count(), 0)
         with running(words, tmp_path) as started:
             started.wait_for(lambda wanted=before + least: count() >= wanted)  # type: ignore[misc]
