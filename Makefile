@@ -7,7 +7,7 @@ VENV ?= .venv
 ARGS ?=
 BASE ?= HEAD
 JOBS ?= $(shell nproc)
-PARALLEL = $(if $(filter-out 1,$(JOBS)),-n $(JOBS) --dist loadgroup)
+PARALLEL = $(if $(filter-out 1,$(JOBS)),-n $(JOBS))
 
 BIN := $(VENV)/bin
 METADATA := setup.py setup.cfg pyproject.toml package.xml

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
 
 REPOSITORY = Path(__file__).resolve().parent
+NODES = "test/ros"
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -17,11 +20,31 @@ def pytest_configure(config: pytest.Config) -> None:
         settings.load_profile("repeatable")
 
 
+def process_group(nodeid: str) -> str:
+    """Name what must run in one process: the tests of a file, for they share runs, and all nodes together."""
+    file = nodeid.partition("::")[0]
+    return NODES if file.startswith(f"{NODES}/") else file
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep the tests of a file in one process, for they share runs, and all nodes in one."""
-    for item in items:
-        group = "nodes" if "graph" in getattr(item, "fixturenames", ()) else item.nodeid.partition("::")[0]
-        item.add_marker(pytest.mark.xdist_group(group))
+    """Begin with the nodes, the longest group of all, so that no process waits for them at the end."""
+    items.sort(key=lambda item: process_group(item.nodeid) != NODES)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Hand whole groups to the processes, in the order of collection.
+
+    The marker `xdist_group` would do as well, but pytest 9.2 and pytest-xdist 3.8 ignore it together.
+    """
+    from xdist.scheduler import LoadScopeScheduling
+
+    class ByGroup(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return process_group(nodeid)
+
+    config.option.loadscopereorder = False
+    return ByGroup(config, log)
 
 
 @pytest.fixture(autouse=True)
@@ -33,3 +56,12 @@ def _shipped_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
 def repository() -> Path:
     """Root of the checkout."""
     return REPOSITORY
+
+
+@pytest.fixture(scope="session")
+def kept_equilibria() -> Iterator[None]:
+    """For tests that choose tiers, effects or steps: each static equilibrium is solved once in a session."""
+    from test.choice.equilibria import equilibria_kept
+
+    with equilibria_kept():
+        yield

@@ -15,27 +15,26 @@ from beardyn_core.scene.tier import TIER_NAMES
 from test.choice.scenes import SPALL, constant, variant
 
 FORCES = st.floats(-90.0, 90.0)
-
-
-@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(
-    bearing=st.sampled_from(shipped_names("bearings")),
-    lubricant=st.sampled_from(shipped_names("lubricants")),
-    force=st.tuples(FORCES, st.floats(-30.0, 30.0), FORCES),
-    speed=st.sampled_from([-2000.0, -100.0, 0.0, 1.0, 600.0, 3000.0]),
-    end_play=st.floats(-0.02, 0.3),
-    temperature=st.floats(-30.0, 150.0),
-    cup=st.sampled_from(["held", "suspended"]),
-    tilt=st.sampled_from(["locked", "free"]),
-    quantities=st.lists(st.sampled_from(QUANTITIES), min_size=1, unique=True),
-    accuracy=st.floats(0.1, 50.0),
-    defects=st.sampled_from([[], [SPALL]]),
-    tier=st.sampled_from(["auto", "full", "quasistatic", "lumped"]),
-    effects=st.sampled_from(
+SCENES = {
+    "bearing": st.sampled_from(shipped_names("bearings")),
+    "lubricant": st.sampled_from(shipped_names("lubricants")),
+    "force": st.tuples(FORCES, st.floats(-30.0, 30.0), FORCES),
+    "speed": st.sampled_from([-2000.0, -100.0, 0.0, 1.0, 600.0, 3000.0]),
+    "end_play": st.floats(-0.02, 0.3),
+    "temperature": st.floats(-30.0, 150.0),
+    "cup": st.sampled_from(["held", "suspended"]),
+    "tilt": st.sampled_from(["locked", "free"]),
+    "quantities": st.lists(st.sampled_from(QUANTITIES), min_size=1, unique=True),
+    "accuracy": st.floats(0.1, 50.0),
+    "defects": st.sampled_from([[], [SPALL]]),
+    "tier": st.sampled_from(["auto", "full", "quasistatic", "lumped"]),
+    "effects": st.sampled_from(
         ["auto", {"preset": "auto", "thermal": {}, "audit": {}}, {"preset": "auto", "cage": False}]
     ),
-)
-def test_a_choice_is_found_for_every_valid_scene(
+}
+
+
+def assert_a_choice_is_found(
     bearing: str,
     lubricant: str,
     force: tuple[float, float, float],
@@ -66,6 +65,19 @@ def test_a_choice_is_found_for_every_valid_scene(
     assert scene.tier == tier or (tier == "auto" and scene.tier in TIER_NAMES)
     assert scene.effects.rib is not None
     assert len(scene.chosen) >= 3
+
+
+@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(st.fixed_dictionaries(SCENES))
+def test_a_choice_is_found_for_every_valid_scene(given_keys: dict[str, Any]) -> None:
+    assert_a_choice_is_found(**given_keys)
+
+
+@pytest.mark.slow
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(st.fixed_dictionaries(SCENES))
+def test_a_choice_is_found_for_many_valid_scenes(given_keys: dict[str, Any]) -> None:
+    assert_a_choice_is_found(**given_keys)
 
 
 @pytest.mark.parametrize(

@@ -111,19 +111,32 @@ def check(stopped: Command, took: float, *words: str) -> None:
     assert took < longest(), stopped.said
 
 
+COMMANDS = [
+    (["warmup", "static_5kN", "static_80kN"], "0 of 2 are ready, and kept"),
+    (["simulate", "static_5kN", "-o", "run.mcap"], "nothing has been written"),
+    (["trial", "quick", "-o", "out"], "0 of 51 runs are done; the same command goes on"),
+    (["ladder", "static_5kN", "--quick", "-o", "out"], "no level has been run"),
+    (["demo", "--out", "out"], "nothing has been written"),
+    (["contacts", "--quick", "-o", "out"], "nothing has been written"),
+]
+# one command in its own process and one with others; the rest stop in the same place of the compiler
+WAITED_FOR = ("simulate", "trial")
+
+
 @pytest.mark.parametrize(
-    ("words", "kept"),
+    ("words", "kept", "later"),
     [
-        (["warmup", "static_5kN", "static_80kN"], "0 of 2 are ready, and kept"),
-        (["simulate", "static_5kN", "-o", "run.mcap"], "nothing has been written"),
-        (["trial", "quick", "-o", "out"], "0 of 51 runs are done; the same command goes on"),
-        (["ladder", "static_5kN", "--quick", "-o", "out"], "no level has been run"),
-        (["demo", "--out", "out"], "nothing has been written"),
-        (["contacts", "--quick", "-o", "out"], "nothing has been written"),
+        pytest.param(
+            words,
+            kept,
+            later,
+            id=f"{words[0]} {later:g} s later",
+            marks=[] if (later > 0.0) == (words[0] in WAITED_FOR) else [pytest.mark.slow],
+        )
+        for words, kept in COMMANDS
+        for later in (0.0, 4.0)
     ],
-    ids=lambda value: value[0] if isinstance(value, list) else "",
 )
-@pytest.mark.parametrize("later", [pytest.param(0.0, marks=pytest.mark.slow), 4.0])
 def test_a_command_stops_while_it_compiles(words: list[str], kept: str, later: float, tmp_path: Path) -> None:
     """At once and some seconds later, when the time is spent in one call of the compiler."""
     with running(words, tmp_path, tmp_path / "cache") as started:
@@ -177,9 +190,10 @@ def small_trial(tmp_path: Path) -> list[str]:
     return ["trial", "small.yaml", "-o", "out"]
 
 
-@pytest.mark.parametrize("jobs", ["1", "2"])
+# as soon as the processes begin, and after the first run
+@pytest.mark.parametrize(("jobs", "moments"), [("1", (1,)), ("2", (0, 1))], ids=["1", "2"])
 def test_an_interrupted_trial_keeps_every_run_that_was_done(
-    jobs: str, small_trial: list[str], tmp_path: Path
+    jobs: str, moments: tuple[int, ...], small_trial: list[str], tmp_path: Path
 ) -> None:
     """Its processes end with it, without tracebacks, also while they begin."""
     words = [*small_trial, "--jobs", jobs]
@@ -188,7 +202,7 @@ def test_an_interrupted_trial_keeps_every_run_that_was_done(
     def count() -> int:
         return len(runs.read_text().splitlines()) - 1 if runs.exists() else -1
 
-    for least in (0, 1):  # as soon as the processes begin, and after the first run
+    for least in moments:
         before = max(count(), 0)
         with running(words, tmp_path) as started:
             started.wait_for(lambda wanted=before + least: count() >= wanted)  # type: ignore[misc]

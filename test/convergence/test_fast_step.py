@@ -10,6 +10,7 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.fast_step import fast_steps, fastest_mode
+from beardyn_core.effects import ContactDamping, Gravity
 from beardyn_core.integrate.static import solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
@@ -136,7 +137,7 @@ def test_the_fastest_mode_keeps_its_frequency() -> None:
         scene = replace(
             scene,
             mounting=replace(scene.mounting, cup="suspended"),
-            effects=replace(scene.effects, contact_damping=None),
+            effects=replace(scene.effects, contact_damping=ContactDamping(0.0)),
         )
         twin = started(scene, constant_load((0.0, 0.0, 8e4), 122.0))
         assert twin._state is not None
@@ -174,7 +175,7 @@ def test_momentum_of_axlebox_and_journal_is_that_of_what_acts_from_outside(tier:
         scene.mounting, cup="suspended", journal_tilt="free", stiffness=(0.0,) * 3, damping=(0.0,) * 3,
         rotational_stiffness=(0.0,) * 3, rotational_damping=(0.0,) * 3,
     )  # fmt: skip
-    scene = replace(scene, mounting=free, effects=replace(scene.effects, gravity=None))
+    scene = replace(scene, mounting=free, effects=replace(scene.effects, gravity=Gravity(0.0)))
     twin = started(scene, constant_load((0.0, 0.0, 8e4), 122.0))
     assert twin._state is not None
     mounting, bodies = twin._parameters.mounting, twin._state.bodies

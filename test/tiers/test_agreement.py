@@ -9,6 +9,7 @@ import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies, roller_cone_spin
 from beardyn_core.choice import load_scene
+from beardyn_core.effects import Gravity
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.torque import running_torque
 from beardyn_core.model.layout import CAGE_BODY, TURN
@@ -140,7 +141,7 @@ def test_play_and_side_load_share_the_rows_as_the_static_solution_does(tier: str
     The static solution leaves the tangential part of the cone's normals to the cage, 0.05 % of a load here.
     """
     base = scene_of("static_80kN", tier)
-    scene = replace(base, end_play=1e-4, effects=replace(base.effects, gravity=None))
+    scene = replace(base, end_play=1e-4, effects=replace(base.effects, gravity=Gravity(0.0)))
     force = np.array([5e3, 1.2e4, 4e4])
     wrench = np.tile(np.concatenate([force, np.zeros(3)]), (2, 1))
     history = LoadHistory(np.array([0, 10**9]), wrench, np.full(2, 0.5), np.zeros((2, 3)))

@@ -1,0 +1,50 @@
+"""Tests in several processes: a file stays in one, and all nodes in one.
+
+Without it every process makes the shared runs of a file again, compiles the same kernels, and nodes of two
+tests take each other's time.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("xdist", reason="pytest-xdist is not installed")
+
+TESTS = """
+import json, os, pathlib, time
+import pytest
+
+@pytest.mark.parametrize("number", range(4))
+def test_it(number):
+    time.sleep(0.02)
+    with pathlib.Path(os.environ["SEEN"]).open("a") as seen:
+        seen.write(json.dumps([os.environ["PYTEST_XDIST_WORKER"], __file__]) + "\\n")
+"""
+
+
+def test_a_file_and_all_nodes_have_one_process_each(
+    repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copy(repository / "conftest.py", tmp_path)
+    (tmp_path / "pytest.ini").write_text("[pytest]\n")  # the root that names of tests begin at
+    names = ("a/test_a.py", "b/test_b.py", "ros/test_c.py", "ros/test_d.py")
+    files = [tmp_path / "test" / name for name in names]
+    for path in files:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(TESTS)
+    monkeypatch.setenv("SEEN", str(tmp_path / "seen"))
+    words = [sys.executable, "-m", "pytest", "-q", "-n", "2", "-p", "no:cacheprovider", str(tmp_path)]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stdout
+    seen = [json.loads(line) for line in (tmp_path / "seen").read_text().splitlines()]
+    assert len(seen) == 4 * len(files)
+    processes = [{worker for worker, file in seen if file == str(path)} for path in files]
+    assert all(len(each) == 1 for each in processes)
+    assert processes[2] == processes[3]
+    assert len({worker for worker, _ in seen}) == 2
