@@ -30,7 +30,7 @@ FASTMATH = ("nsz", "arcp", "contract", "afn")
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": set(FASTMATH)}
 
 _CORE = Path(__file__).resolve().parent
-_IMPORT = re.compile(rb"^ *(?:from|import) +beardyn_core([.\w]*)", re.MULTILINE)
+_IMPORT = re.compile(rb"^ *(?:from|import) +beardyn_core([.\w]*)(?: +import +([\w, ]+)$)?", re.MULTILINE)
 _TUPLE = re.compile(rb"^class \w+\(NamedTuple\):\n(?:(?: .*)?\n)*", re.MULTILINE)
 
 
@@ -77,11 +77,16 @@ def _text(path: Path) -> bytes:
 
 @cache
 def _imported(source: Path) -> tuple[Path, ...]:
-    """List the files of this package that a file imports; all of a room when it imports from the room."""
+    """List the files of this package that a file imports: of a room its modules that are named, else all."""
     found: list[Path] = []
     for match in _IMPORT.finditer(_text(source)):
         place = _CORE.joinpath(*match.group(1).decode().split(".")[1:])
-        found += sorted(place.glob("*.py")) if place.is_dir() else [place.with_suffix(".py")]
+        modules = [place / f"{name.strip()}.py" for name in (match.group(2) or b"").decode().split(",")]
+        if not place.is_dir():
+            modules = [place.with_suffix(".py")]
+        elif not all(module.is_file() for module in modules):
+            modules = sorted(place.glob("*.py"))
+        found += modules
     return tuple(found)
 
 

@@ -19,27 +19,7 @@ from beardyn_core.kernels.lanes import align_stack
 from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
 from beardyn_core.kernels.roller import step_rollers
 from beardyn_core.kernels.stage_timer import mark, time_step
-from beardyn_core.model.layout import (
-    ANGULAR,
-    AXIS,
-    CHATTER,
-    CHATTER_FIELDS,
-    CHATTER_LOAD,
-    CHATTER_SQUARES,
-    CONE_BODY,
-    CUP_BODY,
-    ELASTIC,
-    ENERGY_ELASTIC,
-    ENERGY_KINETIC,
-    LINEAR,
-    MASK,
-    MOMENTUM,
-    PENETRATION,
-    SIGNAL_ACCELERATION,
-    SIGNAL_FORCE,
-    SIGNAL_TORQUE,
-    VELOCITY,
-)
+from beardyn_core.model import layout
 from beardyn_core.model.stages import CAGE, LOSS, RINGS
 
 
@@ -52,19 +32,19 @@ def kinetic_energy(rollers, bodies, p):
         for lane in range(rollers.shape[2]):
             speed2, momentum2, along = 0.0, 0.0, 0.0
             for i in range(3):
-                v = rollers[block, VELOCITY + i, lane]
-                momentum = rollers[block, MOMENTUM + i, lane]
+                v = rollers[block, layout.VELOCITY + i, lane]
+                momentum = rollers[block, layout.MOMENTUM + i, lane]
                 speed2 += v * v
                 momentum2 += momentum * momentum
-                along += momentum * rollers[block, AXIS + i, lane]
+                along += momentum * rollers[block, layout.AXIS + i, lane]
             spinning = along * along / roller.axial_inertia
             tumbling = (momentum2 - along * along) / roller.transverse_inertia
             energy = 0.5 * (roller.mass * speed2 + spinning + tumbling)
-            total += p.rollers[block, MASK, lane] * energy
+            total += p.rollers[block, layout.MASK, lane] * energy
     mounting = p.mounting
     for i in range(3):
-        total += 0.5 * mounting.journal_mass * bodies[CONE_BODY, LINEAR + i] ** 2
-        total += 0.5 * mounting.journal_inertia * bodies[CONE_BODY, ANGULAR + i] ** 2
+        total += 0.5 * mounting.journal_mass * bodies[layout.CONE_BODY, layout.LINEAR + i] ** 2
+        total += 0.5 * mounting.journal_inertia * bodies[layout.CONE_BODY, layout.ANGULAR + i] ** 2
     total += box_energy(bodies, mounting, mounting.coupling)
     return total + cage_energy(bodies, p.effects.cage)
 
@@ -83,10 +63,10 @@ def clear_block_sums(rollers):
     for block in range(rollers.shape[0]):
         for lane in range(rollers.shape[2]):
             for ring in range(2):
-                first = CHATTER + ring * CHATTER_FIELDS
-                rollers[block, first + CHATTER_SQUARES, lane] = 0.0
-                rollers[block, first + CHATTER_LOAD, lane] = 0.0
-            rollers[block, PENETRATION, lane] = 0.0
+                first = layout.CHATTER + ring * layout.CHATTER_FIELDS
+                rollers[block, first + layout.CHATTER_SQUARES, lane] = 0.0
+                rollers[block, first + layout.CHATTER_LOAD, lane] = 0.0
+            rollers[block, layout.PENETRATION, lane] = 0.0
 
 
 # Loops instead of array assignments: numba compiles the text of a broadcasting error with each of those, a
@@ -140,7 +120,7 @@ def advance(lanes, state, work, loads, output, p):
         sums[:] = 0.0
         if step == 0:
             copy_sums(energy, audit)
-            audit[ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(flex, flexibility)
+            audit[layout.ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(flex, flexibility)
         mark(timers, RINGS)
         for group in range(groups):
             for index in range(blocks_per_group):
@@ -153,17 +133,17 @@ def advance(lanes, state, work, loads, output, p):
         pass_on(bodies, wrenches, energy, p.step, cage, effects.gravity)
         mark(timers, CAGE)
         for i in range(6):
-            signals[step, SIGNAL_FORCE + i] = wrenches[CUP_BODY, i]
+            signals[step, layout.SIGNAL_FORCE + i] = wrenches[layout.CUP_BODY, i]
         add_seals(bodies, wrenches, energy, p.step, effects.seal)
         mark(timers, LOSS)
         stored = kick_box(
-            bodies, wrenches[CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
+            bodies, wrenches[layout.CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
             effects.gravity, p.mounting.coupling,
         )  # fmt: skip
         for i in range(6):
-            signals[step, SIGNAL_ACCELERATION + i] = box[i]
-        signals[step, SIGNAL_TORQUE], propped = kick_cone(
-            bodies, wrenches[CONE_BODY], loads[step + 1], energy, p.step, p.mounting
+            signals[step, layout.SIGNAL_ACCELERATION + i] = box[i]
+        signals[step, layout.SIGNAL_TORQUE], propped = kick_cone(
+            bodies, wrenches[layout.CONE_BODY], loads[step + 1], energy, p.step, p.mounting
         )
         stored += propped
         mark(timers, RINGS)
@@ -174,11 +154,13 @@ def advance(lanes, state, work, loads, output, p):
         collect_energy(sums, energy, effects, effects.audit)
         mark(timers, RINGS)
         if step == 0:
-            for i in range(ENERGY_ELASTIC):
+            for i in range(layout.ENERGY_ELASTIC):
                 audit[i] = 0.5 * (audit[i] + energy[i])
-            audit[ENERGY_ELASTIC] = sum_lanes(sums, ELASTIC) + stored
-            audit[ENERGY_KINETIC] = 0.5 * (
-                audit[ENERGY_KINETIC] + kinetic_energy(rollers, bodies, p) + flex_energy(flex, flexibility)
+            audit[layout.ENERGY_ELASTIC] = sum_lanes(sums, layout.ELASTIC) + stored
+            audit[layout.ENERGY_KINETIC] = 0.5 * (
+                audit[layout.ENERGY_KINETIC]
+                + kinetic_energy(rollers, bodies, p)
+                + flex_energy(flex, flexibility)
             )
         if (step + 1) % stride == 0:
             keep_trend(rollers, bodies, output, (step + 1) // stride - 1)

@@ -34,17 +34,7 @@ from beardyn_core.kernels.kinematic_rollers import (
 )
 from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.kernels.vectors import add_scaled
-from beardyn_core.model.layout import (
-    AXIAL,
-    AXIS,
-    COUNTED,
-    OVERSIZE,
-    PENETRATION,
-    POCKET_ANGLE,
-    POCKET_COSINE,
-    POCKET_SINE,
-    RADIUS,
-)
+from beardyn_core.model import layout
 
 _SMALLEST_LOAD = 1e-3
 
@@ -74,27 +64,27 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
     rib_sum, rolling, sliding = zero, zero, zero
     stiff = (zero, zero, zero, zero, zero, zero)
     for block in range(rollers.shape[0]):
-        pocket_cosine = lanes.load(p.pockets, block, POCKET_COSINE)
-        pocket_sine = lanes.load(p.pockets, block, POCKET_SINE)
+        pocket_cosine = lanes.load(p.pockets, block, layout.POCKET_COSINE)
+        pocket_sine = lanes.load(p.pockets, block, layout.POCKET_SINE)
         cosine = pocket_cosine * direction[0] - pocket_sine * direction[1]
         sine = pocket_sine * direction[0] + pocket_cosine * direction[1]
-        angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
-        place = (lanes.load(rollers, block, RADIUS), lanes.load(rollers, block, AXIAL))
-        axis = (lanes.load(rollers, block, AXIS), lanes.load(rollers, block, AXIS + 2))
+        angle = lanes.load(p.base.rollers, block, layout.POCKET_ANGLE)
+        place = (lanes.load(rollers, block, layout.RADIUS), lanes.load(rollers, block, layout.AXIAL))
+        axis = (lanes.load(rollers, block, layout.AXIS), lanes.load(rollers, block, layout.AXIS + 2))
         azimuth = angle + turns[0]
-        oversize = lanes.load(p.base.rollers, block, OVERSIZE)
+        oversize = lanes.load(p.base.rollers, block, layout.OVERSIZE)
         azimuths = (azimuth, azimuth - turns[1], lanes.constant(turns[2]), oversize)
         view = cone_view(lanes, motion, cosine, sine, speeds[1], side)
         move, cup, cone, rib, lever, deepest = balance(lanes, block, place, axis, view, azimuths, inertia, p)
         place = (place[0] + move[0], place[1] + move[1])
         axis = turned_axis(axis, move[2])
-        lanes.store(rollers, block, RADIUS, place[0])
-        lanes.store(rollers, block, AXIAL, place[1])
-        lanes.store(rollers, block, AXIS, axis[0])
-        lanes.store(rollers, block, AXIS + 2, axis[1])
-        deepest = at_least(lanes.load(rollers, block, PENETRATION), deepest)
-        lanes.store(rollers, block, PENETRATION, deepest)
-        waves = load_vector(lanes, p.pockets, block, COUNTED)
+        lanes.store(rollers, block, layout.RADIUS, place[0])
+        lanes.store(rollers, block, layout.AXIAL, place[1])
+        lanes.store(rollers, block, layout.AXIS, axis[0])
+        lanes.store(rollers, block, layout.AXIS + 2, axis[1])
+        deepest = at_least(lanes.load(rollers, block, layout.PENETRATION), deepest)
+        lanes.store(rollers, block, layout.PENETRATION, deepest)
+        waves = load_vector(lanes, p.pockets, block, layout.COUNTED)
         counted = waves[0]
         loads = add_scaled(loads, cup[0], waves)
         moments = add_scaled(moments, lever[0] * cup[0] + lever[1] * cup[1], waves)

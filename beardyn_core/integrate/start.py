@@ -11,25 +11,8 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.model import layout
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
-from beardyn_core.model.layout import (
-    ANGLE,
-    AXIAL,
-    AXIS,
-    BODY_STATES,
-    CAGE_BODY,
-    CONE_BODY,
-    ENERGY_TERMS,
-    MASK,
-    MOMENTUM,
-    POCKET_ANGLE,
-    POSITION,
-    RADIUS,
-    RATE,
-    ROLLER_FIELDS,
-    TILT,
-    VELOCITY,
-)
 from beardyn_core.model.tier_parameters import LumpedParameters
 
 _ITERATIONS = 60
@@ -46,36 +29,36 @@ def initial_state(
 ) -> State:
     """Make the state in static equilibrium under the first load, rolling at the given speeds [rad/s]."""
     lanes = arrangement.to_lanes
-    rollers = aligned_zeros(arrangement.block_count, ROLLER_FIELDS, arrangement.width)
+    rollers = aligned_zeros(arrangement.block_count, layout.ROLLER_FIELDS, arrangement.width)
     angle = bearing.contact_angle + lanes(static.roller_tilt)
     offset = bearing.roller_mass_offset
     radius = 0.5 * bearing.pitch_diameter + lanes(static.roller_radial) + offset * np.sin(angle)
-    rollers[:, RADIUS] = radius
-    rollers[:, ANGLE] = 2.0 * math.pi * arrangement.roller / arrangement.roller_count
-    rollers[:, AXIAL] = 0.5 * bearing.row_spacing + lanes(static.roller_axial) + offset * np.cos(angle)
-    rollers[:, VELOCITY + 1] = cage_speed * radius
+    rollers[:, layout.RADIUS] = radius
+    rollers[:, layout.ANGLE] = 2.0 * math.pi * arrangement.roller / arrangement.roller_count
+    rollers[:, layout.AXIAL] = 0.5 * bearing.row_spacing + lanes(static.roller_axial) + offset * np.cos(angle)
+    rollers[:, layout.VELOCITY + 1] = cage_speed * radius
     sine, cosine = np.sin(angle), np.cos(angle)
-    rollers[:, AXIS], rollers[:, AXIS + 2] = sine, cosine
+    rollers[:, layout.AXIS], rollers[:, layout.AXIS + 2] = sine, cosine
 
     spin = kinematic_spin(bearing, cage_speed)
     about = bearing.roller_axial_inertia * (spin + cage_speed * cosine)
     across = bearing.roller_transverse_inertia * cage_speed
     # omega = spin b + cage_speed e_axial, split along and across the roller axis b
-    rollers[:, MOMENTUM] = about * sine - across * cosine * sine
-    rollers[:, MOMENTUM + 2] = about * cosine + across * sine * sine
+    rollers[:, layout.MOMENTUM] = about * sine - across * cosine * sine
+    rollers[:, layout.MOMENTUM + 2] = about * cosine + across * sine * sine
 
-    bodies = np.zeros((CAGE_BODY + arrangement.rows, BODY_STATES))
-    bodies[CONE_BODY, POSITION : POSITION + 3] = static.displacement
-    bodies[CONE_BODY, TILT], bodies[CONE_BODY, TILT + 2] = static.tilt
-    bodies[CONE_BODY, RATE] = shaft_speed
-    bodies[CAGE_BODY:, RATE] = cage_speed
+    bodies = np.zeros((layout.CAGE_BODY + arrangement.rows, layout.BODY_STATES))
+    bodies[layout.CONE_BODY, layout.POSITION : layout.POSITION + 3] = static.displacement
+    bodies[layout.CONE_BODY, layout.TILT], bodies[layout.CONE_BODY, layout.TILT + 2] = static.tilt
+    bodies[layout.CONE_BODY, layout.RATE] = shaft_speed
+    bodies[layout.CAGE_BODY :, layout.RATE] = cage_speed
     # through the end play rollers move further than their pockets allow, and take the cage with them
     rows, room = arrangement.rows, 0.5 * bearing.cage.axial_clearance
     shift, outward = static.roller_axial.mean(axis=1)[:rows], np.array([-1.0, 1.0])[:rows]
-    bodies[CAGE_BODY:, POSITION + 1] = outward * (shift - np.clip(shift, -room, room))
+    bodies[layout.CAGE_BODY :, layout.POSITION + 1] = outward * (shift - np.clip(shift, -room, room))
     flex = np.zeros((*static.bending.shape, 2))
     flex[..., 0] = static.bending
-    return State(rollers, bodies, np.zeros(ENERGY_TERMS), flex)
+    return State(rollers, bodies, np.zeros(layout.ENERGY_TERMS), flex)
 
 
 def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: float) -> Float:
@@ -90,14 +73,14 @@ def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: floa
         When no equilibrium is found.
     """
     spring, cup = p.spring, p.base.cup
-    counted = p.base.rollers[:, MASK] > 0.0
+    counted = p.base.rollers[:, layout.MASK] > 0.0
     sides = np.broadcast_to(p.sides[0, 0], counted.shape)
     springs = np.zeros(len(load))
     springs[1] = p.base.mounting.prop_stiffness
     idle = spring.idle * p.kinematic.centrifugal * cage_rate**2
     rows = []
     for side in np.unique(sides):
-        azimuth = np.sort(p.base.rollers[:, POCKET_ANGLE][counted & (sides == side)])
+        azimuth = np.sort(p.base.rollers[:, layout.POCKET_ANGLE][counted & (sides == side)])
         outward = np.stack([np.sin(azimuth), np.cos(azimuth)])
         lean = np.full(azimuth.size, -side * cup.sine)
         tilt_x, tilt_z = spring.lever * side * outward[1], -spring.lever * side * outward[0]

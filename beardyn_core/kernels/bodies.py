@@ -10,38 +10,7 @@ import math
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.vectors import add_scaled, subtract
-from beardyn_core.model.layout import (
-    ANGULAR,
-    CAGE_BODY,
-    CONE_BODY,
-    CUP_BODY,
-    ENERGY_EXTERNAL,
-    ENERGY_LOST,
-    ENERGY_NUMERICAL,
-    LINEAR,
-    LOSS_DAMPING,
-    LOSS_DRAG,
-    LOSS_POCKET,
-    LOSS_RIB,
-    LOSS_ROLLING,
-    LOSS_SEAL,
-    LOSS_SLIDING,
-    LOSS_SMALL_RIB,
-    LOSS_SUSPENSION,
-    POSITION,
-    RATE,
-    REACTION,
-    RING_AXIS,
-    RING_OMEGA,
-    RING_ORIGIN,
-    RING_TURN,
-    RING_VELOCITY,
-    TILT,
-    TURN,
-    WORK_GRAVITY,
-    WORK_LOST,
-    WORK_NUMERICAL,
-)
+from beardyn_core.model import layout
 
 X, Y, Z = 0, 1, 2
 LOAD_SPEED, LOAD_BOGIE = 6, 7  # after the six components of the load
@@ -60,15 +29,15 @@ def drift_bodies(bodies, step):
     """Move all bodies along their velocities."""
     for body in range(bodies.shape[0]):
         for i in range(3):
-            bodies[body, POSITION + i] += step * bodies[body, LINEAR + i]
-            bodies[body, TILT + i] += step * bodies[body, ANGULAR + i]
-        bodies[body, TURN] += step * bodies[body, RATE]
+            bodies[body, layout.POSITION + i] += step * bodies[body, layout.LINEAR + i]
+            bodies[body, layout.TILT + i] += step * bodies[body, layout.ANGULAR + i]
+        bodies[body, layout.TURN] += step * bodies[body, layout.RATE]
 
 
 @inline
 def ring_direction(bodies, body):
     """Work out the unit axis of a body that stands along +y without tilt, to second order in the tilt."""
-    a, b, c = bodies[body, TILT + X], bodies[body, TILT + Y], bodies[body, TILT + Z]
+    a, b, c = bodies[body, layout.TILT + X], bodies[body, layout.TILT + Y], bodies[body, layout.TILT + Z]
     x = -c + 0.5 * a * b
     y = 1.0 - 0.5 * (a * a + c * c)
     z = a + 0.5 * b * c
@@ -85,7 +54,7 @@ def body_vector(bodies, body, field):
 @inline
 def full_rotation(bodies, body, axis):
     """Work out the angular velocity of a body with its spin about its axis, [rad/s]."""
-    return add_scaled(body_vector(bodies, body, ANGULAR), bodies[body, RATE], axis)
+    return add_scaled(body_vector(bodies, body, layout.ANGULAR), bodies[body, layout.RATE], axis)
 
 
 @inline
@@ -109,40 +78,49 @@ def show_rings(bodies, rings, cage_place):
     ``rings`` [group, ring, RING_FIELDS, lane]: written, origins relative to the cup's; ``cage_place``:
     axial place of a cage's centre of mass from the middle plane [m].
     """
-    width, rows = rings.shape[3], bodies.shape[0] - CAGE_BODY
+    width, rows = rings.shape[3], bodies.shape[0] - layout.CAGE_BODY
     for group in range(rings.shape[0]):
         for lane in range(width):
             row = row_of(group, lane, width, rows)
             side = 2.0 * row - 1.0
             for ring in range(3):
-                body = ring + row if ring == CAGE_BODY else ring
+                body = ring + row if ring == layout.CAGE_BODY else ring
                 axis, view = ring_direction(bodies, body), rings[group]
-                lift = side * cage_place if ring == CAGE_BODY else 0.0
-                place = subtract(body_vector(bodies, body, POSITION), body_vector(bodies, CUP_BODY, POSITION))
+                lift = side * cage_place if ring == layout.CAGE_BODY else 0.0
+                place = subtract(
+                    body_vector(bodies, body, layout.POSITION),
+                    body_vector(bodies, layout.CUP_BODY, layout.POSITION),
+                )
                 place = (place[0], place[1] + lift, place[2])
-                _set_polar(view, ring, RING_ORIGIN, lane, side, place)
-                if ring == CAGE_BODY:
-                    _set_axial(view, ring, RING_AXIS, lane, side, body_vector(bodies, body, TILT))
-                    view[ring, RING_TURN, lane] = bodies[body, TURN]
+                _set_polar(view, ring, layout.RING_ORIGIN, lane, side, place)
+                if ring == layout.CAGE_BODY:
+                    _set_axial(
+                        view, ring, layout.RING_AXIS, lane, side, body_vector(bodies, body, layout.TILT)
+                    )
+                    view[ring, layout.RING_TURN, lane] = bodies[body, layout.TURN]
                 else:
-                    _set_axial(view, ring, RING_AXIS, lane, side, axis)
-                    view[ring, RING_TURN, lane] = bodies[body, TURN] + bodies[body, TILT + Y]
-                _set_polar(view, ring, RING_VELOCITY, lane, side, body_vector(bodies, body, LINEAR))
-                _set_axial(view, ring, RING_OMEGA, lane, side, full_rotation(bodies, body, axis))
+                    _set_axial(view, ring, layout.RING_AXIS, lane, side, axis)
+                    view[ring, layout.RING_TURN, lane] = (
+                        bodies[body, layout.TURN] + bodies[body, layout.TILT + Y]
+                    )
+                _set_polar(
+                    view, ring, layout.RING_VELOCITY, lane, side, body_vector(bodies, body, layout.LINEAR)
+                )
+                _set_axial(view, ring, layout.RING_OMEGA, lane, side, full_rotation(bodies, body, axis))
 
 
 @inline
 def collect_reactions(sums, wrenches):
     """Sum the lane reactions into world wrenches [body, 6] about each body's origin."""
-    width, rows = sums.shape[3], wrenches.shape[0] - CAGE_BODY
+    width, rows = sums.shape[3], wrenches.shape[0] - layout.CAGE_BODY
     wrenches[:, :] = 0.0
     for group in range(sums.shape[0]):
         for lane in range(width):
             row = row_of(group, lane, width, rows)
             side = 2.0 * row - 1.0
             for ring in range(3):
-                body = ring + row if ring == CAGE_BODY else ring
-                first = REACTION + 6 * ring
+                body = ring + row if ring == layout.CAGE_BODY else ring
+                first = layout.REACTION + 6 * ring
                 wrenches[body, Z] += sums[group, 0, first, lane]
                 wrenches[body, X] += sums[group, 0, first + 1, lane]
                 wrenches[body, Y] += side * sums[group, 0, first + 2, lane]
@@ -176,11 +154,17 @@ def kick_cup(bodies, wrench, load, load_before, energy, box, step, mounting, gra
             inertia = mounting.box_mass
             bogie = load[LOAD_BOGIE + i]
             bogie_speed = (bogie - load_before[LOAD_BOGIE + i]) / step
-            place, speed = bodies[CUP_BODY, POSITION + i], bodies[CUP_BODY, LINEAR + i]
+            place, speed = (
+                bodies[layout.CUP_BODY, layout.POSITION + i],
+                bodies[layout.CUP_BODY, layout.LINEAR + i],
+            )
         else:
             inertia = mounting.box_inertia[i - 3]
             bogie, bogie_speed = 0.0, 0.0
-            place, speed = bodies[CUP_BODY, TILT + i - 3], bodies[CUP_BODY, ANGULAR + i - 3]
+            place, speed = (
+                bodies[layout.CUP_BODY, layout.TILT + i - 3],
+                bodies[layout.CUP_BODY, layout.ANGULAR + i - 3],
+            )
         stretch = place - bogie
         damper = mounting.damping[i] * (speed - bogie_speed)
         suspension = mounting.preload[i] - mounting.stiffness[i] * stretch - damper
@@ -188,13 +172,13 @@ def kick_cup(bodies, wrench, load, load_before, energy, box, step, mounting, gra
         acceleration = (wrench[i] + suspension + pull) / inertia
         box[i] = acceleration
         middle = speed + 0.5 * step * acceleration
-        energy[ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
-        energy[ENERGY_LOST + LOSS_SUSPENSION] += step * damper * (middle - bogie_speed)
+        energy[layout.ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
+        energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += step * damper * (middle - bogie_speed)
         stored += 0.5 * mounting.stiffness[i] * stretch * stretch - mounting.preload[i] * stretch
         if i < 3:
-            bodies[CUP_BODY, LINEAR + i] = speed + step * acceleration
+            bodies[layout.CUP_BODY, layout.LINEAR + i] = speed + step * acceleration
         else:
-            bodies[CUP_BODY, ANGULAR + i - 3] = speed + step * acceleration
+            bodies[layout.CUP_BODY, layout.ANGULAR + i - 3] = speed + step * acceleration
     return stored
 
 
@@ -207,58 +191,58 @@ def kick_cone(bodies, wrench, load, energy, step, mounting):
 
     Returns ``torque``: on the shaft [N m]; ``stored``: elastic energy of the prop [J].
     """
-    place, along = bodies[CONE_BODY, POSITION + Y], bodies[CONE_BODY, LINEAR + Y]
+    place, along = bodies[layout.CONE_BODY, layout.POSITION + Y], bodies[layout.CONE_BODY, layout.LINEAR + Y]
     damper = mounting.prop_damping * along
     prop = -mounting.prop_stiffness * place - damper
-    ax, ay, az = ring_direction(bodies, CONE_BODY)
+    ax, ay, az = ring_direction(bodies, layout.CONE_BODY)
     torque = wrench[3] * ax + wrench[4] * ay + wrench[5] * az
-    energy[ENERGY_EXTERNAL] -= step * torque * bodies[CONE_BODY, RATE]
+    energy[layout.ENERGY_EXTERNAL] -= step * torque * bodies[layout.CONE_BODY, layout.RATE]
     for i in range(3):
         push = wrench[i] + load[i]
         if i == Y:
             push += prop
         acceleration = push / mounting.journal_mass
-        middle = bodies[CONE_BODY, LINEAR + i] + 0.5 * step * acceleration
-        energy[ENERGY_EXTERNAL] += step * load[i] * middle
+        middle = bodies[layout.CONE_BODY, layout.LINEAR + i] + 0.5 * step * acceleration
+        energy[layout.ENERGY_EXTERNAL] += step * load[i] * middle
         if i == Y:
-            energy[ENERGY_LOST + LOSS_SUSPENSION] += step * damper * middle
-        bodies[CONE_BODY, LINEAR + i] += step * acceleration
+            energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += step * damper * middle
+        bodies[layout.CONE_BODY, layout.LINEAR + i] += step * acceleration
     if mounting.journal_tilts != 0.0:
         for i in range(0, 3, 2):
             acceleration = (wrench[3 + i] + load[3 + i]) / mounting.journal_inertia
-            middle = bodies[CONE_BODY, ANGULAR + i] + 0.5 * step * acceleration
-            energy[ENERGY_EXTERNAL] += step * load[3 + i] * middle
-            bodies[CONE_BODY, ANGULAR + i] += step * acceleration
-    bodies[CONE_BODY, RATE] = load[LOAD_SPEED]
+            middle = bodies[layout.CONE_BODY, layout.ANGULAR + i] + 0.5 * step * acceleration
+            energy[layout.ENERGY_EXTERNAL] += step * load[3 + i] * middle
+            bodies[layout.CONE_BODY, layout.ANGULAR + i] += step * acceleration
+    bodies[layout.CONE_BODY, layout.RATE] = load[LOAD_SPEED]
     return torque, 0.5 * mounting.prop_stiffness * place * place
 
 
 @inline
 def kick_cages(bodies, wrenches, energy, step, cage, gravity):
     """Accelerate both cages under pocket forces and weight, gyroscopic moment included."""
-    for body in range(CAGE_BODY, bodies.shape[0]):
+    for body in range(layout.CAGE_BODY, bodies.shape[0]):
         for i in range(3):
             pull = -cage.mass * fall(gravity) if i == Z else 0.0
             acceleration = (wrenches[body, i] + pull) / cage.mass
-            middle = bodies[body, LINEAR + i] + 0.5 * step * acceleration
-            energy[ENERGY_EXTERNAL] += step * pull * middle
-            bodies[body, LINEAR + i] += step * acceleration
+            middle = bodies[body, layout.LINEAR + i] + 0.5 * step * acceleration
+            energy[layout.ENERGY_EXTERNAL] += step * pull * middle
+            bodies[body, layout.LINEAR + i] += step * acceleration
         ax, ay, az = ring_direction(bodies, body)
-        spinning = cage.polar_inertia * bodies[body, RATE]
+        spinning = cage.polar_inertia * bodies[body, layout.RATE]
         about_axis = wrenches[body, 3] * ax + wrenches[body, 4] * ay + wrenches[body, 5] * az
         # transverse Euler equations of a spinning ring, I_t w' + w x (I_p rate y) = M, one axis after the
         # other: that keeps free nutation from growing
-        bodies[body, ANGULAR + X] += (
+        bodies[body, layout.ANGULAR + X] += (
             step
-            * (wrenches[body, 3] - about_axis * ax + spinning * bodies[body, ANGULAR + Z])
+            * (wrenches[body, 3] - about_axis * ax + spinning * bodies[body, layout.ANGULAR + Z])
             / cage.transverse_inertia
         )
-        bodies[body, ANGULAR + Z] += (
+        bodies[body, layout.ANGULAR + Z] += (
             step
-            * (wrenches[body, 5] - about_axis * az - spinning * bodies[body, ANGULAR + X])
+            * (wrenches[body, 5] - about_axis * az - spinning * bodies[body, layout.ANGULAR + X])
             / cage.transverse_inertia
         )
-        bodies[body, RATE] += step * about_axis / cage.polar_inertia
+        bodies[body, layout.RATE] += step * about_axis / cage.polar_inertia
 
 
 @inline
@@ -269,22 +253,22 @@ def collect_energy(sums, energy, effects, audit):
     """
     if audit is None:
         return
-    energy[ENERGY_EXTERNAL] += sum_lanes(sums, WORK_GRAVITY)
-    energy[ENERGY_NUMERICAL] += sum_lanes(sums, WORK_NUMERICAL)
-    _collect_loss(sums, energy, LOSS_SLIDING, audit)
-    _collect_loss(sums, energy, LOSS_DAMPING, audit)
-    _collect_loss(sums, energy, LOSS_ROLLING, effects.rolling)
-    _collect_loss(sums, energy, LOSS_RIB, effects.rib)
-    _collect_loss(sums, energy, LOSS_SMALL_RIB, effects.small_rib)
-    _collect_loss(sums, energy, LOSS_POCKET, effects.cage)
-    _collect_loss(sums, energy, LOSS_DRAG, effects.drag)
+    energy[layout.ENERGY_EXTERNAL] += sum_lanes(sums, layout.WORK_GRAVITY)
+    energy[layout.ENERGY_NUMERICAL] += sum_lanes(sums, layout.WORK_NUMERICAL)
+    _collect_loss(sums, energy, layout.LOSS_SLIDING, audit)
+    _collect_loss(sums, energy, layout.LOSS_DAMPING, audit)
+    _collect_loss(sums, energy, layout.LOSS_ROLLING, effects.rolling)
+    _collect_loss(sums, energy, layout.LOSS_RIB, effects.rib)
+    _collect_loss(sums, energy, layout.LOSS_SMALL_RIB, effects.small_rib)
+    _collect_loss(sums, energy, layout.LOSS_POCKET, effects.cage)
+    _collect_loss(sums, energy, layout.LOSS_DRAG, effects.drag)
 
 
 @inline
 def _collect_loss(sums, energy, source, effect):
     if effect is None:
         return
-    energy[ENERGY_LOST + source] += sum_lanes(sums, WORK_LOST + source)
+    energy[layout.ENERGY_LOST + source] += sum_lanes(sums, layout.WORK_LOST + source)
 
 
 @inline
@@ -306,14 +290,16 @@ def add_seals(bodies, wrenches, energy, step, seal):
     """
     if seal is None:
         return
-    ax, ay, az = ring_direction(bodies, CONE_BODY)
+    ax, ay, az = ring_direction(bodies, layout.CONE_BODY)
     axis = (ax, ay, az)
-    speed = bodies[CONE_BODY, RATE]
+    speed = bodies[layout.CONE_BODY, layout.RATE]
     for i in range(3):
-        speed += axis[i] * (bodies[CONE_BODY, ANGULAR + i] - bodies[CUP_BODY, ANGULAR + i])
+        speed += axis[i] * (
+            bodies[layout.CONE_BODY, layout.ANGULAR + i] - bodies[layout.CUP_BODY, layout.ANGULAR + i]
+        )
     dry = seal.torque / math.sqrt(speed * speed + seal.regularisation * seal.regularisation)
     torque = (dry + seal.speed_coefficient) * speed
     for i in range(3):
-        wrenches[CONE_BODY, 3 + i] -= torque * axis[i]
-        wrenches[CUP_BODY, 3 + i] += torque * axis[i]
-    energy[ENERGY_LOST + LOSS_SEAL] += step * torque * speed
+        wrenches[layout.CONE_BODY, 3 + i] -= torque * axis[i]
+        wrenches[layout.CUP_BODY, 3 + i] += torque * axis[i]
+    energy[layout.ENERGY_LOST + layout.LOSS_SEAL] += step * torque * speed

@@ -4,16 +4,7 @@ from __future__ import annotations
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, fall, kick_cup
-from beardyn_core.model.layout import (
-    ANGULAR,
-    CUP_BODY,
-    ENERGY_EXTERNAL,
-    ENERGY_LOST,
-    LINEAR,
-    LOSS_SUSPENSION,
-    POSITION,
-    TILT,
-)
+from beardyn_core.model import layout
 
 FORCE = 6  # in the work space, after the acceleration
 
@@ -54,11 +45,11 @@ def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gra
         for j in range(6):
             damper += coupling.damping[i, j] * (_speed(bodies, j) - _bogie_speed(load, load_before, step, j))
         suspension = box[FORCE + i] - wrench[i] - pull
-        energy[ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
-        energy[ENERGY_LOST + LOSS_SUSPENSION] += step * damper * (middle - bogie_speed)
+        energy[layout.ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
+        energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += step * damper * (middle - bogie_speed)
     for i in range(3):
-        bodies[CUP_BODY, LINEAR + i] += step * box[i]
-        bodies[CUP_BODY, ANGULAR + i] += step * box[3 + i]
+        bodies[layout.CUP_BODY, layout.LINEAR + i] += step * box[i]
+        bodies[layout.CUP_BODY, layout.ANGULAR + i] += step * box[3 + i]
     return stored
 
 
@@ -68,8 +59,8 @@ def box_energy(bodies, mounting, coupling):
     total = 0.0
     if coupling is None:
         for i in range(3):
-            total += 0.5 * mounting.box_mass * bodies[CUP_BODY, LINEAR + i] ** 2
-            total += 0.5 * mounting.box_inertia[i] * bodies[CUP_BODY, ANGULAR + i] ** 2
+            total += 0.5 * mounting.box_mass * bodies[layout.CUP_BODY, layout.LINEAR + i] ** 2
+            total += 0.5 * mounting.box_inertia[i] * bodies[layout.CUP_BODY, layout.ANGULAR + i] ** 2
         return total
     for i in range(6):
         for j in range(6):
@@ -80,15 +71,15 @@ def box_energy(bodies, mounting, coupling):
 @inline
 def _stretch(bodies, load, i):
     if i < 3:
-        return bodies[CUP_BODY, POSITION + i] - load[LOAD_BOGIE + i]
-    return bodies[CUP_BODY, TILT + i - 3]
+        return bodies[layout.CUP_BODY, layout.POSITION + i] - load[LOAD_BOGIE + i]
+    return bodies[layout.CUP_BODY, layout.TILT + i - 3]
 
 
 @inline
 def _speed(bodies, i):
     if i < 3:
-        return bodies[CUP_BODY, LINEAR + i]
-    return bodies[CUP_BODY, ANGULAR + i - 3]
+        return bodies[layout.CUP_BODY, layout.LINEAR + i]
+    return bodies[layout.CUP_BODY, layout.ANGULAR + i - 3]
 
 
 @inline

@@ -4,17 +4,7 @@ from __future__ import annotations
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import fall, kick_cages, ring_direction
-from beardyn_core.model.layout import (
-    ANGULAR,
-    CAGE_BODY,
-    CONE_BODY,
-    CUP_BODY,
-    ENERGY_EXTERNAL,
-    LINEAR,
-    POSITION,
-    RATE,
-    TILT,
-)
+from beardyn_core.model import layout
 
 X, Y, Z = 0, 1, 2
 
@@ -32,8 +22,8 @@ def _energy(bodies, cage, rotating, kinematic):
     if kinematic is not None:
         return 0.0
     total = 0.0
-    for body in range(CAGE_BODY, bodies.shape[0]):
-        total += 0.5 * cage.polar_inertia * bodies[body, RATE] ** 2
+    for body in range(layout.CAGE_BODY, bodies.shape[0]):
+        total += 0.5 * cage.polar_inertia * bodies[body, layout.RATE] ** 2
         total += _tumbling_energy(bodies, body, cage, rotating)
     return total
 
@@ -44,8 +34,8 @@ def _tumbling_energy(bodies, body, cage, rotating):
         return 0.0
     total = 0.0
     for i in range(3):
-        total += 0.5 * cage.mass * bodies[body, LINEAR + i] ** 2
-        total += 0.5 * cage.transverse_inertia * bodies[body, ANGULAR + i] ** 2
+        total += 0.5 * cage.mass * bodies[body, layout.LINEAR + i] ** 2
+        total += 0.5 * cage.transverse_inertia * bodies[body, layout.ANGULAR + i] ** 2
     return total
 
 
@@ -61,12 +51,16 @@ def place_cages(bodies, cage):
 def _place(bodies, cage, rotating, kinematic):
     if rotating is None and kinematic is None:
         return
-    for body in range(CAGE_BODY, bodies.shape[0]):
-        lift = cage.place if body > CAGE_BODY else -cage.place
-        for place, turn in ((POSITION, TILT), (LINEAR, ANGULAR)):
+    for body in range(layout.CAGE_BODY, bodies.shape[0]):
+        lift = cage.place if body > layout.CAGE_BODY else -cage.place
+        for place, turn in ((layout.POSITION, layout.TILT), (layout.LINEAR, layout.ANGULAR)):
             for i in range(3):
-                bodies[body, place + i] = 0.5 * (bodies[CUP_BODY, place + i] + bodies[CONE_BODY, place + i])
-                bodies[body, turn + i] = 0.5 * (bodies[CUP_BODY, turn + i] + bodies[CONE_BODY, turn + i])
+                bodies[body, place + i] = 0.5 * (
+                    bodies[layout.CUP_BODY, place + i] + bodies[layout.CONE_BODY, place + i]
+                )
+                bodies[body, turn + i] = 0.5 * (
+                    bodies[layout.CUP_BODY, turn + i] + bodies[layout.CONE_BODY, turn + i]
+                )
             # tilted rings carry the cages, which stand beside their centre
             bodies[body, place + X] -= lift * bodies[body, turn + Z]
             bodies[body, place + Z] += lift * bodies[body, turn + X]
@@ -88,17 +82,17 @@ def pass_on(bodies, wrenches, energy, step, cage, gravity):
 def _pass_on(bodies, wrenches, energy, step, cage, gravity, rotating, kinematic):
     if rotating is None and kinematic is None:
         return
-    for body in range(CAGE_BODY, bodies.shape[0]):
-        lift = cage.place if body > CAGE_BODY else -cage.place
+    for body in range(layout.CAGE_BODY, bodies.shape[0]):
+        lift = cage.place if body > layout.CAGE_BODY else -cage.place
         pull = -cage.mass * fall(gravity)
-        energy[ENERGY_EXTERNAL] += step * pull * bodies[body, LINEAR + Z]
+        energy[layout.ENERGY_EXTERNAL] += step * pull * bodies[body, layout.LINEAR + Z]
         axis = ring_direction(bodies, body)
         fx, fy, fz = wrenches[body, X], wrenches[body, Y], wrenches[body, Z] + pull
         about = wrenches[body, 3] * axis[0] + wrenches[body, 4] * axis[1] + wrenches[body, 5] * axis[2]
-        for ring in range(CUP_BODY, CONE_BODY + 1):
-            x = bodies[body, POSITION + X] - bodies[ring, POSITION + X]
-            y = bodies[body, POSITION + Y] - bodies[ring, POSITION + Y] + lift
-            z = bodies[body, POSITION + Z] - bodies[ring, POSITION + Z]
+        for ring in range(layout.CUP_BODY, layout.CONE_BODY + 1):
+            x = bodies[body, layout.POSITION + X] - bodies[ring, layout.POSITION + X]
+            y = bodies[body, layout.POSITION + Y] - bodies[ring, layout.POSITION + Y] + lift
+            z = bodies[body, layout.POSITION + Z] - bodies[ring, layout.POSITION + Z]
             wrenches[ring, X] += 0.5 * fx
             wrenches[ring, Y] += 0.5 * fy
             wrenches[ring, Z] += 0.5 * fz
@@ -123,7 +117,7 @@ def _move(bodies, wrenches, energy, step, cage, gravity, rotating, kinematic):
     if rotating is None and kinematic is None:
         kick_cages(bodies, wrenches, energy, step, cage, gravity)
         return
-    for body in range(CAGE_BODY, bodies.shape[0]):
+    for body in range(layout.CAGE_BODY, bodies.shape[0]):
         axis = ring_direction(bodies, body)
         about = wrenches[body, 3] * axis[0] + wrenches[body, 4] * axis[1] + wrenches[body, 5] * axis[2]
         _turn(bodies, body, about, energy, step, cage, kinematic)
@@ -132,8 +126,8 @@ def _move(bodies, wrenches, energy, step, cage, gravity, rotating, kinematic):
 @inline
 def _turn(bodies, body, about, energy, step, cage, kinematic):
     if kinematic is None:
-        bodies[body, RATE] += step * about / cage.polar_inertia
+        bodies[body, layout.RATE] += step * about / cage.polar_inertia
         return
-    before = bodies[body, RATE]
-    bodies[body, RATE] = kinematic.speed_ratio * bodies[CONE_BODY, RATE]
-    energy[ENERGY_EXTERNAL] -= step * about * 0.5 * (before + bodies[body, RATE])
+    before = bodies[body, layout.RATE]
+    bodies[body, layout.RATE] = kinematic.speed_ratio * bodies[layout.CONE_BODY, layout.RATE]
+    energy[layout.ENERGY_EXTERNAL] -= step * about * 0.5 * (before + bodies[body, layout.RATE])

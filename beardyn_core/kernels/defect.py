@@ -9,36 +9,25 @@ from __future__ import annotations
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.model.layout import (
-    PATCH_POINTS,
-    PLACE_ARC_RADIUS,
-    PLACE_AZIMUTH,
-    PLACE_RADIUS,
-    PLACE_REACH,
-    PLACE_REPEATS,
-    PLACE_SCALE,
-    SPRING_FIELDS,
-    SPRING_GAP,
-    SPRING_RING_SLOPE,
-    SPRING_ROLLER_SLOPE,
-    SPRING_SHARE,
-)
+from beardyn_core.model import layout
 
-_LAST = PATCH_POINTS - 2.0
+_LAST = layout.PATCH_POINTS - 2.0
 _SPRINGS = 0  # the work space has one page
 
 
 @inline
 def patch_arc(azimuth, patch, surface):
     """Work out the arc from the nearest centre of a patch, [m]."""
-    turn = surface.places[patch, PLACE_REPEATS] * (azimuth - surface.places[patch, PLACE_AZIMUTH])
-    return wrap(turn) * surface.places[patch, PLACE_ARC_RADIUS]
+    turn = surface.places[patch, layout.PLACE_REPEATS] * (
+        azimuth - surface.places[patch, layout.PLACE_AZIMUTH]
+    )
+    return wrap(turn) * surface.places[patch, layout.PLACE_ARC_RADIUS]
 
 
 @inline
 def patch_nearness(lanes, block, azimuth, patch, surface):
     """Tell how far a roller is inside the reach of a patch; not positive where it does not feel it, [m]."""
-    inside = surface.places[patch, PLACE_REACH] - magnitude(patch_arc(azimuth, patch, surface))
+    inside = surface.places[patch, layout.PLACE_REACH] - magnitude(patch_arc(azimuth, patch, surface))
     return lanes.load(surface.present, block, patch) * inside
 
 
@@ -72,19 +61,19 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
         return False
     springs = damage.springs
     zero = lanes.constant(0.0)
-    for field in range(SPRING_FIELDS * 2 * count):
+    for field in range(layout.SPRING_FIELDS * 2 * count):
         lanes.store(springs, _SPRINGS, field, zero)
-    add_patches(lanes, block, azimuths[0], count, SPRING_RING_SLOPE, surfaces[0], springs)
-    add_patches(lanes, block, azimuths[1], count, SPRING_ROLLER_SLOPE, surfaces[1], springs)
+    add_patches(lanes, block, azimuths[0], count, layout.SPRING_RING_SLOPE, surfaces[0], springs)
+    add_patches(lanes, block, azimuths[1], count, layout.SPRING_ROLLER_SLOPE, surfaces[1], springs)
     for k in range(count):
-        sound, damaged = SPRING_FIELDS * k, SPRING_FIELDS * (count + k)
-        first = lanes.load(springs, _SPRINGS, damaged + SPRING_SHARE)
-        second = lanes.load(springs, _SPRINGS, sound + SPRING_SHARE)
+        sound, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
+        first = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_SHARE)
+        second = lanes.load(springs, _SPRINGS, sound + layout.SPRING_SHARE)
         share = first / at_least(second, 1e-30)
         weight = 1.0 / at_least(share, 1e-12)
-        lanes.store(springs, _SPRINGS, sound + SPRING_SHARE, 1.0 - share)
-        lanes.store(springs, _SPRINGS, damaged + SPRING_SHARE, share)
-        for field in (SPRING_GAP, SPRING_RING_SLOPE, SPRING_ROLLER_SLOPE):
+        lanes.store(springs, _SPRINGS, sound + layout.SPRING_SHARE, 1.0 - share)
+        lanes.store(springs, _SPRINGS, damaged + layout.SPRING_SHARE, share)
+        for field in (layout.SPRING_GAP, layout.SPRING_RING_SLOPE, layout.SPRING_ROLLER_SLOPE):
             mean = weight * lanes.load(springs, _SPRINGS, damaged + field)
             lanes.store(springs, _SPRINGS, damaged + field, mean)
     return True
@@ -102,23 +91,23 @@ def add_patches(lanes, block, azimuth, count, slope_field, surface, springs):
     for patch in range(surface.places.shape[0]):
         if any_positive(patch_nearness(lanes, block, azimuth, patch, surface)):
             arc = patch_arc(azimuth, patch, surface)
-            scale = surface.places[patch, PLACE_SCALE]
+            scale = surface.places[patch, layout.PLACE_SCALE]
             position = at_most(magnitude(arc) * scale, _LAST)
             cell = floor(position)
             part = position - cell
             present = lanes.load(surface.present, block, patch)
-            climb = scale * surface.places[patch, PLACE_RADIUS] * present
+            climb = scale * surface.places[patch, layout.PLACE_RADIUS] * present
             climb = where_greater(arc, 0.0, climb, -climb)
             for k in range(count):
-                sound, damaged = SPRING_FIELDS * k, SPRING_FIELDS * (count + k)
-                begin = PATCH_POINTS * (patch * count + k)
+                sound, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
+                begin = layout.PATCH_POINTS * (patch * count + k)
                 low = lanes.gather(surface.paths, cell + begin)
                 high = lanes.gather(surface.paths, cell + (begin + 1))
                 gap = present * (low + part * (high - low))
                 cover = surface.cover[patch, k]
-                _increase(lanes, springs, damaged + SPRING_SHARE, cover * magnitude(gap))
-                _increase(lanes, springs, sound + SPRING_SHARE, magnitude(gap))
-                _increase(lanes, springs, damaged + SPRING_GAP, cover * gap)
+                _increase(lanes, springs, damaged + layout.SPRING_SHARE, cover * magnitude(gap))
+                _increase(lanes, springs, sound + layout.SPRING_SHARE, magnitude(gap))
+                _increase(lanes, springs, damaged + layout.SPRING_GAP, cover * gap)
                 _increase(lanes, springs, damaged + slope_field, cover * climb * (high - low))
 
 
@@ -150,10 +139,10 @@ def spring_damage(lanes, spring, damage):
     """Share of its lamina [-] and gap [m] of a spring."""
     if damage is None:
         return 1.0, 0.0
-    field = SPRING_FIELDS * spring
+    field = layout.SPRING_FIELDS * spring
     return (
-        lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE),
-        lanes.load(damage.springs, _SPRINGS, field + SPRING_GAP),
+        lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_SHARE),
+        lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_GAP),
     )
 
 
@@ -164,9 +153,9 @@ def gap_moments(lanes, near, lamina, count, damage):
     if damage is None:
         return zero, zero
     if near:
-        field = SPRING_FIELDS * (count + lamina)
-        gap = lanes.load(damage.springs, _SPRINGS, field + SPRING_GAP)
-        mean = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE) * gap
+        field = layout.SPRING_FIELDS * (count + lamina)
+        gap = lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_GAP)
+        mean = lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_SHARE) * gap
         return mean, mean * gap
     return zero, zero
 
@@ -174,10 +163,10 @@ def gap_moments(lanes, near, lamina, count, damage):
 @inline
 def spring_slopes(lanes, spring, damage):
     """Take the slope of a spring's gap near a patch over the ring's and the roller's azimuth, [m/rad]."""
-    field = SPRING_FIELDS * spring
+    field = layout.SPRING_FIELDS * spring
     return (
-        lanes.load(damage.springs, _SPRINGS, field + SPRING_RING_SLOPE),
-        lanes.load(damage.springs, _SPRINGS, field + SPRING_ROLLER_SLOPE),
+        lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_RING_SLOPE),
+        lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_ROLLER_SLOPE),
     )
 
 

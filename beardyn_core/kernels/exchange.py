@@ -7,25 +7,7 @@ from typing import Any, NamedTuple
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least
 from beardyn_core.kernels.vectors import Vector, add, cross, scale, turn_out
-from beardyn_core.model.layout import (
-    CHATTER,
-    CHATTER_BEFORE,
-    CHATTER_FIELDS,
-    CHATTER_LAST,
-    CHATTER_LOAD,
-    CHATTER_SQUARES,
-    CONTACT_OUTPUT,
-    ELASTIC,
-    OUTPUT_ARM,
-    OUTPUT_FIELDS,
-    OUTPUT_FILM,
-    OUTPUT_FORCE,
-    OUTPUT_SLIP,
-    REACTION,
-    WORK_GRAVITY,
-    WORK_LOST,
-    WORK_NUMERICAL,
-)
+from beardyn_core.model import layout
 
 
 class Here(NamedTuple):
@@ -95,7 +77,7 @@ def react(ring, centre, wrench, here):
     about_origin = add(wrench.moment, cross(centre, wrench.force))
     push = turn_out(scale(-here.mask, wrench.force), here.cosine, here.sine)
     turn = turn_out(scale(-here.mask, about_origin), here.cosine, here.sine)
-    first = REACTION + 6 * ring
+    first = layout.REACTION + 6 * ring
     accumulate_vector(here, first, push)
     accumulate_vector(here, first + 3, turn)
 
@@ -104,7 +86,7 @@ def react(ring, centre, wrench, here):
 def react_couple(ring, couple, here):
     """Add the reaction of a couple on the roller to its ring."""
     turn = turn_out(scale(-here.mask, couple), here.cosine, here.sine)
-    accumulate_vector(here, REACTION + 6 * ring + 3, turn)
+    accumulate_vector(here, layout.REACTION + 6 * ring + 3, turn)
 
 
 @inline
@@ -112,8 +94,8 @@ def account(here, numerical, elastic, audit):
     """Add what a contact lost to the time step and what it stores to the audit, [J]."""
     if audit is None:
         return
-    accumulate(here, WORK_NUMERICAL, here.mask * numerical)
-    accumulate(here, ELASTIC, here.mask * elastic)
+    accumulate(here, layout.WORK_NUMERICAL, here.mask * numerical)
+    accumulate(here, layout.ELASTIC, here.mask * elastic)
 
 
 @inline
@@ -121,7 +103,7 @@ def account_loss(here, source, lost, audit):
     """Add what a contact dissipated over the step to the audit, under its source (``LOSS_...``), [J]."""
     if audit is None:
         return
-    accumulate(here, WORK_LOST + source, here.mask * lost)
+    accumulate(here, layout.WORK_LOST + source, here.mask * lost)
 
 
 @inline
@@ -129,7 +111,7 @@ def account_gravity(here, work, audit):
     """Add the work of gravity to the audit, [J]."""
     if audit is None:
         return
-    accumulate(here, WORK_GRAVITY, here.mask * work)
+    accumulate(here, layout.WORK_GRAVITY, here.mask * work)
 
 
 @inline
@@ -138,11 +120,11 @@ def output_contact(lanes, rollers, block, kind, output):
 
     ``kind``: ``CUP``, ``CONE``, ``RIB`` or ``POCKET``.
     """
-    first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS
-    store_vector(lanes, rollers, block, first + OUTPUT_FORCE, output.force)
-    store_vector(lanes, rollers, block, first + OUTPUT_ARM, output.arm)
-    lanes.store(rollers, block, first + OUTPUT_SLIP, output.slip)
-    lanes.store(rollers, block, first + OUTPUT_FILM, output.film)
+    first = layout.CONTACT_OUTPUT + kind * layout.OUTPUT_FIELDS
+    store_vector(lanes, rollers, block, first + layout.OUTPUT_FORCE, output.force)
+    store_vector(lanes, rollers, block, first + layout.OUTPUT_ARM, output.arm)
+    lanes.store(rollers, block, first + layout.OUTPUT_SLIP, output.slip)
+    lanes.store(rollers, block, first + layout.OUTPUT_FILM, output.film)
 
 
 @inline
@@ -155,19 +137,22 @@ def watch_chatter(here, ring, friction, capacity):
     ``friction``, ``capacity``: of the step, and at full slip in the dry limit [N].
     """
     lanes, rollers, block = here.lanes, here.rollers, here.block
-    first = CHATTER + ring * CHATTER_FIELDS
-    last = lanes.load(rollers, block, first + CHATTER_LAST)
-    before = lanes.load(rollers, block, first + CHATTER_BEFORE)
+    first = layout.CHATTER + ring * layout.CHATTER_FIELDS
+    last = lanes.load(rollers, block, first + layout.CHATTER_LAST)
+    before = lanes.load(rollers, block, first + layout.CHATTER_BEFORE)
     bend = last - 0.5 * (friction + before)
     move = 0.5 * (friction - before)
-    lanes.store(rollers, block, first + CHATTER_BEFORE, last)
-    lanes.store(rollers, block, first + CHATTER_LAST, friction)
-    squares = lanes.load(rollers, block, first + CHATTER_SQUARES)
+    lanes.store(rollers, block, first + layout.CHATTER_BEFORE, last)
+    lanes.store(rollers, block, first + layout.CHATTER_LAST, friction)
+    squares = lanes.load(rollers, block, first + layout.CHATTER_SQUARES)
     lanes.store(
-        rollers, block, first + CHATTER_SQUARES, squares + at_least(bend * bend - 0.5 * move * move, 0.0)
+        rollers,
+        block,
+        first + layout.CHATTER_SQUARES,
+        squares + at_least(bend * bend - 0.5 * move * move, 0.0),
     )
-    loads = lanes.load(rollers, block, first + CHATTER_LOAD)
-    lanes.store(rollers, block, first + CHATTER_LOAD, loads + capacity * capacity)
+    loads = lanes.load(rollers, block, first + layout.CHATTER_LOAD)
+    lanes.store(rollers, block, first + layout.CHATTER_LOAD, loads + capacity * capacity)
 
 
 @inline

@@ -6,18 +6,12 @@ from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import body_vector
 from beardyn_core.kernels.exchange import store_vector
 from beardyn_core.kernels.kinematic_rollers import row_totals
-from beardyn_core.model.layout import (
-    ANGULAR,
-    CONE_BODY,
-    CUP_BODY,
-    LINEAR,
-    REACTION,
-    SIGNAL_ACCELERATION,
-    SIGNAL_FORCE,
-)
+from beardyn_core.model import layout
 
 # Sums of the tangent stiffness over the rollers, times cosine and sine of the pocket angle.
-STIFF_SUM, STIFF_COSINE, STIFF_SINE, STIFF_CC, STIFF_SS, STIFF_CS = range(REACTION + 8, REACTION + 14)
+STIFF_SUM, STIFF_COSINE, STIFF_SINE, STIFF_CC, STIFF_SS, STIFF_CS = range(
+    layout.REACTION + 8, layout.REACTION + 14
+)
 STIFFNESS, RESPONSE, WORK = 0, 1, 2  # matrices in the work space
 
 
@@ -127,8 +121,8 @@ def hold_response(sums, direction, work, p):
 @inline
 def journal_velocity(bodies):
     """Take the velocity and tilt rate of the journal, 5 floats."""
-    x, y, z = body_vector(bodies, CONE_BODY, LINEAR)
-    return x, y, z, bodies[CONE_BODY, ANGULAR], bodies[CONE_BODY, ANGULAR + 2]
+    x, y, z = body_vector(bodies, layout.CONE_BODY, layout.LINEAR)
+    return x, y, z, bodies[layout.CONE_BODY, layout.ANGULAR], bodies[layout.CONE_BODY, layout.ANGULAR + 2]
 
 
 @inline
@@ -143,25 +137,25 @@ def add_response(bodies, before, signal, work, p):
     """
     motion, response = p.motion, p.response
     after = journal_velocity(bodies)
-    x = (after[0] - before[0]) * motion.rate - signal[SIGNAL_ACCELERATION]
-    y = (after[1] - before[1]) * motion.rate - signal[SIGNAL_ACCELERATION + 1]
-    z = (after[2] - before[2]) * motion.rate - signal[SIGNAL_ACCELERATION + 2]
-    about_x = (after[3] - before[3]) * motion.rate - signal[SIGNAL_ACCELERATION + 3]
-    about_z = (after[4] - before[4]) * motion.rate - signal[SIGNAL_ACCELERATION + 5]
+    x = (after[0] - before[0]) * motion.rate - signal[layout.SIGNAL_ACCELERATION]
+    y = (after[1] - before[1]) * motion.rate - signal[layout.SIGNAL_ACCELERATION + 1]
+    z = (after[2] - before[2]) * motion.rate - signal[layout.SIGNAL_ACCELERATION + 2]
+    about_x = (after[3] - before[3]) * motion.rate - signal[layout.SIGNAL_ACCELERATION + 3]
+    about_z = (after[4] - before[4]) * motion.rate - signal[layout.SIGNAL_ACCELERATION + 5]
     more = (x, y, z, about_x, about_z)
     wrench = (
         _row(work, 0, more), _row(work, 1, more), _row(work, 2, more), _row(work, 3, more), 0.0,
         _row(work, 4, more),
     )  # fmt: skip
     push, turn = p.step * motion.journal_push, p.step * motion.journal_turn
-    bodies[CONE_BODY, LINEAR] = after[0] - push * wrench[0]
-    bodies[CONE_BODY, LINEAR + 1] = after[1] - push * wrench[1]
-    bodies[CONE_BODY, LINEAR + 2] = after[2] - push * wrench[2]
-    bodies[CONE_BODY, ANGULAR] = after[3] - turn * wrench[3]
-    bodies[CONE_BODY, ANGULAR + 2] = after[4] - turn * wrench[5]
+    bodies[layout.CONE_BODY, layout.LINEAR] = after[0] - push * wrench[0]
+    bodies[layout.CONE_BODY, layout.LINEAR + 1] = after[1] - push * wrench[1]
+    bodies[layout.CONE_BODY, layout.LINEAR + 2] = after[2] - push * wrench[2]
+    bodies[layout.CONE_BODY, layout.ANGULAR] = after[3] - turn * wrench[3]
+    bodies[layout.CONE_BODY, layout.ANGULAR + 2] = after[4] - turn * wrench[5]
     share = response.damper_share
     for i in range(6):
-        signal[SIGNAL_FORCE + i] += share * wrench[i]
+        signal[layout.SIGNAL_FORCE + i] += share * wrench[i]
     _push_box(bodies, wrench, signal, share, p, p.base.mounting.coupling)
 
 
@@ -177,10 +171,10 @@ def _push_box(bodies, wrench, signal, share, p, coupling):
     for i in range(3):
         linear = _box_acceleration(wrench, i, p, coupling)
         angular = _box_acceleration(wrench, 3 + i, p, coupling)
-        bodies[CUP_BODY, LINEAR + i] += p.step * linear
-        bodies[CUP_BODY, ANGULAR + i] += p.step * angular
-        signal[SIGNAL_ACCELERATION + i] += share * linear
-        signal[SIGNAL_ACCELERATION + 3 + i] += share * angular
+        bodies[layout.CUP_BODY, layout.LINEAR + i] += p.step * linear
+        bodies[layout.CUP_BODY, layout.ANGULAR + i] += p.step * angular
+        signal[layout.SIGNAL_ACCELERATION + i] += share * linear
+        signal[layout.SIGNAL_ACCELERATION + 3 + i] += share * angular
 
 
 @inline

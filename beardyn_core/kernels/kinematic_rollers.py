@@ -15,29 +15,13 @@ from beardyn_core.kernels.film import film_output, log2_entrainment
 from beardyn_core.kernels.lane_math import at_least, exp2, log2
 from beardyn_core.kernels.rib import rib_friction, rib_log2_film, spin_reach, with_spin
 from beardyn_core.kernels.rolling import rolling_couple
-from beardyn_core.model.layout import (
-    ANGLE,
-    ANGULAR,
-    AXIAL,
-    AXIS,
-    CONE,
-    CONE_BODY,
-    CUP,
-    CUP_BODY,
-    LINEAR,
-    MOMENTUM,
-    POSITION,
-    RADIUS,
-    REACTION,
-    RIB,
-    SPIN,
-    TILT,
-    VELOCITY,
-)
+from beardyn_core.model import layout
 
 # Sums of the cup forces along the cup's normal, in the cages' frame; axial force and moments times the side.
-LOAD_COSINE, LOAD_SINE, LOAD_AXIAL, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(REACTION, REACTION + 6)
-TORQUE_ROLLING, TORQUE_RIB = REACTION + 6, REACTION + 7
+LOAD_COSINE, LOAD_SINE, LOAD_AXIAL, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(
+    layout.REACTION, layout.REACTION + 6
+)
+TORQUE_ROLLING, TORQUE_RIB = layout.REACTION + 6, layout.REACTION + 7
 _SMALLEST_LOAD = 1e-3
 
 
@@ -45,8 +29,8 @@ _SMALLEST_LOAD = 1e-3
 def relative_motion(bodies, i, place, speed):
     """Take the motion of the cone against the cup on one world axis: displacement and velocity."""
     return (
-        bodies[CONE_BODY, place + i] - bodies[CUP_BODY, place + i],
-        bodies[CONE_BODY, speed + i] - bodies[CUP_BODY, speed + i],
+        bodies[layout.CONE_BODY, place + i] - bodies[layout.CUP_BODY, place + i],
+        bodies[layout.CONE_BODY, speed + i] - bodies[layout.CUP_BODY, speed + i],
     )
 
 
@@ -54,11 +38,11 @@ def relative_motion(bodies, i, place, speed):
 def relative_cone(bodies):
     """Take displacement, velocity, tilt and tilt rate of the cone against the cup; tilts to first order."""
     return (
-        relative_motion(bodies, X, POSITION, LINEAR),
-        relative_motion(bodies, Y, POSITION, LINEAR),
-        relative_motion(bodies, Z, POSITION, LINEAR),
-        relative_motion(bodies, X, TILT, ANGULAR),
-        relative_motion(bodies, Z, TILT, ANGULAR),
+        relative_motion(bodies, X, layout.POSITION, layout.LINEAR),
+        relative_motion(bodies, Y, layout.POSITION, layout.LINEAR),
+        relative_motion(bodies, Z, layout.POSITION, layout.LINEAR),
+        relative_motion(bodies, X, layout.TILT, layout.ANGULAR),
+        relative_motion(bodies, Z, layout.TILT, layout.ANGULAR),
     )
 
 
@@ -120,18 +104,18 @@ def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
     spin = k.spin_ratio * rate
     about = roller.axial_inertia * (spin + rate * axis[1])
     across = roller.transverse_inertia * rate
-    lanes.store(rollers, block, RADIUS, place[0] + zero)
-    lanes.store(rollers, block, ANGLE, angle + turn[0])
-    lanes.store(rollers, block, AXIAL, place[1] + zero)
-    store_vector(lanes, rollers, block, VELOCITY, (zero, rate * place[0] + zero, zero))
-    store_vector(lanes, rollers, block, AXIS, (axis[0] + zero, zero, axis[1] + zero))
+    lanes.store(rollers, block, layout.RADIUS, place[0] + zero)
+    lanes.store(rollers, block, layout.ANGLE, angle + turn[0])
+    lanes.store(rollers, block, layout.AXIAL, place[1] + zero)
+    store_vector(lanes, rollers, block, layout.VELOCITY, (zero, rate * place[0] + zero, zero))
+    store_vector(lanes, rollers, block, layout.AXIS, (axis[0] + zero, zero, axis[1] + zero))
     momentum = (
         about * axis[0] - across * axis[1] * axis[0] + zero,
         zero,
         about * axis[1] + across * axis[0] * axis[0] + zero,
     )
-    store_vector(lanes, rollers, block, MOMENTUM, momentum)
-    lanes.store(rollers, block, SPIN, k.spin_ratio * turn[0] + zero)
+    store_vector(lanes, rollers, block, layout.MOMENTUM, momentum)
+    lanes.store(rollers, block, layout.SPIN, k.spin_ratio * turn[0] + zero)
 
 
 @inline
@@ -151,16 +135,16 @@ def show_contacts(lanes, rollers, block, axis, loads, centres, speeds, p):
         force=(-cup.cosine * loads[0], zero, cup.sine * loads[0]),
         arm=(centres[0] * axis[0] + for_cup * axis[1], zero, centres[0] * axis[1] - for_cup * axis[0]),
         slip=zero,
-        film=film_output(loads[0], cup_speed, CUP, laminae, film) + zero,
+        film=film_output(loads[0], cup_speed, layout.CUP, laminae, film) + zero,
     )
     on_cone = ContactOutput(
         force=(cone.cosine * loads[1], zero, -cone.sine * loads[1]),
         arm=(centres[1] * axis[0] + for_cone * axis[1], zero, centres[1] * axis[1] - for_cone * axis[0]),
         slip=zero,
-        film=film_output(loads[1], cone_speed, CONE, laminae, film) + zero,
+        film=film_output(loads[1], cone_speed, layout.CONE, laminae, film) + zero,
     )
-    output_contact(lanes, rollers, block, CUP, on_cup)
-    output_contact(lanes, rollers, block, CONE, on_cone)
+    output_contact(lanes, rollers, block, layout.CUP, on_cup)
+    output_contact(lanes, rollers, block, layout.CONE, on_cone)
     show_rib(lanes, rollers, block, axis, loads[2], k.rib_slip * speeds[0], p.base.effects.rib)
 
 
@@ -176,7 +160,7 @@ def show_rib(lanes, rollers, block, axis, load, slip, rib):
         rib.sphere_place * axis[1] + rib.sphere_radius * rib.normal_axial + zero,
     )
     force = (-rib.normal_radial * load, zero, -rib.normal_axial * load)
-    output_contact(lanes, rollers, block, RIB, ContactOutput(force, arm, math.fabs(slip) + zero, zero))
+    output_contact(lanes, rollers, block, layout.RIB, ContactOutput(force, arm, math.fabs(slip) + zero, zero))
 
 
 # --- torque on the shaft of rollers in pure rolling: every loss as lost power over shaft speed, by the laws
@@ -194,10 +178,12 @@ def rolling_torque(loads, speeds, k, rolling):
     """
     if rolling is None:
         return 0.0 * loads[0]
-    cup = rolling_couple(loads[0], speeds[1] * k.cup_radius, CUP, rolling)
-    cone = rolling_couple(loads[1], (speeds[0] - speeds[1]) * k.cone_radius, CONE, rolling)
-    on_cup = smooth_lever(k.rolling_on_cup, speeds[0], rolling.regularisation[CUP])
-    return on_cup * cup + smooth_lever(k.rolling_on_cone, speeds[0], rolling.regularisation[CONE]) * cone
+    cup = rolling_couple(loads[0], speeds[1] * k.cup_radius, layout.CUP, rolling)
+    cone = rolling_couple(loads[1], (speeds[0] - speeds[1]) * k.cone_radius, layout.CONE, rolling)
+    on_cup = smooth_lever(k.rolling_on_cup, speeds[0], rolling.regularisation[layout.CUP])
+    return (
+        on_cup * cup + smooth_lever(k.rolling_on_cone, speeds[0], rolling.regularisation[layout.CONE]) * cone
+    )
 
 
 @inline

@@ -9,18 +9,10 @@ from __future__ import annotations
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.model.layout import (
-    COUPLING_ROWS,
-    LAMINA_STIFFNESS,
-    SPRING_FIELDS,
-    SPRING_GAP,
-    SPRING_RING_SLOPE,
-    SPRING_ROLLER_SLOPE,
-    SPRING_SHARE,
-)
+from beardyn_core.model import layout
 
 # rows of the work space
-DEPTH, SURFACE, SPRING, FORCE, SHARE = range(COUPLING_ROWS)
+DEPTH, SURFACE, SPRING, FORCE, SHARE = range(layout.COUPLING_ROWS)
 BALANCE = SPRING  # of which the sweeps have no need yet
 _SPRINGS = 0  # the work space near a patch has one page
 _SMALLEST = 1e-15
@@ -167,7 +159,7 @@ def _load_springs(lanes, laminae, coupling):
 
 @inline
 def _load_spring(lanes, laminae, coupling, lamina, depth):
-    spring = laminae[LAMINA_STIFFNESS, lamina] * ninth_root(at_least(magnitude(depth), _SMALLEST))
+    spring = laminae[layout.LAMINA_STIFFNESS, lamina] * ninth_root(at_least(magnitude(depth), _SMALLEST))
     lanes.store(coupling.work, SPRING, lamina, spring)
     lanes.store(coupling.work, SHARE, lamina, depth)
     lanes.store(coupling.work, FORCE, lamina, spring * depth)
@@ -195,10 +187,10 @@ def joint_depth(lanes, depth, lamina, count, damage, exponent):
     if damage is None:
         return depth
     springs = damage.springs
-    sound = SPRING_FIELDS * lamina + SPRING_SHARE
-    damaged = SPRING_FIELDS * (count + lamina)
-    cover = lanes.load(springs, _SPRINGS, damaged + SPRING_SHARE)
-    gap = lanes.load(springs, _SPRINGS, damaged + SPRING_GAP)
+    sound = layout.SPRING_FIELDS * lamina + layout.SPRING_SHARE
+    damaged = layout.SPRING_FIELDS * (count + lamina)
+    cover = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_SHARE)
+    gap = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_GAP)
     kept = at_most(at_least(where_greater(0.0 * gap, gap, cover, 1.0 - cover), _SMALLEST_PART), 1.0)
     held = exp2(exponent * log2(kept))
     loose = at_least(1.0 - held, _SMALLEST_LOOSE)
@@ -217,7 +209,9 @@ def joint_depth(lanes, depth, lamina, count, damage, exponent):
     partly = where_greater(cover, 0.0, energy, 0.0 * energy)
     share = where_greater(partly, _NO_ENERGY, force * joint / pressed, 1.0)
     lanes.store(springs, _SPRINGS, sound, share)
-    lanes.store(springs, _SPRINGS, damaged + SPRING_SHARE, where_greater(partly, _NO_ENERGY, with_gap, cover))
+    lanes.store(
+        springs, _SPRINGS, damaged + layout.SPRING_SHARE, where_greater(partly, _NO_ENERGY, with_gap, cover)
+    )
     apart = at_most(depth - cover * gap, 0.0)
     joint = where_greater(energy, _NO_ENERGY, joint, apart)
     return where_greater(cover, 0.0, joint, depth)
@@ -228,15 +222,15 @@ def joint_share(lanes, lamina, damage):
     """Work out the part of its load that a lamina presses with: slope of its joint depth, [-]."""
     if damage is None:
         return 1.0
-    return lanes.load(damage.springs, _SPRINGS, SPRING_FIELDS * lamina + SPRING_SHARE)
+    return lanes.load(damage.springs, _SPRINGS, layout.SPRING_FIELDS * lamina + layout.SPRING_SHARE)
 
 
 @inline
 def joint_slopes(lanes, lamina, count, damage):
     """Work out by how much a lamina gives way with the ring's and the roller's azimuth, [m/rad]."""
-    field = SPRING_FIELDS * (count + lamina)
-    share = lanes.load(damage.springs, _SPRINGS, field + SPRING_SHARE)
+    field = layout.SPRING_FIELDS * (count + lamina)
+    share = lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_SHARE)
     return (
-        share * lanes.load(damage.springs, _SPRINGS, field + SPRING_RING_SLOPE),
-        share * lanes.load(damage.springs, _SPRINGS, field + SPRING_ROLLER_SLOPE),
+        share * lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_RING_SLOPE),
+        share * lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_ROLLER_SLOPE),
     )

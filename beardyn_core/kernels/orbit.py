@@ -8,19 +8,7 @@ from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import load_vector
 from beardyn_core.kernels.lane_math import cos_sin, sqrt
 from beardyn_core.kernels.vectors import Vector, add, add_scaled, cross, dot, scale, subtract, turn_in
-from beardyn_core.model.layout import (
-    ANGLE,
-    AXIAL,
-    AXIS,
-    MOMENTUM,
-    RADIUS,
-    RING_AXIS,
-    RING_OMEGA,
-    RING_ORIGIN,
-    RING_VELOCITY,
-    SPIN,
-    VELOCITY,
-)
+from beardyn_core.model import layout
 
 
 class Orbit(NamedTuple):
@@ -73,11 +61,11 @@ def drift(lanes, rollers, block, reference_velocity, step, roller):
     ``reference_velocity``: of the cup's origin, in its ring frame [m/s]. Velocity and momentum of the `Orbit`
     stand in the frame half way through the turn, where a steady orbit has no radial velocity.
     """
-    radius = lanes.load(rollers, block, RADIUS)
-    azimuth = lanes.load(rollers, block, ANGLE)
-    velocity = load_vector(lanes, rollers, block, VELOCITY)
-    axis = load_vector(lanes, rollers, block, AXIS)
-    momentum = load_vector(lanes, rollers, block, MOMENTUM)
+    radius = lanes.load(rollers, block, layout.RADIUS)
+    azimuth = lanes.load(rollers, block, layout.ANGLE)
+    velocity = load_vector(lanes, rollers, block, layout.VELOCITY)
+    axis = load_vector(lanes, rollers, block, layout.AXIS)
+    momentum = load_vector(lanes, rollers, block, layout.MOMENTUM)
     cosine, sine = cos_sin(azimuth)
     relative = subtract(velocity, turn_in(reference_velocity, cosine, sine))
     outward = radius + step * relative[0]
@@ -92,15 +80,15 @@ def drift(lanes, rollers, block, reference_velocity, step, roller):
     half_sine = half * (1.0 - half2 * (1.0 / 6.0 - half2 * (1.0 / 120.0)))
 
     spin_rate = dot(momentum, axis) / roller.axial_inertia
-    spin = lanes.load(rollers, block, SPIN) + step * spin_rate - turn * axis[2]
-    lanes.store(rollers, block, SPIN, spin)
+    spin = lanes.load(rollers, block, layout.SPIN) + step * spin_rate - turn * axis[2]
+    lanes.store(rollers, block, layout.SPIN, spin)
     turning = scale(step / roller.transverse_inertia, momentum)
     first = cross(turning, axis)
     axis = add(add(axis, first), scale(0.5, cross(turning, first)))
     axis = scale(1.0 / sqrt(dot(axis, axis)), axis)
     axis = turn_in(turn_in(axis, half_cosine, half_sine), half_cosine, half_sine)
 
-    axial = lanes.load(rollers, block, AXIAL) + step * relative[2]
+    axial = lanes.load(rollers, block, layout.AXIAL) + step * relative[2]
     # the order of the sums decides which products are fused: another one has other last bits
     new_azimuth = azimuth + turn
     velocity = turn_in(velocity, half_cosine, half_sine)
@@ -119,10 +107,10 @@ def drift(lanes, rollers, block, reference_velocity, step, roller):
 def ring_view(lanes, rings, ring, cosine, sine):
     """Turn a ring into the orbit frames of a block of rollers: a `View`."""
     return View(
-        turn_in(load_vector(lanes, rings, ring, RING_ORIGIN), cosine, sine),
-        turn_in(load_vector(lanes, rings, ring, RING_AXIS), cosine, sine),
-        turn_in(load_vector(lanes, rings, ring, RING_VELOCITY), cosine, sine),
-        turn_in(load_vector(lanes, rings, ring, RING_OMEGA), cosine, sine),
+        turn_in(load_vector(lanes, rings, ring, layout.RING_ORIGIN), cosine, sine),
+        turn_in(load_vector(lanes, rings, ring, layout.RING_AXIS), cosine, sine),
+        turn_in(load_vector(lanes, rings, ring, layout.RING_VELOCITY), cosine, sine),
+        turn_in(load_vector(lanes, rings, ring, layout.RING_OMEGA), cosine, sine),
     )
 
 

@@ -37,21 +37,7 @@ from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_r
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.stage_timer import mark
 from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in
-from beardyn_core.model.layout import (
-    ANGLE,
-    AXIAL,
-    AXIS,
-    CONE,
-    CUP,
-    MASK,
-    MOMENTUM,
-    OVERSIZE,
-    RADIUS,
-    RING_TURN,
-    RING_VELOCITY,
-    SPIN,
-    VELOCITY,
-)
+from beardyn_core.model import layout
 from beardyn_core.model.stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
 
 _PI = 3.141592653589793
@@ -75,31 +61,33 @@ def velocity_change(matrix, right, zero, explicit):
 def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     """Advance one block of rollers by one step, their state in place, and add what it does to the rings."""
     step, effects, roller = p.step, p.effects, p.roller
-    orbit = drift(lanes, rollers, block, load_vector(lanes, rings, CUP, RING_VELOCITY), step, roller)
+    orbit = drift(
+        lanes, rollers, block, load_vector(lanes, rings, layout.CUP, layout.RING_VELOCITY), step, roller
+    )
     cosine, sine, azimuth, momentum = orbit.cosine, orbit.sine, orbit.azimuth, orbit.momentum
-    mask = lanes.load(p.rollers, block, MASK)
+    mask = lanes.load(p.rollers, block, layout.MASK)
     here = Here(lanes, block, rollers, sums, mask, cosine, sine)
-    oversize = lanes.load(p.rollers, block, OVERSIZE)
+    oversize = lanes.load(p.rollers, block, layout.OVERSIZE)
     omega = angular_velocity(momentum, orbit.axis, roller)
     zero = lanes.constant(0.0)
     body = Body((orbit.radius, zero, orbit.axial), orbit.axis, orbit.velocity, omega, orbit.rate)
-    cup_view = ring_view(lanes, rings, CUP, cosine, sine)
+    cup_view = ring_view(lanes, rings, layout.CUP, cosine, sine)
     bent_view, shift = bent_cup(lanes, flex, cup_view, cosine, sine, effects.ring_flexibility)
-    cone_view = ring_view(lanes, rings, CONE, cosine, sine)
-    spin = lanes.load(rollers, block, SPIN)
+    cone_view = ring_view(lanes, rings, layout.CONE, cosine, sine)
+    spin = lanes.load(rollers, block, layout.SPIN)
     timers = effects.timers
     mark(timers, MOTION)
 
-    azimuths = (azimuth - lanes.load(rings, CUP, RING_TURN), -spin)
-    ring = Ring(CUP, p.cup, faults_of_cup(effects.faults), bent_view)
+    azimuths = (azimuth - lanes.load(rings, layout.CUP, layout.RING_TURN), -spin)
+    ring = Ring(layout.CUP, p.cup, faults_of_cup(effects.faults), bent_view)
     cup = prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
     cup = about_rigid_cup(cup, shift, effects.ring_flexibility)
-    azimuths = (azimuth - lanes.load(rings, CONE, RING_TURN), _PI - spin)
-    ring = Ring(CONE, p.cone, faults_of_cone(effects.faults), cone_view)
+    azimuths = (azimuth - lanes.load(rings, layout.CONE, layout.RING_TURN), _PI - spin)
+    ring = Ring(layout.CONE, p.cone, faults_of_cone(effects.faults), cone_view)
     cone = prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
     mark(timers, CONTACT)
-    cup_rolling = prepare_rolling(cup, CUP, cup_view, body, effects.rolling)
-    cone_rolling = prepare_rolling(cone, CONE, cone_view, body, effects.rolling)
+    cup_rolling = prepare_rolling(cup, layout.CUP, cup_view, body, effects.rolling)
+    cone_rolling = prepare_rolling(cone, layout.CONE, cone_view, body, effects.rolling)
     drag = prepare_drag(body, cup_view, effects.drag)
     mark(timers, LOSS)
     rib = prepare_rib(body, cone_view, zero, effects.rib, effects.damping)
@@ -138,13 +126,13 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     )
     mark(timers, SOLVE)
 
-    on_cup = settle_raceway(CUP, cup, change, here, p)
+    on_cup = settle_raceway(layout.CUP, cup, change, here, p)
     bend_cup(on_cup.force, here, flex.shape[0], effects.ring_flexibility)
-    on_cone = settle_raceway(CONE, cone, change, here, p)
+    on_cone = settle_raceway(layout.CONE, cone, change, here, p)
     total = Wrench(add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment))
     mark(timers, SETTLE)
-    total = settle_rolling(CUP, cup_rolling, change, total, here, effects.rolling, p)
-    total = settle_rolling(CONE, cone_rolling, change, total, here, effects.rolling, p)
+    total = settle_rolling(layout.CUP, cup_rolling, change, total, here, effects.rolling, p)
+    total = settle_rolling(layout.CONE, cone_rolling, change, total, here, effects.rolling, p)
     total = settle_drag(drag, change, total, here, effects.drag, p)
     mark(timers, LOSS)
     total = settle_rib(rib, change, total, here, effects.rib, p)
@@ -158,10 +146,12 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
 
     velocity = turn_in(orbit.velocity, orbit.half_cosine, orbit.half_sine)
     momentum = turn_in(momentum, orbit.half_cosine, orbit.half_sine)
-    lanes.store(rollers, block, RADIUS, orbit.radius)
-    lanes.store(rollers, block, ANGLE, azimuth)
-    lanes.store(rollers, block, AXIAL, orbit.axial)
-    store_vector(lanes, rollers, block, AXIS, orbit.axis)
-    store_vector(lanes, rollers, block, VELOCITY, add_scaled(velocity, step / roller.mass, total.force))
-    store_vector(lanes, rollers, block, MOMENTUM, add_scaled(momentum, step, total.moment))
+    lanes.store(rollers, block, layout.RADIUS, orbit.radius)
+    lanes.store(rollers, block, layout.ANGLE, azimuth)
+    lanes.store(rollers, block, layout.AXIAL, orbit.axial)
+    store_vector(lanes, rollers, block, layout.AXIS, orbit.axis)
+    store_vector(
+        lanes, rollers, block, layout.VELOCITY, add_scaled(velocity, step / roller.mass, total.force)
+    )
+    store_vector(lanes, rollers, block, layout.MOMENTUM, add_scaled(momentum, step, total.moment))
     mark(timers, MOTION)

@@ -9,19 +9,9 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.model import layout
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.laminae import for_springs, lamina_places
-from beardyn_core.model.layout import (
-    PATCH_FIELDS,
-    PATCH_POINTS,
-    PLACE_ARC_RADIUS,
-    PLACE_AZIMUTH,
-    PLACE_RADIUS,
-    PLACE_REACH,
-    PLACE_REPEATS,
-    PLACE_SCALE,
-    SPRING_FIELDS,
-)
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
 
@@ -95,9 +85,9 @@ def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfacePa
     if not patches:
         return None
     count = scene.numerics.laminae
-    places = np.zeros((len(patches), PATCH_FIELDS))
+    places = np.zeros((len(patches), layout.PATCH_FIELDS))
     present = np.zeros((arrangement.block_count, len(patches), arrangement.width))
-    paths = np.zeros((len(patches), count, PATCH_POINTS))
+    paths = np.zeros((len(patches), count, layout.PATCH_POINTS))
     for index, patch in enumerate(patches):
         there = arrangement.row == patch.row
         if on == "roller":
@@ -127,13 +117,13 @@ def _write_patch(surface: SurfaceParams, index: int, patch: Patch, scene: Scene,
     repeats = bearing.roller_count if patch.kind == "brinelling" else 1
     radius = surface_radius(bearing, patch.on)
     place = surface.places[index]
-    place[PLACE_AZIMUTH] = patch.azimuth
-    place[PLACE_REPEATS] = repeats
-    place[PLACE_RADIUS] = radius
-    place[PLACE_ARC_RADIUS] = radius / repeats
-    place[PLACE_REACH] = reach
-    place[PLACE_SCALE] = PATH_CELLS / reach
-    paths = surface.paths.reshape(-1, count, PATCH_POINTS)
+    place[layout.PLACE_AZIMUTH] = patch.azimuth
+    place[layout.PLACE_REPEATS] = repeats
+    place[layout.PLACE_RADIUS] = radius
+    place[layout.PLACE_ARC_RADIUS] = radius / repeats
+    place[layout.PLACE_REACH] = reach
+    place[layout.PLACE_SCALE] = PATH_CELLS / reach
+    paths = surface.paths.reshape(-1, count, layout.PATCH_POINTS)
     for lamina, roller_radius in enumerate(radii):
         paths[index, lamina, : PATH_CELLS + 1] = roller_path(patch, size, roller_radius, reach)
 
@@ -162,7 +152,7 @@ def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
 
 def damage_params(laminae: Float, width: int) -> DamageParams:
     """Double the lamina table (sound and damaged springs) and make work space for the springs."""
-    springs = np.zeros((1, SPRING_FIELDS * 2 * laminae.shape[1], width))
+    springs = np.zeros((1, layout.SPRING_FIELDS * 2 * laminae.shape[1], width))
     return DamageParams(for_springs(laminae), springs)
 
 

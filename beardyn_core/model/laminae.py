@@ -13,17 +13,8 @@ from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, part_exponent
 from beardyn_core.effects import LaminaCoupling, LineFilm
+from beardyn_core.model import layout
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
-from beardyn_core.model.layout import (
-    COUPLING_ROWS,
-    LAMINA_DROP,
-    LAMINA_FILM,
-    LAMINA_PLACE,
-    LAMINA_PRESSURE,
-    LAMINA_RADIUS,
-    LAMINA_ROWS,
-    LAMINA_STIFFNESS,
-)
 from beardyn_core.scene.scene import Scene
 
 
@@ -98,23 +89,25 @@ def lamina_table(scene: Scene) -> NDArray[np.float64]:
     place = lamina_places(bearing, count)
     length = bearing.effective_length / count
     modulus = bearing.material.contact_modulus
-    table = np.zeros((LAMINA_ROWS, count))
-    table[LAMINA_PLACE] = place - bearing.roller_mass_offset
-    table[LAMINA_DROP] = bearing.profile.lamina_drop(
+    table = np.zeros((layout.LAMINA_ROWS, count))
+    table[layout.LAMINA_PLACE] = place - bearing.roller_mass_offset
+    table[layout.LAMINA_DROP] = bearing.profile.lamina_drop(
         count, bearing.effective_length, bearing.roller_diameter, modulus
     )
-    table[LAMINA_STIFFNESS] = line_contact_factor(bearing.material, bearing.effective_length) / count
-    table[LAMINA_RADIUS] = (bearing.apex_distance + place) * math.tan(bearing.half_angle)
+    table[layout.LAMINA_STIFFNESS] = line_contact_factor(bearing.material, bearing.effective_length) / count
+    table[layout.LAMINA_RADIUS] = (bearing.apex_distance + place) * math.tan(bearing.half_angle)
     viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
     pressure_viscosity = scene.lubricant.pressure_viscosity_at(scene.temperature)
     for ring, name in enumerate(("cup", "cone")):
         radius = equivalent_radius(bearing, place, name)
-        table[LAMINA_FILM + ring] = [
+        table[layout.LAMINA_FILM + ring] = [
             log2_film_factor(r, length, modulus, viscosity, pressure_viscosity, scene.effects.film)
             for r in radius
         ]
         # square of the mean Hertz pressure at 1 N: p_mean = pi/4 sqrt(q E* / (pi R)), E* = E'/2
-        table[LAMINA_PRESSURE + ring] = (math.pi / 4) ** 2 * 0.5 * modulus / (math.pi * radius * length)
+        table[layout.LAMINA_PRESSURE + ring] = (
+            (math.pi / 4) ** 2 * 0.5 * modulus / (math.pi * radius * length)
+        )
     return table
 
 
@@ -133,5 +126,5 @@ def coupling_params(
         follow=np.ascontiguousarray(follow),
         own_stiffness=own,
         part_exponent=part_exponent(coupling.strength),
-        work=aligned_zeros(COUPLING_ROWS, count, arrangement.width),
+        work=aligned_zeros(layout.COUPLING_ROWS, count, arrangement.width),
     )

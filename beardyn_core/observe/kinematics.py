@@ -10,30 +10,7 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale
-from beardyn_core.model.layout import (
-    ANGLE,
-    ANGULAR,
-    AXIAL,
-    AXIS,
-    CAGE_BODY,
-    CONE_BODY,
-    CONTACT_OUTPUT,
-    CUP_BODY,
-    LINEAR,
-    MOMENTUM,
-    OUTPUT_ARM,
-    OUTPUT_FIELDS,
-    OUTPUT_FILM,
-    OUTPUT_FORCE,
-    OUTPUT_SLIP,
-    POSITION,
-    RADIUS,
-    RATE,
-    SPIN,
-    TILT,
-    TURN,
-    VELOCITY,
-)
+from beardyn_core.model import layout
 from beardyn_core.model.parameters import RollerParams
 
 BODIES = 4
@@ -123,16 +100,16 @@ def write_instants(rollers: Any, bodies: Any, loads: Any, stride: Any, count: An
     for t in range(bodies.shape[0]):
         for i in range(6):
             out[t, INSTANT_LOAD + i] = loads[(t + 1) * stride, i]
-        out[t, INSTANT_SHAFT] = bodies[t, CONE_BODY, TURN]
-        out[t, INSTANT_SHAFT + 1] = bodies[t, CONE_BODY, RATE]
+        out[t, INSTANT_SHAFT] = bodies[t, layout.CONE_BODY, layout.TURN]
+        out[t, INSTANT_SHAFT + 1] = bodies[t, layout.CONE_BODY, layout.RATE]
         for row in range(2):
-            out[t, INSTANT_CAGES + row] = bodies[t, CAGE_BODY + row, TURN]
-            out[t, INSTANT_CAGES + 2 + row] = bodies[t, CAGE_BODY + row, RATE]
+            out[t, INSTANT_CAGES + row] = bodies[t, layout.CAGE_BODY + row, layout.TURN]
+            out[t, INSTANT_CAGES + 2 + row] = bodies[t, layout.CAGE_BODY + row, layout.RATE]
             for k in range(count):
                 block, lane = _place(rollers, count, row, k)
                 at = INSTANT_ROLLERS + row * count + k
-                out[t, at] = rollers[t, block, ANGLE, lane]
-                orbit = rollers[t, block, VELOCITY + 1, lane] / rollers[t, block, RADIUS, lane]
+                out[t, at] = rollers[t, block, layout.ANGLE, lane]
+                orbit = rollers[t, block, layout.VELOCITY + 1, lane] / rollers[t, block, layout.RADIUS, lane]
                 out[t, at + 2 * count] = orbit
 
 
@@ -148,7 +125,7 @@ def _place(rollers: Any, count: Any, row: Any, k: Any) -> Any:
 @inline
 def _directions(rollers: Any, t: Any, block: Any, lane: Any, row: Any) -> Any:
     """Find the radial and tangential unit vectors at a roller, and the side of its row."""
-    angle = rollers[t, block, ANGLE, lane]
+    angle = rollers[t, block, layout.ANGLE, lane]
     cosine, sine = math.cos(angle), math.sin(angle)
     return (sine, 0.0, cosine), (cosine, 0.0, -sine), 2.0 * row - 1.0
 
@@ -167,11 +144,11 @@ def _polar(rollers: Any, t: Any, block: Any, lane: Any, first: Any, directions: 
 def _centre(rollers: Any, bodies: Any, t: Any, block: Any, lane: Any, directions: Any) -> Any:
     """Find the centre of mass in the world, [m]."""
     outward, _ahead, side = directions
-    radius = rollers[t, block, RADIUS, lane]
+    radius = rollers[t, block, layout.RADIUS, lane]
     return (
-        radius * outward[0] + bodies[t, CUP_BODY, POSITION],
-        side * rollers[t, block, AXIAL, lane] + bodies[t, CUP_BODY, POSITION + 1],
-        radius * outward[2] + bodies[t, CUP_BODY, POSITION + 2],
+        radius * outward[0] + bodies[t, layout.CUP_BODY, layout.POSITION],
+        side * rollers[t, block, layout.AXIAL, lane] + bodies[t, layout.CUP_BODY, layout.POSITION + 1],
+        radius * outward[2] + bodies[t, layout.CUP_BODY, layout.POSITION + 2],
     )
 
 
@@ -180,17 +157,19 @@ def _poses(rollers, bodies, count, mass_offset, cage_place, out):
     for t in range(bodies.shape[0]):
         for body in range(BODIES):
             _ring_pose(
-                bodies[t, body], (2.0 * body - 5.0) * cage_place if body >= CAGE_BODY else 0.0, out[t, body]
+                bodies[t, body],
+                (2.0 * body - 5.0) * cage_place if body >= layout.CAGE_BODY else 0.0,
+                out[t, body],
             )
         for row in range(2):
             for k in range(count):
                 block, lane = _place(rollers, count, row, k)
                 directions = _directions(rollers, t, block, lane, row)
                 outward = directions[0]
-                along = _polar(rollers, t, block, lane, AXIS, directions)
+                along = _polar(rollers, t, block, lane, layout.AXIS, directions)
                 facing = add_scaled(outward, -dot(outward, along), along)
                 facing = scale(1.0 / math.sqrt(dot(facing, facing)), facing)
-                half = 0.5 * directions[2] * rollers[t, block, SPIN, lane]
+                half = 0.5 * directions[2] * rollers[t, block, layout.SPIN, lane]
                 turn = quaternion_product(
                     quaternion_of(along, cross(facing, along), facing),
                     (math.sin(half), 0.0, 0.0, math.cos(half)),
@@ -202,14 +181,16 @@ def _poses(rollers, bodies, count, mass_offset, cage_place, out):
 
 @inline
 def _ring_pose(body: Any, lift: Any, out: Any) -> None:
-    tilt = (body[TILT], body[TILT + 1], body[TILT + 2])
+    tilt = (body[layout.TILT], body[layout.TILT + 1], body[layout.TILT + 2])
     angle = math.sqrt(dot(tilt, tilt))
     # sin(a/2)/a, finite at zero
     share = math.sin(0.5 * angle) / angle if angle > 0.0 else 0.5
     tilted = (share * tilt[0], share * tilt[1], share * tilt[2], math.cos(0.5 * angle))
-    half = 0.5 * body[TURN]
+    half = 0.5 * body[layout.TURN]
     turn = quaternion_product(tilted, (0.0, math.sin(half), 0.0, math.cos(half)))
-    _write_pose(out, (body[POSITION], body[POSITION + 1] + lift, body[POSITION + 2]), turn)
+    _write_pose(
+        out, (body[layout.POSITION], body[layout.POSITION + 1] + lift, body[layout.POSITION + 2]), turn
+    )
 
 
 @inline
@@ -225,20 +206,20 @@ def _twists(rollers, bodies, count, axial_inertia, transverse_inertia, out):
     for t in range(bodies.shape[0]):
         for body in range(BODIES):
             for i in range(3):
-                out[t, body, i] = bodies[t, body, LINEAR + i]
-                out[t, body, 3 + i] = bodies[t, body, ANGULAR + i]
-            out[t, body, 4] += bodies[t, body, RATE]
+                out[t, body, i] = bodies[t, body, layout.LINEAR + i]
+                out[t, body, 3 + i] = bodies[t, body, layout.ANGULAR + i]
+            out[t, body, 4] += bodies[t, body, layout.RATE]
         for row in range(2):
             for k in range(count):
                 block, lane = _place(rollers, count, row, k)
                 directions = _directions(rollers, t, block, lane, row)
                 side = directions[2]
                 # angular momentum is an axial vector: a mirrored row turns the other way
-                momentum = scale(side, _polar(rollers, t, block, lane, MOMENTUM, directions))
-                axis = scale(side, _polar(rollers, t, block, lane, AXIS, directions))
+                momentum = scale(side, _polar(rollers, t, block, lane, layout.MOMENTUM, directions))
+                axis = scale(side, _polar(rollers, t, block, lane, layout.AXIS, directions))
                 extra = dot(momentum, axis) * (1.0 / axial_inertia - 1.0 / transverse_inertia)
                 omega = add_scaled(scale(1.0 / transverse_inertia, momentum), extra, axis)
-                velocity = _polar(rollers, t, block, lane, VELOCITY, directions)
+                velocity = _polar(rollers, t, block, lane, layout.VELOCITY, directions)
                 for i in range(3):
                     out[t, BODIES + row * count + k, i] = velocity[i]
                     out[t, BODIES + row * count + k, 3 + i] = omega[i]
@@ -253,16 +234,18 @@ def _contacts(rollers, bodies, count, out):
                 directions = _directions(rollers, t, block, lane, row)
                 centre = _centre(rollers, bodies, t, block, lane, directions)
                 for kind in range(KINDS):
-                    first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS
-                    force = _polar(rollers, t, block, lane, first + OUTPUT_FORCE, directions)
+                    first = layout.CONTACT_OUTPUT + kind * layout.OUTPUT_FIELDS
+                    force = _polar(rollers, t, block, lane, first + layout.OUTPUT_FORCE, directions)
                     here = out[t, row, k, kind]
                     here[:] = 0.0
                     if force[0] != 0.0 or force[1] != 0.0 or force[2] != 0.0:
-                        point = add(centre, _polar(rollers, t, block, lane, first + OUTPUT_ARM, directions))
+                        point = add(
+                            centre, _polar(rollers, t, block, lane, first + layout.OUTPUT_ARM, directions)
+                        )
                         for i in range(3):
                             here[i], here[3 + i] = point[i], force[i]
-                        here[6] = rollers[t, block, first + OUTPUT_SLIP, lane]
-                        here[7] = rollers[t, block, first + OUTPUT_FILM, lane]
+                        here[6] = rollers[t, block, first + layout.OUTPUT_SLIP, lane]
+                        here[7] = rollers[t, block, first + layout.OUTPUT_FILM, lane]
 
 
 @inline

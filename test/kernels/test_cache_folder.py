@@ -38,7 +38,7 @@ def hash_after(tmp_path, monkeypatch):
     [
         "integrate/imex.py",
         "kernels/lane_math.py",  # imported by what it imports
-        "model/layout.py",
+        "model/layout.py",  # imported as a module
         "jit.py",
     ],
 )
@@ -74,3 +74,18 @@ def test_another_named_tuple_that_it_may_be_compiled_for_changes_the_folder(hash
 )
 def test_an_edit_elsewhere_keeps_the_folder(hash_after, edited):
     assert hash_after("integrate/imex.py", None) == hash_after("integrate/imex.py", edited)
+
+
+@pytest.mark.parametrize(
+    ("statement", "changes"),
+    [
+        ("from beardyn_core.rail import vehicle", True),
+        ("from beardyn_core.rail import spectra, vehicle", True),
+        ("from beardyn_core.rail import spectra", False),
+        ("from beardyn_core.rail import no_module", True),  # a name of the room may come from anywhere in it
+        ("from beardyn_core.rail import (\n    spectra,\n)", True),
+    ],
+)
+def test_of_a_room_the_modules_count_that_are_imported_by_name(hash_after, statement, changes):
+    before = hash_after("integrate/imex.py", "integrate/imex.py", new=f"{statement}\n")
+    assert (hash_after("integrate/imex.py", "rail/vehicle.py") != before) is changes
