@@ -29,7 +29,7 @@ from beardyn_core.record.messages import (
     header_stamp,
 )
 from beardyn_core.record.topics import FRAME, JOINTS, TEMPERATURE, WRENCH, topic
-from beardyn_core.study.finding import HOT_BOX, Finding, conclude
+from beardyn_core.study.monitored_recording import HOT_BOX, Finding, conclude
 from beardyn_ros.diagnostics import MONITOR, diagnostic_name
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node

@@ -12,7 +12,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import decode_diagnostics, decode_string
 from beardyn_core.record.rerun_live import LiveView
-from beardyn_core.record.rerun_stream import live_stream
+from beardyn_core.record.rerun_view import live_stream
 from beardyn_core.record.topics import topic, vibration_topic
 from beardyn_core.record.viewer import has_display
 from beardyn_ros.parameters import NodeParameter, ParameterValues

@@ -27,8 +27,7 @@ from beardyn_core.record.sinks import McapSink, MemorySink, Sink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
-from beardyn_core.study.finding import Conclusion, conclude
-from beardyn_core.study.monitored_recording import findings_of
+from beardyn_core.study.monitored_recording import Conclusion, conclude, findings_of
 
 
 def simulate(

@@ -58,18 +58,12 @@ def fastest_mode(bearing: Bearing, mounting: Mounting, preloaded: bool, rows: in
 
 
 def fast_steps(scene: Scene, long: bool = True) -> StepChoice:
-    """Find the longest step with which a run in a fast tier is converged.
+    """Find the longest step with which a run in a fast tier is converged; ``long``: also beyond a sample.
 
     Steps longer than a waveform sample end the band of the waveforms at 0.4 of the step rate. A healthy
     bearing under a load without strikes has nothing to say beyond (docs/model.md has the levels); edges of
     faults, strikes of wheel and rail, measured loads and accelerometers with a resonance of their own do.
-
-    Parameters
-    ----------
-    scene : Scene
-        In the tier ``lumped`` or ``quasistatic``; its own numerics do not matter.
-    long : bool
-        Whether a step may be longer than a sample.
+    The scene's own numerics do not matter.
     """
     limits = TIERS[scene.tier]
     fastest = fastest_mode(scene.bearing, scene.mounting, scene.end_play < 0.0, scene.rows)

@@ -9,7 +9,7 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.integrate.roller_spring import spring_params
+from beardyn_core.integrate.roller_equilibrium import spring_params
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.faults import roller_oversize

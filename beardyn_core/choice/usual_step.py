@@ -11,12 +11,8 @@ from beardyn_core.scene.tier import TIERS
 def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
     """Find the steps per sample that the tier of a scene takes for it, no fewer than its sensors need.
 
-    Parameters
-    ----------
-    scene : Scene
-        Its own numerics do not matter, but for the laminae.
-    outside_load : bool
-        Whether the load comes from elsewhere than the scene's operation, so that nothing is known of it.
+    Of its own numerics only the laminae matter. ``outside_load``: the load comes from elsewhere than the
+    scene's operation, so that nothing is known of it.
     """
     tier = TIERS[scene.tier]
     found = StepChoice(tier.steps_per_sample, f"the usual step of the tier {scene.tier}")

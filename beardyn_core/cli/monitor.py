@@ -55,8 +55,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.errors import InputError
     from beardyn_core.observe.chain import algorithm_named
     from beardyn_core.record.reading import read_run
-    from beardyn_core.study.finding import conclude
-    from beardyn_core.study.monitored_recording import findings_of
+    from beardyn_core.study.monitored_recording import conclude, findings_of
 
     algorithm = algorithm_named(args.monitor)
     recording = read_run(args.recording)

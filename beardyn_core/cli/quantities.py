@@ -24,20 +24,9 @@ LEAST_LENGTH_MM = 1e-3
 
 
 def read_quantity(option: str, text: str, dimension: str) -> float:
-    """Read a number of an option: ``80``, ``80kN`` and ``80000N`` are the same force.
+    """Read a number of an option, in SI: ``80``, ``80kN`` and ``80000N`` are the same force.
 
-    Parameters
-    ----------
-    option : str
-        What to call it in a complaint, such as ``--load``.
-    text : str
-    dimension : str
-        ``force`` (kN without a unit), ``length`` (mm) or ``rotation`` (rpm).
-
-    Returns
-    -------
-    float
-        In SI: [N], [m] or [rad/s].
+    The dimension is ``force`` (kN without a unit), ``length`` (mm) or ``rotation`` (rpm).
 
     Raises
     ------

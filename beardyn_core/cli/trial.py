@@ -15,8 +15,8 @@ from beardyn_core.outputs import folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.trial import Trial
+    from beardyn_core.study.trial import TrialRun
     from beardyn_core.study.trial_result import TrialResult
-    from beardyn_core.study.trial_run import TrialRun
 
 DONE, INTERRUPTED = 0, 130
 _MOST_JOBS = 256

@@ -16,15 +16,8 @@ _ROW_NAMES = ("inboard", "outboard")
 def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[Place, str]]:
     """Find contradictions of `rows` and `missing_rollers` with each other and with the faults.
 
-    Parameters
-    ----------
-    scene : mapping
-        A scene as written; entries with other mistakes are left out.
-
-    Returns
-    -------
-    list of pairs
-        Place of the entry, and what is wrong with it.
+    Of the scene as written, entries with other mistakes are left out. Returned are the place of an entry, and
+    what is wrong with it.
     """
     rows = scene.get("rows", 2)
     if rows not in (1, 2):

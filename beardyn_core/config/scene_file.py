@@ -18,9 +18,9 @@ from beardyn_core.effects import EffectSet
 from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.defect import Growth, Patch
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
+from beardyn_core.scene.running import Timetable
 from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, steps_do_not_fit
-from beardyn_core.scene.speed import Timetable
 from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
 from beardyn_core.scene.waviness import Band, Waviness
 

@@ -4,7 +4,7 @@
 module             responsibility, in the order of the data
 ================== ==========================================
 roller_contacts    contacts of resting rollers, with tangents
-roller_equilibrium every roller in balance
+roller_equilibrium every roller in balance, and one as a spring
 static             the double row in balance
 torque             running torque under static loads
 step_choice        the coarsest step that is converged
@@ -15,7 +15,6 @@ start              the state a run starts from
 imex               linearly implicit steps of the full tier
 kinematic_step     what the fast tiers share of a step
 quasistatic        explicit steps of the quasistatic tier
-roller_spring      a roller as one spring, for the lumped tier
 lumped             explicit steps of the lumped tier, and its rollers at some instants
 tiers              what each tier computes with
 warming            slow warming beside the fast motion

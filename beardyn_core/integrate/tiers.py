@@ -13,25 +13,14 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.lumped import SpringTrend, advance_lumped, trend_shape
 from beardyn_core.integrate.quasistatic import advance_quasistatic
-from beardyn_core.integrate.roller_spring import spring_params
+from beardyn_core.integrate.roller_equilibrium import spring_params
 from beardyn_core.integrate.start import initial_state, settle_lumped
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.model import tier_parameters
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import CONE_BODY, POSITION, TILT
 from beardyn_core.model.parameters import Parameters
-from beardyn_core.model.tier_parameters import (
-    LumpedParameters,
-    QuasistaticParameters,
-    faults_or_none,
-    kinematic_params,
-    lever_of_cup,
-    pocket_directions,
-    ring_motion_params,
-    ring_response_params,
-    roller_tangent,
-    row_sides,
-)
 from beardyn_core.scene.scene import Scene
 
 
@@ -56,34 +45,39 @@ class Tier:
     shown: Callable[[Any, Float, Any], Any] = lambda _lanes, trend, _parameters: trend
 
 
-def lumped_parameters(scene: Scene, base: Parameters) -> LumpedParameters:
+def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedParameters:
     """Build the kernel parameters of the lumped tier."""
-    motion, spring = ring_motion_params(base), spring_params(scene.bearing, scene.numerics.laminae)
-    return LumpedParameters(
+    motion, spring = (
+        tier_parameters.ring_motion_params(base),
+        spring_params(scene.bearing, scene.numerics.laminae),
+    )
+    return tier_parameters.LumpedParameters(
         step=base.step,
         base=base,
-        kinematic=kinematic_params(scene),
+        kinematic=tier_parameters.kinematic_params(scene),
         motion=motion,
-        response=ring_response_params(base, motion, spring.lever),
+        response=tier_parameters.ring_response_params(base, motion, spring.lever),
         spring=spring,
-        pockets=pocket_directions(base),
-        sides=row_sides(base, scene.rows),
-        faults=faults_or_none(base),
+        pockets=tier_parameters.pocket_directions(base),
+        sides=tier_parameters.row_sides(base, scene.rows),
+        faults=tier_parameters.faults_or_none(base),
     )
 
 
-def quasistatic_parameters(scene: Scene, base: Parameters) -> QuasistaticParameters:
+def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.QuasistaticParameters:
     """Build the kernel parameters of the quasistatic tier."""
-    motion = ring_motion_params(base)
-    return QuasistaticParameters(
+    motion = tier_parameters.ring_motion_params(base)
+    return tier_parameters.QuasistaticParameters(
         step=base.step,
         base=base,
-        kinematic=kinematic_params(scene),
+        kinematic=tier_parameters.kinematic_params(scene),
         motion=motion,
-        response=ring_response_params(base, motion, lever_of_cup(scene.bearing)),
-        tangent=roller_tangent(scene.bearing),
-        pockets=pocket_directions(base),
-        sides=row_sides(base, scene.rows),
+        response=tier_parameters.ring_response_params(
+            base, motion, tier_parameters.lever_of_cup(scene.bearing)
+        ),
+        tangent=tier_parameters.roller_tangent(scene.bearing),
+        pockets=tier_parameters.pocket_directions(base),
+        sides=tier_parameters.row_sides(base, scene.rows),
     )
 
 

@@ -5,20 +5,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels import vectors
 from beardyn_core.kernels.exchange import account, account_loss, react
 from beardyn_core.kernels.lane_math import exp2, log2, magnitude, sqrt
 from beardyn_core.kernels.solve import add_couple
-from beardyn_core.kernels.vectors import (
-    Vector,
-    Wrench,
-    add,
-    add_scaled,
-    add_wrenches,
-    cross,
-    dot,
-    scale,
-    subtract,
-)
 from beardyn_core.model.layout import CUP, LOSS_DRAG
 
 _SMALLEST_SPIN = 1e-6
@@ -31,8 +21,8 @@ class DragContact(NamedTuple):
     speed: Any  # of the orbit, against the cup [m/s]
     churning: Any  # couple over spin [N m s]
     spin: Any  # about the roller axis, against the cup [rad/s]
-    axis: Vector
-    centre: Vector  # of mass of the roller from the cup's origin [m]
+    axis: vectors.Vector
+    centre: vectors.Vector  # of mass of the roller from the cup's origin [m]
 
 
 @inline
@@ -48,12 +38,12 @@ def prepare_drag(body, view, drag):
     Gupta (1984), Advanced Dynamics of Rolling Elements: F = rho C L D v^2 / 2; discs M = rho w^2 r^5 c / 2.
     Theodorsen and Regier (1944), NACA Report 793: cylinders M = f rho u^2 A r / 2.
     """
-    centre = subtract(body.place, view.origin)
+    centre = vectors.subtract(body.place, view.origin)
     if drag is None:
         nothing = 0.0 * body.place[0]
         return DragContact(nothing, nothing, nothing, nothing, body.axis, centre)
-    flow = subtract(body.velocity, add(view.velocity, cross(view.omega, centre)))
-    spin = dot(subtract(body.omega, view.omega), body.axis)
+    flow = vectors.subtract(body.velocity, vectors.add(view.velocity, vectors.cross(view.omega, centre)))
+    spin = vectors.dot(vectors.subtract(body.omega, view.omega), body.axis)
     rate = drag.orbit * magnitude(flow[1])
     return DragContact(rate, flow[1], churning_rate(spin, drag), spin, body.axis, centre)
 
@@ -83,7 +73,9 @@ def push_drag(total, contact, drag):
     if drag is None:
         return total
     force = (total.force[0], total.force[1] - contact.rate * contact.speed, total.force[2])
-    return Wrench(force, add_scaled(total.moment, -contact.churning * contact.spin, contact.axis))
+    return vectors.Wrench(
+        force, vectors.add_scaled(total.moment, -contact.churning * contact.spin, contact.axis)
+    )
 
 
 @inline
@@ -92,14 +84,14 @@ def settle_drag(contact, change, total, here, drag, p):
     if drag is None:
         return total
     rate, speed, churning, spin = contact.rate, contact.speed, contact.churning, contact.spin
-    sped, spun = change.velocity[1], dot(change.omega, contact.axis)
+    sped, spun = change.velocity[1], vectors.dot(change.omega, contact.axis)
     still = 0.0 * rate
     push = (still, -rate * (speed + sped), still)
-    wrench = Wrench(push, scale(-churning * (spin + spun), contact.axis))
+    wrench = vectors.Wrench(push, vectors.scale(-churning * (spin + spun), contact.axis))
     react(CUP, contact.centre, wrench, here)
     flow, turning = speed + 0.5 * sped, spin + 0.5 * spun
     lost = rate * flow * flow + churning * turning * turning
     numerical = 0.5 * (rate * sped * flow + churning * spun * turning)
     account_loss(here, LOSS_DRAG, p.step * lost, p.effects.audit)
     account(here, p.step * numerical, still, p.effects.audit)
-    return add_wrenches(total, wrench)
+    return vectors.add_wrenches(total, wrench)

@@ -5,16 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels import exchange
 from beardyn_core.kernels.defect import find_damage
-from beardyn_core.kernels.exchange import (
-    ContactOutput,
-    account,
-    account_loss,
-    implicit_time,
-    output_contact,
-    react,
-    watch_chatter,
-)
 from beardyn_core.kernels.film import film_output, log2_entrainment
 from beardyn_core.kernels.generator_line import (
     Line,
@@ -105,7 +97,7 @@ def stiffen_raceway(matrix, contact, p):
     if not contact.sums.touches:
         return matrix
     line, stiffness, friction, step = contact.line, contact.sums.stiffness, contact.sums.friction, p.step
-    time = step * implicit_time(p.spring_time, p.effects.damping)
+    time = step * exchange.implicit_time(p.spring_time, p.effects.damping)
     rough = scale(step, friction)
     # friction resists in the tangent plane: in every direction less along the normal
     stiff = subtract(scale(time, stiffness), rough)
@@ -149,9 +141,11 @@ def settle_raceway(ring, contact, change, here, p):
     arm = add_scaled(line.arm, pressure_centre, line.arm_slope)
     speed = sqrt(slip.around[0] * slip.around[0] + slip.along[0] * slip.along[0])
     film = film_output(normal[0], contact.log2_speed, ring, p.laminae, p.effects.film) + lanes.constant(0.0)
-    output_contact(lanes, here.rollers, here.block, ring, ContactOutput(wrench.force, arm, speed, film))
+    exchange.output_contact(
+        lanes, here.rollers, here.block, ring, exchange.ContactOutput(wrench.force, arm, speed, film)
+    )
     capacity = traction_capacity(normal[0], p.effects.coulomb, p.effects.mixed, p.effects.load_sharing)
-    watch_chatter(here, ring, friction, capacity)
+    exchange.watch_chatter(here, ring, friction, capacity)
     deepest = at_least(lanes.load(here.rollers, here.block, PENETRATION), contact.sums.deepest)
     lanes.store(here.rollers, here.block, PENETRATION, deepest)
     return wrench
@@ -165,10 +159,10 @@ def _react(ring, contact, change, here, p):
         nothing = (zero, zero, zero)
         return Wrench(nothing, nothing), nothing, zero
     settled = settled_contact(contact, change, p.step, p.spring_time, p.effects.damping)
-    react(ring, contact.centre, settled.wrench, here)
-    account_loss(here, LOSS_SLIDING, settled.slid, p.effects.audit)
-    account_loss(here, LOSS_DAMPING, settled.damped, p.effects.audit)
-    account(here, settled.numerical, contact.sums.energy, p.effects.audit)
+    exchange.react(ring, contact.centre, settled.wrench, here)
+    exchange.account_loss(here, LOSS_SLIDING, settled.slid, p.effects.audit)
+    exchange.account_loss(here, LOSS_DAMPING, settled.damped, p.effects.audit)
+    exchange.account(here, settled.numerical, contact.sums.energy, p.effects.audit)
     return settled.wrench, settled.normal, settled.friction
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels import point_contact
 from beardyn_core.kernels.exchange import ContactOutput, damper_time, output_contact
 from beardyn_core.kernels.lane_math import (
     LOG2_E,
@@ -15,14 +16,6 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
 )
 from beardyn_core.kernels.lanes import any_positive
-from beardyn_core.kernels.point_contact import (
-    PointContact,
-    absent_point,
-    is_pressed,
-    push_point,
-    settle_point,
-    stiffen_point,
-)
 from beardyn_core.kernels.vectors import (
     add,
     add_scaled,
@@ -47,7 +40,7 @@ _LARGEST_LOG2_THICKENING = 30.0
 def prepare_rib(body, view, zero, rib, damping):
     """Work out the rib contact before the solve, a `PointContact`; without a rib zeros that nothing uses."""
     if rib is None:
-        return absent_point(zero)
+        return point_contact.absent_point(zero)
     return rib_contact(subtract(body.place, view.origin), body, view, rib, damping)
 
 
@@ -79,7 +72,7 @@ def rib_contact(centre, body, view, rib, damping):
     reach = spin_reach(touching, rib.drilling)
     sliding = with_spin(dot(tangential, tangential), reach, spin, rib.drilling)
     friction, film = _rub(load, root, sliding, (centre, arm, normal), body, view, rib)
-    return PointContact(
+    return point_contact.PointContact(
         centre, normal, arm, load, tangent, friction, elastic, energy, slip, reach * friction, spin, film
     )
 
@@ -107,9 +100,9 @@ def stiffen_rib(matrix, contact, rib, p):
     """Add the implicit part of the rib contact to the roller's matrix."""
     if rib is None:
         return matrix
-    if not is_pressed(contact):
+    if not point_contact.is_pressed(contact):
         return matrix
-    return stiffen_point(matrix, contact, p.effects.damping, rib.drilling, p)
+    return point_contact.stiffen_point(matrix, contact, p.effects.damping, rib.drilling, p)
 
 
 @inline
@@ -117,9 +110,9 @@ def push_rib(total, contact, rib):
     """Add the rib's wrench at the beginning of the step to that of the roller."""
     if rib is None:
         return total
-    if not is_pressed(contact):
+    if not point_contact.is_pressed(contact):
         return total
-    return add_wrenches(total, push_point(contact, rib.drilling))
+    return add_wrenches(total, point_contact.push_point(contact, rib.drilling))
 
 
 @inline
@@ -128,7 +121,7 @@ def settle_rib(contact, change, total, here, rib, p):
     if rib is None:
         return total
     time_constant = damper_time(p.effects.damping)
-    wrench = settle_point(contact, change, here, LOSS_RIB, time_constant, rib.drilling, p)
+    wrench = point_contact.settle_point(contact, change, here, LOSS_RIB, time_constant, rib.drilling, p)
     sliding = add_scaled(contact.slip, -dot(contact.slip, contact.normal), contact.normal)
     output = ContactOutput(wrench.force, contact.arm, sqrt(dot(sliding, sliding)), contact.film)
     output_contact(here.lanes, here.rollers, here.block, RIB, output)

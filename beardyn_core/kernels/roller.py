@@ -12,6 +12,7 @@ the beginning instead (`velocity_change`).
 from __future__ import annotations
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels import raceway
 from beardyn_core.kernels.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
 from beardyn_core.kernels.exchange import Here, account_gravity, load_vector, store_vector
 from beardyn_core.kernels.orbit import Body, angular_velocity, drift, ring_view, weight
@@ -21,15 +22,6 @@ from beardyn_core.kernels.point_contact import (
     push_small_rib,
     settle_small_rib,
     stiffen_small_rib,
-)
-from beardyn_core.kernels.raceway import (
-    Ring,
-    faults_of_cone,
-    faults_of_cup,
-    prepare_raceway,
-    push_raceway,
-    settle_raceway,
-    stiffen_raceway,
 )
 from beardyn_core.kernels.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
 from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, bent_cup
@@ -79,12 +71,12 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     mark(timers, MOTION)
 
     azimuths = (azimuth - lanes.load(rings, layout.CUP, layout.RING_TURN), -spin)
-    ring = Ring(layout.CUP, p.cup, faults_of_cup(effects.faults), bent_view)
-    cup = prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
+    ring = raceway.Ring(layout.CUP, p.cup, raceway.faults_of_cup(effects.faults), bent_view)
+    cup = raceway.prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
     cup = about_rigid_cup(cup, shift, effects.ring_flexibility)
     azimuths = (azimuth - lanes.load(rings, layout.CONE, layout.RING_TURN), _PI - spin)
-    ring = Ring(layout.CONE, p.cone, faults_of_cone(effects.faults), cone_view)
-    cone = prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
+    ring = raceway.Ring(layout.CONE, p.cone, raceway.faults_of_cone(effects.faults), cone_view)
+    cone = raceway.prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
     mark(timers, CONTACT)
     cup_rolling = prepare_rolling(cup, layout.CUP, cup_view, body, effects.rolling)
     cone_rolling = prepare_rolling(cone, layout.CONE, cone_view, body, effects.rolling)
@@ -97,15 +89,15 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
 
     mark(timers, CAGE)
     matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, orbit.axis, zero)
-    matrix = stiffen_raceway(matrix, cup, p)
-    matrix = stiffen_raceway(matrix, cone, p)
+    matrix = raceway.stiffen_raceway(matrix, cup, p)
+    matrix = raceway.stiffen_raceway(matrix, cone, p)
     matrix = stiffen_rolling(matrix, cup_rolling, step, effects.rolling)
     matrix = stiffen_rolling(matrix, cone_rolling, step, effects.rolling)
     matrix = stiffen_drag(matrix, drag, step, effects.drag)
     matrix = stiffen_rib(matrix, rib, effects.rib, p)
     matrix = stiffen_small_rib(matrix, small_rib, effects.small_rib, p)
 
-    on_cup, on_cone = push_raceway(cup, effects.damping), push_raceway(cone, effects.damping)
+    on_cup, on_cone = raceway.push_raceway(cup, effects.damping), raceway.push_raceway(cone, effects.damping)
     gravity = weight(cosine, sine, roller.mass, effects.gravity)
     force, moment = add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment)
     moment = push_rolling(push_rolling(moment, cup_rolling, effects.rolling), cone_rolling, effects.rolling)
@@ -126,9 +118,9 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     )
     mark(timers, SOLVE)
 
-    on_cup = settle_raceway(layout.CUP, cup, change, here, p)
+    on_cup = raceway.settle_raceway(layout.CUP, cup, change, here, p)
     bend_cup(on_cup.force, here, flex.shape[0], effects.ring_flexibility)
-    on_cone = settle_raceway(layout.CONE, cone, change, here, p)
+    on_cone = raceway.settle_raceway(layout.CONE, cone, change, here, p)
     total = Wrench(add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment))
     mark(timers, SETTLE)
     total = settle_rolling(layout.CUP, cup_rolling, change, total, here, effects.rolling, p)

@@ -42,7 +42,7 @@ def spring_load(approach, rate, spring, damping):
     References
     ----------
     Palmgren's line contact in the frictionless force triangle of cup, cone and rib; see
-    `integrate.roller_spring`.
+    `integrate.roller_equilibrium`.
     """
     pressed = at_least(approach, _SMALLEST_APPROACH)
     root = quick_ninth_root(pressed)

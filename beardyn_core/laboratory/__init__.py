@@ -7,8 +7,7 @@ shapes          surfaces of revolution and lines with frames and derivatives
 search          conditions of least distance; root finder, Newton
 compiled        the same search compiled, many pairs in one call
 nine_contacts   the nine contacts of a tapered roller as pairs of shapes
-closed_forms    closed forms of them and of simple shapes, plain
-closed_compiled the same from the kernels of the twin
+closed_forms    closed forms of them and of simple shapes, plain, and from the kernels
 placements      random shapes, random rollers, a loaded row
 timing          time, iterations, failures and errors of every method
 sphere_radius   roller ends too large for their rib

@@ -13,22 +13,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
+from beardyn_core.laboratory import shapes
 from beardyn_core.laboratory.search import DIFFERENCE, MOST_ITERATIONS, ROWS, TOLERANCE, Pair
-from beardyn_core.laboratory.shapes import (
-    CIRCLE,
-    CONE,
-    EAST,
-    FACE_CIRCLE,
-    FIRST,
-    KIND,
-    NORTH,
-    ORIGIN,
-    POLE,
-    SECOND,
-    SHAPE_NUMBERS,
-    SIDE,
-    STRAIGHT,
-)
 
 WORK_NUMBERS = 160  # vectors [7, 3], slopes [4, 7, 3], system [4, 5], moved parameters [4]
 _SLOPES, _SYSTEM, _MOVED = 24, 110, 132
@@ -40,20 +26,22 @@ def _put(shape: Any, cosine: Any, sine: Any, out: Any, around: Any, along: Any, 
     """Store ``out e + around g + along k`` at ``target[at]``; e, g, k: radial, circumferential, pole."""
     first, second = cosine * out - sine * around, sine * out + cosine * around
     for i in range(3):
-        target[at + i] = first * shape[EAST + i] + second * shape[NORTH + i] + along * shape[POLE + i]
+        target[at + i] = (
+            first * shape[shapes.EAST + i] + second * shape[shapes.NORTH + i] + along * shape[shapes.POLE + i]
+        )
 
 
 @entry
 def _frame(shape: Any, u: Any, v: Any, sign: Any, row: Any, column: Any, slopes: Any, w: Any) -> None:
     """Add the point times ``sign`` to d; write the vectors, and where ``slopes`` their derivatives."""
-    kind = shape[KIND]
-    first, second, side = shape[FIRST], shape[SECOND], shape[SIDE]
+    kind = shape[shapes.KIND]
+    first, second, side = shape[shapes.FIRST], shape[shapes.SECOND], shape[shapes.SIDE]
     base = _SLOPES + column * _STRIDE
-    turn = v if kind < CIRCLE else u
+    turn = v if kind < shapes.CIRCLE else u
     cosine, sine = math.cos(turn), math.sin(turn)
     t, b, n = 3 * row, 3 * row + 3, 3 * row + 6
-    if kind < CIRCLE:
-        if kind == CONE:
+    if kind < shapes.CIRCLE:
+        if kind == shapes.CONE:
             t_out, t_along, speed = math.sin(second), math.cos(second), 1.0
             n_out, n_along = side * t_along, -side * t_out
             distance, height = first + u * t_out, u * t_along
@@ -77,9 +65,9 @@ def _frame(shape: Any, u: Any, v: Any, sign: Any, row: Any, column: Any, slopes:
             _put(shape, cosine, sine, 0.0, t_out, 0.0, w, next_base + t)
             _put(shape, cosine, sine, -1.0, 0.0, 0.0, w, next_base + b)
             _put(shape, cosine, sine, 0.0, n_out, 0.0, w, next_base + n)
-    elif kind < STRAIGHT:
+    elif kind < shapes.STRAIGHT:
         distance, height = first, 0.0
-        radial, axial = (b, n) if kind == FACE_CIRCLE else (n, b)
+        radial, axial = (b, n) if kind == shapes.FACE_CIRCLE else (n, b)
         _put(shape, cosine, sine, 0.0, 1.0, 0.0, w, t)
         _put(shape, cosine, sine, 1.0, 0.0, 0.0, w, radial)
         _put(shape, cosine, sine, 0.0, 0.0, side, w, axial)
@@ -98,8 +86,8 @@ def _frame(shape: Any, u: Any, v: Any, sign: Any, row: Any, column: Any, slopes:
             for i in range(3):
                 w[base + t + i] = w[base + b + i] = w[base + n + i] = 0.0
     for i in range(3):
-        out = cosine * shape[EAST + i] + sine * shape[NORTH + i]
-        w[i] += sign * (shape[ORIGIN + i] + distance * out + height * shape[POLE + i])
+        out = cosine * shape[shapes.EAST + i] + sine * shape[shapes.NORTH + i]
+        w[i] += sign * (shape[shapes.ORIGIN + i] + distance * out + height * shape[shapes.POLE + i])
 
 
 @inline
@@ -245,8 +233,8 @@ def batch(pairs: Sequence[Pair], starts: Sequence[Float]) -> Batch:
     for i, parameters in enumerate(starts):
         start[i, : len(parameters)] = parameters
     return Batch(
-        p=np.array([pair.p.coded() for pair in pairs]).reshape(-1, SHAPE_NUMBERS),
-        q=np.array([pair.q.coded() for pair in pairs]).reshape(-1, SHAPE_NUMBERS),
+        p=np.array([pair.p.coded() for pair in pairs]).reshape(-1, shapes.SHAPE_NUMBERS),
+        q=np.array([pair.q.coded() for pair in pairs]).reshape(-1, shapes.SHAPE_NUMBERS),
         cut=np.array([pair.p.parameter_count for pair in pairs], dtype=np.int64),
         forms=np.array([pair.form.coded() for pair in pairs]),
         counts=np.array([len(pair.form.equations) for pair in pairs], dtype=np.int64),

@@ -11,7 +11,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory import closed_forms
 from beardyn_core.laboratory.barrel import BARREL_22317, BarrelBearing, BarrelLoads, solve_barrel
-from beardyn_core.laboratory.closed_compiled import ClosedForms
+from beardyn_core.laboratory.closed_forms import ClosedForms
 from beardyn_core.laboratory.nine_contacts import NAMES, SEARCHES_PER_ROLLER, RollerPose, contacts_of
 from beardyn_core.laboratory.placements import loaded_row, random_rollers
 from beardyn_core.laboratory.rolling import COIN, ROLLER, Rolling, Trough, run_rolling

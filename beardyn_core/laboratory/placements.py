@@ -120,13 +120,9 @@ def random_rollers(bearing: Bearing, count: int, seed: int) -> Iterator[RollerPo
 
 
 def loaded_row(bearing: Bearing, force: float, end_play: float) -> list[RollerPose]:
-    """Place the rollers of the row at +y as at the first time step: static equilibrium under a radial load.
+    """Place the rollers of the row at +y as at the first time step: static equilibrium.
 
-    Parameters
-    ----------
-    bearing : Bearing
-    force, end_play : float
-        Radial on the cone [N], [m].
+    The load is radial on the cone [N]; end play in [m].
     """
     static = solve(bearing, (0.0, 0.0, force), end_play=end_play, laminae=6)
     nominal, poses = nominal_pose(bearing), []

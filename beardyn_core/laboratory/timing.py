@@ -21,7 +21,7 @@ from scipy.optimize import fsolve
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory import closed_forms
-from beardyn_core.laboratory.closed_compiled import ClosedForms, pose_rows
+from beardyn_core.laboratory.closed_forms import ClosedForms, pose_rows
 from beardyn_core.laboratory.compiled import WORK_NUMBERS, Batch, batch, pair_residual
 from beardyn_core.laboratory.nine_contacts import (
     SEARCHES_PER_ROLLER,
@@ -185,16 +185,9 @@ def warm_start(shape: Shape, parameters: Float, random: np.random.Generator) -> 
 def bearing_setting(
     bearing: Bearing, poses: Sequence[RollerPose], *, warm: bool = False, only: str | None = None
 ) -> Setting:
-    """Collect all searches of many rollers, or those of one contact.
+    """Collect all searches of many rollers, or ``only`` those of one contact of `NAMES`.
 
-    Parameters
-    ----------
-    bearing : Bearing
-    poses : sequence of RollerPose
-    warm : bool
-        Start near the solution, as a time step does; otherwise from the nominal roller.
-    only : str, optional
-        One of `NAMES`.
+    They start near the solution when ``warm``, as a time step does, otherwise from the nominal roller.
     """
     random = np.random.default_rng(7)
     chosen = [

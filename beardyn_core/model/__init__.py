@@ -15,7 +15,6 @@ ribs             ribs at both roller ends
 cage             pockets, lands and cheaper cages
 faults           patches and the path of a roller over one, waviness, wear and size errors
 mounting         rings, their bending, suspension
-spring_share     how much of a spring's change a step takes in
 heat             nodes of the thermal network and where losses go
 build            a scene to parameters
 tier_parameters  parameters of the tiers without roller dynamics

@@ -18,13 +18,7 @@ from beardyn_core.model.layout import ANGLE, ANGULAR, CAGE_BODY, CONTACT_OUTPUT,
 
 
 class Absence:
-    """Completes states of a bearing in which something is missing.
-
-    Parameters
-    ----------
-    arrangement : Arrangement
-        Of the rollers that are there.
-    """
+    """Completes states of a bearing in which something is missing, from the arrangement of what is there."""
 
     def __init__(self, arrangement: Arrangement) -> None:
         self.complete = Arrangement(arrangement.roller_count, arrangement.width)

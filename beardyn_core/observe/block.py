@@ -10,14 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from beardyn_core.arrays import Float, Int
-from beardyn_core.model.layout import (
-    ENERGY_ELASTIC,
-    ENERGY_EXTERNAL,
-    ENERGY_KINETIC,
-    ENERGY_LOST,
-    ENERGY_NUMERICAL,
-    LOSSES,
-)
+from beardyn_core.model import layout
 from beardyn_core.scene.sensor import RATES
 
 CONTACT_KINDS = ("cup", "cone", "rib", "pocket")
@@ -43,12 +36,12 @@ class EnergyAudit:
     @classmethod
     def of(cls, since: Float) -> EnergyAudit:
         """Make the audit from the kernel's sums since the start of the run, shape [ENERGY_TERMS]."""
-        lost = since[ENERGY_LOST : ENERGY_LOST + LOSSES]
+        lost = since[layout.ENERGY_LOST : layout.ENERGY_LOST + layout.LOSSES]
         return cls(
-            external=float(since[ENERGY_EXTERNAL]),
+            external=float(since[layout.ENERGY_EXTERNAL]),
             dissipated=float(lost.sum()),
-            numerical=float(since[ENERGY_NUMERICAL]),
-            stored=float(since[ENERGY_ELASTIC] + since[ENERGY_KINETIC]),
+            numerical=float(since[layout.ENERGY_NUMERICAL]),
+            stored=float(since[layout.ENERGY_ELASTIC] + since[layout.ENERGY_KINETIC]),
             losses=tuple(lost.tolist()),
         )
 

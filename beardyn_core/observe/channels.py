@@ -11,8 +11,6 @@ from beardyn_core.model.build import BLOCK_NS, SAMPLES_PER_BLOCK, WAVEFORM_RATE
 from beardyn_core.model.layout import ANGULAR, CUP_BODY, SIGNAL_CHANNELS, SIGNAL_FORCE, SIGNAL_TORQUE, TILT
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.observe.block import Block, EnergyAudit
-from beardyn_core.observe.decimate import DELAY, Decimator, TwoStageDecimator
-from beardyn_core.observe.interpolate import Interpolator, delay
 from beardyn_core.observe.kinematics import (
     INSTANT_CAGES,
     INSTANT_ROLLERS,
@@ -21,6 +19,7 @@ from beardyn_core.observe.kinematics import (
     Snapshots,
     write_instants,
 )
+from beardyn_core.observe.resampling import DELAY, Decimator, Interpolator, TwoStageDecimator, delay
 from beardyn_core.observe.sensors import REST, Sensors, lookahead
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES

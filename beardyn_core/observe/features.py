@@ -127,18 +127,7 @@ def order_spectrum(
 
 
 def local_background(amplitude: Float, width: float) -> Float:
-    """Compute the median of the neighbourhood of each line, which a few lines do not lift.
-
-    Parameters
-    ----------
-    amplitude : float64 array, shape [line]
-    width : float
-        Of the neighbourhood, [line].
-
-    Returns
-    -------
-    float64 array, shape [line]
-    """
+    """Compute the median of the neighbourhood of each line, which a few lines do not lift; width in lines."""
     size = int(min(max(3, round(width)), len(amplitude)))
     stride = max(1, size // 8)
     medians = np.median(sliding_window_view(amplitude, size)[::stride], axis=1)

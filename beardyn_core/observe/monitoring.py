@@ -11,15 +11,8 @@ import numpy as np
 from beardyn_core.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.model.heat import BOX_NODE
+from beardyn_core.observe import chain
 from beardyn_core.observe.block import Block
-from beardyn_core.observe.chain import (
-    REFERENCE,
-    Algorithm,
-    MonitorResult,
-    MonitorSettings,
-    Stretch,
-    answer_of,
-)
 from beardyn_core.observe.chain.levels import Levels
 
 _REMEMBERED = 1000  # results whose levels are kept for the trend
@@ -52,7 +45,7 @@ class MonitorInput:
         )  # fmt: skip
 
 
-def listen(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[MonitorResult]:
+def listen(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[chain.MonitorResult]:
     """Feed a monitor with a run, live or recorded, and give its results as they become due.
 
     Parameters
@@ -93,13 +86,13 @@ class Monitor:
         orders: FaultFrequencies,
         roller_count: int,
         rate: float | None = None,
-        settings: MonitorSettings | None = None,
-        algorithm: Algorithm = REFERENCE,
+        settings: chain.MonitorSettings | None = None,
+        algorithm: chain.Algorithm = chain.REFERENCE,
     ) -> None:
         self.orders = orders
         self.roller_count = roller_count
         self.rate = rate
-        self.settings = settings or MonitorSettings()
+        self.settings = settings or chain.MonitorSettings()
         self.algorithm = algorithm
         self.lost = 0
         self.refused = 0
@@ -113,7 +106,7 @@ class Monitor:
         self._levels: list[Levels] = []
         self._next_ns: int | None = None
 
-    def take(self, part: MonitorInput) -> MonitorResult | None:
+    def take(self, part: MonitorInput) -> chain.MonitorResult | None:
         """Add the samples of all streams, and give a new result when one is due."""
         self.push_vibration(part.vibration_time_ns, part.acceleration)
         self.push_shaft(part.shaft_time_ns, part.shaft_angle)
@@ -175,7 +168,7 @@ class Monitor:
         if np.isfinite(temperature) and (not self._temperatures or time_ns > self._temperatures[-1][0]):
             self._temperatures.append((time_ns, temperature))
 
-    def update(self) -> MonitorResult | None:
+    def update(self) -> chain.MonitorResult | None:
         """Return a new result when one is due, else None."""
         if not len(self._time) or not len(self._shaft_time):
             return None
@@ -188,17 +181,17 @@ class Monitor:
         self._next_ns += interval * (1 + (end - self._next_ns) // interval)
         return self.result()
 
-    def result(self) -> MonitorResult:
+    def result(self) -> chain.MonitorResult:
         """Analyse the samples so far, due or not."""
         if not len(self._time) or not len(self._shaft_time) or self.rate is None:
-            return MonitorResult("waiting", "no vibration or no shaft angle yet", 0)
+            return chain.MonitorResult("waiting", "no vibration or no shaft angle yet", 0)
         last = int(min(self._time[-1], self._shaft_time[-1]))
         first = max(
             int(self._time[0]), int(self._shaft_time[0]), last - round(self.settings.longest_window * 1e9)
         )
         begin, end = np.searchsorted(self._time, (first, last + 1))
         if end - begin < 2:
-            return MonitorResult("waiting", "no vibration with shaft angle yet", last)
+            return chain.MonitorResult("waiting", "no vibration with shaft angle yet", last)
         angle = np.interp(self._time[begin:end], self._shaft_time, self._shaft_angle)
         if angle[-1] < angle[0]:
             angle = -angle
@@ -208,7 +201,7 @@ class Monitor:
         angle = angle[start:]
         revolutions = float(angle[-1] - angle[0]) / (2.0 * np.pi)
         if revolutions < self.settings.least_revolutions or (np.diff(angle) <= 0.0).any():
-            return MonitorResult(
+            return chain.MonitorResult(
                 "waiting",
                 f"{revolutions:.1f} steady shaft revolutions so far, "
                 f"{self.settings.least_revolutions:g} are needed",
@@ -216,7 +209,7 @@ class Monitor:
                 revolutions=revolutions,
             )
         load = self._load[self._load_time <= last]
-        stretch = Stretch(
+        stretch = chain.Stretch(
             rate=self.rate,
             acceleration=self._acceleration[: len(angle)],
             shaft_angle=angle,
@@ -226,7 +219,7 @@ class Monitor:
             heating=self._heating(),
             earlier=tuple(self._levels),
         )
-        result = answer_of(self.algorithm, stretch, self.orders, self.roller_count, self.settings)
+        result = chain.answer_of(self.algorithm, stretch, self.orders, self.roller_count, self.settings)
         self._levels.append(Levels(result.rms, result.kurtosis, result.crest, stretch.shaft_frequency))
         del self._levels[:-_REMEMBERED]
         return result

@@ -8,10 +8,9 @@ from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION
-from beardyn_core.observe.accelerometer import GRAVITY, NoiseStream, force_at, reading
+from beardyn_core.observe.accelerometer import GRAVITY, LOOKAHEAD, NoiseStream, Resonance, force_at, reading
 from beardyn_core.observe.block import Vibration
-from beardyn_core.observe.decimate import DELAY, Decimator
-from beardyn_core.observe.resonance import LOOKAHEAD, Resonance
+from beardyn_core.observe.resampling import DELAY, Decimator
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES, Accelerometer, steps_do_not_fit
 
@@ -129,22 +128,10 @@ class _Chain:
 
 
 def box_force(position: tuple[float, float, float], signals: Float, motion: Float, delay: int) -> Float:
-    """Compute the specific force at a place of the box, see `force_at`.
+    """Compute the specific force at a place of the box [m], see `force_at`, shape [sample, 3], [m/s^2].
 
-    Parameters
-    ----------
-    position : tuple of 3 floats
-        [m].
-    signals : float64 array, shape [sample, SIGNAL_CHANNELS]
-    motion : float64 array, shape [trend + 2, 6]
-        As of `Sensors.read`; linear in between.
-    delay : int
-        Samples by which the signals come late, at most those of a row.
-
-    Returns
-    -------
-    float64 array, shape [sample, 3]
-        [m/s^2].
+    Signals, shape [sample, SIGNAL_CHANNELS], come late by ``delay`` samples, at most those of a row; the motion,
+    shape [trend + 2, 6], is as of `Sensors.read` and linear in between.
     """
     force = np.empty((len(signals), 3))
     _box_force(*position, signals, motion, len(signals) // (len(motion) - 2), delay, force)

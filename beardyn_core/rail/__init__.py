@@ -9,8 +9,7 @@ low_pass     symmetric low-pass filters
 irregularity random-phase or measured profile over the distance
 excitation   defects of wheel and rail over the distance
 track        the rail as standing waves of a long beam on two layers of seats
-suspension   progressive springs and friction of a freight bogie
-vehicle      vertical share of one axlebox on its rail, contact that can open
+vehicle      vertical share of one axlebox on its springs and its rail, contact that can open
 course       curvature and cant over the run, load transfer to the outer side
 lateral      wheelset, bogie and body sideways: creep, conicity, flanges
 running      what curves, alignment, braking and starting add to load and bogie motion

@@ -11,8 +11,7 @@ from beardyn_core.rail.irregularity import irregular_height
 from beardyn_core.rail.low_pass import decimated, thinning_kernel
 from beardyn_core.rail.measured import replayed
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift
-from beardyn_core.rail.suspension import equivalent_displacement
-from beardyn_core.rail.vehicle import Ride, quarter_vehicle, ride
+from beardyn_core.rail.vehicle import Ride, equivalent_displacement, quarter_vehicle, ride
 from beardyn_core.scene.load import LoadHistory, sampled_load
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
@@ -21,7 +20,7 @@ from beardyn_core.scene.operation import (
     QuarterVehicleOperation,
     SteppedOperation,
 )
-from beardyn_core.scene.speed import distance_at, speed_at
+from beardyn_core.scene.running import distance_at, speed_at
 
 SAMPLE_NS = 500_000
 # a strike of the wheel lasts about half a millisecond

@@ -9,20 +9,10 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.rail.excitation import waves_of
-from beardyn_core.scene.excitation import (
-    Corrugation,
-    Crossing,
-    DippedJoint,
-    DippedWeld,
-    Irregularity,
-    RailDefect,
-    WheelFlat,
-    WheelOutOfRound,
-    WheelPolygon,
-)
+from beardyn_core.scene import excitation
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
+from beardyn_core.scene.running import distance_at, speed_at
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.speed import distance_at, speed_at
 
 Event = dict[str, Any]
 
@@ -94,7 +84,7 @@ def events_of(scene: Scene) -> dict[str, Any]:
     return {"load": "as written in the scene", "events": []}
 
 
-def _irregularity(irregularity: Irregularity, seed: int) -> dict[str, Any]:
+def _irregularity(irregularity: excitation.Irregularity, seed: int) -> dict[str, Any]:
     found: dict[str, Any] = {"kind": irregularity.kind}
     if irregularity.path is not None:
         found["file"] = irregularity.path.name
@@ -112,7 +102,7 @@ def _wheel(operation: QuarterVehicleOperation, travel: _Travel) -> Iterator[Even
     round_ = 2.0 * pi * radius
     top = float(np.abs(travel.speed).max())
     for defect in operation.wheel_defects:
-        if isinstance(defect, WheelFlat):
+        if isinstance(defect, excitation.WheelFlat):
             yield {
                 "kind": "wheel_flat",
                 "length_m": defect.length,
@@ -122,18 +112,18 @@ def _wheel(operation: QuarterVehicleOperation, travel: _Travel) -> Iterator[Even
                 "top_frequency_Hz": top / round_,
                 **travel.passages((pi - defect.azimuth) * radius, round_, endless=True),
             }
-        elif isinstance(defect, WheelPolygon):
+        elif isinstance(defect, excitation.WheelPolygon):
             yield {
                 **_waves((defect,), radius),
                 "kind": "polygon",
                 "top_frequency_Hz": defect.order * top / round_,
             }
-        elif isinstance(defect, WheelOutOfRound):
+        elif isinstance(defect, excitation.WheelOutOfRound):
             waves = _waves(waves_of(defect), radius)
             yield {"kind": "out_of_round", "seed": defect.seed, **waves}
 
 
-def _waves(waves: tuple[WheelPolygon, ...], radius: float) -> dict[str, Any]:
+def _waves(waves: tuple[excitation.WheelPolygon, ...], radius: float) -> dict[str, Any]:
     return {
         "orders": [wave.order for wave in waves],
         "amplitudes_m": [wave.amplitude for wave in waves],
@@ -141,18 +131,18 @@ def _waves(waves: tuple[WheelPolygon, ...], radius: float) -> dict[str, Any]:
     }
 
 
-def _rail(defects: tuple[RailDefect, ...], travel: _Travel) -> Iterator[Event]:
+def _rail(defects: tuple[excitation.RailDefect, ...], travel: _Travel) -> Iterator[Event]:
     for defect in defects:
-        if isinstance(defect, DippedJoint):
+        if isinstance(defect, excitation.DippedJoint):
             sizes: Event = {"kind": "dipped_joint", "angle_rad": defect.angle, "length_m": defect.length}
             yield {**sizes, **travel.passages(defect.position, defect.spacing)}
-        elif isinstance(defect, DippedWeld):
+        elif isinstance(defect, excitation.DippedWeld):
             sizes = {"kind": "dipped_weld", "depth_m": defect.depth, "length_m": defect.length}
             yield {**sizes, **travel.passages(defect.position, defect.spacing)}
-        elif isinstance(defect, Crossing):
+        elif isinstance(defect, excitation.Crossing):
             sizes = {"kind": "crossing", "depth_m": defect.depth, "angle_rad": defect.angle}
             yield {**sizes, **travel.passages(defect.position, None)}
-        elif isinstance(defect, Corrugation):
+        elif isinstance(defect, excitation.Corrugation):
             yield {
                 "kind": "corrugation",
                 "wavelength_m": defect.wavelength,

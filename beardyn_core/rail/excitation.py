@@ -6,23 +6,13 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.rail.spectra import wave_gain
-from beardyn_core.scene.excitation import (
-    Corrugation,
-    Crossing,
-    DippedJoint,
-    DippedWeld,
-    RailDefect,
-    WheelDefect,
-    WheelFlat,
-    WheelOutOfRound,
-    WheelPolygon,
-)
+from beardyn_core.scene import excitation
 
 _STREAM = 0x7768656C  # keeps the wheel's random numbers apart from those of rail and sensors
 
 
 def wheel_height(
-    defects: tuple[WheelDefect, ...], wheel_radius: float, position: Float, patch: float = 0.0
+    defects: tuple[excitation.WheelDefect, ...], wheel_radius: float, position: Float, patch: float = 0.0
 ) -> Float:
     """Compute how far the wheel's own shape lifts its centre on a rigid rail, rolling without slip, [m].
 
@@ -37,7 +27,7 @@ def wheel_height(
     flats = np.zeros_like(position)
     waves = np.zeros_like(position)
     for defect in defects:
-        if isinstance(defect, WheelFlat):
+        if isinstance(defect, excitation.WheelFlat):
             flats = np.minimum(flats, _flat(defect, wheel_radius, position))
         else:
             for polygon in waves_of(defect):
@@ -46,19 +36,21 @@ def wheel_height(
     return flats + waves
 
 
-def waves_of(defect: WheelPolygon | WheelOutOfRound) -> tuple[WheelPolygon, ...]:
+def waves_of(
+    defect: excitation.WheelPolygon | excitation.WheelOutOfRound,
+) -> tuple[excitation.WheelPolygon, ...]:
     """Split the shape of a wheel into single waves."""
-    if isinstance(defect, WheelPolygon):
+    if isinstance(defect, excitation.WheelPolygon):
         return (defect,)
     random = np.random.Generator(np.random.PCG64(np.random.SeedSequence([_STREAM, defect.seed])))
     azimuths = random.uniform(0.0, 2.0 * np.pi, len(defect.amplitudes))
     return tuple(
-        WheelPolygon(order, amplitude, float(azimuth))
+        excitation.WheelPolygon(order, amplitude, float(azimuth))
         for order, (amplitude, azimuth) in enumerate(zip(defect.amplitudes, azimuths, strict=True), start=1)
     )
 
 
-def rail_height(defects: tuple[RailDefect, ...], position: Float, patch: float = 0.0) -> Float:
+def rail_height(defects: tuple[excitation.RailDefect, ...], position: Float, patch: float = 0.0) -> Float:
     """Compute the height of the rail from its own defects, upwards, [m].
 
     `position` is the place along the track from the start of the run, `patch` the length of the contact over
@@ -66,18 +58,18 @@ def rail_height(defects: tuple[RailDefect, ...], position: Float, patch: float =
     """
     height = np.zeros_like(position)
     for defect in defects:
-        if isinstance(defect, DippedJoint):
+        if isinstance(defect, excitation.DippedJoint):
             height += _dip(defect, position)
-        elif isinstance(defect, DippedWeld):
+        elif isinstance(defect, excitation.DippedWeld):
             height += _weld(defect, position)
-        elif isinstance(defect, Crossing):
+        elif isinstance(defect, excitation.Crossing):
             height += _crossing(defect, position)
         else:
             height += wave_gain(2.0 * np.pi / defect.wavelength, patch) * _waves(defect, position)
     return height
 
 
-def _flat(flat: WheelFlat, wheel_radius: float, position: Float) -> Float:
+def _flat(flat: excitation.WheelFlat, wheel_radius: float, position: Float) -> Float:
     # the point at the azimuth a comes down to the rail after the angle pi - a
     middle = (np.pi - flat.azimuth) * wheel_radius
     apart = _apart(position - middle, 2.0 * np.pi * wheel_radius)
@@ -88,28 +80,28 @@ def _flat(flat: WheelFlat, wheel_radius: float, position: Float) -> Float:
     return -0.5 * depth * (1.0 + np.cos(2.0 * np.pi * within))
 
 
-def _polygon(polygon: WheelPolygon, wheel_radius: float, position: Float) -> Float:
+def _polygon(polygon: excitation.WheelPolygon, wheel_radius: float, position: Float) -> Float:
     azimuth_on_rail = np.pi - position / wheel_radius
     return polygon.amplitude * np.cos(polygon.order * (azimuth_on_rail - polygon.azimuth))
 
 
-def _dip(joint: DippedJoint, position: Float) -> Float:
+def _dip(joint: excitation.DippedJoint, position: Float) -> Float:
     apart = _from_nearest(position - joint.position, joint.spacing)
     return -joint.depth * _cusp(apart, joint.length)
 
 
-def _weld(weld: DippedWeld, position: Float) -> Float:
+def _weld(weld: excitation.DippedWeld, position: Float) -> Float:
     apart = _from_nearest(position - weld.position, weld.spacing)
     return -weld.depth * _hollow(apart, weld.length) - weld.short_depth * _hollow(apart, weld.short_length)
 
 
-def _crossing(crossing: Crossing, position: Float) -> Float:
+def _crossing(crossing: excitation.Crossing, position: Float) -> Float:
     behind = position - crossing.position
     share = np.where(behind < 0.0, -behind / crossing.wing_length, behind / crossing.nose_length)
     return -crossing.depth * np.maximum(1.0 - share, 0.0)
 
 
-def _waves(corrugation: Corrugation, position: Float) -> Float:
+def _waves(corrugation: excitation.Corrugation, position: Float) -> Float:
     inside = np.minimum(position - corrugation.begin, corrugation.end - position)
     share = np.clip(inside / (2.0 * corrugation.wavelength), 0.0, 1.0)
     envelope = 0.5 - 0.5 * np.cos(np.pi * share)

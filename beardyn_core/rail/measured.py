@@ -34,7 +34,7 @@ from beardyn_core.rail.low_pass import decimated, thinning_kernel
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.load import LoadHistory, sampled_load
 from beardyn_core.scene.operation import MeasuredOperation
-from beardyn_core.scene.speed import speed_at
+from beardyn_core.scene.running import speed_at
 
 TIME = "time_s"
 SPEEDS = ("speed_rpm", "shaft_speed_rad_s")

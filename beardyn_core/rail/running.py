@@ -11,11 +11,10 @@ from beardyn_core.arrays import Float
 from beardyn_core.rail.course import Course, course, load_transfer
 from beardyn_core.rail.irregularity import rail_profile
 from beardyn_core.rail.lateral import FRAME, LateralMotion, lateral_motion, lateral_vehicle
-from beardyn_core.rail.suspension import equivalent_displacement
-from beardyn_core.rail.vehicle import BOGIE, WHEEL
+from beardyn_core.rail.vehicle import BOGIE, WHEEL, equivalent_displacement
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
-from beardyn_core.scene.speed import Profile, distance_at, speed_at
+from beardyn_core.scene.running import Profile, distance_at, speed_at
 
 # brakes and drives build up within this time, [s]
 _BUILD_UP = 1.0

@@ -24,25 +24,13 @@ _LENGTH = struct.Struct("<I")
 
 
 def column_dtype(columns: tuple[tuple[str, str], ...]) -> np.dtype[Any]:
-    """Build the aligned structured type of named columns, ``sample`` and ``t`` in front.
-
-    Parameters
-    ----------
-    columns : tuple of (name, code)
-        NumPy codes: ``u1``, ``u2``, ``u4``, ``f4``, ``f8``.
-    """
+    """Build the aligned structured type of named columns (NumPy codes), ``sample`` and ``t`` in front."""
     members = [("sample", "<u4"), ("t", "<u4"), *((name, f"<{code}") for name, code in columns)]
     return np.dtype(members, align=True)
 
 
 class CloudTemplate:
-    """Cloud messages of one layout and frame.
-
-    Parameters
-    ----------
-    dtype : numpy structured dtype
-        Layout of a point.
-    """
+    """Cloud messages of one layout of a point and one frame."""
 
     def __init__(self, dtype: np.dtype[Any], frame: str) -> None:
         self.dtype = dtype
@@ -74,15 +62,9 @@ class CloudTemplate:
 def points_of(
     dtype: np.dtype[Any], first_sample: int, time_ns: NDArray[np.int64], stamp_ns: int
 ) -> NDArray[Any]:
-    """Make points with ``sample`` and ``t`` filled; the caller fills the other columns.
+    """Make points with ``sample`` and ``t`` filled, for times [ns] from a stamp at or before the first on.
 
-    Parameters
-    ----------
-    first_sample : int
-        Running index of the first point.
-    time_ns : int64 array, shape [point], [ns]
-    stamp_ns : int
-        At or before the first time, [ns].
+    The samples run from ``first_sample`` on; the caller fills the other columns.
     """
     points = np.zeros(len(time_ns), dtype)
     points["sample"] = np.arange(first_sample, first_sample + len(time_ns)) & 0xFFFFFFFF

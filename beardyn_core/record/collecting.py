@@ -13,14 +13,7 @@ from numpy.typing import NDArray
 from beardyn_core.arrays import Float, Int
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block, Vibration, body_names
-from beardyn_core.record.arrays import (
-    Bodies,
-    Contacts,
-    Diagnostics,
-    Load,
-    Signal,
-    Turning,
-)
+from beardyn_core.record import arrays
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import (
     ACCELERATION_AXES,
@@ -34,13 +27,7 @@ _NOTHING = np.zeros(0, np.int64)
 
 
 class BlockSource:
-    """The arrays of a run, put together from its blocks.
-
-    Parameters
-    ----------
-    blocks : sequence of Block
-        In the order of time.
-    """
+    """The arrays of a run, put together from its blocks in the order of time."""
 
     def __init__(self, blocks: Sequence[Block], description: RunDescription | None) -> None:
         self._blocks = blocks
@@ -53,96 +40,96 @@ class BlockSource:
     def _times(self, part: Callable[[Block], Int]) -> Int:
         return np.asarray(self._joined(part), np.int64)
 
-    def force(self) -> Signal:
+    def force(self) -> arrays.Signal:
         return self._trend(lambda block: block.force, WRENCH_AXES, "N, N m")
 
-    def force_waveform(self) -> Signal:
+    def force_waveform(self) -> arrays.Signal:
         times = self._times(lambda block: block.waveform_time_ns)
         values = self._joined(lambda block: block.force_waveform)
         sample = self._times(lambda block: block.waveform_sample + np.arange(len(block.waveform_time_ns)))
-        return Signal(times, values, WRENCH_AXES, "N, N m", sample)
+        return arrays.Signal(times, values, WRENCH_AXES, "N, N m", sample)
 
-    def sensors(self) -> dict[str, Signal]:
+    def sensors(self) -> dict[str, arrays.Signal]:
         several = list(zip(*(block.vibration for block in self._blocks), strict=True))
         known = self._description
         names = [f"accelerometer_{k}" for k in range(len(several))] if known is None else known.sensor_names
         return {name: _sensor(parts) for name, parts in zip(names, several, strict=False)}
 
-    def specific_force(self) -> Signal:
+    def specific_force(self) -> arrays.Signal:
         return self._trend(lambda block: block.specific_force, ACCELERATION_AXES, "m/s^2")
 
-    def _trend(self, part: Callable[[Block], Float], components: tuple[str, ...], unit: str) -> Signal:
+    def _trend(self, part: Callable[[Block], Float], components: tuple[str, ...], unit: str) -> arrays.Signal:
         times = self._times(lambda block: block.trend_time_ns)
-        return Signal(times, self._joined(part), components, unit, _NOTHING)
+        return arrays.Signal(times, self._joined(part), components, unit, _NOTHING)
 
-    def shaft(self) -> Turning:
+    def shaft(self) -> arrays.Turning:
         times = self._times(lambda block: block.trend_time_ns)
         angle = self._joined(lambda block: block.shaft_angle)
-        return Turning(times, angle, self._joined(lambda block: block.shaft_speed))
+        return arrays.Turning(times, angle, self._joined(lambda block: block.shaft_speed))
 
-    def torque(self) -> Signal:
+    def torque(self) -> arrays.Signal:
         values = self._joined(lambda block: _every(block, block.shaft_torque))
-        return Signal(self._orbit_times(), values, (), "N m", _NOTHING)
+        return arrays.Signal(self._orbit_times(), values, (), "N m", _NOTHING)
 
-    def cages(self) -> Turning:
+    def cages(self) -> arrays.Turning:
         angle = self._joined(lambda block: _every(block, block.cage_angle))
         speed = self._joined(lambda block: _every(block, block.cage_speed))
-        return Turning(self._orbit_times(), angle, speed)
+        return arrays.Turning(self._orbit_times(), angle, speed)
 
-    def rollers(self) -> Turning:
+    def rollers(self) -> arrays.Turning:
         angle = self._joined(lambda block: _every(block, block.roller_angle))
         speed = self._joined(lambda block: _every(block, block.roller_speed))
-        return Turning(self._orbit_times(), angle, speed)
+        return arrays.Turning(self._orbit_times(), angle, speed)
 
     def _orbit_times(self) -> Int:
         return self._times(lambda block: _every(block, block.trend_time_ns))
 
-    def bodies(self) -> Bodies:
+    def bodies(self) -> arrays.Bodies:
         pose = self._joined(lambda block: block.body_pose)
         twist = self._joined(lambda block: block.body_twist)
         times = self._times(lambda block: block.snapshot_time_ns)
         sample = self._times(lambda block: block.snapshot_sample + np.arange(len(block.snapshot_time_ns)))
         known = self._description
         names = body_names((pose.shape[1] - 4) // 2) if known is None else known.body_names
-        return Bodies(times, names, pose, twist, sample)
+        return arrays.Bodies(times, names, pose, twist, sample)
 
-    def contacts(self) -> Contacts:
+    def contacts(self) -> arrays.Contacts:
         numbers = self._joined(lambda block: block.contacts)
         force = numbers[..., 3:6]
         gone = ~np.any(force != 0.0, axis=-1)
         numbers[gone] = np.nan
         force[gone] = 0.0
         times = self._times(lambda block: block.snapshot_time_ns)
-        return Contacts(times, numbers[..., :3], force, numbers[..., 6], numbers[..., 7])
+        return arrays.Contacts(times, numbers[..., :3], force, numbers[..., 6], numbers[..., 7])
 
-    def load(self) -> Load:
+    def load(self) -> arrays.Load:
         """Give `Run.load`: the load history up to the end, or without one the load at 400 Hz."""
         history = None if self._description is None else self._description.load
         if history is None:
             times = self._times(lambda block: block.trend_time_ns)
             wrench = self._joined(lambda block: block.load)
             speed = self._joined(lambda block: block.shaft_speed)
-            return Load(times, wrench, speed, np.zeros((len(times), 3)), np.arange(len(times)))
+            return arrays.Load(times, wrench, speed, np.zeros((len(times), 3)), np.arange(len(times)))
         used = history.until(self._blocks[-1].end_ns)
-        return Load(used.time_ns, used.wrench, used.shaft_speed, used.bogie, np.arange(len(used)))
+        return arrays.Load(used.time_ns, used.wrench, used.shaft_speed, used.bogie, np.arange(len(used)))
 
-    def temperature(self) -> Signal:
+    def temperature(self) -> arrays.Signal:
         found = [
             (block.end_ns, block.temperature)
             for block in self._blocks
             if block.temperature is not None and block.index % TEMPERATURE_EVERY == 0
         ]
         values = np.array([values for _, values in found], np.float64).reshape(-1, len(NODES))
-        return Signal(np.array([stamp for stamp, _ in found], np.int64), values, NODES, "K", _NOTHING)
+        return arrays.Signal(np.array([stamp for stamp, _ in found], np.int64), values, NODES, "K", _NOTHING)
 
-    def diagnostics(self) -> Diagnostics:
+    def diagnostics(self) -> arrays.Diagnostics:
         return tuple(
             (block.end_ns, (block_diagnostic(block),))
             for block in self._blocks
             if block.index % DIAGNOSTICS_EVERY == 0 or block.status != 0
         )
 
-    def results(self) -> Diagnostics:
+    def results(self) -> arrays.Diagnostics:
         """Give `Run.results`: none, for no monitor ran beside."""
         return ()
 
@@ -150,12 +137,12 @@ class BlockSource:
         return (self._blocks[-1].end_ns - self._blocks[0].start_ns) * 1e-9
 
 
-def _sensor(parts: Sequence[Vibration]) -> Signal:
+def _sensor(parts: Sequence[Vibration]) -> arrays.Signal:
     """Join the readings of one accelerometer."""
     times = np.concatenate([part.time_ns for part in parts])
     values = np.concatenate([part.acceleration for part in parts])
     sample = np.concatenate([part.sample + np.arange(len(part.time_ns)) for part in parts])
-    return Signal(times, values, ACCELERATION_AXES, "m/s^2", sample)
+    return arrays.Signal(times, values, ACCELERATION_AXES, "m/s^2", sample)
 
 
 def _every(block: Block, values: NDArray[Any]) -> NDArray[Any]:

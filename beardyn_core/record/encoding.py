@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.block import CONTACT_FIELDS, Block, EnergyAudit
-from beardyn_core.observe.torque_budget import NUMERICAL
+from beardyn_core.observe.summary import NUMERICAL
 from beardyn_core.record.clouds import CloudTemplate, column_dtype, fill, points_of
 from beardyn_core.record.messages import Diagnostic, Template, header, make
 from beardyn_core.record.topics import FRAME, IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic

@@ -11,16 +11,7 @@ import numpy as np
 
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import file_problems
-from beardyn_core.record.tables import (
-    SIGNALS,
-    VIBRATION,
-    columns_of,
-    labels_of,
-    library,
-    parts_of,
-    signal_names,
-    signal_of,
-)
+from beardyn_core.record import tables
 
 if TYPE_CHECKING:
     from beardyn_core.record.run import Run
@@ -64,9 +55,9 @@ def export(
     kind = kind or path.suffix.lower().removeprefix(".").replace("hdf5", "h5")
     names = tuple(dict.fromkeys([signals] if isinstance(signals, str) else signals)) or _usual(run, kind)
     problems = [
-        f"signal {name!r} is not one of the run; allowed are {', '.join(signal_names(run))}"
+        f"signal {name!r} is not one of the run; allowed are {', '.join(tables.signal_names(run))}"
         for name in names
-        if name not in signal_names(run)
+        if name not in tables.signal_names(run)
     ]
     if kind not in KINDS:
         endings = ", ".join(f".{each}" for each in KINDS)
@@ -75,7 +66,7 @@ def export(
         problems += [
             f"signal {name!r} cannot be a WAV file, only vibration can; choose .parquet, .csv, .npz or .h5"
             for name in names
-            if name in signal_names(run) and not name.startswith(VIBRATION)
+            if name in tables.signal_names(run) and not name.startswith(tables.VIBRATION)
         ]
     if problems:
         raise InputError(problems)
@@ -101,9 +92,9 @@ def export(
 
 
 def _usual(run: Run, kind: str) -> tuple[str, ...]:
-    known = signal_names(run)
-    names = known if kind not in _TABLES else tuple(name for name in known if name not in SIGNALS[1:])
-    return tuple(name for name in names if len(signal_of(run, name))) or (VIBRATION,)
+    known = tables.signal_names(run)
+    names = known if kind not in _TABLES else tuple(name for name in known if name not in tables.SIGNALS[1:])
+    return tuple(name for name in names if len(tables.signal_of(run, name))) or (tables.VIBRATION,)
 
 
 def refuse_to_write(files: Sequence[Path], *, force: bool, inputs: Sequence[Path] = ()) -> None:
@@ -114,16 +105,16 @@ def refuse_to_write(files: Sequence[Path], *, force: bool, inputs: Sequence[Path
 
 
 def _write_parquet(run: Run, path: Path, name: str) -> None:
-    pyarrow = library("pyarrow", "Parquet")
-    parquet = library("pyarrow.parquet", "Parquet")
-    table = pyarrow.table(columns_of(run, name))
-    labels = {key: str(value) for key, value in labels_of(run).items() if key != "truth"}
+    pyarrow = tables.library("pyarrow", "Parquet")
+    parquet = tables.library("pyarrow.parquet", "Parquet")
+    table = pyarrow.table(tables.columns_of(run, name))
+    labels = {key: str(value) for key, value in tables.labels_of(run).items() if key != "truth"}
     found = {"beardyn": json.dumps({"signal": name, "truth": run.truth}), **labels}
     parquet.write_table(table.replace_schema_metadata(found), path)
 
 
 def _write_csv(run: Run, path: Path, name: str) -> None:
-    columns = columns_of(run, name)
+    columns = tables.columns_of(run, name)
     formats = ["%s" if values.dtype.kind in "US" else "%.12g" for values in columns.values()]
     rows = np.empty(len(columns["time"]), [(key, values.dtype) for key, values in columns.items()])
     for key, values in columns.items():
@@ -134,23 +125,23 @@ def _write_csv(run: Run, path: Path, name: str) -> None:
 def _write_npz(run: Run, path: Path, names: Sequence[str]) -> None:
     arrays: dict[str, Any] = {"truth": json.dumps(run.truth)}
     for name in names:
-        arrays[f"{name}.time"] = signal_of(run, name).time
-        arrays |= {f"{name}.{part}": array.values for part, array in parts_of(run, name).items()}
+        arrays[f"{name}.time"] = tables.signal_of(run, name).time
+        arrays |= {f"{name}.{part}": array.values for part, array in tables.parts_of(run, name).items()}
     with path.open("wb") as file:  # NumPy would add an ending of its own
         np.savez_compressed(file, **arrays)
 
 
 def _write_hdf5(run: Run, path: Path, names: Sequence[str]) -> None:
-    h5py = library("h5py", "HDF5")
+    h5py = tables.library("h5py", "HDF5")
     with h5py.File(path, "w") as file:
-        for key, value in labels_of(run).items():
+        for key, value in tables.labels_of(run).items():
             file.attrs[key] = value
         for name in names:
-            signal: Any = signal_of(run, name)
+            signal: Any = tables.signal_of(run, name)
             group = file.create_group(name)
             group.create_dataset("time", data=signal.time).attrs["unit"] = "s"
             group.attrs["rate_Hz"] = signal.rate
-            for part, array in parts_of(run, name).items():
+            for part, array in tables.parts_of(run, name).items():
                 stored = group.create_dataset(part, data=array.values, compression="gzip", shuffle=True)
                 stored.attrs["unit"] = array.unit
                 stored.attrs["axes"] = ",".join(("time", *array.dims))
@@ -160,7 +151,7 @@ def _write_wav(run: Run, path: Path, name: str) -> None:
     """Write three channels x, y, z of 32-bit floats in m/s^2, not scaled."""
     from scipy.io import wavfile
 
-    signal: Any = signal_of(run, name)
+    signal: Any = tables.signal_of(run, name)
     if not len(signal):
         raise InputError(f"{run.label}: has no {name}")
     missing = int((np.diff(signal.sample) != 1).sum())

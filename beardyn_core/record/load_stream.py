@@ -7,19 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.record.clouds import (
-    cloud_times,
-    cloud_to_arrays,
-    column_dtype,
-    encode_points,
-    fill,
-    points_of,
-)
+from beardyn_core.record import clouds
 from beardyn_core.record.topics import FRAME
 from beardyn_core.scene.load import WRENCH_AXES, LoadHistory
 
 BOGIE_AXES = ("ux", "uy", "uz")
-LOAD = column_dtype(tuple((name, "f8") for name in (*WRENCH_AXES, "shaft_speed", *BOGIE_AXES)))
+LOAD = clouds.column_dtype(tuple((name, "f8") for name in (*WRENCH_AXES, "shaft_speed", *BOGIE_AXES)))
 LONGEST_NS = 0xFFFFFFFF
 
 
@@ -36,11 +29,11 @@ def encode_load(history: LoadHistory, first_sample: int, frame: str = FRAME) -> 
     if len(history) and history.time_ns[-1] - history.time_ns[0] > LONGEST_NS:
         raise ValueError("one message of load/blocks holds at most 4.29 s: send the history in parts")
     stamp = int(history.time_ns[0]) if len(history) else 0
-    points = points_of(LOAD, first_sample, history.time_ns, stamp)
-    fill(points, WRENCH_AXES, history.wrench)
+    points = clouds.points_of(LOAD, first_sample, history.time_ns, stamp)
+    clouds.fill(points, WRENCH_AXES, history.wrench)
     points["shaft_speed"] = history.shaft_speed
-    fill(points, BOGIE_AXES, history.bogie)
-    return encode_points(points, stamp, frame)
+    clouds.fill(points, BOGIE_AXES, history.bogie)
+    return clouds.encode_points(points, stamp, frame)
 
 
 def decode_load(cdr: bytes) -> tuple[LoadHistory, NDArray[np.int64]]:
@@ -48,11 +41,11 @@ def decode_load(cdr: bytes) -> tuple[LoadHistory, NDArray[np.int64]]:
 
     A cloud without bogie displacement means zero displacement.
     """
-    points = cloud_to_arrays(cdr)
+    points = clouds.cloud_to_arrays(cdr)
     names = points.dtype.names or ()
     zero = np.zeros(len(points))
     history = LoadHistory(
-        cloud_times(cdr, points),
+        clouds.cloud_times(cdr, points),
         np.stack([points[axis].astype(float) for axis in WRENCH_AXES], axis=1),
         points["shaft_speed"].astype(float),
         np.stack([points[a].astype(float) if a in names else zero for a in BOGIE_AXES], axis=1),

@@ -48,13 +48,8 @@ def joined(*meshes: Mesh) -> Mesh:
 def revolve(profile: Float, azimuth: Float) -> Mesh:
     """Sweep a polyline about the y axis to a surface, every edge of the polyline a band of its own.
 
-    Parameters
-    ----------
-    profile : float64 array, shape [point, 2]
-        Axial position and radius; the outside is to the left when it is walked with y to the right
-        and the radius upwards, [m].
-    azimuth : float64 array, shape [station]
-        From +z towards +x, [rad].
+    The profile, shape [point, 2], is axial position and radius [m]: the outside is to the left when it is
+    walked with y to the right and the radius upwards. The azimuth is from +z towards +x, [rad].
     """
     vertices, normals, triangles, start = [], [], [], 0
     radial = np.stack((np.sin(azimuth), np.zeros_like(azimuth), np.cos(azimuth)), axis=1)
@@ -99,15 +94,10 @@ def section(profile: Float, azimuth: float, facing: float) -> Mesh:
 
 
 def raceway_radius(shape: BearingShape, angle: float, distance: float) -> tuple[float, float]:
-    """Compute axial distance from the row centre (towards the large end) and radius on a raceway cone.
+    """Compute axial distance from the row centre (towards the large end) and radius on a raceway cone, [m].
 
-    Parameters
-    ----------
-    shape : BearingShape
-    angle : float
-        Half angle of the cone: `BearingShape.cup_angle` or `cone_angle`, [rad].
-    distance : float
-        Along the roller axis from its middle, towards the large end, [m].
+    The angle is the half angle of the cone [rad], the distance [m] that along the roller axis from its middle,
+    towards the large end.
     """
     # The generator touches the roller where the apex distance is projected on it.
     along = (shape.apex_distance + distance) / cos(shape.half_angle)

@@ -19,16 +19,7 @@ from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
-from beardyn_core.record.arrays import (
-    Bodies,
-    Contacts,
-    Diagnostics,
-    Load,
-    Signal,
-    Turning,
-    decoding_checked,
-    no_signal,
-)
+from beardyn_core.record import arrays
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import (
@@ -90,7 +81,7 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     if not any(name != path for name, path in zip(cdrs, recorded, strict=True)):
         found = f"it has {', '.join(sorted(recorded))}" if recorded else scan.problem or "it has no messages"
         raise InputError(f"{scan.path}: no messages under the namespace {namespace}; {found}")
-    with decoding_checked(scan.path):
+    with arrays.decoding_checked(scan.path):
         return _run(scan, cdrs)
 
 
@@ -128,15 +119,15 @@ class MessageSource:
     def _of(self, name: str) -> Sequence[bytes]:
         return self._cdrs.get(name, ())
 
-    def force(self) -> Signal:
+    def force(self) -> arrays.Signal:
         return _stamped(
             self._of("force"), WRENCH, force_template, "wrench", wrench_values, WRENCH_AXES, "N, N m"
         )
 
-    def force_waveform(self) -> Signal:
+    def force_waveform(self) -> arrays.Signal:
         return _waveform(self._of("force_waveform"), WRENCH_AXES, "N, N m")
 
-    def sensors(self) -> dict[str, Signal]:
+    def sensors(self) -> dict[str, arrays.Signal]:
         known = () if self._description is None else self._description.sensor_names
         topics = {vibration_topic(number, known): name for number, name in enumerate(known)}
         found = sorted(n for n in self._cdrs if n == "vibration" or n.startswith("vibration/"))
@@ -147,51 +138,55 @@ class MessageSource:
             if self._of(name)
         }
 
-    def specific_force(self) -> Signal:
+    def specific_force(self) -> arrays.Signal:
         return _stamped(
             self._of("imu"), IMU, imu_template, "acceleration", _imu_values, ACCELERATION_AXES, "m/s^2"
         )
 
-    def shaft(self) -> Turning:
+    def shaft(self) -> arrays.Turning:
         joints = _joints(self._of("shaft"))
         column = slice(0, 1) if joints.names else slice(0)
-        return Turning(joints.time_ns, joints.position[:, column].ravel(), joints.velocity[:, column].ravel())
+        return arrays.Turning(
+            joints.time_ns, joints.position[:, column].ravel(), joints.velocity[:, column].ravel()
+        )
 
     @cached_property
     def _orbit(self) -> _Joints:
         return _joints(self._of("joint_states"))
 
-    def torque(self) -> Signal:
+    def torque(self) -> arrays.Signal:
         orbit, nothing = self._orbit, np.zeros(0, np.int64)
         if "shaft" not in orbit.names or not orbit.effort.shape[1]:
-            return no_signal((), "N m")
-        return Signal(orbit.time_ns, orbit.effort[:, orbit.names.index("shaft")], (), "N m", nothing)
+            return arrays.no_signal((), "N m")
+        return arrays.Signal(orbit.time_ns, orbit.effort[:, orbit.names.index("shaft")], (), "N m", nothing)
 
-    def cages(self) -> Turning:
+    def cages(self) -> arrays.Turning:
         orbit = self._orbit
         columns = [orbit.names.index(name) for name in ("cage_0", "cage_1") if name in orbit.names]
-        return Turning(orbit.time_ns, orbit.position[:, columns], orbit.velocity[:, columns])
+        return arrays.Turning(orbit.time_ns, orbit.position[:, columns], orbit.velocity[:, columns])
 
-    def rollers(self) -> Turning:
+    def rollers(self) -> arrays.Turning:
         orbit = self._orbit
         columns = [k for k, name in enumerate(orbit.names) if name.startswith("roller_")]
         shape = (len(orbit.time_ns), ROWS, len(columns) // ROWS)
-        return Turning(
+        return arrays.Turning(
             orbit.time_ns,
             orbit.position[:, columns].reshape(shape),
             orbit.velocity[:, columns].reshape(shape),
         )
 
     @cached_property
-    def _bodies(self) -> Bodies:
+    def _bodies(self) -> arrays.Bodies:
         points, time_ns = _clouds(self._of("bodies"))
         names = () if self._description is None else self._description.body_names
         if not len(points):
             nothing = np.zeros(0, np.int64)
-            return Bodies(nothing, names, np.zeros((0, len(names), 7)), np.zeros((0, len(names), 6)), nothing)
+            return arrays.Bodies(
+                nothing, names, np.zeros((0, len(names), 7)), np.zeros((0, len(names), 6)), nothing
+            )
         count = int(points["body"].max()) + 1
         numbers = _columns(points, POSE_AXES + TWIST_AXES).reshape(-1, count, 13)
-        return Bodies(
+        return arrays.Bodies(
             time_ns[::count],
             names or tuple(f"body_{k}" for k in range(count)),
             numbers[..., :7],
@@ -199,10 +194,10 @@ class MessageSource:
             points["sample"][::count].astype(np.int64),
         )
 
-    def bodies(self) -> Bodies:
+    def bodies(self) -> arrays.Bodies:
         return self._bodies
 
-    def contacts(self) -> Contacts:
+    def contacts(self) -> arrays.Contacts:
         """Give `Run.contacts`, at the snapshots of the bodies where the file has them."""
         points, time_ns = _clouds(self._of("contacts"))
         sample, times = self._bodies.sample, self._bodies.time_ns
@@ -220,15 +215,15 @@ class MessageSource:
             known = sample[place] == points["sample"]
             here = points[known]
             numbers[place[known], here["row"], here["roller"], here["kind"]] = _columns(here, CONTACT_FIELDS)
-        return Contacts(times, numbers[..., :3], numbers[..., 3:6], numbers[..., 6], numbers[..., 7])
+        return arrays.Contacts(times, numbers[..., :3], numbers[..., 3:6], numbers[..., 6], numbers[..., 7])
 
-    def load(self) -> Load:
+    def load(self) -> arrays.Load:
         parts = [decode_load(cdr) for cdr in self._of("load/blocks")]
         load = joined_load([part for part, _ in parts])
         sample = np.concatenate([np.zeros(0, np.int64), *(sample for _, sample in parts)])
-        return Load(load.time_ns, load.wrench, load.shaft_speed, load.bogie, sample)
+        return arrays.Load(load.time_ns, load.wrench, load.shaft_speed, load.bogie, sample)
 
-    def temperature(self) -> Signal:
+    def temperature(self) -> arrays.Signal:
         """Give `Run.temperature`: one sample where all parts have one."""
         found: dict[int, dict[str, float]] = defaultdict(dict)
         for cdr in self._of("temperature"):
@@ -239,12 +234,12 @@ class MessageSource:
         values = np.array([[parts[name] for name in NODES] for parts in rows.values()]).reshape(
             -1, len(NODES)
         )
-        return Signal(np.array(list(rows), np.int64), values, NODES, "K", np.zeros(0, np.int64))
+        return arrays.Signal(np.array(list(rows), np.int64), values, NODES, "K", np.zeros(0, np.int64))
 
-    def diagnostics(self) -> Diagnostics:
+    def diagnostics(self) -> arrays.Diagnostics:
         return tuple(decode_diagnostics(cdr) for cdr in self._of("/diagnostics"))
 
-    def results(self) -> Diagnostics:
+    def results(self) -> arrays.Diagnostics:
         return tuple(decode_diagnostics(cdr) for cdr in self._of("monitor/result"))
 
     def duration(self) -> float:
@@ -287,9 +282,9 @@ def _columns(points: NDArray[Any], names: Sequence[str]) -> Float:
     return np.stack([points[name].astype(np.float64) for name in names], axis=1)
 
 
-def _waveform(cdrs: Sequence[bytes], names: tuple[str, ...], unit: str) -> Signal:
+def _waveform(cdrs: Sequence[bytes], names: tuple[str, ...], unit: str) -> arrays.Signal:
     points, time_ns = _clouds(cdrs)
-    return Signal(time_ns, _columns(points, names), names, unit, points["sample"].astype(np.int64))
+    return arrays.Signal(time_ns, _columns(points, names), names, unit, points["sample"].astype(np.int64))
 
 
 def _times(rows: NDArray[Any]) -> Int:
@@ -315,17 +310,17 @@ def _stamped(
     numbers: Callable[[Any], list[float]],
     names: tuple[str, ...],
     unit: str,
-) -> Signal:
+) -> arrays.Signal:
     if not cdrs:
-        return no_signal(names, unit)
+        return arrays.no_signal(names, unit)
     nothing = np.zeros(0, np.int64)
     maker: Template = template(decode(msgtype, cdrs[0]).header.frame_id)
     rows = maker.decode(cdrs)
     if rows is not None:
-        return Signal(_times(rows), rows[slot].astype(np.float64), names, unit, nothing)
+        return arrays.Signal(_times(rows), rows[slot].astype(np.float64), names, unit, nothing)
     times = np.array([header_stamp(cdr) for cdr in cdrs], np.int64)
     values = np.array([numbers(decode(msgtype, cdr)) for cdr in cdrs], float)
-    return Signal(times, values, names, unit, nothing)
+    return arrays.Signal(times, values, names, unit, nothing)
 
 
 def _joints(cdrs: Sequence[bytes]) -> _Joints:

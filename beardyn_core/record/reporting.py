@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.observe.torque_budget import TorqueBudget
+from beardyn_core.observe.summary import TorqueBudget
 from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE

@@ -101,11 +101,8 @@ def roller_loads(run: Run) -> Float:
 def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None) -> None:
     """Log roller colours, contact forces, the resultant and the load zone.
 
-    Parameters
-    ----------
-    largest : float, optional
-        Roller load that has the last colour and the longest arrow, [N]; by default the largest of the
-        run, and then the outline of the load zone over the whole run is drawn too.
+    ``largest`` is the roller load [N] that has the last colour and the longest arrow; by default the largest
+    of the run, and then the outline of the load zone over the whole run is drawn too.
     """
     shape = run.described().shape
     load = roller_loads(run)

@@ -11,8 +11,7 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import decode_diagnostics, decode_string, header_stamp
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.rerun_bearing import log_loads, log_motion, log_parts, roller_loads
-from beardyn_core.record.rerun_plots import log_curves, log_styles, order_spectrum
-from beardyn_core.record.rerun_spectrum import log_spectrum
+from beardyn_core.record.rerun_plots import log_curves, log_spectrum, log_styles, order_spectrum
 from beardyn_core.record.rerun_view import blueprint
 
 BATCH_SECONDS = 0.25

@@ -12,7 +12,7 @@ import rerun.blueprint as rrb
 from beardyn_core.arrays import Float
 from beardyn_core.laboratory.rolling import ATTITUDE, FIRST_CONTACT, PLACE, Rolling
 from beardyn_core.laboratory.search import SURFACE_LINE
-from beardyn_core.record.rerun_stream import rerun_file
+from beardyn_core.record.rerun_view import rerun_file
 
 TIMELINE = "time"
 _FLOOR_COLOUR, _BODY_COLOUR, _POINT_COLOUR = (122, 136, 160), (255, 196, 64), (255, 60, 255)

@@ -2,20 +2,99 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
+from beardyn_core.errors import InputError
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
-from beardyn_core.record.rerun_plots import log_plots
-from beardyn_core.record.rerun_spectrum import bounds
-from beardyn_core.record.rerun_stream import rerun_file
+from beardyn_core.record.rerun_plots import bounds, log_plots
 from beardyn_core.record.run import Run
+from beardyn_core.record.viewer import require_display, web_viewer
+
+APPLICATION = "beardyn"
+
+
+@dataclass(frozen=True)
+class LiveStream:
+    """A rerun stream to a window, a web page or a file."""
+
+    stream: rr.RecordingStream
+    where: A[str, "for a person: the page to open, the file, or ``a window``"]
+
+
+@contextmanager
+def live_stream(target: str, path: Path | None = None, port: int = 0) -> Iterator[LiveStream]:
+    """Open a stream to a viewer for as long as the context lasts.
+
+    Parameters
+    ----------
+    target : str
+        ``window``, ``web`` (on this machine only) or ``file``.
+    path : Path, optional
+        Of the ``.rrd`` file.
+    port : int
+        Of the page; 0: a free one.
+
+    Raises
+    ------
+    InputError
+        No display for a window, no free port, or the file cannot be written.
+    """
+    stream = rr.RecordingStream(APPLICATION)
+    with ExitStack() as stack:
+        where = "a window"
+        if target == "window":
+            require_display()
+            stream.spawn()
+        elif target == "web":
+            page = stack.enter_context(web_viewer(port=port))
+            stream.connect_grpc(page.stream_url)
+            where = page.url
+        else:
+            if path is None:
+                raise InputError("a live view into a file needs the path of an .rrd file")
+            _check_writable(path)
+            where = str(path)
+            stream.save(where)
+        try:
+            yield LiveStream(stream, where)
+        finally:
+            stream.flush()
+            stream.disconnect()
+
+
+@contextmanager
+def rerun_file(path: Path, name: str, layout: Any) -> Iterator[rr.RecordingStream]:
+    """Open a recording into an ``.rrd`` file, with its blueprint, for as long as the context lasts.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
+    _check_writable(path)
+    stream = rr.RecordingStream(APPLICATION, recording_id=name)
+    stream.save(path, default_blueprint=layout)
+    yield stream
+    stream.flush()
+    stream.disconnect()
+
+
+def _check_writable(path: Path) -> None:
+    try:
+        path.open("ab").close()
+    except OSError as error:
+        raise InputError(f"{path}: cannot write the rerun file ({error.strerror})") from error
+
 
 BACKGROUND = (16, 19, 26)
 CLOSE_WINDOW = 0.2
@@ -46,16 +125,8 @@ def blueprint(
 ) -> rrb.Blueprint:
     """Lay out the view: the bearing on the left, curves on the right.
 
-    Parameters
-    ----------
-    outer_diameter : float
-        Of the bearing, sets the distance of the eye, [m].
-    span : tuple of 2 floats, optional
-        Time window of the curves, [s]; by default all there is.
-    follow : bool
-        Show the newest data of a running twin, and not a replay.
-    sensors : tuple of str, optional
-        Names of all accelerometers.
+    The outer diameter [m] sets the distance of the eye; the curves show a window of time [s], by default all
+    there is, and the newest data of a running twin with ``follow``. ``sensors`` names all accelerometers.
     """
     eye = rrb.EyeControls3D(
         kind=rrb.Eye3DKind.Orbital,

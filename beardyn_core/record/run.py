@@ -13,16 +13,7 @@ import numpy as np
 from beardyn_core.errors import InputError
 from beardyn_core.observe.labels import flat_labels, load_labels
 from beardyn_core.observe.monitoring import MonitorInput
-from beardyn_core.record.arrays import (
-    Bodies,
-    Contacts,
-    Diagnostics,
-    Load,
-    Signal,
-    Turning,
-    decoding_checked,
-    no_signal,
-)
+from beardyn_core.record import arrays
 from beardyn_core.record.encoding import ACCELERATION_AXES
 from beardyn_core.record.topics import vibration_topic
 
@@ -37,7 +28,7 @@ Part = TypeVar("Part")
 
 MONITOR_PART = 512  # vibration samples that a monitor gets at a time
 _NONE = np.zeros(0)
-_SILENCE = no_signal(ACCELERATION_AXES, "m/s^2")
+_SILENCE = arrays.no_signal(ACCELERATION_AXES, "m/s^2")
 
 
 class Run:
@@ -116,27 +107,27 @@ class Run:
         return cls(source, description, status=status, scene_text=text, summary=summary)
 
     @cached_property
-    def force(self) -> Signal:
+    def force(self) -> arrays.Signal:
         """Force and moment of the rollers on the cup at 400 Hz, values [sample, 6], [N, N m]."""
         return self._take(self._source.force)
 
     @cached_property
-    def force_waveform(self) -> Signal:
+    def force_waveform(self) -> arrays.Signal:
         """Force and moment of the rollers on the cup at 25.6 kHz, values [sample, 6], [N, N m]."""
         return self._take(self._source.force_waveform)
 
     @cached_property
-    def sensors(self) -> dict[str, Signal]:
+    def sensors(self) -> dict[str, arrays.Signal]:
         """Specific force that each accelerometer reads, by its name, values [sample, 3], [m/s^2]."""
         return self._take(self._source.sensors)
 
     @property
-    def vibration(self) -> Signal:
+    def vibration(self) -> arrays.Signal:
         """Specific force that the first accelerometer reads, values [sample, 3], [m/s^2]; +g on z at rest."""
         return self.sensors.get(self._sensor_names[0], _SILENCE) if self._sensor_names else _SILENCE
 
     @property
-    def sensor_topics(self) -> dict[str, Signal]:
+    def sensor_topics(self) -> dict[str, arrays.Signal]:
         """`sensors` by the topic that each is recorded on."""
         names = self._sensor_names
         return {vibration_topic(names.index(name), names): signal for name, signal in self.sensors.items()}
@@ -146,57 +137,57 @@ class Run:
         return tuple(self.sensors) if self.description is None else self.description.sensor_names
 
     @cached_property
-    def specific_force(self) -> Signal:
+    def specific_force(self) -> arrays.Signal:
         """Specific force at the first accelerometer, decimated to 400 Hz, values [sample, 3], [m/s^2]."""
         return self._take(self._source.specific_force)
 
     @cached_property
-    def shaft(self) -> Turning:
+    def shaft(self) -> arrays.Turning:
         """Angle and speed of the shaft at 400 Hz, each [sample]."""
         return self._take(self._source.shaft)
 
     @cached_property
-    def torque(self) -> Signal:
+    def torque(self) -> arrays.Signal:
         """Torque of the bearing on the shaft at 200 Hz, values [sample], [N m]."""
         return self._take(self._source.torque)
 
     @cached_property
-    def cages(self) -> Turning:
+    def cages(self) -> arrays.Turning:
         """Orbit angle and speed of both cages at 200 Hz, each [sample, row]."""
         return self._take(self._source.cages)
 
     @cached_property
-    def rollers(self) -> Turning:
+    def rollers(self) -> arrays.Turning:
         """Orbit angle and speed of all rollers at 200 Hz, each [sample, row, roller]."""
         return self._take(self._source.rollers)
 
     @cached_property
-    def bodies(self) -> Bodies:
+    def bodies(self) -> arrays.Bodies:
         """Pose and motion of every body at 200 Hz."""
         return self._take(self._source.bodies)
 
     @cached_property
-    def contacts(self) -> Contacts:
+    def contacts(self) -> arrays.Contacts:
         """Contacts of every roller at 200 Hz."""
         return self._take(self._source.contacts)
 
     @cached_property
-    def load(self) -> Load:
+    def load(self) -> arrays.Load:
         """Load on the journal and shaft speed that went into the run."""
         return self._take(self._source.load)
 
     @cached_property
-    def temperature(self) -> Signal:
+    def temperature(self) -> arrays.Signal:
         """Temperature of each part every 0.2 s, values [sample, part], [K]; empty without the effect."""
         return self._take(self._source.temperature)
 
     @cached_property
-    def diagnostics(self) -> Diagnostics:
+    def diagnostics(self) -> arrays.Diagnostics:
         """Stamp [ns] and statuses of the twin every 0.2 s."""
         return self._take(self._source.diagnostics)
 
     @cached_property
-    def results(self) -> Diagnostics:
+    def results(self) -> arrays.Diagnostics:
         """Stamp [ns] and statuses of the monitor that ran beside."""
         return self._take(self._source.results)
 
@@ -209,12 +200,12 @@ class Run:
         if self.description is None:
             return {}
         truth, load = json.loads(json.dumps(dict(self.description.truth))), self.load
-        with decoding_checked(self.label):
+        with arrays.decoding_checked(self.label):
             return {**truth, **load_labels(load.time_ns, load.wrench, load.shaft_speed, truth)}
 
     def _take(self, part: Callable[[], Part]) -> Part:
         """Decode an array; a damaged file raises `InputError`."""
-        with decoding_checked(self.label):
+        with arrays.decoding_checked(self.label):
             return part()
 
     @property

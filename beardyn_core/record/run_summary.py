@@ -9,8 +9,16 @@ import numpy as np
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.rating_life import RatingLife, scene_life
 from beardyn_core.model.layout import LOSS_NAMES
-from beardyn_core.observe.summary import COMPLETE, SETTLING_S, RunSummary, TrendMeans, trend_means
-from beardyn_core.observe.torque_budget import NUMERICAL, TorqueBudget, torque_budget
+from beardyn_core.observe.summary import (
+    COMPLETE,
+    NUMERICAL,
+    SETTLING_S,
+    RunSummary,
+    TorqueBudget,
+    TrendMeans,
+    torque_budget,
+    trend_means,
+)
 from beardyn_core.record.encoding import loss_key
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

@@ -3,14 +3,11 @@
 ============ ===============================================================================
 module       responsibility, in the order of the data
 ============ =====================================================================
-speed        speed and distance over time, a run from stop to stop
 excitation   irregularity of the rail; flats and waves of the wheel; joints, welds, crossings, corrugation
-running      curves; brake and drive of an axle
-suspension   springs of freight bogies with their friction; what the sideways motion depends on
+running      speed profiles, curves; brake and drive of an axle
 operation    where load and speed come from
-load         load on the journal as samples
-load_buffer  the load as a stream: accepted, refused, interpolated
-mounting     axlebox, suspension, journal
+load         load on the journal as samples, and as a stream
+mounting     axlebox, journal, suspension and guidance of a vehicle
 defect       patches, roller diameter, worn pocket
 waviness     harmonics of raceways and rollers
 sensor       accelerometers

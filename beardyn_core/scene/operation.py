@@ -11,9 +11,8 @@ from typing import Any, ClassVar
 
 from beardyn_core.edge import At, Problem, Vector, refuse, written
 from beardyn_core.scene.excitation import Irregularity, RailDefect, WheelDefect
-from beardyn_core.scene.running import Braking, Curve, Starting
-from beardyn_core.scene.speed import POINTS, Profile, not_ascending
-from beardyn_core.scene.suspension import Guidance, ProgressiveSuspension
+from beardyn_core.scene.mounting import Guidance, ProgressiveSuspension
+from beardyn_core.scene.running import POINTS, Braking, Curve, Profile, Starting, not_ascending
 
 WHEEL_PROFILES = ("worn", "cone")
 TAKES = ("both", "force", "speed")

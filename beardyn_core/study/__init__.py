@@ -4,23 +4,19 @@
 module              responsibility
 =================== =========================================================================
 desk_run            a scene from start to end, with its means
-monitored_recording a monitor beside a recording, or over one
-finding             a monitor's result in words and messages
+monitored_recording a monitor beside a recording, or over one; its results in words and messages
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
-trial_run           one run of a trial of a monitor
 code_digest         hashes of the code of a monitor and of the simulator
-trial               all its runs, kept and taken up again
+trial               its runs with a monitor beside each, kept and taken up again
 trial_result        rates with intervals, smallest sizes
 trial_report        a trial as table and JSON
 trial_picture       a trial in one picture
-signals             channels of a run in one piece, and windows of them
-measures            the numbers by which runs are compared
+measures            signals of a run in one piece, and the numbers by which runs are compared
 ladder_levels       the levels of a ladder: tier, effects, laminae, step; their expected cost
 ladder              all levels of a scene against a converged reference
-ladder_errors       errors of a level, each with the scatter between runs
-ladder_result       which levels meet an accuracy, which are efficient
+ladder_result       errors of a level with the scatter between runs; levels that meet an accuracy
 ladder_report       a ladder as table and JSON
 ladder_picture      accuracy against wall time in one picture
 table               tables for the terminal and for pages, numbers in few digits

@@ -50,14 +50,10 @@ def simulator_digest() -> str:
 
 
 def modules_of(name: str) -> tuple[dict[str, Path], set[str]]:
-    """Find the files of a module and of all that it imports, also inside of its functions.
+    """Find a module and all that it imports, also inside of its functions.
 
-    Returns
-    -------
-    dict of str to Path
-        Files by the name of their module, without installed packages, Python's own and this package.
-    set of str
-        Names of the installed packages among them.
+    Returned are files by the name of their module, without installed packages, Python's own and this package,
+    and the names of the installed packages.
     """
     files: dict[str, Path] = {}
     packages: set[str] = set()

@@ -10,15 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from beardyn_core.arrays import Float
+from beardyn_core.laboratory import nine_contacts
 from beardyn_core.laboratory.findings import Findings
-from beardyn_core.laboratory.nine_contacts import (
-    NAMES,
-    large_rib,
-    nominal_axis,
-    nominal_centre,
-    pocket_line,
-    small_rib,
-)
 from beardyn_core.laboratory.rolling import PLACE, Rolling
 
 DPI = 100
@@ -46,9 +39,9 @@ def write_pictures(found: Findings, folder: Path) -> list[Path]:
 
 def _along_roller(found: Findings, points: Float) -> tuple[Float, Float, Float]:
     """Return places along the roller axis from mid-length, square to it (outwards), and around, [mm]."""
-    axis = nominal_axis(found.bearing)
+    axis = nine_contacts.nominal_axis(found.bearing)
     outward = np.array([axis[2], 0.0, -axis[0]])
-    arm = np.asarray(points, dtype=float) - nominal_centre(found.bearing)
+    arm = np.asarray(points, dtype=float) - nine_contacts.nominal_centre(found.bearing)
     return _MM * (arm @ axis), _MM * (arm @ outward), _MM * arm[..., 1]
 
 
@@ -88,22 +81,24 @@ def _meridian(axes: Axes, found: Findings) -> None:
     bearing = found.bearing
     top = _roller(axes, found, "roller")
     reach = np.linspace(-0.56, 0.56, 2)[:, None] * bearing.roller_length
-    axis, centre = nominal_axis(bearing), nominal_centre(bearing)
+    axis, centre = nine_contacts.nominal_axis(bearing), nine_contacts.nominal_centre(bearing)
     outward = np.array([axis[2], 0.0, -axis[0]])
     for side, colour, label in ((1.0, _CUP, "cup"), (-1.0, _CONE, "cone with ribs")):
         radius = (bearing.apex_distance + reach) * math.tan(bearing.half_angle)
         _draw_line(axes, found, centre + reach * axis + side * radius * outward, colour, label)
     # the face of the large rib is given at its contact height
     for face, foot, height in (
-        (large_rib(bearing), -bearing.rib_contact_height, bearing.rib_height),
-        (small_rib(bearing), 0.0, bearing.small_rib_height),
+        (nine_contacts.large_rib(bearing), -bearing.rib_contact_height, bearing.rib_height),
+        (nine_contacts.small_rib(bearing), 0.0, bearing.small_rib_height),
     ):
         start = np.array([face.radial, 0.0, face.axial])
         along = np.array([face.normal_axial, 0.0, -face.normal_radial])
         along = along if along[0] > 0.0 else -along
         _draw_line(axes, found, start + np.array([[foot], [foot + height]]) * along, _CONE)
     for name, entry in (("C2.1", "cage lines"), ("C4.1", None)):
-        along_axis, _, _ = _along_roller(found, pocket_line(bearing, name).place.origin[None, :])
+        along_axis, _, _ = _along_roller(
+            found, nine_contacts.pocket_line(bearing, name).place.origin[None, :]
+        )
         axes.plot(along_axis, [0.0], marker="s", ms=8, color=_CAGE, ls="", label=entry)
     _mark(axes, found, 1, ("Inner", "Outer", "FR", "FL", "C2.1"))
     axes.set(xlabel="along the roller axis [mm]", ylabel="square to it, outwards [mm]", aspect="equal")
@@ -117,7 +112,7 @@ def _from_outside(axes: Axes, found: Findings) -> None:
     top = _roller(axes, found)
     length, width = 0.5 * bearing.roller_length, bearing.large_end_radius
     for name, half in (("C3.1", length), ("C3.2", length), ("C2.1", width), ("C4.1", width)):
-        place = pocket_line(bearing, name).place
+        place = nine_contacts.pocket_line(bearing, name).place
         along, _, around = _along_roller(found, place.origin + np.array([[-half], [half]]) * place.pole)
         axes.plot(along, around, color=_CAGE, lw=2.5)
     _mark(axes, found, 2, ("C2.1", "C3.1", "C3.2", "C4.1", "C4.2"))
@@ -128,7 +123,7 @@ def _from_outside(axes: Axes, found: Findings) -> None:
 
 def _mark(axes: Axes, found: Findings, across: int, names: tuple[str, ...]) -> None:
     """Mark and name contact points: along the roller, and a coordinate of `_along_roller` across it."""
-    assert set(names) <= set(NAMES)
+    assert set(names) <= set(nine_contacts.NAMES)
     labelled: set[str] = set()
     for contact in found.located:
         if contact.name not in names:

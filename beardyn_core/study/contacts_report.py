@@ -7,18 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.laboratory import findings
 from beardyn_core.laboratory.barrel import BarrelLoads
-from beardyn_core.laboratory.findings import (
-    CONTACT_SHARE,
-    EVALUATIONS,
-    EVALUATIONS_PER_STEP,
-    LOAD,
-    MEAN_STEP,
-    RUN_SECONDS,
-    SANTOS_HOURS,
-    Findings,
-    LocatedContact,
-)
 from beardyn_core.laboratory.nine_contacts import PAIRINGS, SEARCHES_PER_ROLLER
 from beardyn_core.laboratory.rolling import Rolling
 from beardyn_core.laboratory.timing import MethodResult
@@ -27,7 +17,7 @@ from beardyn_core.study.ladder_report import machine
 from beardyn_core.study.table import Column, Table, digits, duration_text, nanometres, percent
 
 TWIN_STEPS_PER_SAMPLE = 4
-TWIN_EVALUATIONS = round(RUN_SECONDS * WAVEFORM_RATE * TWIN_STEPS_PER_SAMPLE)
+TWIN_EVALUATIONS = round(findings.RUN_SECONDS * WAVEFORM_RATE * TWIN_STEPS_PER_SAMPLE)
 _METRES = (
     *("abscissa", "gap", "plain_difference", "compiled_difference", "p", "q", "largest_error"),
     *("radius", "search_height", "bounded_height", "search_gap", "bounded_depth", "displacement"),
@@ -54,13 +44,14 @@ _METHOD_COLUMNS: tuple[Column, ...] = (
 )
 
 
-def _located_table(found: Findings) -> Table:
-    def name(contact: LocatedContact) -> str:
+def _located_table(found: findings.Findings) -> Table:
+    def name(contact: findings.LocatedContact) -> str:
         is_disc = contact.name in ("Inner", "Outer")
         return f"{contact.name}, x = {contact.abscissa * 1e3:+.1f} mm" if is_disc else contact.name
 
     return Table.of(
-        f"Nine contacts at the first time step ({found.bearing.name}, {LOAD / 1e3:g} kN, most loaded roller)",
+        f"Nine contacts at the first time step ({found.bearing.name}, {findings.LOAD / 1e3:g} kN, "
+        "most loaded roller)",
         found.located,
         (
             ("contact", name),
@@ -75,7 +66,7 @@ def _located_table(found: Findings) -> Table:
     )
 
 
-def _methods_table(found: Findings) -> Table:
+def _methods_table(found: findings.Findings) -> Table:
     return Table.of(
         "Random rollers (shifted by 50 um, turned by 2 mrad; start: the nominal roller)",
         found.random_rollers,
@@ -85,7 +76,7 @@ def _methods_table(found: Findings) -> Table:
     )
 
 
-def _contacts_table(found: Findings) -> Table:
+def _contacts_table(found: findings.Findings) -> Table:
     heads = (
         *("fsolve", "numeric", "analytic", "closed"),
         *("fsolve, compiled eq.", "numeric, compiled", "analytic, compiled"),
@@ -105,34 +96,35 @@ def _contacts_table(found: Findings) -> Table:
     )
 
 
-def _run_table(found: Findings) -> Table:
+def _run_table(found: findings.Findings) -> Table:
     """Compare Santos (2017), Table 1, with our times, extrapolated to its run."""
 
     def santos(result: MethodResult) -> str:
         name, _, way = result.method.partition(", ")
-        hours = SANTOS_HOURS.get(name) if way == "plain" else None
-        return "-" if hours is None else f"{CONTACT_SHARE * hours:.1f} h of {hours:g} h"
+        hours = findings.SANTOS_HOURS.get(name) if way == "plain" else None
+        return "-" if hours is None else f"{findings.CONTACT_SHARE * hours:.1f} h of {hours:g} h"
 
     closed = found.whole_bearing[-1]
     twin = duration_text(found.run_hours(closed, TWIN_EVALUATIONS))
     table = Table.of(
-        f"A whole row, warm starts, and contact detection of a run of {RUN_SECONDS:g} s",
+        f"A whole row, warm starts, and contact detection of a run of {findings.RUN_SECONDS:g} s",
         found.whole_bearing,
         (
             *_METHOD_COLUMNS,
             ("run", lambda result: duration_text(found.run_hours(result))),
             ("Santos (2017)", santos),
         ),
-        f"run: {found.searches_per_evaluation} searches x {EVALUATIONS} evaluations "
-        f"(Runge-Kutta 4(5), mean step {MEAN_STEP * 1e6:g} us, {EVALUATIONS_PER_STEP} evaluations a "
-        f"step), detection alone; the twin's step: {TWIN_EVALUATIONS} evaluations",
-        f"Santos (2017): {CONTACT_SHARE:.0%} of its time, which the paper assigns to the contact points",
+        f"run: {found.searches_per_evaluation} searches x {findings.EVALUATIONS} evaluations "
+        f"(Runge-Kutta 4(5), mean step {findings.MEAN_STEP * 1e6:g} us, {findings.EVALUATIONS_PER_STEP} evaluations "
+        f"a step), detection alone; the twin's step: {TWIN_EVALUATIONS} evaluations",
+        f"Santos (2017): {findings.CONTACT_SHARE:.0%} of its time, which the paper assigns to the contact "
+        "points",
     )
     last = ("the same at the twin's step", digits(closed.microseconds), "-", "-", "-", twin, "-")
     return replace(table, rows=(*table.rows, last))
 
 
-def _forms_table(found: Findings) -> Table:
+def _forms_table(found: findings.Findings) -> Table:
     """Compare three readings of the surface-surface conditions."""
     return Table.of(
         "Conditions of the surface-surface contact FR (sphere on rib), random rollers",
@@ -152,7 +144,7 @@ def _forms_table(found: Findings) -> Table:
     )
 
 
-def _shapes_table(found: Findings) -> Table:
+def _shapes_table(found: findings.Findings) -> Table:
     names = ("fsolve", "numeric", "analytic")
     return Table.of(
         "Random circles, spheres and cylinders",
@@ -177,7 +169,7 @@ def _shapes_table(found: Findings) -> Table:
     )
 
 
-def _spheres_table(found: Findings) -> Table:
+def _spheres_table(found: findings.Findings) -> Table:
     bearing = found.bearing
     return Table.of(
         "Roller end on a given rib, pushed in by 10 um, skewed by 0.5 mrad",
@@ -222,7 +214,7 @@ def _rolling_summary(run: Rolling) -> dict[str, Any]:
     }
 
 
-def _rolling_table(found: Findings) -> Table:
+def _rolling_table(found: findings.Findings) -> Table:
     return Table.of(
         "Rolling down a cylindrical floor and up again",
         [_rolling_summary(run) for run in found.rolling],
@@ -242,7 +234,7 @@ def _rolling_table(found: Findings) -> Table:
     )
 
 
-def _barrel_table(found: Findings) -> Table:
+def _barrel_table(found: findings.Findings) -> Table:
     def largest_difference(loads: BarrelLoads) -> str:
         return f"{100.0 * float(np.abs(loads.load - loads.formula).max() / loads.load.max()):.3f}"
 
@@ -267,7 +259,7 @@ def _barrel_table(found: Findings) -> Table:
     )
 
 
-def tables(found: Findings) -> tuple[Table, ...]:
+def tables(found: findings.Findings) -> tuple[Table, ...]:
     """Make all tables in the order of the page."""
     return (
         _located_table(found),
@@ -282,22 +274,22 @@ def tables(found: Findings) -> tuple[Table, ...]:
     )
 
 
-def report(found: Findings) -> str:
+def report(found: findings.Findings) -> str:
     """Write all tables for the terminal."""
     parts = [table.text() for table in tables(found)]
     return "\n\n".join([*parts, f"all of this took {found.seconds:.0f} s on {machine()['processor']}"])
 
 
-def json_object(found: Findings) -> dict[str, Any]:
+def json_object(found: findings.Findings) -> dict[str, Any]:
     """Gather everything for JSON, SI units in the keys."""
     return {
         "bearing": found.bearing.name,
         "quick": found.quick,
         "machine": machine(),
         "wall_time_s": found.seconds,
-        "evaluations": EVALUATIONS,
+        "evaluations": findings.EVALUATIONS,
         "searches_per_evaluation": found.searches_per_evaluation,
-        "santos_2017_s": {method: 3600.0 * hours for method, hours in SANTOS_HOURS.items()},
+        "santos_2017_s": {method: 3600.0 * hours for method, hours in findings.SANTOS_HOURS.items()},
         "row_difference_m": found.row_difference,
         "located": _in_si(found.located),
         "random_rollers": _in_si(found.random_rollers),

@@ -16,7 +16,7 @@ from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Defect
-from beardyn_core.study.finding import HEALTHY, Conclusion, Finding, conclude
+from beardyn_core.study.monitored_recording import HEALTHY, Conclusion, Finding, conclude
 from beardyn_core.study.summary_picture import SummaryData, summary_picture
 
 RECORDING_NAME = "run.mcap"

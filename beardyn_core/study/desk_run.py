@@ -19,8 +19,14 @@ from beardyn_core.integrate.status import describe
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.stage_clock import REST, SINKS
-from beardyn_core.observe.summary import COMPLETE, RunSummary, TrendMeans, trend_means
-from beardyn_core.observe.torque_budget import TorqueBudget, torque_budget
+from beardyn_core.observe.summary import (
+    COMPLETE,
+    RunSummary,
+    TorqueBudget,
+    TrendMeans,
+    torque_budget,
+    trend_means,
+)
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import MemorySink, Sink

@@ -23,11 +23,9 @@ from beardyn_core.integrate.status import describe
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Scene
-from beardyn_core.study.ladder_errors import errors
 from beardyn_core.study.ladder_levels import Level, LevelList, expected_cost
-from beardyn_core.study.ladder_result import Cost, Ladder, LevelResult
-from beardyn_core.study.measures import FaultLine, Outcome, fault_line_of, outcome
-from beardyn_core.study.signals import SignalCollector
+from beardyn_core.study.ladder_result import Cost, Ladder, LevelResult, errors
+from beardyn_core.study.measures import FaultLine, Outcome, SignalCollector, fault_line_of, outcome
 from beardyn_core.twin import Twin
 
 COMPLETE = "complete"
@@ -107,21 +105,10 @@ def _usual_duration(scene: Scene, longest: float) -> float:
 
 
 def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> tuple[tuple[float, ...], int]:
-    """Find the ends of equal windows of whole cage revolutions before an end.
+    """Find the ends of equal windows of whole cage revolutions between two times [s], and their revolutions.
 
-    Parameters
-    ----------
-    times, cage_speed : float64 array, shape [sample]
-        [s], in pure rolling [rad/s].
-    start, end : float
-        Between which the windows lie, [s].
-
-    Returns
-    -------
-    tuple of float
-        Ends of the windows, [s]. Without a whole revolution: four windows of equal length.
-    int
-        Whole revolutions in all windows together.
+    The cage speed is that in pure rolling, [rad/s], shape [sample]. Without a whole revolution there are four
+    windows of equal length.
     """
     steps = 0.5 * (cage_speed[1:] + cage_speed[:-1]) * np.diff(times)
     turned = np.concatenate([[0.0], np.cumsum(steps)]) / (2.0 * math.pi)

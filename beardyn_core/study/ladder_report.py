@@ -13,9 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.model.build import WAVEFORM_RATE
-from beardyn_core.study.ladder_errors import BAND_LIMIT_DB, QuantityError
 from beardyn_core.study.ladder_levels import AUTO, OF_THE_SCENE, Level
-from beardyn_core.study.ladder_result import Ladder, LevelResult
+from beardyn_core.study.ladder_result import BAND_LIMIT_DB, Ladder, LevelResult, QuantityError
 from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS
 
 _BAND_ROW = "reference, and the band of a single run"

@@ -1,21 +1,126 @@
-"""A monitor beside a recording that is being made, or over one that is finished."""
+"""Results of a monitor, and the monitor beside a recording that is being made or over a finished one."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
+from math import isfinite, nan
+from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
-from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
+from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
 from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.messages import encode_diagnostics
+from beardyn_core.record.messages import Diagnostic, encode_diagnostics
 from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.topics import FRAME, NAMESPACE
-from beardyn_core.study.finding import Finding
+
+WAITING, HEALTHY = "waiting", "healthy"
+HOT_BOX = "hot_box"
+FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One result of the monitor, without its spectrum."""
+
+    verdict: A[str, "``waiting``, ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``"]
+    reason: A[str, "the verdict in a sentence"]
+    time: A[float, "simulated time of the last sample analysed, [s]"]
+    found_frequency: A[float, "line found; NaN without a fault, [Hz]"] = nan
+    expected_frequency: A[float, "the same from geometry, [Hz]"] = nan
+    found_order: A[float, "line found, per shaft revolution, [-]"] = nan
+    expected_order: A[float, "the same from geometry, [-]"] = nan
+    signal_to_background: A[float, "of the fundamental line; without a fault of the strongest, [dB]"] = nan
+    score: A[float, "what the alarm threshold is compared with, [dB]"] = 0.0
+    shaft_frequency: A[float, "[Hz]"] = nan
+    load: A[float, "mean vertical load, [N]"] = nan
+    rms: A[float, "of the band-passed vibration, [m/s^2]"] = nan
+    kurtosis: A[float, "of the band-passed vibration, [-]"] = nan
+    crest: A[float, "of the band-passed vibration, [-]"] = nan
+    threshold: A[float, "score from which a fault is called, [dB]"] = nan
+    band_low: A[float, "lower end of the band of the envelope, [Hz]"] = nan
+    band_high: A[float, "upper end, [Hz]"] = nan
+    rms_rise: A[float, "over earlier results at a like speed, [dB]"] = nan
+    temperature: A[float, "of the axlebox, [K]"] = nan
+
+    @classmethod
+    def of(cls, result: MonitorResult) -> Finding:
+        """Make the finding of a monitor's result."""
+        fundamental = [line.level for line in result.lines if line.expected_order == result.expected_order]
+        named = {member.name for member in fields(result)} & {member.name for member in fields(cls)}
+        return cls(
+            **{name: getattr(result, name) for name in named},
+            time=result.end_ns * 1e-9,
+            found_frequency=result.fault_frequency,
+            found_order=result.fault_order,
+            signal_to_background=fundamental[0] if fundamental else result.strongest_level,
+            band_low=result.band[0],
+            band_high=result.band[1],
+        )
+
+    @property
+    def is_fault(self) -> bool:
+        """Whether a fault is called."""
+        return self.verdict in FAULT_SYMBOLS
+
+    @property
+    def symbol(self) -> str:
+        """``BPFO``, ``BPFI`` or ``2 BSF``; '' without a fault."""
+        return FAULT_SYMBOLS.get(self.verdict, "")
+
+    @property
+    def deviation(self) -> float:
+        """Frequency found against geometry, relative, [-]."""
+        return self.found_order / self.expected_order - 1.0
+
+    def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
+        """Write as a status of ``monitor/result``: a fault is a warning, a hot box an error."""
+        values = [("verdict", self.verdict)]
+        for member in fields(self)[2:]:
+            number = float(getattr(self, member.name))
+            values.append((member.name, f"{number:.9g}" if isfinite(number) else "nan"))
+        level = 2 if self.verdict == HOT_BOX else int(self.is_fault)
+        return Diagnostic(name, level, self.reason, (*values, *extra))
+
+    @classmethod
+    def from_diagnostic(cls, status: Diagnostic) -> Finding | None:
+        """Read a finding from a status; ``None`` when the status is no finding."""
+        verdict = status.value("verdict")
+        if verdict is None:
+            return None
+        numbers = {member.name: float(status.value(member.name) or "nan") for member in fields(cls)[2:]}
+        return cls(verdict, status.message, **numbers)
+
+
+@dataclass(frozen=True)
+class Conclusion:
+    """Results of a monitor over a whole run, summed up."""
+
+    finding: A[Finding | None, "latest of the most frequent verdict; ``None``: never enough signal"]
+    agreeing: A[int, "results with that verdict"]
+    analyses: A[int, "results at all"]
+
+    @property
+    def verdict(self) -> str:
+        """Most frequent verdict; ``waiting`` without any."""
+        return self.finding.verdict if self.finding else WAITING
+
+
+def conclude(findings: Sequence[Finding]) -> Conclusion:
+    """Find the most frequent verdict of a run; results before there was enough signal do not count."""
+    judged = [finding for finding in findings if finding.verdict != WAITING]
+    if not judged:
+        return Conclusion(None, 0, 0)
+    verdict, agreeing = Counter(finding.verdict for finding in judged).most_common(1)[0]
+    latest = [finding for finding in judged if finding.verdict == verdict][-1]
+    return Conclusion(latest, agreeing, len(judged))
+
 
 MONITOR_STATUS = "axlebox/monitor"
 

@@ -13,7 +13,7 @@ from scipy.stats import binomtest
 
 from beardyn_core.observe.chain import FAULTS as PARTS
 from beardyn_core.scene.trial import HEALTHY, Cell, Trial
-from beardyn_core.study.trial_run import TrialRun
+from beardyn_core.study.trial import TrialRun
 
 CONFIDENCE = 0.95
 FOUND_AT = 0.9  # detection rate from which a size counts as found

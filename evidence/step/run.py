@@ -12,7 +12,7 @@ from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import chatter_index, describe
 from beardyn_core.model.build import SAMPLES_PER_BLOCK, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_TORQUE
-from beardyn_core.observe.decimate import Decimator
+from beardyn_core.observe.resampling import Decimator
 from beardyn_core.rail.build import load_history
 from beardyn_core.study.measures import third_octave_levels
 from beardyn_core.twin import Twin

@@ -26,8 +26,8 @@ Five plain functions, put together by `beardyn_core.observe.chain.Chain`:
 | step | ours | what it does |
 |---|---|---|
 | `select_band` | `kurtogram.by_kurtogram` | largest spectral kurtosis, else 2 to 10 kHz |
-| `envelope` | `tracking.squared_envelope` | squared envelope, all axes added |
-| `track` | `tracking.by_angle` | by shaft angle, less what the wheel does |
+| `envelope` | `chain.squared_envelope` | squared envelope, all axes added |
+| `track` | `chain.by_angle` | by shaft angle, less what the wheel does |
 | `score` | `fault_lines.comb_score` | power on the lines of each part, over noise |
 | `decide` | `verdict.strongest_pattern` | the part most over its threshold; a hot box |
 

@@ -17,7 +17,7 @@ from beardyn_core.scene.operation import (
     SteppedOperation,
     Vehicle,
 )
-from beardyn_core.scene.speed import distance_at
+from beardyn_core.scene.running import distance_at
 
 HEADER = "time_s,speed_rpm,fx_N,fy_N,fz_N\n"
 

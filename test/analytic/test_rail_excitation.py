@@ -13,7 +13,7 @@ from beardyn_core.rail.vehicle import BOX, WHEEL, quarter_vehicle, ride
 from beardyn_core.scene.excitation import Corrugation, DippedJoint, WheelFlat, WheelPolygon
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
-from beardyn_core.scene.speed import distance_at
+from beardyn_core.scene.running import distance_at
 from test.analytic.rail_rides import ride_of
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)

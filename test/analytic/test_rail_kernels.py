@@ -11,8 +11,16 @@ from scipy.integrate import solve_ivp
 from beardyn_core.config import load_vehicle
 from beardyn_core.rail.course import HALF_GAUGE, course
 from beardyn_core.rail.lateral import lateral_motion, lateral_vehicle
-from beardyn_core.rail.suspension import equivalent_displacement
-from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, GRAVITY, WHEEL, quarter_vehicle, ride
+from beardyn_core.rail.vehicle import (
+    BODY,
+    BOGIE,
+    BOX,
+    GRAVITY,
+    WHEEL,
+    equivalent_displacement,
+    quarter_vehicle,
+    ride,
+)
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
 from beardyn_core.scene.running import Curve

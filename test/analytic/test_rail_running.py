@@ -16,8 +16,7 @@ from beardyn_core.rail.vehicle import GRAVITY, quarter_vehicle
 from beardyn_core.scene.excitation import WheelFlat
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
-from beardyn_core.scene.running import Braking, Curve, Starting
-from beardyn_core.scene.speed import Stop, Timetable, distance_at, speed_at
+from beardyn_core.scene.running import Braking, Curve, Starting, Stop, Timetable, distance_at, speed_at
 from test.analytic.rail_rides import ride_of
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)

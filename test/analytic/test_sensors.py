@@ -7,9 +7,8 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_CHANNELS
-from beardyn_core.observe.accelerometer import GRAVITY
-from beardyn_core.observe.decimate import DELAY
-from beardyn_core.observe.resonance import LOOKAHEAD, filter_coefficients, resonance_gain
+from beardyn_core.observe.accelerometer import GRAVITY, LOOKAHEAD, filter_coefficients, resonance_gain
+from beardyn_core.observe.resampling import DELAY
 from beardyn_core.observe.sensors import Sensors, box_force, lookahead
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer

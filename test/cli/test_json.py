@@ -20,7 +20,7 @@ from beardyn_core.integrate.rating_life import RatingLife
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSSES
 from beardyn_core.observe.stage_clock import StageTime
-from beardyn_core.observe.torque_budget import torque_budget
+from beardyn_core.observe.summary import torque_budget
 from beardyn_core.record.reporting import Gap, report
 from beardyn_core.scene.defect import Growth, MissingRoller, Patch, RollerError, WornPocket
 from beardyn_core.study.desk_run import RunSummary

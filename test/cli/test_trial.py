@@ -10,7 +10,7 @@ import pytest
 from beardyn_core.cli import main as command
 from beardyn_core.scene.trial import Cell, Trial
 from beardyn_core.study import trial as trial_module
-from beardyn_core.study.trial_run import TrialRun
+from beardyn_core.study.trial import TrialRun
 
 
 @pytest.fixture

@@ -25,9 +25,8 @@ from beardyn_core.errors import InputError
 from beardyn_core.record.description import RunDescription
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.operation import QuarterVehicleOperation
-from beardyn_core.scene.running import Curve
+from beardyn_core.scene.running import Curve, Stop, Timetable
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.speed import Stop, Timetable
 from beardyn_core.scene.waviness import Band, Waviness
 
 SCENES = ("curve", "waviness", "growing_spall", "freight_100", "static_80kN")

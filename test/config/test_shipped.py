@@ -30,11 +30,10 @@ from beardyn_core.edge import is_kind, stem_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.effects.catalogue import catalogue
 from beardyn_core.scene.defect import Patch
-from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.mounting import Guidance, Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, Track
 from beardyn_core.scene.scene import Numerics
 from beardyn_core.scene.sensor import Accelerometer
-from beardyn_core.scene.suspension import Guidance
 
 LOADERS: dict[str, Callable[[str], Any]] = {
     "bearings": load_bearing,

@@ -19,9 +19,8 @@ from beardyn_core.record.sinks import MemorySink
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
-from beardyn_core.study.finding import HOT_BOX
-from beardyn_core.study.monitored_recording import MonitoredRecording, findings_of
-from beardyn_core.study.trial_run import results_over
+from beardyn_core.study.monitored_recording import HOT_BOX, MonitoredRecording, findings_of
+from beardyn_core.study.trial import results_over
 from test.face.test_one_run import hot, spalled
 
 SETTINGS = MonitorSettings(interval=0.1, least_revolutions=2.0)

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.config import load_bearing
-from beardyn_core.laboratory.closed_compiled import ClosedForms
-from beardyn_core.laboratory.closed_forms import contact_gap
+from beardyn_core.laboratory.closed_forms import ClosedForms, contact_gap
 from beardyn_core.laboratory.compiled import batch
 from beardyn_core.laboratory.findings import locate
 from beardyn_core.laboratory.nine_contacts import (

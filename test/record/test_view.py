@@ -21,9 +21,8 @@ from beardyn_core.record.messages import encode_string
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.rerun_bearing import load_colours, log_parts, roller_loads
 from beardyn_core.record.rerun_live import LiveView
-from beardyn_core.record.rerun_plots import order_spectrum
-from beardyn_core.record.rerun_spectrum import nice_ticks
-from beardyn_core.record.rerun_stream import live_stream
+from beardyn_core.record.rerun_plots import nice_ticks, order_spectrum
+from beardyn_core.record.rerun_view import live_stream
 from beardyn_core.record.viewer import picture_problem, take_picture, viewer_executable
 from beardyn_core.scene.defect import MissingRoller, Spall
 from test.record.synthetic_run import SHAPE, SyntheticRun, description

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from beardyn_core.record.messages import decode_diagnostics
-from beardyn_core.study.finding import Finding
+from beardyn_core.study.monitored_recording import Finding
 from test.ros.graph import Graph
 
 ALLOWED = {f"/axlebox/{name}" for name in ("vibration", "shaft", "load/blocks", "load/wrench", "temperature")}

@@ -14,10 +14,9 @@ from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.lateral import lateral_vehicle
 from beardyn_core.rail.vehicle import GRAVITY, quarter_vehicle, ride
 from beardyn_core.scene.excitation import Corrugation, DippedJoint, WheelFlat, WheelPolygon
-from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.mounting import Guidance, Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Track, Vehicle
 from beardyn_core.scene.running import Curve
-from beardyn_core.scene.suspension import Guidance
 from test.analytic.rail_rides import ride_of
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)

@@ -12,8 +12,8 @@ import pytest
 from beardyn_core.effects import ContactDamping
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import Status, assess
+from beardyn_core.model.build import spring_time
 from beardyn_core.model.layout import SIGNAL_FORCE
-from beardyn_core.model.spring_share import spring_time
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from test.kernels.rig import (

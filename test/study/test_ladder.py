@@ -20,11 +20,10 @@ from beardyn_core.errors import ValidityError
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS, contradictions
 from beardyn_core.study.ladder import REFERENCE_RUNS, Plan, Run, climb, plan_of, repeats_of, varied
-from beardyn_core.study.ladder_errors import Part
 from beardyn_core.study.ladder_levels import Level, LevelList, automatic, expected_cost, level_of, levels_of
 from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
 from beardyn_core.study.ladder_report import json_object, table
-from beardyn_core.study.ladder_result import Ladder
+from beardyn_core.study.ladder_result import Ladder, Part
 from beardyn_core.study.measures import MEASURES, QUANTITIES, Outcome
 from beardyn_core.twin import Twin
 

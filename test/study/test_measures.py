@@ -14,12 +14,14 @@ from beardyn_core.choice import load_scene
 from beardyn_core.scene.excitation import WheelFlat, WheelPolygon
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.study.ladder import window_edges
-from beardyn_core.study.ladder_errors import QuantityError, errors
+from beardyn_core.study.ladder_result import QuantityError, errors
 from beardyn_core.study.measures import (
     MEASURES,
     NOMINAL_BANDS,
     FaultLine,
     Outcome,
+    SignalCollector,
+    Signals,
     fault_line_of,
     line_level,
     load_distribution,
@@ -27,7 +29,6 @@ from beardyn_core.study.measures import (
     outcome,
     third_octave_levels,
 )
-from beardyn_core.study.signals import SignalCollector, Signals
 from test.record.synthetic_run import SyntheticRun
 
 Float = NDArray[np.float64]

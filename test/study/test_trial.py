@@ -17,10 +17,9 @@ from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_append
 from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Trial
 from beardyn_core.study import trial as trial_module
-from beardyn_core.study.trial import RUNS_FILE, conduct, plan_of, read_runs
+from beardyn_core.study.trial import RUNS_FILE, TrialRun, conduct, conduct_run, plan_of, read_runs
 from beardyn_core.study.trial_report import json_object, table
 from beardyn_core.study.trial_result import Rate, TrialResult
-from beardyn_core.study.trial_run import TrialRun, conduct_run
 
 
 def run_of(cell: Cell, verdict: str, scores: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> TrialRun:

@@ -9,8 +9,12 @@ import pytest
 
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.integrate.roller_contacts import ConePose, contact_model
-from beardyn_core.integrate.roller_equilibrium import RollerState, solve_rollers
-from beardyn_core.integrate.roller_spring import load_of_approach, spring_params
+from beardyn_core.integrate.roller_equilibrium import (
+    RollerState,
+    load_of_approach,
+    solve_rollers,
+    spring_params,
+)
 from beardyn_core.integrate.static import _rotation
 from beardyn_core.model.layout import CAGE_BODY, CONE_BODY, CUP_BODY, POSITION, TILT, TURN
 from beardyn_core.observe.block import Block

@@ -5,7 +5,6 @@ module      responsibility
 =========== ========================================================================
 inputs      what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
 kurtogram   select_band: where the spectral kurtosis is largest
-tracking    envelope, and track: order tracking by the shaft angle
 wheel       takes out what turns with the wheel (flats, polygons)
 fault_lines score: power on the lines of each fault against noise, and the threshold
 levels      RMS, kurtosis, crest factor and their trend

@@ -165,12 +165,7 @@ def threshold(lines: int, places: float, rate: float) -> float:
 def trimmed_tail(total: float, lines: int) -> float:
     """Compute the probability that L exponentials of mean 1, less the largest, sum to more than a total.
 
-    Parameters
-    ----------
-    total : float
-        Beyond the mean of the sum.
-    lines : int
-        L.
+    The total is beyond the mean of the sum.
 
     References
     ----------

@@ -42,17 +42,8 @@ def by_kurtogram(stretch: Stretch, settings: MonitorSettings) -> Band:
 def fast_kurtogram(stretch: Stretch, narrowest: float, settings: MonitorSettings) -> list[Band]:
     """Compute spectral kurtosis in bands of the 1/3-binary tree: all, halves, thirds, quarters, sixths ...
 
-    Sectors in which the wheel strikes the rail are left out.
-
-    Parameters
-    ----------
-    narrowest : float
-        Width below which nothing is divided further, [Hz].
-
-    Returns
-    -------
-    list of Band
-        From wide to narrow.
+    Bands come from wide to narrow; below the narrowest width [Hz] nothing is divided further. Sectors in
+    which the wheel strikes the rail are left out.
 
     Notes
     -----

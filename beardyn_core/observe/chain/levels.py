@@ -23,19 +23,7 @@ class Levels:
 
 
 def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], speed: float) -> Levels:
-    """Compute the levels of a signal.
-
-    Parameters
-    ----------
-    acceleration : float64 array, shape [sample, axis]
-        [m/s^2].
-    rate : float
-        [Hz].
-    band : tuple of 2 floats
-        [Hz].
-    speed : float
-        Of the shaft, [Hz].
-    """
+    """Compute the levels of an acceleration [m/s^2], shape [sample, axis]; rate, band, shaft speed in [Hz]."""
     passed = analytic_band(acceleration, rate, band).real
     power = np.mean(passed**2, axis=0)
     peak = np.abs(passed).max(axis=0)

@@ -67,12 +67,7 @@ def answer_of(
     roller_count: int,
     settings: MonitorSettings,
 ) -> MonitorResult:
-    """Call an algorithm; a failure or a wrong answer raises an error with a sentence.
-
-    Parameters
-    ----------
-    stretch, orders, roller_count, settings
-        Its arguments.
+    """Call an algorithm with its arguments; a failure or a wrong answer raises an error with a sentence.
 
     Raises
     ------

@@ -46,14 +46,9 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
 
 
 def temperature_state(temperature: float, heating: float, settings: MonitorSettings) -> str:
-    """Judge the temperature: ``unknown``, ``normal``, ``warm`` or ``hot``.
+    """Judge the temperature of the axlebox [K] and its rise [K/s]: ``unknown``, ``normal``, ``warm``, ``hot``.
 
-    Parameters
-    ----------
-    temperature : float
-        Of the axlebox, NaN when unknown, [K].
-    heating : float
-        Its rise, NaN when unknown, [K/s].
+    Each is NaN when it is unknown.
 
     References
     ----------

@@ -15,12 +15,9 @@ _LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
 
 
 def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
-    """Find the sectors of the wheel in which it strikes the rail in three of four revolutions.
+    """Find the sectors of the wheel in which it strikes the rail in three of four revolutions, shape [sector].
 
-    Returns
-    -------
-    bool array, shape [sector]
-        From the shaft angle at the start of the stretch on.
+    They begin at the shaft angle at the start of the stretch.
 
     Notes
     -----
@@ -48,18 +45,9 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
 def without_wheel(power: Float, struck: Bool) -> Float:
     """Subtract the wheel's own pattern; 0 where it strikes.
 
-    The mean over the revolutions at each angle holds all that comes back with the shaft: every whole
-    order. No bearing fault has one.
-
-    Parameters
-    ----------
-    power : float64 array, shape [revolution, step]
-        Squared envelope over the angle of the shaft; a multiple of `SECTORS` steps.
-    struck : bool array, shape [sector]
-
-    Returns
-    -------
-    float64 array, shape [revolution, step]
+    The power, shape [revolution, step], is the squared envelope over the angle of the shaft, in a multiple of
+    `SECTORS` steps. Its mean over the revolutions at each angle holds all that comes back with the shaft:
+    every whole order. No bearing fault has one.
 
     References
     ----------
