@@ -11,42 +11,52 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels import vectors
 from beardyn_core.kernels.defect import pocket_wear
 from beardyn_core.kernels.exchange import ContactOutput, account, account_loss, output_contact, react
 from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, magnitude, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.orbit import ring_view
+from beardyn_core.kernels.vectors import (
+    Vector,
+    Wrench,
+    add,
+    add_scaled,
+    add_wrenches,
+    cross,
+    dot,
+    scale,
+    subtract,
+)
 from beardyn_core.model.layout import CAGE_BODY, LOSS_POCKET, POCKET, POCKET_ANGLE, RING_TURN
 
 
 class Walls(NamedTuple):
     """Sums over the walls of a pocket."""
 
-    force: vectors.Vector  # on the roller [N]
-    moment: vectors.Vector  # about its centre of mass [N m]
+    force: Vector  # on the roller [N]
+    moment: Vector  # about its centre of mass [N m]
     energy: Any  # elastic [J]
     power: Any  # lost at the present slip [W]
-    lost_force: vectors.Vector  # lost part of the force, negated [N]
-    lost_moment: vectors.Vector  # its moment [N m]
+    lost_force: Vector  # lost part of the force, negated [N]
+    lost_moment: Vector  # its moment [N m]
 
 
 class PocketContact(NamedTuple):
     """A pocket contact before the solve."""
 
-    centre: vectors.Vector  # of mass of the roller from the cage's origin [m]
+    centre: Vector  # of mass of the roller from the cage's origin [m]
     walls: Walls
     slip_squared: Any  # at the bar that presses more [m^2/s^2]
-    bar: vectors.Vector  # contact with the nearer bar from the centre of mass [m]
+    bar: Vector  # contact with the nearer bar from the centre of mass [m]
 
 
 class Motion(NamedTuple):
     """How a roller and its cage move, in the orbit frame."""
 
-    velocity: vectors.Vector  # of the roller's centre of mass [m/s]
-    omega: vectors.Vector  # [rad/s]
-    cage_velocity: vectors.Vector  # of the cage's origin [m/s]
-    cage_omega: vectors.Vector  # [rad/s]
+    velocity: Vector  # of the roller's centre of mass [m/s]
+    omega: Vector  # [rad/s]
+    cage_velocity: Vector  # of the cage's origin [m/s]
+    cage_omega: Vector  # [rad/s]
 
 
 class Pocket(NamedTuple):
@@ -55,20 +65,20 @@ class Pocket(NamedTuple):
     The order of the members decides the last bits, see `exchange.react`.
     """
 
-    centre: vectors.Vector  # of mass of the roller from the cage's origin [m]
-    axis: vectors.Vector  # of the roller
+    centre: Vector  # of mass of the roller from the cage's origin [m]
+    axis: Vector  # of the roller
     motion: Motion
     advance: Any  # azimuth of the roller less that of its pocket [rad]
-    tilt: vectors.Vector  # small rotation of the cage without its spin [rad]
+    tilt: Vector  # small rotation of the cage without its spin [rad]
     wear: Any  # half of the clearance that wear has added [m]
 
 
 class Wall(NamedTuple):
     """A wall of a pocket that a roller may touch."""
 
-    centre: vectors.Vector  # of mass of the roller from the cage's origin [m]
-    arm: vectors.Vector  # where the roller touches it, from the centre of mass [m]
-    direction: vectors.Vector  # normal of the wall, towards it
+    centre: Vector  # of mass of the roller from the cage's origin [m]
+    arm: Vector  # where the roller touches it, from the centre of mass [m]
+    direction: Vector  # normal of the wall, towards it
     depth: Any  # approach beyond touching, negative for a gap [m]
 
 
@@ -85,7 +95,7 @@ def prepare_pocket(lanes, rings, block, body, orbit, pockets, p, cage):
     view = ring_view(lanes, rings, CAGE_BODY, orbit.cosine, orbit.sine)
     place = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(p.rollers, block, POCKET_ANGLE)
     wear = pocket_wear(lanes, block, pockets)
-    centre = vectors.subtract(body.place, view.origin)
+    centre = subtract(body.place, view.origin)
     motion = Motion(body.velocity, body.omega, view.velocity, view.omega)
     pocket = Pocket(centre, body.axis, motion, orbit.azimuth - place, view.axis, wear)
     return _touch(pocket, p.roller, cage, cage.rotating, cage.kinematic)
@@ -105,7 +115,7 @@ def push_pocket(total, contact, cage):
     """Add the pocket's wrench to that of the roller."""
     if cage is None:
         return total
-    return vectors.add_wrenches(total, vectors.Wrench(contact.walls.force, contact.walls.moment))
+    return add_wrenches(total, Wrench(contact.walls.force, contact.walls.moment))
 
 
 @inline
@@ -117,12 +127,10 @@ def settle_pocket(contact, change, here, cage, p):
     if cage is None:
         return
     walls, zero = contact.walls, here.lanes.constant(0.0)
-    react(CAGE_BODY, contact.centre, vectors.Wrench(walls.force, walls.moment), here)
+    react(CAGE_BODY, contact.centre, Wrench(walls.force, walls.moment), here)
     output = ContactOutput(walls.force, contact.bar, sqrt(contact.slip_squared), zero)
     output_contact(here.lanes, here.rollers, here.block, POCKET, output)
-    lost = walls.power + 0.5 * (
-        vectors.dot(walls.lost_force, change.velocity) + vectors.dot(walls.lost_moment, change.omega)
-    )
+    lost = walls.power + 0.5 * (dot(walls.lost_force, change.velocity) + dot(walls.lost_moment, change.omega))
     account_loss(here, LOSS_POCKET, p.step * lost, p.effects.audit)
     account(here, zero, walls.energy, p.effects.audit)
 
@@ -143,31 +151,31 @@ def free_pocket(pocket, roller, cage):
     cosine, sine = cos_sin(pocket.advance)
     still = 0.0 * sine
     ahead = (sine, cosine, still)
-    ahead = vectors.add(ahead, vectors.cross(tilt, ahead))
+    ahead = add(ahead, cross(tilt, ahead))
     outward = (cosine, -sine, still)
-    outward = vectors.add(outward, vectors.cross(tilt, outward))
+    outward = add(outward, cross(tilt, outward))
     pocket_axis = (cage.axis_radial * cosine, -cage.axis_radial * sine, cage.axis_axial + still)
-    pocket_axis = vectors.add(pocket_axis, vectors.cross(tilt, pocket_axis))
+    pocket_axis = add(pocket_axis, cross(tilt, pocket_axis))
 
-    height = cage.bar_sine * (vectors.dot(outward, centre) - cage.roller_height)
-    offset = cage.bar_cosine * vectors.dot(ahead, centre)
-    skew = cage.bar_cosine * vectors.dot(ahead, axis)
-    lift = cage.bar_sine * (vectors.dot(outward, axis) - cage.axis_radial)
-    front = vectors.add_scaled(vectors.scale(cage.bar_cosine, ahead), cage.bar_sine, outward)
-    behind = vectors.add_scaled(vectors.scale(-cage.bar_cosine, ahead), cage.bar_sine, outward)
+    height = cage.bar_sine * (dot(outward, centre) - cage.roller_height)
+    offset = cage.bar_cosine * dot(ahead, centre)
+    skew = cage.bar_cosine * dot(ahead, axis)
+    lift = cage.bar_sine * (dot(outward, axis) - cage.axis_radial)
+    front = add_scaled(scale(cage.bar_cosine, ahead), cage.bar_sine, outward)
+    behind = add_scaled(scale(-cage.bar_cosine, ahead), cage.bar_sine, outward)
     clearance = cage.bar_cosine * (cage.half_clearance + pocket.wear)
     small, large = -cage.bar_place, cage.bar_place
     small_radius = roller.radius - cage.bar_place * roller.taper
     large_radius = roller.radius + cage.bar_place * roller.taper
-    small_arm, large_arm = vectors.scale(small, axis), vectors.scale(large, axis)
+    small_arm, large_arm = scale(small, axis), scale(large, axis)
     small_end, large_end = (axis, small_radius), (axis, large_radius)
-    small_front = vectors.add_scaled(small_arm, small_radius, front)
-    small_behind = vectors.add_scaled(small_arm, small_radius, behind)
+    small_front = add_scaled(small_arm, small_radius, front)
+    small_behind = add_scaled(small_arm, small_radius, behind)
     walls = _untouched(0.0 * still)
     depth = height + offset + small * (lift + skew) - clearance
     wall = Wall(centre, small_front, front, depth)
     walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
-    large_front = vectors.add_scaled(large_arm, large_radius, front)
+    large_front = add_scaled(large_arm, large_radius, front)
     depth = height + offset + large * (lift + skew) - clearance
     wall = Wall(centre, large_front, front, depth)
     walls = _touch_wall(walls, wall, motion, cage, large_end, cage.film)
@@ -175,24 +183,24 @@ def free_pocket(pocket, roller, cage):
     depth = height - offset + small * (lift - skew) - clearance
     wall = Wall(centre, small_behind, behind, depth)
     walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
-    large_behind = vectors.add_scaled(large_arm, large_radius, behind)
+    large_behind = add_scaled(large_arm, large_radius, behind)
     depth = height - offset + large * (lift - skew) - clearance
     wall = Wall(centre, large_behind, behind, depth)
     walls = _touch_wall(walls, wall, motion, cage, large_end, cage.film)
-    pushed_on = vectors.subtract(walls.force, pushed_back)
+    pushed_on = subtract(walls.force, pushed_back)
     slip_squared = where_greater(
-        vectors.dot(pushed_on, pushed_on),
-        vectors.dot(pushed_back, pushed_back),
+        dot(pushed_on, pushed_on),
+        dot(pushed_back, pushed_back),
         _slip_squared(centre, small_behind, motion),
         _slip_squared(centre, small_front, motion),
     )
-    slide = vectors.dot(pocket_axis, centre) - cage.roller_place
+    slide = dot(pocket_axis, centre) - cage.roller_place
     side = where_greater(slide, 0.0, 1.0 + still, -1.0 + still)
-    shorter = roller.half_length * (1.0 - vectors.dot(pocket_axis, axis))
-    arm, direction = vectors.scale(side * roller.half_length, axis), vectors.scale(side, pocket_axis)
+    shorter = roller.half_length * (1.0 - dot(pocket_axis, axis))
+    arm, direction = scale(side * roller.half_length, axis), scale(side, pocket_axis)
     end = Wall(centre, arm, direction, magnitude(slide) - shorter - cage.half_end_clearance)
     walls = _touch_wall(walls, end, motion, cage, (axis, roller.radius), None)
-    bar = vectors.scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)
+    bar = scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)
     return PocketContact(centre, walls, slip_squared, bar)
 
 
@@ -213,16 +221,16 @@ def rotating_pocket(pocket, roller, cage):
     large_side = where_greater(large_offset, 0.0, 1.0 + 0.0 * offset, -1.0 + 0.0 * offset)
     small_radius = roller.radius + small_place * roller.taper
     large_radius = roller.radius + large_place * roller.taper
-    small_normal, large_normal = vectors.scale(small_side, ahead), vectors.scale(large_side, ahead)
-    small_arm = vectors.add_scaled(vectors.scale(small_place, axis), small_radius, small_normal)
+    small_normal, large_normal = scale(small_side, ahead), scale(large_side, ahead)
+    small_arm = add_scaled(scale(small_place, axis), small_radius, small_normal)
     nothing = _untouched(0.0 * offset)
     wall = Wall(centre, small_arm, small_normal, magnitude(small_offset) - clearance)
     small = _touch_wall(nothing, wall, motion, cage, (axis, small_radius), None)
-    large_arm = vectors.add_scaled(vectors.scale(large_place, axis), large_radius, large_normal)
+    large_arm = add_scaled(scale(large_place, axis), large_radius, large_normal)
     wall = Wall(centre, large_arm, large_normal, magnitude(large_offset) - clearance)
     both = _touch_wall(small, wall, motion, cage, (axis, large_radius), None)
     slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small.force, both.force)
-    bar = vectors.scale(
+    bar = scale(
         where_greater(offset, 0.0, roller.radius + 0.0 * offset, -roller.radius + 0.0 * offset), ahead
     )
     return PocketContact(centre, both, slip_squared, bar)
@@ -236,12 +244,12 @@ def kinematic_pocket(pocket, cage, kinematic):
     """
     centre, axis, motion = pocket.centre, pocket.axis, pocket.motion
     ahead, offset, skew = _along_pitch_circle(pocket)
-    small_arm, large_arm = vectors.scale(-cage.bar_place, axis), vectors.scale(cage.bar_place, axis)
+    small_arm, large_arm = scale(-cage.bar_place, axis), scale(cage.bar_place, axis)
     nothing = _untouched(0.0 * offset)
     small = _hold(nothing, centre, small_arm, ahead, offset - cage.bar_place * skew, motion, kinematic)
     both = _hold(small, centre, large_arm, ahead, offset + cage.bar_place * skew, motion, kinematic)
     slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small.force, both.force)
-    return PocketContact(centre, both, slip_squared, vectors.scale(0.0, ahead))
+    return PocketContact(centre, both, slip_squared, scale(0.0, ahead))
 
 
 @inline
@@ -249,36 +257,35 @@ def _along_pitch_circle(pocket):
     """Take the direction of growing azimuth at the pocket; offset [m] and skew of the roller along it."""
     cosine, sine = cos_sin(pocket.advance)
     ahead = (sine, cosine, 0.0 * sine)
-    ahead = vectors.add(ahead, vectors.cross(pocket.tilt, ahead))
-    return ahead, vectors.dot(ahead, pocket.centre), vectors.dot(ahead, pocket.axis)
+    ahead = add(ahead, cross(pocket.tilt, ahead))
+    return ahead, dot(ahead, pocket.centre), dot(ahead, pocket.axis)
 
 
 @inline
 def _pair_slip_squared(centre, small_arm, large_arm, motion, small_force, both_force):
     """Square the slip at the large end where more than half of the force is there, else at the small end."""
-    large_force = vectors.subtract(both_force, small_force)
+    large_force = subtract(both_force, small_force)
     small_slip, large_slip = _wall_slip(centre, small_arm, motion), _wall_slip(centre, large_arm, motion)
     return where_greater(
-        4.0 * vectors.dot(large_force, large_force),
-        vectors.dot(both_force, both_force),
-        vectors.dot(large_slip, large_slip),
-        vectors.dot(small_slip, small_slip),
+        4.0 * dot(large_force, large_force),
+        dot(both_force, both_force),
+        dot(large_slip, large_slip),
+        dot(small_slip, small_slip),
     )
 
 
 @inline
 def _slip_squared(centre, arm, motion):
     slip = _wall_slip(centre, arm, motion)
-    return vectors.dot(slip, slip)
+    return dot(slip, slip)
 
 
 @inline
 def _wall_slip(centre, arm, motion):
     """Work out the velocity of the roller against the cage at a point, [m/s]."""
     velocity, omega, cage_velocity, cage_omega = motion
-    return vectors.subtract(
-        vectors.subtract(vectors.add(velocity, vectors.cross(omega, arm)), cage_velocity),
-        vectors.cross(cage_omega, vectors.add(centre, arm)),
+    return subtract(
+        subtract(add(velocity, cross(omega, arm)), cage_velocity), cross(cage_omega, add(centre, arm))
     )
 
 
@@ -296,12 +303,12 @@ def _untouched(zero):
 def _add_touch(walls, arm, slip, force, lost, energy):
     """Add one wall to the sums over the walls of a pocket."""
     return Walls(
-        vectors.add(walls.force, force),
-        vectors.add(walls.moment, vectors.cross(arm, force)),
+        add(walls.force, force),
+        add(walls.moment, cross(arm, force)),
         walls.energy + energy,
-        walls.power + vectors.dot(lost, slip),
-        vectors.add(walls.lost_force, lost),
-        vectors.add(walls.lost_moment, vectors.cross(arm, lost)),
+        walls.power + dot(lost, slip),
+        add(walls.lost_force, lost),
+        add(walls.lost_moment, cross(arm, lost)),
     )
 
 
@@ -330,15 +337,15 @@ def _is_reached(depth, film):
 @inline
 def _press_wall(walls, arm, slip, direction, depth, cage, shape, film):
     inside = at_least(depth, 0.0)
-    rate = vectors.dot(slip, direction)
+    rate = dot(slip, direction)
     spring = cage.stiffness * inside
     damping = where_greater(depth, 0.0, cage.damping + 0.0 * depth, 0.0 * depth)
     load, solid, shear = pocket_loads(depth, spring + damping * rate, rate, slip, direction, shape, film)
-    tangential = vectors.add_scaled(slip, -rate, direction)
-    speed = sqrt(vectors.dot(tangential, tangential) + cage.regularisation * cage.regularisation)
+    tangential = add_scaled(slip, -rate, direction)
+    speed = sqrt(dot(tangential, tangential) + cage.regularisation * cage.regularisation)
     friction = cage.friction * solid / speed + shear
-    force = vectors.add_scaled(vectors.scale(-load, direction), -friction, tangential)
-    lost = vectors.add_scaled(vectors.scale(load - spring, direction), friction, tangential)
+    force = add_scaled(scale(-load, direction), -friction, tangential)
+    lost = add_scaled(scale(load - spring, direction), friction, tangential)
     return _add_touch(walls, arm, slip, force, lost, 0.5 * spring * inside)
 
 
@@ -372,7 +379,7 @@ def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
     bridged = at_least(1.0 - film.inverse_layer * gap, 0.0)
     ratio = radius / gap
     root = sqrt(ratio)
-    rolling = magnitude(vectors.dot(slip, vectors.cross(axis, direction)))
+    rolling = magnitude(dot(slip, cross(axis, direction)))
     squeeze = film.squeeze * bridged * ratio * root
     # the cage is explicit: a pocket may not resist more than its share of the cage can follow within a step
     squeeze = squeeze / (1.0 + film.share * squeeze)
@@ -385,7 +392,7 @@ def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
 def _hold(walls, centre, arm, direction, offset, motion, kinematic):
     """Add one spring-damper that pulls as well as it pushes."""
     slip = _wall_slip(centre, arm, motion)
-    damper = kinematic.damping * vectors.dot(slip, direction)
+    damper = kinematic.damping * dot(slip, direction)
     spring = kinematic.stiffness * offset
-    force, lost = vectors.scale(-spring - damper, direction), vectors.scale(damper, direction)
+    force, lost = scale(-spring - damper, direction), scale(damper, direction)
     return _add_touch(walls, arm, slip, force, lost, 0.5 * spring * offset)

@@ -16,7 +16,7 @@ cage             pockets, lands and cheaper cages
 faults           patches and the path of a roller over one, waviness, wear and size errors
 mounting         rings, their bending, suspension
 heat             nodes of the thermal network and where losses go
-build            a scene to parameters
+build            a scene to parameters; how much of a spring a step takes in
 tier_parameters  parameters of the tiers without roller dynamics
 ================ ===========================================================
 """

@@ -15,6 +15,6 @@ features      envelope, order tracking, spectrum, line search
 chain         the reference monitoring algorithm: a stretch of signal to a verdict
 monitoring    the streaming monitor around an algorithm, and what it is fed with
 labels        labels of a run for learners
-summary       what a run came to: means, losses, life
+summary       what a run came to: means, losses, torque budget, life
 ============= ====================================================================
 """

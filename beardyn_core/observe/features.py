@@ -15,19 +15,9 @@ _EDGE = 0.1  # share of the band in each of its cosine edges
 
 
 def analytic_band(signal: Float, rate: float, band: tuple[float, float]) -> NDArray[np.complex128]:
-    """Filter a band without phase shift, with the Hilbert transform as imaginary part.
+    """Filter a band [Hz] without phase shift, with the Hilbert transform as imaginary part.
 
-    Parameters
-    ----------
-    signal : float64 array, shape [sample, ...]
-    rate : float
-        [Hz].
-    band : tuple of 2 floats
-        Ends of the pass band; cosine edges of a tenth of its width lie inside, [Hz].
-
-    Returns
-    -------
-    complex128 array, the shape of ``signal``
+    Cosine edges of a tenth of the width of the band lie inside of it; samples are along the first axis.
     """
     count = len(signal)
     spectrum = np.fft.fft(signal, axis=0)
@@ -136,21 +126,9 @@ def local_background(amplitude: Float, width: float) -> Float:
 
 
 def line_at(spectrum: OrderSpectrum, order: float, tolerance: float) -> tuple[float, float]:
-    """Find the highest peak near an order.
+    """Find the highest peak within a tolerance of an order: its order and its level over the background [dB].
 
-    Parameters
-    ----------
-    order : float
-        Where to look, [-].
-    tolerance : float
-        How far on both sides, [-].
-
-    Returns
-    -------
-    order : float
-        Of the peak, refined by a parabola through three lines, [-].
-    level : float
-        Over the background; -inf where no local maximum lies within the tolerance, [dB].
+    The order is refined by a parabola through three lines; the level is -inf where no local maximum lies there.
     """
     step = spectrum.order[1]
     first = max(1, int(np.ceil((order - tolerance) / step)))

@@ -100,17 +100,10 @@ _FIRST_BETA = 8.0
 
 
 class TwoStageDecimator:
-    """A `Decimator` of a large factor in a third of the work, with the same delay.
+    """A `Decimator` by 16, 32, 64 or 128 in a third of the work, with the same delay and arguments.
 
     The first stage only has to clear what folds onto the band that the second one keeps. As flat as a
     single stage and 73 dB down from 0.6 of the new rate.
-
-    Parameters
-    ----------
-    factor : int
-        16, 32, 64 or 128.
-    channels, initial, held_back
-        As of `Decimator`.
     """
 
     def __init__(self, factor: int, channels: int, initial: Float | None = None, held_back: int = 0) -> None:

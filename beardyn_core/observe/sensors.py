@@ -130,8 +130,8 @@ class _Chain:
 def box_force(position: tuple[float, float, float], signals: Float, motion: Float, delay: int) -> Float:
     """Compute the specific force at a place of the box [m], see `force_at`, shape [sample, 3], [m/s^2].
 
-    Signals, shape [sample, SIGNAL_CHANNELS], come late by ``delay`` samples, at most those of a row; the motion,
-    shape [trend + 2, 6], is as of `Sensors.read` and linear in between.
+    Signals, shape [sample, SIGNAL_CHANNELS], come late by ``delay`` samples, at most those of a row; the
+    motion, shape [trend + 2, 6], is as of `Sensors.read` and linear in between.
     """
     force = np.empty((len(signals), 3))
     _box_force(*position, signals, motion, len(signals) // (len(motion) - 2), delay, force)

@@ -96,8 +96,8 @@ def section(profile: Float, azimuth: float, facing: float) -> Mesh:
 def raceway_radius(shape: BearingShape, angle: float, distance: float) -> tuple[float, float]:
     """Compute axial distance from the row centre (towards the large end) and radius on a raceway cone, [m].
 
-    The angle is the half angle of the cone [rad], the distance [m] that along the roller axis from its middle,
-    towards the large end.
+    The angle is the half angle of the cone [rad], the distance [m] that along the roller axis from its
+    middle, towards the large end.
     """
     # The generator touches the roller where the apex distance is projected on it.
     along = (shape.apex_distance + distance) / cos(shape.half_angle)

@@ -30,7 +30,7 @@ ROW_HEIGHT = 25.0
 
 
 def log_spectrum(stream: rr.RecordingStream, spectrum: OrderSpectrum, frequencies: dict[str, float]) -> None:
-    """Draw the spectrum with axes and the orders of every fault: FTF, BPFO, BPFI, BSF per shaft revolution."""
+    """Draw the spectrum with axes and the orders of every fault, BPFO and the like, per shaft revolution."""
     last = float(spectrum.order[-1])
     # The lowest orders hold the slow change of load, not faults; they must not set the scale.
     searched = spectrum.order > 0.5 * frequencies["FTF"]

@@ -115,8 +115,8 @@ def _run_table(found: findings.Findings) -> Table:
             ("Santos (2017)", santos),
         ),
         f"run: {found.searches_per_evaluation} searches x {findings.EVALUATIONS} evaluations "
-        f"(Runge-Kutta 4(5), mean step {findings.MEAN_STEP * 1e6:g} us, {findings.EVALUATIONS_PER_STEP} evaluations "
-        f"a step), detection alone; the twin's step: {TWIN_EVALUATIONS} evaluations",
+        f"(Runge-Kutta 4(5), mean step {findings.MEAN_STEP * 1e6:g} us, {findings.EVALUATIONS_PER_STEP} "
+        f"evaluations a step), detection alone; the twin's step: {TWIN_EVALUATIONS} evaluations",
         f"Santos (2017): {findings.CONTACT_SHARE:.0%} of its time, which the paper assigns to the contact "
         "points",
     )

@@ -23,7 +23,7 @@ class Levels:
 
 
 def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], speed: float) -> Levels:
-    """Compute the levels of an acceleration [m/s^2], shape [sample, axis]; rate, band, shaft speed in [Hz]."""
+    """Compute the levels of an acceleration [m/s^2], shape [sample, axis]; rate, band and speed in [Hz]."""
     passed = analytic_band(acceleration, rate, band).real
     power = np.mean(passed**2, axis=0)
     peak = np.abs(passed).max(axis=0)

@@ -15,7 +15,7 @@ _LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
 
 
 def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
-    """Find the sectors of the wheel in which it strikes the rail in three of four revolutions, shape [sector].
+    """Find the sectors of the wheel where it strikes the rail in three of four revolutions, shape [sector].
 
     They begin at the shaft angle at the start of the stretch.
 
