@@ -14,7 +14,7 @@ tier these limits were met in order as the step grew:
 - Couplings that stay explicit: rings on all contacts, rollers in their pockets.
 
 Mean torque and its scatter were within 0.5 % and 20 % wherever these limits hold. The limits of vibration are
-of damping in the middle of the step (`model.build.spring_share`), the others were found with damping of its end and
+of damping in the middle of the step (`model.build`), the others were found with damping of its end and
 hold with less effort now.
 """
 

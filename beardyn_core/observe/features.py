@@ -128,7 +128,7 @@ def local_background(amplitude: Float, width: float) -> Float:
 def line_at(spectrum: OrderSpectrum, order: float, tolerance: float) -> tuple[float, float]:
     """Find the highest peak within a tolerance of an order: its order and its level over the background [dB].
 
-    The order is refined by a parabola through three lines; the level is -inf where no local maximum lies there.
+    The order is refined by a parabola through three lines; the level is -inf where there is no local maximum.
     """
     step = spectrum.order[1]
     first = max(1, int(np.ceil((order - tolerance) / step)))

@@ -46,7 +46,7 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
 
 
 def temperature_state(temperature: float, heating: float, settings: MonitorSettings) -> str:
-    """Judge the temperature of the axlebox [K] by its rise [K/s] too: ``unknown``, ``normal``, ``warm``, ``hot``.
+    """Judge the temperature of the axlebox [K] by its rise [K/s]: ``unknown``, ``normal``, ``warm``, ``hot``.
 
     Each is NaN when it is unknown.
 
