@@ -35,7 +35,8 @@ from beardyn_core.observe.labels import scene_labels
 from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
 from beardyn_core.rail.events import events_of
 from beardyn_core.scene.defect import Patch, truth_of
-from beardyn_core.scene.load import LoadBuffer, LoadHistory
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 from beardyn_core.versions import versions

@@ -15,13 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.scene.load import (
+from beardyn_core.scene.load import WRENCH_AXES, LoadHistory
+from beardyn_core.scene.load_buffer import (
     LARGEST_DISPLACEMENT,
     LARGEST_FORCE,
     LARGEST_MOMENT,
     LARGEST_SPEED,
-    WRENCH_AXES,
-    LoadHistory,
     speed_jump,
 )
 

@@ -11,8 +11,20 @@ from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 
 from pydantic import Discriminator, Field, StrictBool, Tag, TypeAdapter, ValidationError, create_model
 
-from beardyn_core import edge
 from beardyn_core.config.file_model import FileModel, SourcedModel, SourcedPart
+from beardyn_core.edge import (
+    At,
+    Place,
+    Unit,
+    alternatives,
+    has_no_key_for_its_kind,
+    is_kind,
+    is_noun,
+    kinds_of,
+    may_be_none,
+    places,
+    plain_hint,
+)
 
 Text = Annotated[str, Field(strict=True)]
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=80)]
@@ -49,14 +61,14 @@ def keys_of(noun: Any, usual_kind: str | None = None, part_of_sourced: bool = Fa
 
 @cache
 def _keys_of(noun: Any, usual_kind: str | None, part_of_sourced: bool) -> type[FileModel]:
-    sourced = part_of_sourced or any(place.key == "sources" for place in edge.places(noun))
+    sourced = part_of_sourced or any(place.key == "sources" for place in places(noun))
     own = SourcedModel if sourced and not part_of_sourced else SourcedPart if sourced else FileModel
     base = _BASES.get(noun, own)
     made: dict[str, Any] = {}
-    if edge.is_kind(noun):
-        kinds: Any = Literal[edge.kinds_of(noun)]
+    if is_kind(noun):
+        kinds: Any = Literal[kinds_of(noun)]
         made["kind"] = (kinds, Field(usual_kind or ..., description="which of the kinds this is"))
-    for place in edge.places(noun):
+    for place in places(noun):
         if place.key not in base.model_fields:
             made[place.key] = _field(place, sourced)
             if change := base.schema_changes.get(place.key):
@@ -64,7 +76,7 @@ def _keys_of(noun: Any, usual_kind: str | None, part_of_sourced: bool) -> type[F
                 made[place.key] = (Annotated[annotation, Field(json_schema_extra=change)], field)
     name, words = f"{noun.__name__}Keys", (noun.__doc__ or "").split("\n")[0]
     model = cast(Any, create_model(name, __base__=base, __doc__=words, __module__=__name__, **made))
-    model.noun_type, model.places = noun, edge.places(noun)
+    model.noun_type, model.places = noun, places(noun)
     _MADE[name] = model
     return _MADE[name]
 
@@ -79,7 +91,7 @@ def in_order(name: str, keys: Iterable[str]) -> list[str]:
 
 @cache
 def _adapter(hint: Any) -> TypeAdapter[Any]:
-    return TypeAdapter(_annotation(hint, edge.At(), False))
+    return TypeAdapter(_annotation(hint, At(), False))
 
 
 def valid(hint: Any, data: Any) -> Any:
@@ -90,7 +102,7 @@ def valid(hint: Any, data: Any) -> Any:
         return None
 
 
-def _field(place: edge.Place, sourced: bool) -> tuple[Any, Any]:
+def _field(place: Place, sourced: bool) -> tuple[Any, Any]:
     """Make the type and the usual value of a key."""
     at, default = place.at, place.default
     annotation = _annotation(place.hint, at, sourced)
@@ -101,27 +113,27 @@ def _field(place: edge.Place, sourced: bool) -> tuple[Any, Any]:
         return annotation, Field(description=words)
     if at.switch:
         return annotation, Field(None if default is None else False, description=words)
-    if at.absent or at.optional or edge.may_be_none(place.hint):
+    if at.absent or at.optional or may_be_none(place.hint):
         return annotation | None, Field(None, description=words)
     return annotation, Field(_usual(default, at.scale, sourced), description=words)
 
 
-def _usual(value: Any, scale: edge.Unit | None, sourced: bool) -> Any:
+def _usual(value: Any, scale: Unit | None, sourced: bool) -> Any:
     """Convert the usual value of a field to that of its key."""
-    if edge.is_noun(type(value)):
+    if is_noun(type(value)):
         return keys_of(type(value), None, sourced)()
     if isinstance(value, tuple):
         return tuple(_usual(each, scale, sourced) for each in value)
     return scale.to_edge(value) if isinstance(value, float) and scale else value
 
 
-def _annotation(hint: Any, at: edge.At, sourced: bool) -> Any:
+def _annotation(hint: Any, at: At, sourced: bool) -> Any:
     """Make the pydantic type of a key."""
-    hint, _ = edge.plain_hint(hint)
-    options = edge.alternatives(hint)
+    hint, _ = plain_hint(hint)
+    options = alternatives(hint)
     if options != (hint,):
         return _union(options, at, sourced)
-    if edge.is_noun(hint):
+    if is_noun(hint):
         return _union((hint,), at, sourced)
     if get_origin(hint) is tuple:
         return _list(get_args(hint), at, sourced)
@@ -140,7 +152,7 @@ def _annotation(hint: Any, at: edge.At, sourced: bool) -> Any:
     return hint
 
 
-def _list(entries: tuple[Any, ...], at: edge.At, sourced: bool) -> Any:
+def _list(entries: tuple[Any, ...], at: At, sourced: bool) -> Any:
     inner = dataclasses.replace(at, size=None, entry=None)
     if at.entry:
         entries = (at.entry, ...)
@@ -153,13 +165,11 @@ def _list(entries: tuple[Any, ...], at: edge.At, sourced: bool) -> Any:
     return Annotated[several, Field(min_length=fewest, max_length=most)]
 
 
-def _union(options: tuple[Any, ...], at: edge.At, sourced: bool) -> Any:
+def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
     """Make the type of one of several nouns, a name or a switch; no key is a tag in brackets."""
     if len(options) > 1:
-        options = tuple(
-            each for each in options if not (edge.is_noun(each) and edge.has_no_key_for_its_kind(each))
-        )
-    if not all(edge.is_noun(option) for option in options):
+        options = tuple(each for each in options if not (is_noun(each) and has_no_key_for_its_kind(each)))
+    if not all(is_noun(option) for option in options):
         return reduce(or_, (_annotation(option, at, sourced) for option in options))
     tagged: list[Any] = []
     usual: str | None = None
@@ -169,14 +179,10 @@ def _union(options: tuple[Any, ...], at: edge.At, sourced: bool) -> Any:
             return model
         tagged = [Annotated[model, Tag("<options>" if at.switch else "<inline>")]]
     else:
-        usual = (
-            edge.kinds_of(options[0])[0] if at.switch else next(filter(None, map(_usual_kind, options)), None)
-        )
+        usual = kinds_of(options[0])[0] if at.switch else next(filter(None, map(_usual_kind, options)), None)
         for option in options:
-            model = keys_of(
-                option, usual if usual in edge.kinds_of(option) and edge.is_kind(option) else None, sourced
-            )
-            tagged += [Annotated[model, Tag(f"<{kind}>")] for kind in edge.kinds_of(option)]
+            model = keys_of(option, usual if usual in kinds_of(option) and is_kind(option) else None, sourced)
+            tagged += [Annotated[model, Tag(f"<{kind}>")] for kind in kinds_of(option)]
     if at.switch:
         tagged.insert(0, Annotated[bool | None, Tag("<switch>")])
     if at.reference:
@@ -198,5 +204,5 @@ def _union(options: tuple[Any, ...], at: edge.At, sourced: bool) -> Any:
 
 def _usual_kind(noun: type) -> str | None:
     """Find the kind that a mapping of a noun has when it does not say one."""
-    field = next((place for place in edge.places(noun) if place.key == "kind"), None)
+    field = next((place for place in places(noun) if place.key == "kind"), None)
     return None if field is None or field.at.required else field.default

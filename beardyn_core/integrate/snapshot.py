@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.warming import Warmth
 from beardyn_core.model.parameters import Parameters
-from beardyn_core.scene.load import LoadBuffer
+from beardyn_core.scene.load_buffer import LoadBuffer
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ module       responsibility, in the order of the data
 excitation   irregularity of the rail; flats and waves of the wheel; joints, welds, crossings, corrugation
 running      speed profiles, curves; brake and drive of an axle
 operation    where load and speed come from
-load         load on the journal as samples, and as a stream
+load         load on the journal as samples
+load_buffer  the load as a stream: accepted, refused, interpolated
 mounting     axlebox, journal, suspension and guidance of a vehicle
 defect       patches, roller diameter, worn pocket
 waviness     harmonics of raceways and rollers

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from beardyn_core.scene.load import LoadHistory, problem_with
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.load_buffer import problem_with
 from beardyn_ros.load_gate import LiveLoad, LoadGate, Refusals
 
 STEP_NS = 500_000
