@@ -30,7 +30,6 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import note_read
-from beardyn_core.rail.low_pass import decimated, thinning_kernel
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.load import LoadHistory, sampled_load
 from beardyn_core.scene.operation import MeasuredOperation
@@ -206,5 +205,7 @@ def _resampled(measured: Measurement, count: int, rate: float) -> Float:
     signals = np.column_stack([np.interp(grid, measured.time, column) for column in signals.T])
     if factor <= 1:
         return signals
+    from beardyn_core.rail.low_pass import decimated, thinning_kernel  # compiled: not for who reads files
+
     kernel = thinning_kernel(factor)
     return np.column_stack([decimated(column, factor, kernel) for column in signals.T])
