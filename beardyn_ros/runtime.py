@@ -105,6 +105,23 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
     return code
 
 
+def wall_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:
+    """Create a timer of the wall clock, which also ticks while simulated time stands still.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        With `use_sim_time` its own timers would wait for ``/clock``.
+    period : float
+        [s].
+    callback : callable
+    """
+    from rclpy.clock import Clock
+    from rclpy.clock_type import ClockType
+
+    return node.create_timer(period, callback, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
 def stray_arguments(argv: Sequence[str]) -> list[str]:
     """List the arguments outside of ``--ros-args ... --``, which no node understands."""
     stray, inside = [], False
