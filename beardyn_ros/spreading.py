@@ -6,6 +6,19 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
+from itertools import groupby
+from typing import NamedTuple
+
+CLOSEST = 0.4  # of the spacing between two moments that were meant; so a late one is made up for
+MOST_MOMENTS = 24  # behind more than that, everything goes out at once
+
+
+class _Moment(NamedTuple):
+    """Messages of one time: when they are due, and how close to the ones before they may come."""
+
+    due: float
+    gap: float
+    messages: tuple[tuple[str, bytes], ...]
 
 
 class Spreader:
@@ -20,13 +33,14 @@ class Spreader:
     def __init__(self, publish: Callable[[str, bytes], object]) -> None:
         self._publish = publish
         self._condition = threading.Condition()
-        self._waiting: deque[tuple[float, str, bytes]] = deque()
+        self._waiting: deque[_Moment] = deque()
+        self._last = 0.0
         self._ended = False
         self._thread = threading.Thread(target=self._run, name="trends", daemon=True)
         self._thread.start()
 
     def spread(self, messages: Sequence[tuple[float, str, bytes]], pace: float) -> None:
-        """Publish messages over the time to come; what still waits from before goes out at once.
+        """Publish messages over the time to come, behind what still waits.
 
         Parameters
         ----------
@@ -35,10 +49,18 @@ class Spreader:
         pace : float
             Simulated seconds per wall second; 0: everything at once.
         """
+        now, before = time.monotonic(), 0.0
+        moments = []
+        for offset, group in groupby(messages, key=lambda message: message[0]):
+            gap = CLOSEST * (offset - before) / (pace or 1.0)
+            moments.append(
+                _Moment(now + offset / (pace or 1.0), gap, tuple((name, cdr) for _, name, cdr in group))
+            )
+            before = offset
         with self._condition:
-            self._publish_waiting()
-            now = time.monotonic()
-            self._waiting.extend((now + offset / (pace or 1.0), name, cdr) for offset, name, cdr in messages)
+            if len(self._waiting) > MOST_MOMENTS:
+                self._publish_waiting()
+            self._waiting.extend(moments)
             if pace == 0.0:
                 self._publish_waiting()
             self._condition.notify()
@@ -65,14 +87,22 @@ class Spreader:
 
     def _publish_waiting(self) -> None:
         while self._waiting:
-            self._publish(*self._waiting.popleft()[1:])
+            self._publish_next()
+
+    def _publish_next(self) -> None:
+        for name, cdr in self._waiting.popleft().messages:
+            self._publish(name, cdr)
+        self._last = time.monotonic()
 
     def _run(self) -> None:
         with self._condition:
             while not self._ended:
                 if not self._waiting:
                     self._condition.wait()
-                elif (delay := self._waiting[0][0] - time.monotonic()) > 0.0:
+                    continue
+                moment = self._waiting[0]
+                delay = max(moment.due, self._last + moment.gap) - time.monotonic()
+                if delay > 0.0:
                     self._condition.wait(delay)
                 else:
-                    self._publish(*self._waiting.popleft()[1:])
+                    self._publish_next()
