@@ -78,7 +78,6 @@ class TwinSession:
         self._reset = False
         self._ending = False
         self._run_count = 0
-        self._processor_at_start = 0.0
         self._report = SessionReport()
         self._thread = threading.Thread(target=self._thread_main, name="twin", daemon=True)
 
@@ -155,8 +154,6 @@ class TwinSession:
         report.load_age = held.age if held else 0.0
         report.late_blocks, report.lag_s = self.pacer.late_blocks, self.pacer.lag_s
         report.worst_lag_s = self.pacer.worst_lag_s
-        if report.blocks:
-            report.processor_s = time.process_time() - self._processor_at_start
         if len(recent) > 1:
             (wall_0, simulated_0), (wall_1, simulated_1) = recent[0], recent[-1]
             report.window_rtf = (simulated_1 - simulated_0) / max(wall_1 - wall_0, 1e-9)
@@ -218,8 +215,7 @@ class TwinSession:
         twin.start(first)
         self._set_state(RUNNING, "running")
         self.pacer.begin()
-        self._processor_at_start = time.process_time()
-        begin, waited = time.monotonic(), 0.0
+        begin, processor_begin, waited = time.monotonic(), time.process_time(), 0.0
         while True:
             held, ordered = self._hold()
             waited += held
@@ -242,6 +238,7 @@ class TwinSession:
                 report.simulated_s = (block.index + 1) * twin.block_ns * 1e-9
                 report.wall_s = now - begin - waited
                 report.waited_for_load_s += starved
+                report.processor_s = time.process_time() - processor_begin
                 report.busy_s += (ready_at - covered_at) + (now - due_at)
                 report.recent.append((now, report.simulated_s))
         sentence = "the load stream has ended, every block that it covers is published"

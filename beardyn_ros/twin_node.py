@@ -180,6 +180,7 @@ class TwinNode(LifecycleNode):
                 self._publish(outgoing)
             session.interrupt(why)
             self._trends.drain(TRENDS_TIMEOUT_S)
+            self._over = True
             self._report()
             self._flush()
         self._load.serve(None)
@@ -194,9 +195,10 @@ class TwinNode(LifecycleNode):
                 "the same topics; give this one a namespace of its own (-r __ns:=/left)"
             )
             self.exit_code, self.finished = EXIT_BAD_INPUT, True
-        age = time.monotonic() - self._born
-        others = self.count_publishers(self.resolve_topic_name("truth")) > 1
-        self._settled = self._settled or age > (NAMESAKE_TIMEOUT_S if others else SETTLED_AFTER_S)
+        if not self._settled:
+            others = self.count_publishers(self.resolve_topic_name("truth")) > 1
+            wait = NAMESAKE_TIMEOUT_S if others else SETTLED_AFTER_S
+            self._settled = time.monotonic() - self._born > wait
         if self._settled and self._wanted_active and self._session is not None and not self.finished:
             self._session.activate(True)
 
@@ -307,6 +309,8 @@ class TwinNode(LifecycleNode):
         if self._session is None:
             return
         report = self._session.report()
+        if report.state in END_STATES and not self._over:
+            return  # the last word comes when everything else is out: it counts the messages
         standing = NodeStanding(
             instance=self._namesakes.instance,
             since_ns=self._namesakes.since_ns,
