@@ -10,6 +10,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 CLOSEST = 0.4  # of the spacing between two moments that were meant; so a late one is made up for
+LONGEST_SLEEP_S = 0.05
 MOST_MOMENTS = 24  # behind more than that, everything goes out at once
 
 
@@ -95,14 +96,14 @@ class Spreader:
         self._last = time.monotonic()
 
     def _run(self) -> None:
-        with self._condition:
-            while not self._ended:
+        while not self._ended:
+            with self._condition:
                 if not self._waiting:
                     self._condition.wait()
                     continue
                 moment = self._waiting[0]
                 delay = max(moment.due, self._last + moment.gap) - time.monotonic()
-                if delay > 0.0:
-                    self._condition.wait(delay)
-                else:
+                if delay <= 0.0:
                     self._publish_next()
+                    continue
+            time.sleep(min(delay, LONGEST_SLEEP_S))
