@@ -30,6 +30,7 @@ from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.answers import StepService
 from beardyn_ros.diagnostics import diagnostic_name, load_diagnostic
 from beardyn_ros.frames import frame_of
+from beardyn_ros.identity import run_instance
 from beardyn_ros.live_filter import LowPass
 from beardyn_ros.live_load import encode_shaft, encode_wrench
 from beardyn_ros.load_parameters import PARAMETERS
@@ -46,6 +47,7 @@ PUMP_PERIOD_S = 0.005
 LAST_WORDS_TIMEOUT_S = 0.5
 HUNG_READER_TIMEOUT_S = 2.0
 OTHERS_TIMEOUT_S = 3.0
+TWIN_SILENT_AFTER_S = 0.6  # it repeats its credit every 0.2 s
 LIVE_RATE_OVER_BANDWIDTH = 5.0
 ALONE_TIMEOUT_S = 3.0
 SETTLED_AFTER_S = 0.3  # a recorder may be found a moment later than the twin
@@ -81,7 +83,8 @@ class LoadNode(Node):
         self._live_clock = ReplayClock(self._pace)
         self._paused = False
         self._steps_left = 0
-        self._run_id = ""
+        self._run_id = self._next_run_id = ""
+        self._heard_at = -TWIN_SILENT_AFTER_S
         self._out = TopicPublishers(
             self,
             "load/blocks",
@@ -142,8 +145,9 @@ class LoadNode(Node):
 
     def _on_consumed(self, cdr: bytes) -> None:
         credit_ns = header_stamp(cdr)
+        self._heard_at = time.monotonic()
         if credit_ns != self._credit_ns:
-            self._credit_ns, self._credit_at = credit_ns, time.monotonic()
+            self._credit_ns, self._credit_at = credit_ns, self._heard_at
 
     def _on_truth(self, cdr: bytes) -> None:
         try:
@@ -151,11 +155,24 @@ class LoadNode(Node):
         except Exception as error:  # a foreign message may break the decoder in any way
             self.get_logger().warning(f"truth refused: it cannot be read ({error!r})")
             return
-        known, self._run_id = self._run_id, run_id
-        if known and run_id != known:
+        self._next_run_id = run_id
+        same_twin = run_instance(run_id) == run_instance(self._run_id)
+        if same_twin or not self._run_id:
+            self._follow_run()
+
+    def _follow_run(self) -> None:
+        """Serve the run that was told last, from the start when it is another one."""
+        known, self._run_id = self._run_id, self._next_run_id
+        if known and self._run_id != known:
             self.get_logger().info("a new run has begun, the replay starts again")
             self._restart()
         self._publish_truth()
+
+    def _follow_the_next_twin(self) -> None:
+        """Serve another twin as soon as the one served so far is silent: two cannot feed on one stream."""
+        silent = time.monotonic() - self._heard_at > TWIN_SILENT_AFTER_S
+        if self._next_run_id != self._run_id and silent:
+            self._follow_run()
 
     # --- services and parameters -------------------------------------------------------------------
 
@@ -232,6 +249,7 @@ class LoadNode(Node):
         self._steps.fail_late("the block is not sent yet: it waits for the twin to take what it has")
 
     def _on_timer(self) -> None:
+        self._follow_the_next_twin()
         (self._pump_live if self._live else self._pump)()
         rests = self._paused and not self._steps_left
         idle = not self._announced or rests or (self._ended and not self._values.exit_when_done)

@@ -92,6 +92,11 @@ class Graph:
         assert code is not None
         return code
 
+    def dismiss(self, name: str) -> None:
+        """Forget a process that has ended with an error, as it should."""
+        assert self.exit_code(name) != 0
+        del self.processes._children[name]
+
     # --- messages ----------------------------------------------------------------------------------
 
     def listen(self, *names: str) -> None:

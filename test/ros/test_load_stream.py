@@ -6,6 +6,7 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from beardyn_ros.live_load import encode_shaft, encode_wrench
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 from test.ros.test_recorder import recorder_is_connected
+from test.ros.test_wall_time import has_come
 
 RATE_HZ = 200.0
 
@@ -278,7 +280,7 @@ def test_a_source_that_sets_its_clock_goes_on(graph: Graph, live_source: Sources
     for offset_s in (0, 10**9, -5):
         source.stamp_offset_ns = offset_s * 10**9
         goal = len(graph.messages["vibration"]) + 100
-        graph.until(lambda goal=goal: len(graph.messages["vibration"]) > goal, f"two seconds at {offset_s} s")
+        graph.until(partial(has_come, graph, "vibration", goal), f"two seconds at {offset_s} s")
 
 
 def test_live_load_that_is_all_refused_is_not_called_silent(graph: Graph) -> None:

@@ -88,6 +88,7 @@ def test_a_second_twin_of_the_same_name_refuses_and_the_recording_of_the_first_i
     graph.fake_twin("second", speed_factor=1.0)
     assert graph.exit_code("second") == 2
     assert "there is a twin axlebox/twin already" in graph.processes.log("second")
+    graph.dismiss("second")
     assert graph.processes.exit_code("twin") is None
     warned = [s for s in graph.statuses("twin") if "another twin speaks as axlebox/twin" in s.message]
     assert [status.level for status in warned[:1]] == [1]
@@ -111,7 +112,10 @@ def test_a_recorder_refuses_to_mix_two_twins_that_speak_in_turns(graph: Graph) -
     graph.until(
         lambda: any(int(s.value("messages") or 0) > 100 for s in graph.statuses("recorder")), "a recording"
     )
-    values = (("state", "running"), ("run_id", "0badcafe-0"), ("instance", "0badcafe"))
+    values = (
+        *(("state", "running"), ("run_id", "0badcafe-0")),
+        *(("instance", "0badcafe"), ("since", str(2**62))),
+    )
     rival = encode_diagnostics(0, "axlebox", [Diagnostic("axlebox/twin", 0, "running", values)])
     begin = time.monotonic()
     graph.until(

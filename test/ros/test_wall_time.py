@@ -6,6 +6,7 @@ import json
 import signal
 import time
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pytest
@@ -60,13 +61,14 @@ def test_step_answers_when_its_block_is_published(graph: Graph) -> None:
     graph.until(lambda: len(graph.messages["vibration"]) > 2, "blocks")
     assert graph.call("pause", SetBool, data=True).success
     graph.until_state("paused")
-    client = graph.node.create_client(Trigger, "/axlebox/step")
+    client: Any = graph.node.create_client(Trigger, "/axlebox/step")
     graph.until(client.service_is_ready, "the service step")
     for before in range(len(graph.messages["vibration"]), len(graph.messages["vibration"]) + 5):
         begin = time.monotonic()
         future = client.call_async(Trigger.Request())
         graph.until(future.done, "the answer of step")
-        assert future.result().success
+        answer: Any = future.result()
+        assert answer.success
         assert time.monotonic() - begin > 0.05  # a block of this scene takes 60 ms
         # the block was sent before the answer; it may be taken a moment after it
         graph.until(partial(has_come, graph, "vibration", before + 1), "the block", timeout=0.5)
