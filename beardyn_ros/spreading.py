@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from itertools import groupby
 from typing import NamedTuple
 
-CLOSEST = 0.4  # of the spacing between two moments that were meant; so a late one is made up for
+CLOSEST = 0.8  # of the spacing between two moments that were meant; so a late one is made up for
 LONGEST_SLEEP_S = 0.05
 MOST_MOMENTS = 24  # behind more than that, everything goes out at once
 

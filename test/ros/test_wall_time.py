@@ -198,7 +198,7 @@ def test_trend_messages_are_spread_and_a_reader_with_sensor_data_quality_gets_th
     assert graph.exit_code("reader") == 0
     sent = json.loads(graph.processes.log("reader"))
     gaps_ms = np.diff(sent) * 1e-6
-    assert np.median(gaps_ms) == pytest.approx(2.5, abs=0.25)
+    assert np.median(gaps_ms) == pytest.approx(2.5, abs=0.6)  # one that is late is made up for
     # a twin that is far behind, on a busy machine, sends what waits at once; in bursts it would be 7 of 8
     assert np.mean(gaps_ms < 0.9) < 0.25
     assert len(sent) >= 0.9 * 1600
