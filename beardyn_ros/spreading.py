@@ -50,14 +50,13 @@ class Spreader:
         pace : float
             Simulated seconds per wall second; 0: everything at once.
         """
-        now, before = time.monotonic(), 0.0
-        moments = []
-        for offset, group in groupby(messages, key=lambda message: message[0]):
-            gap = CLOSEST * (offset - before) / (pace or 1.0)
-            moments.append(
-                _Moment(now + offset / (pace or 1.0), gap, tuple((name, cdr) for _, name, cdr in group))
-            )
-            before = offset
+        now, wall = time.monotonic(), 1.0 / (pace or 1.0)
+        groups = [(offset, tuple(group)) for offset, group in groupby(messages, lambda message: message[0])]
+        gap = CLOSEST * wall * (groups[1][0] - groups[0][0]) if len(groups) > 1 else 0.0
+        moments = [
+            _Moment(now + wall * offset, gap, tuple((name, cdr) for _, name, cdr in group))
+            for offset, group in groups
+        ]
         with self._condition:
             if len(self._waiting) > MOST_MOMENTS:
                 self._publish_waiting()
