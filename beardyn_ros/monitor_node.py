@@ -28,11 +28,12 @@ from beardyn_core.record.messages import (
     encode_diagnostics,
     header_stamp,
 )
-from beardyn_core.record.topics import FRAME, JOINTS, TEMPERATURE, WRENCH, topic
+from beardyn_core.record.topics import JOINTS, TEMPERATURE, WRENCH, topic
 from beardyn_core.study.finding import HOT_BOX, Finding, conclude
-from beardyn_ros.diagnostics import MONITOR, diagnostic_name
+from beardyn_ros.diagnostics import MONITOR, TWIN, diagnostic_name
+from beardyn_ros.frames import frame_of
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.runtime import run_node
+from beardyn_ros.runtime import run_node, wall_timer
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
@@ -80,10 +81,13 @@ class MonitorNode(Node):
         self._intake.add(topic("load/wrench"), self._on_wrench)
         self._intake.add(topic("temperature"), self._on_temperature)
         self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
-        self._watch = TwinWatch(lambda: self.count_publishers(topic("vibration").path(self.get_namespace())))
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("vibration").path(self.get_namespace())),
+        )
         self._begin()
         self._reported_at = 0.0
-        self.create_timer(TICK_S, self._tick)
+        wall_timer(self, TICK_S, self._tick)
         self.get_logger().info(
             f"{self._bearing.name}: BPFO {self._orders.bpfo:.4f}, BPFI {self._orders.bpfi:.4f}, "
             f"BSF {self._orders.bsf:.4f}, FTF {self._orders.ftf:.4f} per shaft revolution"
@@ -164,7 +168,9 @@ class MonitorNode(Node):
     def _publish(self, finding: Finding, *extra: tuple[str, str]) -> None:
         status = finding.to_diagnostic(diagnostic_name(self.get_namespace(), MONITOR), extra)
         stamp = round(finding.time * 1e9)
-        self._out.publish("monitor/result", encode_diagnostics(stamp, FRAME, [status]))
+        self._out.publish(
+            "monitor/result", encode_diagnostics(stamp, frame_of(self.get_namespace()), [status])
+        )
 
     def _sum_up(self) -> None:
         """Log the last word about the run: the most frequent verdict."""
@@ -195,7 +201,7 @@ class MonitorNode(Node):
             ),
         )
         stamp = round(self._findings[-1].time * 1e9) if self._findings else 0
-        self._out.publish("/diagnostics", encode_diagnostics(stamp, FRAME, [status]))
+        self._out.publish("/diagnostics", encode_diagnostics(stamp, frame_of(self.get_namespace()), [status]))
 
     def close(self) -> bool:
         """Do nothing: there is nothing to save and no thread to end."""

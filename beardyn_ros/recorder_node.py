@@ -10,11 +10,12 @@ from rclpy.node import Node
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
-from beardyn_core.record.topics import FRAME, TOPICS, Topic, topic
-from beardyn_ros.diagnostics import OK, RECORDER, WARN, diagnostic_name
+from beardyn_core.record.topics import TOPICS, Topic, topic
+from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, diagnostic_name
+from beardyn_ros.frames import frame_of
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recording import Recording, free_name, parsed_truth
-from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node
+from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_LOAD_LOST, run_node, wall_timer
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
@@ -64,12 +65,15 @@ class RecorderNode(Node):
         self._names: set[str] = set()
         for entry in TOPICS:
             self._record(entry)
-        self._watch = TwinWatch(lambda: self.count_publishers(topic("truth").path(self.get_namespace())))
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+        )
         self._ended_at: float | None = None
         self._monitor_done = False
         self._reported_at = 0.0
         self._announced_ready = False
-        self.create_timer(TICK_S, self._tick)
+        wall_timer(self, TICK_S, self._tick)
         self.get_logger().info(f"recorder of {self.get_namespace()} is waiting for a twin")
 
     def _check_output(self) -> None:
@@ -116,8 +120,10 @@ class RecorderNode(Node):
         return take
 
     def _on_truth(self, cdr: bytes) -> None:
-        self._ended_at, self._monitor_done, self._watch.last = None, False, None
-        description = parsed_truth(decode_string(cdr)).get("description")
+        self._ended_at, self._monitor_done = None, False
+        truth = parsed_truth(decode_string(cdr))
+        self._watch.begin_run(str(truth.get("run_id", "")))
+        description = truth.get("description")
         names = description.get("sensor_names", []) if isinstance(description, dict) else []
         for name in names[1:]:
             self._record(topic(f"vibration/{name}"))
@@ -138,7 +144,11 @@ class RecorderNode(Node):
             self.get_logger().info("connected to every topic of the twin")
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._watch.ended:
+        if self._watch.mixed and not self.finished:
+            self.get_logger().error(self._watch.mixed)
+            self._end(self._watch.mixed)
+            self.exit_code, self.finished = EXIT_BAD_INPUT, True
+        elif self._watch.ended:
             self._end_when_complete()
         elif self._watch.vanished() and self._recording.current is not None:
             self._end("the twin has vanished without a last word")
@@ -210,7 +220,7 @@ class RecorderNode(Node):
             values += [(f"lost: {name}", str(count)) for name, count in sorted(current.loss.lost.items())]
         status = Diagnostic(diagnostic_name(self.get_namespace(), RECORDER), level, sentence, tuple(values))
         stamp = current.last_ns.get("load/consumed", 0) if current else 0
-        self._out.publish("/diagnostics", encode_diagnostics(stamp, FRAME, [status]))
+        self._out.publish("/diagnostics", encode_diagnostics(stamp, frame_of(self.get_namespace()), [status]))
 
     def close(self) -> bool:
         """Finish the file; there is no thread to end."""

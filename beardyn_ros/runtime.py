@@ -21,7 +21,7 @@ EXIT_LOAD_LOST = 4
 EXIT_CODES = {
     EXIT_DONE: "done, or stopped by SIGINT or SIGTERM",
     1: "demo only: a node has ended early or has fallen silent",
-    EXIT_BAD_INPUT: "bad input: an argument, a parameter, a scene or another file",
+    EXIT_BAD_INPUT: "bad input: an argument, a parameter, a scene or another file; two twins of one name",
     EXIT_INVALID_MODEL: "the model has left its validity, or the twin has failed",
     EXIT_LOAD_LOST: "the load never came, stopped coming or overflowed; load and recorder: there is no twin",
     130: "demo only: interrupted by Ctrl+C",
@@ -103,6 +103,23 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
         sys.stderr.flush()
         os._exit(code)
     return code
+
+
+def wall_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:
+    """Create a timer of the wall clock, which also ticks while simulated time stands still.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        With `use_sim_time` its own timers would wait for ``/clock``.
+    period : float
+        [s].
+    callback : callable
+    """
+    from rclpy.clock import Clock
+    from rclpy.clock_type import ClockType
+
+    return node.create_timer(period, callback, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
 
 def stray_arguments(argv: Sequence[str]) -> list[str]:

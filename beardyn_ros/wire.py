@@ -8,6 +8,7 @@ sisters, in one sweep.
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable
 from functools import cache
 from importlib import import_module
@@ -26,6 +27,7 @@ HISTORY_FACTOR = 20
 PUBLISH_TRIES = 20
 PUBLISH_RETRY_S = 0.005
 DEEPEST_HISTORY = 4000
+RECENT_S = 5.0
 LONGEST_SWEEP = 5000
 
 
@@ -56,7 +58,10 @@ def quality_of_service(
     deep = offered and entry.durability == "volatile" and entry.depth > 0
     return QoSProfile(
         depth=(entry.depth or DEEPEST_HISTORY) * (HISTORY_FACTOR if deep else 1),
-        history=HistoryPolicy.KEEP_ALL if keep_all or entry.depth == 0 else HistoryPolicy.KEEP_LAST,
+        # a publisher that kept all would wait for a reader that hangs, and with it everybody else
+        history=HistoryPolicy.KEEP_ALL
+        if keep_all or (entry.depth == 0 and not offered)
+        else HistoryPolicy.KEEP_LAST,
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL
         if entry.durability == "transient_local"
@@ -77,7 +82,9 @@ class TopicPublishers:
     def __init__(self, node: Any, *names: str) -> None:
         self._node = node
         self._publishers: dict[str, Any] = {}
+        self.sent: Counter[str] = Counter()
         self.lost_messages = 0
+        self._lost_at = -RECENT_S
         for name in names:
             self.publisher(name)
 
@@ -96,12 +103,19 @@ class TopicPublishers:
         for attempt in range(PUBLISH_TRIES):
             try:
                 publisher.publish(cdr)
+                self.sent[name] += 1
                 return True
             except rclpy_implementation.RCLError:  # "cannot publish data": full
                 if attempt + 1 < PUBLISH_TRIES:
                     time.sleep(PUBLISH_RETRY_S)
         self.lost_messages += 1
+        self._lost_at = time.monotonic()
         return False
+
+    @property
+    def lost_recently(self) -> bool:
+        """Whether a message was given up within the last seconds."""
+        return time.monotonic() - self._lost_at < RECENT_S
 
     def wait_until_received(self, name: str, timeout: float) -> bool:
         """Wait until every reliable reader has acknowledged a topic, for at most `timeout` seconds."""

@@ -26,9 +26,34 @@ sentence, and ends cleanly on SIGINT and SIGTERM.
 
 SERVICES = """
 Services of the twin, in its namespace: `pause` (`std_srvs/SetBool`), `step` (`std_srvs/Trigger`, one
-block while paused) and `reset` (`std_srvs/Trigger`, back to t = 0; a reset starts a new recording). The
-twin is a lifecycle node: configure loads the scene and compiles off the executor, activate solves the
-equilibrium under the first load and runs; with `autostart` it does both by itself.
+block while paused, answered when it is published) and `reset` (`std_srvs/Trigger`, back to t = 0; a reset
+starts a new recording). The twin is a lifecycle node: configure loads the scene and compiles off the
+executor, activate solves the equilibrium under the first load and runs; with `autostart` it does both by
+itself. All nodes tick by the wall clock, with `use_sim_time` on or off; while the twin is paused `/clock`
+repeats the time at which it stands.
+
+### What its diagnostics say
+
+Statuses are named in full, `axlebox/twin` in the namespace `/axlebox`, with the namespace as `hardware_id`;
+`run_id` changes with every run and begins with `instance`, which a twin keeps from its start to its end.
+
+* `real_time_factor` is that of the whole node: simulated time over the time from load to a block that is
+  handed over, with encoding and publishing, without waiting for the pace; `kernel_real_time_factor` is that
+  of the simulation alone, `processor_time_per_simulated_time` counts all threads of the process.
+* `axlebox/lag` is a status of its own: by how much simulated time is behind the pace, WARN beyond 0.1 s of
+  wall time.
+* WARN goes again 5 s after the last refused or lost message; the counts stay.
+* The last word, in state `finished`, `stopped` or `interrupted` (SIGINT, SIGTERM, lifecycle), counts the
+  messages of the run by topic: `messages force` and so on.
+
+A second twin under the same full name refuses to start (exit code 2), and the first one warns while it hears
+it; a recorder that hears two in turns closes its file and ends with 2. Of several twins in one graph only one
+may publish `/clock`; a twin that meets another publisher of it warns.
+
+At a `speed_factor` above 0 the single samples of a block (`force`, `imu`, `shaft`, `joint_states`) go out
+one after the other over the next 20 ms of simulated time, so that readers with sensor data QoS (depth 5) get
+them all. At 0 they come block by block: such a reader needs a depth of a few hundred, or `reliable` with keep
+all.
 """
 
 LOAD_SERVICES = """
@@ -60,8 +85,12 @@ load is lost as ever. Reset of the twin starts the stream again at sample 0 and 
 Any node may send the load. A recording of a lockstep run replays to the same bits:
 
 ```
-ros2 bag play run.mcap --topics /axlebox/load/blocks /axlebox/load/truth
+ros2 bag play run.mcap --delay 1 --topics /axlebox/load/blocks /axlebox/load/truth
 ```
+
+Without the delay the player sends its first block before the twin has found it. A stream begins at sample
+0: when that is missing the twin says which samples are, waits for `load_timeout` in case they are sent
+again, and ends with exit code 4. `join:=true` takes a stream from where it stands.
 
 A bag does not wait for credit: with `--rate` it may run ahead of the twin by `load_queue` seconds or
 `load_queue_size` MB, beyond which the twin stops and says so.
@@ -70,12 +99,20 @@ A bag does not wait for credit: with `--rate` it may run ahead of the twin by `l
 PROTOCOL = """
 ## Load protocol
 
-`load/blocks` is reliable and keeps all. The load node stays within `horizon` of the simulated time that
-the twin repeats on `load/consumed` every 0.2 s; an empty block ends the stream. Samples are linear in
-between, and in lockstep a block is computed only when a sample at or after its end has arrived: the
-signals are the same to the last bit at any speed. Messages with NaN, out of order, with gaps or absurd
-numbers are counted and refused in `/diagnostics`. Every sample has a running number: a loss shows as a gap
-and never as a guess.
+`load/blocks` is reliable and keeps all. The load node stays within `horizon` of the simulated time that the
+twin repeats on `load/consumed` every 0.2 s; an empty block ends the stream. Samples are linear in between,
+and in lockstep a block is computed only when a sample at or after its end has arrived: the signals are the
+same to the last bit at any speed. Messages with NaN, out of order, with gaps or absurd numbers, from the
+far future or in another frame than `frame_id` (none is taken too) are counted and refused in
+`/diagnostics`. Every sample has a running number: a loss shows as a gap and never as a guess. A refused
+block may be sent again; when the stream ends with one of its blocks still missing the twin ends with exit
+code 4.
+
+In `live` mode force and speed pass a Bessel filter of order 4 before they are sampled every 20 ms: above
+`live_bandwidth` next to nothing is folded into the signal, below it everything is 0.336 / `live_bandwidth`
+late. Stamps may be of any clock that runs forward. A stamp that does not follow the one before it, or lies
+far in the future, is refused; after five in a row that follow each other the source has set its clock, and
+the load goes on.
 """
 
 
