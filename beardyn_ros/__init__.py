@@ -6,6 +6,7 @@ module         responsibility
 environment    what ROS 2 from wheels needs to start; says clearly when there is no ROS 2
 runtime        one process, one node: arguments, signals, executor, exit code
 parameters     parameters declared once from a table, refused with a sentence
+addressed      which parameters were given to one node itself, which to whoever shares a file
 wire           topics of the table as publishers, and raw subscriptions that are emptied in one sweep
 load_gate      what comes in as load: checked, counted, queued
 scenario       what the load node replays: load, events, and the truth that it tells
