@@ -15,6 +15,8 @@ PROGRAMS = {
     "recorder": ("recorder_node", "record every topic into a crash-safe MCAP file"),
     "viewer": ("viewer_node", "live view in rerun"),
     "monitor": ("monitor_node", "monitoring algorithm on vibration, shaft, load and temperature"),
+    "car_load": ("car_load", "the load of every axlebox of a car from one scenario, all in step"),
+    "car_recorder": ("car_recorder", "record every axlebox of a car, a file each"),
     "demo": ("demo", "all of them as separate processes on one scene"),
 }
 
@@ -42,7 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def usage() -> str:
     """Write the overview of the programs."""
     lines = ["usage: python -m beardyn_ros NODE [--ros-args -p NAME:=VALUE ... --params-file FILE]", ""]
-    lines += [f"  {name:9} {purpose}" for name, (_, purpose) in PROGRAMS.items()]
+    lines += [f"  {name:12} {purpose}" for name, (_, purpose) in PROGRAMS.items()]
     lines += ["", "exit codes:", *(f"  {code:<9} {meaning}" for code, meaning in EXIT_CODES.items())]
     return "\n".join([*lines, "", "`python -m beardyn_ros NODE --help` lists a node's parameters."])
 

@@ -17,7 +17,6 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
 from rclpy.node import Node
 from std_srvs.srv import SetBool, Trigger
 
@@ -29,13 +28,12 @@ from beardyn_core.record.messages import (
     decode_string,
     encode_diagnostics,
     encode_string,
-    header,
-    make,
-    serialize,
 )
-from beardyn_core.record.topics import FRAME, TWIST, WRENCH, topic
+from beardyn_core.record.topics import topic
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.diagnostics import diagnostic_name, load_diagnostic
+from beardyn_ros.frames import FRAME_ID, frame_of
+from beardyn_ros.live_load import encode_shaft, encode_wrench
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.replay import Replay
 from beardyn_ros.replay_clock import ReplayClock
@@ -101,6 +99,7 @@ PARAMETERS = (
         "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
     ),
     NodeParameter("exit_when_done", True, "end the process when everything is replayed and received"),
+    FRAME_ID,
 )
 
 
@@ -111,14 +110,17 @@ class LoadNode(Node):
     ----------
     load_scenario : callable or None
         ``load_scenario(scene, csv, duration)``; ``None``: scenes of the config room.
+    **of_node
+        Passed on to the node: another namespace, parameters.
     """
 
-    def __init__(self, load_scenario: ScenarioLoader | None = None) -> None:
-        super().__init__("load", namespace="axlebox")
+    def __init__(self, load_scenario: ScenarioLoader | None = None, **of_node: Any) -> None:
+        super().__init__("load", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
         values = self._values
+        self._frame = frame_of(self.get_namespace(), values.frame_id)
         if values.block >= values.horizon:
             raise InputError(
                 f"node load: block {values.block:g} s must be shorter than horizon {values.horizon:g} s"
@@ -262,7 +264,7 @@ class LoadNode(Node):
         name = diagnostic_name(self.get_namespace(), "load")
         lead = (self._replay.next_ns - self._credit_ns) * 1e-9
         status = load_diagnostic(name, self._state, self._replay, lead, self._out.lost_messages)
-        self._out.publish("/diagnostics", encode_diagnostics(self._credit_ns, FRAME, [status]))
+        self._out.publish("/diagnostics", encode_diagnostics(self._credit_ns, self._frame, [status]))
 
     def _on_timer(self) -> None:
         (self._pump_live if self._live else self._pump)()
@@ -316,10 +318,14 @@ class LoadNode(Node):
                 return False
         return True
 
+    def _latest_credit(self) -> int:
+        """Find the time up to which the load is used, from where the horizon counts, [ns]."""
+        return self._credit_ns
+
     def _pump(self) -> None:
         if not (self._twin_listens() or self._ended):
             return
-        latest_ns = self._credit_ns + round(self._values.horizon * 1e9)
+        latest_ns = self._latest_credit() + round(self._values.horizon * 1e9)
         while not self._ended and (not self._paused or self._steps):
             if self._unsent is None:
                 first = self._replay.next_sample
@@ -330,7 +336,9 @@ class LoadNode(Node):
             if len(load) == 0:
                 self._end_stream()
                 return
-            if load.time_ns[-1] > latest_ns or not self._out.publish("load/blocks", encode_load(load, first)):
+            if load.time_ns[-1] > latest_ns or not self._out.publish(
+                "load/blocks", encode_load(load, first, self._frame)
+            ):
                 return
             self._unsent = None
             self._steps = max(self._steps - 1, 0)
@@ -347,8 +355,8 @@ class LoadNode(Node):
             self._publish_truth()
             if len(load):
                 stamp = int(load.time_ns[-1])
-                self._out.publish("load/wrench", encode_wrench(load.wrench[-1], stamp))
-                self._out.publish("load/shaft", encode_shaft(float(load.shaft_speed[-1]), stamp))
+                self._out.publish("load/wrench", encode_wrench(load.wrench[-1], stamp, self._frame))
+                self._out.publish("load/shaft", encode_shaft(float(load.shaft_speed[-1]), stamp, self._frame))
             if not self._replay.exhausted:
                 return
         self._end_stream()
@@ -356,7 +364,9 @@ class LoadNode(Node):
     def _end_stream(self) -> None:
         if not self._ended:
             empty = self._scenario.history.part(0, 0)
-            self._ended = self._out.publish("load/blocks", encode_load(empty, self._replay.next_sample))
+            self._ended = self._out.publish(
+                "load/blocks", encode_load(empty, self._replay.next_sample, self._frame)
+            )
             self._publish_truth()
             self.get_logger().info("everything is replayed, the stream is ended")
         elif self._values.exit_when_done:
@@ -368,22 +378,6 @@ class LoadNode(Node):
         """Leave nothing half-sent; there is no thread to end."""
         self._out.wait_until_received("load/blocks", LAST_WORDS_TIMEOUT_S if self.finished else 0.0)
         return False
-
-
-def encode_wrench(wrench: np.ndarray, stamp_ns: int) -> bytes:
-    """Encode one ``load/wrench`` as CDR, shape [6], [N, N m]."""
-    force = make("geometry_msgs/msg/Vector3", x=wrench[0], y=wrench[1], z=wrench[2])
-    torque = make("geometry_msgs/msg/Vector3", x=wrench[3], y=wrench[4], z=wrench[5])
-    content = make("geometry_msgs/msg/Wrench", force=force, torque=torque)
-    return serialize(make(WRENCH, header=header(stamp_ns, FRAME), wrench=content))
-
-
-def encode_shaft(speed: float, stamp_ns: int) -> bytes:
-    """Encode one ``load/shaft`` as CDR, [rad/s] about +y."""
-    zero = make("geometry_msgs/msg/Vector3", x=0.0, y=0.0, z=0.0)
-    turning = make("geometry_msgs/msg/Vector3", x=0.0, y=speed, z=0.0)
-    content = make("geometry_msgs/msg/Twist", linear=zero, angular=turning)
-    return serialize(make(TWIST, header=header(stamp_ns, FRAME), twist=content))
 
 
 def main(argv: Sequence[str], load_scenario: ScenarioLoader | None = None) -> int:

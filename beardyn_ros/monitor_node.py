@@ -30,7 +30,7 @@ from beardyn_core.record.messages import (
 )
 from beardyn_core.record.topics import FRAME, JOINTS, TEMPERATURE, WRENCH, topic
 from beardyn_core.study.finding import HOT_BOX, Finding, conclude
-from beardyn_ros.diagnostics import MONITOR, diagnostic_name
+from beardyn_ros.diagnostics import MONITOR, TWIN, diagnostic_name
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node
 from beardyn_ros.twin_watch import TwinWatch
@@ -80,7 +80,10 @@ class MonitorNode(Node):
         self._intake.add(topic("load/wrench"), self._on_wrench)
         self._intake.add(topic("temperature"), self._on_temperature)
         self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
-        self._watch = TwinWatch(lambda: self.count_publishers(topic("vibration").path(self.get_namespace())))
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("vibration").path(self.get_namespace())),
+        )
         self._begin()
         self._reported_at = 0.0
         self.create_timer(TICK_S, self._tick)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from rclpy.node import Node
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
 from beardyn_core.record.topics import FRAME, TOPICS, Topic, topic
-from beardyn_ros.diagnostics import OK, RECORDER, WARN, diagnostic_name
+from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, diagnostic_name
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recording import Recording, free_name, parsed_truth
 from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node
@@ -50,10 +51,16 @@ PARAMETERS = (
 
 
 class RecorderNode(Node):
-    """Every topic of one axlebox into files."""
+    """Every topic of one axlebox into files.
 
-    def __init__(self) -> None:
-        super().__init__("recorder", namespace="axlebox")
+    Parameters
+    ----------
+    **of_node
+        Passed on to the node: another namespace, parameters.
+    """
+
+    def __init__(self, **of_node: Any) -> None:
+        super().__init__("recorder", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
@@ -64,7 +71,10 @@ class RecorderNode(Node):
         self._names: set[str] = set()
         for entry in TOPICS:
             self._record(entry)
-        self._watch = TwinWatch(lambda: self.count_publishers(topic("truth").path(self.get_namespace())))
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+        )
         self._ended_at: float | None = None
         self._monitor_done = False
         self._reported_at = 0.0

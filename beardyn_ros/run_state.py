@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from beardyn_core.record.description import RunDescription
+from beardyn_core.record.topics import FRAME
 
 IDLE = "idle"
 COMPILING = "compiling"
@@ -19,6 +20,8 @@ PAUSED = "paused"
 FINISHED = "finished"
 STOPPED = "stopped"
 END_STATES = (FINISHED, STOPPED)
+
+SCENE_TIER = "scene"
 
 
 @dataclass(frozen=True)
@@ -36,13 +39,20 @@ class Rig:
     description: RunDescription
 
 
-def scene_rig(scene_name: str) -> Callable[[], Rig]:
-    """Make the builder of rigs for a scene by name or path; the scene is read and checked at once."""
+def scene_rig(scene_name: str, tier: str = SCENE_TIER) -> Callable[[], Rig]:
+    """Make the builder of rigs for a scene by name or path; the scene is read and checked at once.
+
+    Parameters
+    ----------
+    scene_name : str
+    tier : str
+        `SCENE_TIER` for the scene's own.
+    """
     from beardyn_core.choice import load_scene
     from beardyn_core.record.description import RunDescription
     from beardyn_core.twin import Twin
 
-    scene = load_scene(scene_name, outside_load=True)
+    scene = load_scene(scene_name, tier=None if tier == SCENE_TIER else tier, outside_load=True)
 
     def build() -> Rig:
         twin = Twin(scene)
@@ -69,6 +79,8 @@ class SessionOptions:
         Longest stretch of load that may wait, [ns].
     queue_bytes : int
         Most memory that it may take.
+    frame : str
+        Of the axlebox, in every header.
     """
 
     mode: str
@@ -77,6 +89,7 @@ class SessionOptions:
     max_age: float
     queue_ns: int
     queue_bytes: int
+    frame: str = FRAME
 
 
 @dataclass(frozen=True)

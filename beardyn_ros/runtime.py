@@ -81,7 +81,8 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
             raise InputError(f"the ROS arguments cannot be read: {error}") from error
         node = make_node()
         executor = SingleThreadedExecutor()
-        executor.add_node(node)
+        for each in (node, *getattr(node, "members", ())):
+            executor.add_node(each)
         while not (stop.is_set() or node.finished):
             executor.spin_once(timeout_sec=SPIN_SLICE_S)
         code = EXIT_DONE if stop.is_set() and not node.finished else node.exit_code

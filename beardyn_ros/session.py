@@ -194,7 +194,7 @@ class TwinSession:
 
     def _one_run(self, rig: Rig) -> None:
         twin, description = rig.twin, rig.description
-        self._encoder = BlockEncoder(description.roller_count, description.sensor_names)
+        self._encoder = BlockEncoder(description.roller_count, description.sensor_names, self.options.frame)
         self._wait(lambda: self._active)
         run_id = f"{uuid.uuid4().hex[:8]}-{self._run_count}"
         self._run_count += 1

@@ -24,16 +24,19 @@ from beardyn_core.record.messages import (
     encode_time,
     header_stamp,
 )
-from beardyn_core.record.topics import FRAME, TWIST, WRENCH, topic
+from beardyn_core.record.topics import TWIST, WRENCH, topic
+from beardyn_core.scene.tier import TIER_NAMES
+from beardyn_ros.description_publisher import DESCRIPTION_PARAMETERS, DescriptionPublisher
 from beardyn_ros.diagnostics import diagnostic_name, needs_attention, twin_diagnostic
+from beardyn_ros.frames import frame_of
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.run_state import END_STATES, FINISHED, Outgoing, Rig, SessionOptions, scene_rig
+from beardyn_ros.run_state import END_STATES, FINISHED, SCENE_TIER, Outgoing, Rig, SessionOptions, scene_rig
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node
 from beardyn_ros.scenario import says_paused
 from beardyn_ros.session import TwinSession
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
-RigLoader = Callable[[str], Callable[[], Rig]]
+RigLoader = Callable[[str, str], Callable[[], Rig]]
 
 REPORT_PERIOD_S = 0.2
 LAST_WORDS_TIMEOUT_S = 2.0
@@ -54,6 +57,12 @@ SIGNAL_TOPICS = (
 
 PARAMETERS = (
     NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
+    NodeParameter(
+        "tier",
+        SCENE_TIER,
+        "how much of the bearing moves by itself: lumped and quasistatic are fast; scene: the scene's own",
+        choices=(SCENE_TIER, *TIER_NAMES),
+    ),
     NodeParameter(
         "mode",
         "lockstep",
@@ -105,6 +114,7 @@ PARAMETERS = (
         maximum=16_384.0,
     ),
     NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
+    *DESCRIPTION_PARAMETERS,
 )
 
 
@@ -114,7 +124,7 @@ class TwinNode(LifecycleNode):
     Parameters
     ----------
     load_rig : callable or None
-        Gives, for the parameter ``scene``, a builder of rigs; ``None``: scenes of the config room.
+        Gives, for ``scene`` and ``tier``, a builder of rigs; ``None``: scenes of the config room.
     """
 
     def __init__(self, load_rig: RigLoader | None = None) -> None:
@@ -123,6 +133,8 @@ class TwinNode(LifecycleNode):
         self.exit_code = 0
         self._load_rig = load_rig or scene_rig
         self._values = ParameterValues(self, PARAMETERS)
+        self._frame = frame_of(self.get_namespace(), self._values.frame_id)
+        self._description = DescriptionPublisher(self, self._frame, self._values)
         self._session: TwinSession | None = None
         self._load_paused = False
         self._consumed_ns: int | None = None
@@ -154,7 +166,7 @@ class TwinNode(LifecycleNode):
         """Read the scene and start compiling it in the background."""
         values = self._values
         try:
-            make_rig = self._load_rig(values.scene)
+            make_rig = self._load_rig(values.scene, values.tier)
         except InputError as error:
             for sentence in error.problems:
                 self.get_logger().error(sentence)
@@ -168,6 +180,7 @@ class TwinNode(LifecycleNode):
             max_age=values.max_age,
             queue_ns=round(values.load_queue * 1e9),
             queue_bytes=round(values.load_queue_size * 1e6),
+            frame=self._frame,
         )
         self._session = TwinSession(make_rig, options, self._speed_factor, self._guard.trigger)
         if not self._intake.publisher_counts():
@@ -318,6 +331,7 @@ class TwinNode(LifecycleNode):
     def _publish(self, outgoing: Outgoing) -> None:
         for name, cdr in outgoing.messages:
             self._out.publish(name, cdr)
+        self._description.follow(outgoing.messages)
         if outgoing.clock_ns is None:
             return
         self._clock_ns, self._consumed_ns = outgoing.clock_ns, outgoing.consumed_ns
@@ -361,7 +375,7 @@ class TwinNode(LifecycleNode):
             self._speed_factor,
             sum(senders.values()),
         )
-        self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, FRAME, [status]))
+        self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, self._frame, [status]))
 
     def _finish(self, state: str) -> None:
         """Finish the run: publish everything, then the last report, then rest or end."""

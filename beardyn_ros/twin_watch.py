@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import Any
 
 from beardyn_core.record.messages import Diagnostic
-from beardyn_ros.diagnostics import TWIN, is_from
 from beardyn_ros.run_state import END_STATES, FINISHED
 
 VANISHED_AFTER_S = 3.0
@@ -18,11 +17,14 @@ class TwinWatch:
 
     Parameters
     ----------
+    name : str
+        Of the twin's status, with its namespace: there may be others.
     publisher_count : callable
         How many publishers one of the twin's topics has.
     """
 
-    def __init__(self, publisher_count: Callable[[], int]) -> None:
+    def __init__(self, name: str, publisher_count: Callable[[], int]) -> None:
+        self._name = name
         self._publisher_count = publisher_count
         self._seen = False
         self._missing_since: float | None = None
@@ -32,7 +34,7 @@ class TwinWatch:
     def take_statuses(self, statuses: tuple[Diagnostic, ...]) -> None:
         """Take the statuses of one diagnostics message."""
         for status in statuses:
-            if is_from(status, TWIN):
+            if status.name == self._name:
                 self.last = status
 
     def value(self, key: str, default: Any = None) -> Any:

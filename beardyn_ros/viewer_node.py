@@ -15,6 +15,7 @@ from beardyn_core.record.rerun_live import LiveView
 from beardyn_core.record.rerun_stream import live_stream
 from beardyn_core.record.topics import topic, vibration_topic
 from beardyn_core.record.viewer import has_display
+from beardyn_ros.diagnostics import TWIN, diagnostic_name
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node
 from beardyn_ros.twin_watch import TwinWatch
@@ -66,7 +67,10 @@ class ViewerNode(Node):
             self._intake.add(topic(name), self._drawer(name))
         self._further: set[str] = set()
         self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
-        self._watch = TwinWatch(lambda: self.count_publishers(topic("truth").path(self.get_namespace())))
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+        )
         self.create_timer(TICK_S, self._tick)
         self.get_logger().info(f"drawing into {stream.where}")
 
