@@ -8,7 +8,8 @@ runtime        one process, one node: arguments, signals, executor, exit code
 parameters     parameters declared once from a table, refused with a sentence
 addressed      which parameters were given to one node itself, which to whoever shares a file
 wire           topics of the table as publishers, and raw subscriptions that are emptied in one sweep
-frames         names of frames, one tree for each axlebox; its place in a vehicle
+frames         names of frames, one tree for each axlebox
+poses          place and orientation of one frame in another
 transforms     transforms as tf2 messages
 stl            meshes of the parts as STL files, from the bearing's own dimensions
 description    the bearing in its box as URDF
@@ -23,6 +24,8 @@ load_feed      load for the twin's thread: waiting, age, knowing pauses
 run_state      options of a session, the messages it hands over, its report
 session        the twin in its own thread: compile, wait for load, advance, pace
 pacer          when a block is due on the wall clock
+twin_parameters  parameters of the twin node
+simulation_services  the services of simulation_interfaces, where it is installed
 twin_node      the lifecycle node around a session: topics, services, diagnostics
 twin_watch     is the twin there, has it ended, how
 recording      messages into files, one a run, with proof of what was lost

@@ -19,7 +19,7 @@ from beardyn_core.model.heat import NODES
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import orbit_joints
 from beardyn_core.record.meshes import ROW_SIDE
-from beardyn_ros.frames import ORIGIN, Pose
+from beardyn_ros.poses import ORIGIN, Pose
 
 COLOURS = {
     "box": "0.35 0.42 0.50 1",

@@ -17,8 +17,8 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import decode, decode_string, encode_string, header_stamp
 from beardyn_core.record.topics import JOINTS
 from beardyn_ros.description import joints_of, urdf
-from beardyn_ros.frames import FRAME_ID, Pose, pose_from
 from beardyn_ros.parameters import NodeParameter
+from beardyn_ros.poses import Pose, pose_from
 from beardyn_ros.stl import mesh_folder, write_meshes
 from beardyn_ros.transforms import TRANSFORMS, TurningFrames, encode_fixed
 from beardyn_ros.wire import message_class
@@ -31,7 +31,6 @@ LATCHED = QoSProfile(
 )
 
 DESCRIPTION_PARAMETERS = (
-    FRAME_ID,
     NodeParameter(
         "parent_frame", "", "frame that the axlebox stands in, a vehicle's for one; empty: in none"
     ),

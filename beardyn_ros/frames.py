@@ -1,4 +1,4 @@
-"""Names of frames, one tree for each axlebox, and a place of it in the frame of a vehicle.
+"""Names of frames, one tree for each axlebox.
 
 The frame of an axlebox has its origin at the bearing centre: x forwards, y left along the axle, z up
 (REP-103). Parts and sensors have frames below it, ``<frame>/cone``, ``<frame>/axlebox_top``.
@@ -6,8 +6,6 @@ The frame of an axlebox has its origin at the bearing centre: x forwards, y left
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import cos, isfinite, sin
 from re import fullmatch
 
 from beardyn_core.errors import InputError
@@ -43,55 +41,3 @@ def frame_of(namespace: str, frame_id: str = "") -> str:
             "slashes in between are allowed, none at the start (tf2 refuses it)"
         )
     return name
-
-
-@dataclass(frozen=True)
-class Pose:
-    """Place and orientation, as in URDF.
-
-    Parameters
-    ----------
-    xyz : tuple of float, [m]
-    rpy : tuple of float
-        Roll about x, then pitch about y, then yaw about z, about fixed axes, [rad].
-    """
-
-    xyz: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-    @property
-    def quaternion(self) -> tuple[float, float, float, float]:
-        """Rotation as x, y, z, w."""
-        (cr, cp, cy), (sr, sp, sy) = ([turn(0.5 * angle) for angle in self.rpy] for turn in (cos, sin))
-        return (
-            sr * cp * cy - cr * sp * sy,
-            cr * sp * cy + sr * cp * sy,
-            cr * cp * sy - sr * sp * cy,
-            cr * cp * cy + sr * sp * sy,
-        )
-
-
-ORIGIN = Pose()
-
-
-def pose_from(text: str) -> Pose:
-    """Read ``x y z roll pitch yaw``, [m], [rad]; '' is the origin.
-
-    Raises
-    ------
-    InputError
-        Not six finite numbers.
-    """
-    words = text.replace(",", " ").split()
-    try:
-        numbers = [float(word) for word in words]
-    except ValueError:
-        numbers = []
-    if not words:
-        return ORIGIN
-    if len(numbers) != 6 or not all(isfinite(number) for number in numbers):
-        raise InputError(
-            f"parameter 'pose_in_parent': '{text}' must be six numbers, x y z in m and roll pitch yaw in rad"
-        )
-    x, y, z, roll, pitch, yaw = numbers
-    return Pose((x, y, z), (roll, pitch, yaw))

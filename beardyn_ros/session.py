@@ -100,6 +100,11 @@ class TwinSession:
             self._steps = 0
             self._condition.notify_all()
 
+    @property
+    def paused(self) -> bool:
+        """Whether the run is told to hold."""
+        return self._paused
+
     def step(self) -> str | None:
         """Advance one block while paused; a sentence when that is not possible."""
         with self._condition:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.record.messages import header, make, serialize
-from beardyn_ros.frames import Pose
+from beardyn_ros.poses import Pose
 
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
 _STAMP = struct.Struct("<iI")

@@ -25,15 +25,16 @@ from beardyn_core.record.messages import (
     header_stamp,
 )
 from beardyn_core.record.topics import TWIST, WRENCH, topic
-from beardyn_core.scene.tier import TIER_NAMES
-from beardyn_ros.description_publisher import DESCRIPTION_PARAMETERS, DescriptionPublisher
+from beardyn_ros.description_publisher import DescriptionPublisher
 from beardyn_ros.diagnostics import diagnostic_name, needs_attention, twin_diagnostic
 from beardyn_ros.frames import frame_of
-from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.run_state import END_STATES, FINISHED, SCENE_TIER, Outgoing, Rig, SessionOptions, scene_rig
+from beardyn_ros.parameters import ParameterValues
+from beardyn_ros.run_state import END_STATES, FINISHED, Outgoing, Rig, SessionOptions, scene_rig
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node
 from beardyn_ros.scenario import says_paused
 from beardyn_ros.session import TwinSession
+from beardyn_ros.simulation_services import SimulationServices, interfaces
+from beardyn_ros.twin_parameters import PARAMETERS
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
 RigLoader = Callable[[str, str], Callable[[], Rig]]
@@ -53,68 +54,6 @@ SIGNAL_TOPICS = (
     "joint_states",
     "bodies",
     "contacts",
-)
-
-PARAMETERS = (
-    NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
-    NodeParameter(
-        "tier",
-        SCENE_TIER,
-        "how much of the bearing moves by itself: lumped and quasistatic are fast; scene: the scene's own",
-        choices=(SCENE_TIER, *TIER_NAMES),
-    ),
-    NodeParameter(
-        "mode",
-        "lockstep",
-        "lockstep waits for load/blocks; live holds the last load/wrench and load/shaft, whose stamps may "
-        "be of any one clock as long as they increase",
-        choices=("lockstep", "live"),
-    ),
-    NodeParameter(
-        "speed_factor",
-        0.0,
-        "simulated seconds per wall second, 1 is real time, 0 is as fast as it goes (in live mode: 1); "
-        "in lockstep the results do not depend on it",
-        minimum=0.0,
-        maximum=1000.0,
-        live=True,
-    ),
-    NodeParameter("autostart", True, "configure and activate at once, without a lifecycle manager"),
-    NodeParameter(
-        "exit_when_done", True, "end the process when the load stream has ended or the run has stopped"
-    ),
-    NodeParameter(
-        "start_timeout", 120.0, "longest wait for the first load, 0 for ever", "s", minimum=0.0, maximum=1e6
-    ),
-    NodeParameter(
-        "load_timeout",
-        10.0,
-        "longest wait for load that stopped coming in lockstep, 0 for ever",
-        "s",
-        minimum=0.0,
-        maximum=1e6,
-    ),
-    NodeParameter(
-        "max_age", 0.5, "oldest load that the live mode may hold", "s", minimum=0.02, maximum=3600.0
-    ),
-    NodeParameter(
-        "load_queue",
-        120.0,
-        "load that may wait; more is an error that ends the run",
-        "s",
-        minimum=0.1,
-        maximum=3600.0,
-    ),
-    NodeParameter(
-        "load_queue_size",
-        256.0,
-        "memory that waiting load may take, 88 bytes a sample",
-        "MB",
-        minimum=0.1,
-        maximum=16_384.0,
-    ),
-    NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
-    *DESCRIPTION_PARAMETERS,
 )
 
 
@@ -151,6 +90,9 @@ class TwinNode(LifecycleNode):
         self.create_service(SetBool, "pause", self._on_pause)
         self.create_service(Trigger, "step", self._on_step)
         self.create_service(Trigger, "reset", self._on_reset)
+        self._simulation = SimulationServices(
+            self, lambda: self._session, self._reset, self._quit, interfaces()
+        )
         self.add_post_set_parameters_callback(self._on_parameters)
         if self._values.autostart:
             self._autostart = self.create_timer(0.0, self._start_up)
@@ -285,10 +227,23 @@ class TwinNode(LifecycleNode):
         return self._answer(response, "step", "one block of 20 ms ordered")
 
     def _on_reset(self, _request: Any, response: Any) -> Any:
-        response = self._answer(response, "reset", "the scene starts again at t = 0 with a new recording")
-        if response.success:
-            self._consumed_ns, self._clock_ns = None, 0
+        problem = self._reset()
+        done = "the scene starts again at t = 0 with a new recording"
+        response.success, response.message = not problem, problem or done
         return response
+
+    def _reset(self) -> str:
+        """Start the scene again; a sentence when that is not possible."""
+        problem = "the twin is not configured" if self._session is None else self._session.reset() or ""
+        if not problem:
+            self._consumed_ns, self._clock_ns = None, 0
+        return problem
+
+    def _quit(self) -> None:
+        """End the process as SIGINT does."""
+        self._publish_waiting()
+        self._flush()
+        self.finished = True
 
     def _answer(self, response: Any, order: str, done: str) -> Any:
         problem = "the twin is not configured"
@@ -325,6 +280,7 @@ class TwinNode(LifecycleNode):
         if sentence != self._announced:
             self._announced = sentence
             self._report()
+        self._simulation.look()
         if report.state in END_STATES and not self.finished:
             self._finish(report.state)
 

@@ -166,7 +166,7 @@ def test_a_car_ends_with_its_load_and_every_box_has_a_whole_file(graph: Graph) -
 
 
 def test_boxes_of_a_car_stay_together_within_the_horizon(graph: Graph) -> None:
-    car = Car(graph, TWO, "duration:=6.0", "speed_factor:=1.0")
+    car = Car(graph, TWO, "scene:=static_80kN", "duration:=6.0", "speed_factor:=1.0")
     car.until_running()
     slow = psutil.Process(car.pid("car/axle_4_right/twin"))
     slow.suspend()
@@ -191,7 +191,7 @@ def test_boxes_of_a_car_stay_together_within_the_horizon(graph: Graph) -> None:
 @pytest.mark.parametrize("first", ["car/load", "car/axle_4_right/twin", "car/recorder"])
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
 def test_a_car_ends_orderly_whatever_ends_first(graph: Graph, first: str, number: signal.Signals) -> None:
-    car = Car(graph, TWO, "duration:=60.0", "speed_factor:=1.0")
+    car = Car(graph, TWO, "scene:=static_80kN", "duration:=300.0", "speed_factor:=1.0")
     car.until_running()
     psutil.Process(car.pid(first)).send_signal(number)
     car.end()
@@ -206,7 +206,7 @@ def test_a_car_ends_orderly_whatever_ends_first(graph: Graph, first: str, number
 
 
 def test_sigint_ends_a_car_with_closed_files(graph: Graph) -> None:
-    car = Car(graph, TWO, "duration:=60.0", "speed_factor:=1.0")
+    car = Car(graph, TWO, "scene:=static_80kN", "duration:=300.0", "speed_factor:=1.0")
     car.until_running()
     graph.processes.signal("car", signal.SIGINT)
     car.end()
