@@ -64,7 +64,7 @@ class Rig:
     """Services around a session that runs the fake twin on a second of load."""
 
     def __init__(self) -> None:
-        options = SessionOptions("lockstep", 1.0, 20.0, 1.0, 10**11, 10**9)
+        options = SessionOptions("lockstep", 4.0, 20.0, 1.0, 10**11, 10**9)
         self.session: TwinSession | None = TwinSession(fake_rig("fake", ""), options, 0.0, lambda: None)
         self.offered: dict[str, Callable[..., Any]] = {}
         self.quits = 0
