@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
+from beardyn_ros.requirements import missing_requirements
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_CODES
 
 PROGRAMS = {
@@ -34,6 +35,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     prepare_environment()
     if not ros_available():
         print(MISSING_ROS, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    missing = missing_requirements()
+    if missing:
+        for sentence in missing:
+            print(f"beardyn: {sentence}", file=sys.stderr)
         return EXIT_BAD_INPUT
     if {"-h", "--help"} & set(rest) and name != "demo":
         print(node_help(name))
