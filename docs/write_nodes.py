@@ -13,7 +13,7 @@ from beardyn_ros.__main__ import PROGRAMS
 from beardyn_ros.runtime import EXIT_CODES
 
 PAGE = Path(__file__).with_name("nodes.md")
-NODES = ("twin", "load", "recorder", "monitor", "viewer")
+NODES = ("twin", "load", "recorder", "monitor", "viewer", "car_load", "car_recorder")
 
 HEAD = """# Nodes
 
@@ -21,7 +21,8 @@ Written by `python docs/write_nodes.py` from the tables in the code.
 
 Every node starts with `ros2 run beardyn NODE` or `python -m beardyn_ros NODE`, takes parameters as
 `--ros-args -p NAME:=VALUE` or `--params-file FILE`, refuses unknown names and bad values with a
-sentence, and ends cleanly on SIGINT and SIGTERM.
+sentence, and ends cleanly on SIGINT and SIGTERM. In a file shared by several nodes (`/**:`) a name that a
+node does not know is left to the others, with a warning; under the node's own name it is an error.
 """
 
 SERVICES = """
@@ -29,6 +30,40 @@ Services of the twin, in its namespace: `pause` (`std_srvs/SetBool`), `step` (`s
 block while paused) and `reset` (`std_srvs/Trigger`, back to t = 0; a reset starts a new recording). The
 twin is a lifecycle node: configure loads the scene and compiles off the executor, activate solves the
 equilibrium under the first load and runs; with `autostart` it does both by itself.
+
+Where `simulation_interfaces` is installed, the twin offers the standard services of a simulator as well:
+
+| service | what it does |
+|---|---|
+| `get_simulator_features` | lists what follows |
+| `get_simulation_state` | stopped (before configure, after the end, after a stop), loading (compiling, version 2), playing, paused |
+| `set_simulation_state` | playing and paused as `pause`; stopped is pause and reset; quitting ends the process |
+| `step_simulation` | `steps` blocks of 20 ms while paused; answers when they are done |
+| `reset_simulation` | time and state together (scope 0, 3 or 255); one alone is refused as unsupported |
+
+### What RViz shows
+
+| topic | type | QoS | content |
+|---|---|---|---|
+| `robot_description` | `std_msgs/msg/String` | reliable, latched | URDF of box, cup, cone, cages and rollers, made from the scene's bearing |
+| `/tf_static` | `tf2_msgs/msg/TFMessage` | reliable, latched | fixed frames: cup, sensors, parts of `temperature`, and the box in `parent_frame` |
+| `/tf` | `tf2_msgs/msg/TFMessage` | reliable | with `joint_tf`: cone, cages and rollers, every 20 ms |
+
+The frame of a box is its namespace, `axlebox` or `car/axle_1_left`, or `frame_id`: origin at the bearing
+centre, x forwards, y left along the axle, z up (REP-103). Parts and sensors are below it: `axlebox/cone`,
+`axlebox/axlebox_top`. Accelerometers are in the frame of their sensor (REP-145: specific force, +g on z at
+rest, orientation and rate marked as not measured; `-r imu:=imu/data_raw` gives the topic its usual name),
+everything else in that of the box. In RViz add RobotModel with the topic `/axlebox/robot_description`, and
+set the fixed frame to that of the box or of the vehicle. Joints are called as in `joint_states`, so a
+`robot_state_publisher` works in place of `joint_tf` (remap `joint_states`, no `frame_prefix`). Meshes are
+STL files computed from the bearing's dimensions, in `$BEARDYN_CACHE_DIR/meshes` or `~/.cache/beardyn/meshes`:
+RViz on another machine does not find them. The ROS 2 wheels have no tf2_msgs: without it the frames are
+left out, the description is there.
+
+### Diagnostics
+
+After REP-107 a status is called as its node, without the first slash (`car/axle_1_left/twin`); `hardware_id`
+is the frame of the box.
 """
 
 LOAD_SERVICES = """
@@ -67,6 +102,34 @@ A bag does not wait for credit: with `--rate` it may run ahead of the twin by `l
 `load_queue_size` MB, beyond which the twin stops and says so.
 """
 
+CAR = """
+## Eight boxes of a car
+
+`ros2 launch beardyn car.launch.py` starts a twin in each of `/car/axle_1_left` to `/car/axle_4_right`, with one
+load (`car_load`) and one recorder (`car_recorder`); `--show-args` lists its arguments. The twins are of tier
+`lumped` unless `tier:=` says otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of them a
+spall. The first twin publishes `/clock`.
+
+The scene is the run of the first wheel. A wheel further back comes over the same track later, by its
+distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts turn at
+the present speed of the train. The right rail is another one of the same kind (the next seed), and curves
+turn the other way for the right boxes; loads that are given (constant, stepped, CSV) are the same left and
+right. Defects of the wheel are on one wheel, `wheel_defects_on`. All boxes have axes of the same directions, so
+that row 0, inboard on the left, is outboard on the right. `load/truth` of each box says how far behind it is.
+No box gets load further ahead than `horizon` of the slowest: they stay together, and the `/clock` of one is
+right for all. Each box has the topics and services of a load node of its own (`/car/axle_1_left/load/blocks`);
+`/car/load/pause` holds all of them.
+
+What ends first ends the others in order:
+
+| first | then |
+|---|---|
+| the load, everything sent | the twins compute what they have and end, the recorder closes its files after them |
+| a twin or the load fails or is killed | load and twins are interrupted, the recorder closes its files after the last word |
+| the recorder | load and twins are interrupted: a run that is not recorded is not gone on with |
+| Ctrl-C | everything is interrupted, files are closed |
+"""
+
 PROTOCOL = """
 ## Load protocol
 
@@ -96,6 +159,8 @@ def page() -> str:
     lines = [HEAD, "| exit code | meaning |", "|---|---|"]
     lines += [*(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items()), ""]
     for node in NODES:
+        if node == "car_load":
+            lines.append(CAR)
         lines += [f"## {node}", "", f"{PROGRAMS[node][1].capitalize()}.", ""]
         lines += ["| parameter | type | default | allowed | meaning |", "|---|---|---|---|---|"]
         lines += [*parameter_rows(node), ""]
