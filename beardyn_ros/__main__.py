@@ -8,7 +8,7 @@ from importlib import import_module
 
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
 from beardyn_ros.requirements import missing_requirements
-from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_CODES
+from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_CODES, leave
 
 PROGRAMS = {
     "twin": ("twin_node", "simulate the bearing and publish what its sensors read"),
@@ -72,4 +72,4 @@ def node_help(name: str) -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main())

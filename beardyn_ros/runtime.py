@@ -106,6 +106,13 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
     return code
 
 
+def leave(code: int) -> None:
+    """End the process with a code; a signal that comes while the interpreter ends no longer changes it."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+    sys.exit(code)
+
+
 def stray_arguments(argv: Sequence[str]) -> list[str]:
     """List the arguments outside of ``--ros-args ... --``, which no node understands."""
     stray, inside = [], False

@@ -36,18 +36,18 @@ Where `simulation_interfaces` is installed, the twin offers the standard service
 | service | what it does |
 |---|---|
 | `get_simulator_features` | lists what follows |
-| `get_simulation_state` | stopped (before configure, after the end, after a stop), loading (compiling, version 2), playing, paused |
-| `set_simulation_state` | playing and paused as `pause`; stopped is pause and reset; quitting ends the process |
+| `get_simulation_state` | stopped (not configured, ended or stopped), loading (compiling), playing, paused |
+| `set_simulation_state` | playing, paused; stopped is pause and reset; quitting ends the process |
 | `step_simulation` | `steps` blocks of 20 ms while paused; answers when they are done |
-| `reset_simulation` | time and state together (scope 0, 3 or 255); one alone is refused as unsupported |
+| `reset_simulation` | time and state together (scope 0, 3 or 255); one alone is unsupported |
 
 ### What RViz shows
 
-| topic | type | QoS | content |
-|---|---|---|---|
-| `robot_description` | `std_msgs/msg/String` | reliable, latched | URDF of box, cup, cone, cages and rollers, made from the scene's bearing |
-| `/tf_static` | `tf2_msgs/msg/TFMessage` | reliable, latched | fixed frames: cup, sensors, parts of `temperature`, and the box in `parent_frame` |
-| `/tf` | `tf2_msgs/msg/TFMessage` | reliable | with `joint_tf`: cone, cages and rollers, every 20 ms |
+| topic | type | content |
+|---|---|---|
+| `robot_description` | `std_msgs/msg/String`, latched | URDF of box, cup, cone, cages and rollers |
+| `/tf_static` | `tf2_msgs/msg/TFMessage`, latched | cup, sensors, parts, and the box in `parent_frame` |
+| `/tf` | `tf2_msgs/msg/TFMessage` | with `joint_tf`: cone, cages and rollers, every 20 ms |
 
 The frame of a box is its namespace, `axlebox` or `car/axle_1_left`, or `frame_id`: origin at the bearing
 centre, x forwards, y left along the axle, z up (REP-103). Parts and sensors are below it: `axlebox/cone`,
@@ -105,28 +105,28 @@ A bag does not wait for credit: with `--rate` it may run ahead of the twin by `l
 CAR = """
 ## Eight boxes of a car
 
-`ros2 launch beardyn car.launch.py` starts a twin in each of `/car/axle_1_left` to `/car/axle_4_right`, with one
-load (`car_load`) and one recorder (`car_recorder`); `--show-args` lists its arguments. The twins are of tier
-`lumped` unless `tier:=` says otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of them a
-spall. The first twin publishes `/clock`.
+`ros2 launch beardyn car.launch.py` starts a twin in each of `/car/axle_1_left` to `/car/axle_4_right`, with
+one load (`car_load`) and one recorder (`car_recorder`); `--show-args` lists its arguments. The twins are of
+tier `lumped` unless `tier:=` says otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of
+them a spall. The first twin publishes `/clock`.
 
 The scene is the run of the first wheel. A wheel further back comes over the same track later, by its
-distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts turn at
-the present speed of the train. The right rail is another one of the same kind (the next seed), and curves
-turn the other way for the right boxes; loads that are given (constant, stepped, CSV) are the same left and
-right. Defects of the wheel are on one wheel, `wheel_defects_on`. All boxes have axes of the same directions, so
-that row 0, inboard on the left, is outboard on the right. `load/truth` of each box says how far behind it is.
-No box gets load further ahead than `horizon` of the slowest: they stay together, and the `/clock` of one is
-right for all. Each box has the topics and services of a load node of its own (`/car/axle_1_left/load/blocks`);
-`/car/load/pause` holds all of them.
+distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts
+turn at the present speed of the train. The right rail is another one of the same kind (the next seed), and
+curves turn the other way for the right boxes; loads that are given (constant, stepped, CSV) are the same left
+and right. Defects of the wheel are on one wheel, `wheel_defects_on`. All boxes have axes of the same
+directions, so that row 0, inboard on the left, is outboard on the right. `load/truth` of each box says how
+far behind it is. No box gets load further ahead than `horizon` of the slowest: they stay together, and the
+`/clock` of one is right for all. Each box has the topics and services of a load node of its own
+(`/car/axle_1_left/load/blocks`); `/car/load/pause` holds all of them.
 
 What ends first ends the others in order:
 
 | first | then |
 |---|---|
-| the load, everything sent | the twins compute what they have and end, the recorder closes its files after them |
-| a twin or the load fails or is killed | load and twins are interrupted, the recorder closes its files after the last word |
-| the recorder | load and twins are interrupted: a run that is not recorded is not gone on with |
+| the load, all sent | the twins compute what they have and end, then the recorder closes its files |
+| a twin or the load, by failure | load and twins are interrupted, then the recorder closes its files |
+| the recorder | load and twins are interrupted: they do not go on unrecorded |
 | Ctrl-C | everything is interrupted, files are closed |
 """
 

@@ -111,12 +111,14 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     recorders = [recorder] if given["recorder"] == "true" else []
     running = [*twins, load]
     ended: set[Node] = set()
+    stopping: list[str] = []
 
     def on_exit(event: object, _context: LaunchContext) -> list[LaunchDescriptionEntity]:
         ended.add(event.action)
         too_early = event.action is recorder and not ended.issuperset(twins)
-        if not event.returncode and not too_early:
+        if stopping or not (event.returncode or too_early):
             return []
+        stopping.append(event.process_name)
         sentence = f"{event.process_name} has ended with {event.returncode}"
         sentence += " before the twins" if too_early else ""
         interrupts = [

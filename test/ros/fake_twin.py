@@ -140,4 +140,6 @@ def main(words: Sequence[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    from beardyn_ros.runtime import leave
+
+    leave(main(sys.argv[1:]))

@@ -165,6 +165,7 @@ def test_a_car_ends_with_its_load_and_every_box_has_a_whole_file(graph: Graph) -
     assert not np.allclose(loads[TWO[0]].wrench[:500], loads[TWO[1]].wrench[:500])
 
 
+@pytest.mark.slow
 def test_boxes_of_a_car_stay_together_within_the_horizon(graph: Graph) -> None:
     car = Car(graph, TWO, "scene:=static_80kN", "duration:=6.0", "speed_factor:=1.0")
     car.until_running()
@@ -188,8 +189,20 @@ def test_boxes_of_a_car_stay_together_within_the_horizon(graph: Graph) -> None:
     assert car.exits() == dict.fromkeys(car.names(), 0)
 
 
-@pytest.mark.parametrize("first", ["car/load", "car/axle_4_right/twin", "car/recorder"])
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize(
+    ("first", "number"),
+    [
+        ("car/axle_4_right/twin", signal.SIGKILL),
+        *(
+            pytest.param(name, signal.SIGKILL, marks=pytest.mark.slow)
+            for name in ("car/load", "car/recorder")
+        ),
+        *(
+            pytest.param(name, signal.SIGINT, marks=pytest.mark.slow)
+            for name in ("car/load", "car/recorder", "car/axle_4_right/twin")
+        ),
+    ],
+)
 def test_a_car_ends_orderly_whatever_ends_first(graph: Graph, first: str, number: signal.Signals) -> None:
     car = Car(graph, TWO, "scene:=static_80kN", "duration:=300.0", "speed_factor:=1.0")
     car.until_running()
