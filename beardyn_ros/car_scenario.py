@@ -191,16 +191,18 @@ def passed_later(
         return LoadHistory(stamps, rest.wrench, rest.shaft_speed, rest.bogie), begin
     # a standing train makes the way flat: the least of slopes keeps one time for each place
     then = np.interp(way[first:] - behind, way + 1e-9 * time, time)
-    columns = CubicSpline(time, np.hstack([history.wrench, history.bogie]))(then)
-    return (
-        LoadHistory(
-            stamps,
-            np.ascontiguousarray(columns[:, :6]),
-            np.ascontiguousarray(history.shaft_speed[first:]),
-            np.ascontiguousarray(columns[:, 6:]),
-        ),
-        begin,
-    )
+    speed = np.ascontiguousarray(history.shaft_speed[first:])
+    wrench, bogie = _at(then, time, history.wrench), _at(then, time, history.bogie)
+    return LoadHistory(stamps, wrench, speed, bogie), begin
+
+
+def _at(then: Float, time: Float, columns: Float) -> Float:
+    """Interpolate columns, those that do not change left alone."""
+    found = np.tile(columns[0], (len(then), 1))
+    changing = np.ptp(columns, axis=0) > 0.0
+    if changing.any():
+        found[:, changing] = CubicSpline(time, columns[:, changing])(then)
+    return found
 
 
 def _way(history: LoadHistory, radius: float) -> Float:
