@@ -26,7 +26,7 @@ from launch_ros.actions import Node
 
 BOXES = " ".join(f"axle_{axle}_{side}" for axle in range(1, 5) for side in ("left", "right"))
 HALF_AXLE_M, AXLE_HEIGHT_M = 1.0, 0.46
-PATIENCE_S = 20.0
+PATIENCE_S, GRACE_S = 20.0, 5.0
 
 ARGUMENTS = (
     ("namespace", "car", "namespace of the car; those of the boxes are below it"),
@@ -110,31 +110,42 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     )
     recorders = [recorder] if given["recorder"] == "true" else []
     running = [*twins, load]
+    everything = [*running, *recorders]
     ended: set[Node] = set()
-    stopping: list[str] = []
+    timers: list[TimerAction] = []
 
-    def on_exit(event: object, _context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        ended.add(event.action)
-        too_early = event.action is recorder and not ended.issuperset(twins)
-        if stopping or not (event.returncode or too_early):
-            return []
-        stopping.append(event.process_name)
-        sentence = f"{event.process_name} has ended with {event.returncode}"
-        sentence += " before the twins" if too_early else ""
+    def later(period: float, *actions: LaunchDescriptionEntity) -> TimerAction:
+        timers.append(TimerAction(period=period, actions=list(actions)))
+        return timers[-1]
+
+    def stop(sentence: str) -> list[LaunchDescriptionEntity]:
+        """Interrupt load and twins; the recorder closes its files when they have ended."""
         interrupts = [
             EmitEvent(event=SignalProcess(signal_number=signal.SIGINT, process_matcher=matches_action(node)))
             for node in running
             if node not in ended
         ]
-        return [
-            LogInfo(msg=f"{sentence}: the car is stopped"),
-            *interrupts,
-            TimerAction(period=PATIENCE_S, actions=[Shutdown(reason=sentence)]),
-        ]
+        told = LogInfo(msg=f"{sentence}: the car is stopped")
+        return [told, *interrupts, later(PATIENCE_S, Shutdown(reason=sentence))]
+
+    def stop_unrecorded(_context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Stop the twins that go on after the recorder."""
+        return [] if ended.issuperset(running) else stop("the recorder has ended before the twins")
+
+    def on_exit(event: object, _context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        ended.add(event.action)
+        if ended.issuperset(everything):
+            for timer in timers:
+                timer.cancel()
+        elif event.returncode and not timers:
+            return stop(f"{event.process_name} has ended with {event.returncode}")
+        elif event.action is recorder and not timers:
+            # it closes its files on the last word of the twins, which have yet to end
+            return [later(GRACE_S, OpaqueFunction(function=stop_unrecorded))]
+        return []
 
     handlers = [
-        RegisterEventHandler(OnProcessExit(target_action=node, on_exit=on_exit))
-        for node in [*running, *recorders]
+        RegisterEventHandler(OnProcessExit(target_action=node, on_exit=on_exit)) for node in everything
     ]
     return [*handlers, *twins, *recorders, load]
 

@@ -61,7 +61,10 @@ class LogInfo(Record):
 
 
 class TimerAction(Record):
-    pass
+    cancelled = False
+
+    def cancel(self) -> None:
+        self.cancelled = True
 
 
 class Shutdown(Record):
@@ -140,8 +143,9 @@ class Launcher:
                 child.send_signal(signal.SIGINT)
 
     def run(self) -> None:
-        while self.running:
+        while self.running or self.timers:
             time.sleep(0.05)
+            self.timers = [timer for timer in self.timers if not timer[1].cancelled and self.kill_at is None]
             for node, child in list(self.running.items()):
                 if child.poll() is not None:
                     del self.running[node]
