@@ -109,7 +109,7 @@ def _compile(package: str, folder: Path, made: Path, python: Path, prefix: Path)
     libraries += sorted((prefix / "lib").glob("libfastcdr.so")) + sorted(
         (prefix / "lib").glob("librcutils.so")
     )
-    objects = []
+    objects: list[Path] = []
     for path in (*sorted(made.rglob("*.c")), *sorted(made.rglob("*.cpp")), *sorted(python.rglob("*.c"))):
         target = folder / f"{len(objects)}.o"
         compiler = ["gcc"] if path.suffix == ".c" else ["g++", "-std=c++17"]
