@@ -14,6 +14,7 @@ from std_srvs.srv import SetBool
 from beardyn_core.errors import InputError
 from beardyn_ros.car import BOXES, Box, NodeGroup, boxes_named
 from beardyn_ros.car_scenario import CarGeometry, CarScenario
+from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.load_node import PARAMETERS as LOAD_PARAMETERS
 from beardyn_ros.load_node import LoadNode
 from beardyn_ros.parameters import NodeParameter, ParameterValues
@@ -31,7 +32,9 @@ CAR_PARAMETERS = (
         "wheel_defects_on", "axle_1_left", "box whose wheel has the defects of the scene's wheel; '' for none"
     ),
 )
-PARAMETERS = (*CAR_PARAMETERS, *LOAD_PARAMETERS)
+# every box has the frame of its own namespace
+BOX_PARAMETERS = tuple(each for each in LOAD_PARAMETERS if each.name != FRAME_ID.name)
+PARAMETERS = (*CAR_PARAMETERS, *BOX_PARAMETERS)
 
 
 class BoxLoadNode(LoadNode):
@@ -63,7 +66,7 @@ class CarLoadNode(NodeGroup):
             )
         geometry = CarGeometry(values.axle_distance, values.bogie_distance, values.wheel_defects_on)
         scenario = CarScenario(boxes, geometry, values.scene, values.csv, values.duration)
-        given = {parameter.name: getattr(values, parameter.name) for parameter in LOAD_PARAMETERS}
+        given = {parameter.name: getattr(values, parameter.name) for parameter in BOX_PARAMETERS}
         self.members = [BoxLoadNode(scenario, box, **self.of_member(box, given)) for box in boxes]
         for member in self.members:
             member.car = self.members
