@@ -63,10 +63,12 @@ class LoadNode(Node):
     ----------
     load_scenario : callable or None
         ``load_scenario(scene, csv, duration)``; ``None``: scenes of the config room.
+    **of_node
+        Passed on to the node: another namespace, parameters.
     """
 
-    def __init__(self, load_scenario: ScenarioLoader | None = None) -> None:
-        super().__init__("load", namespace="axlebox")
+    def __init__(self, load_scenario: ScenarioLoader | None = None, **of_node: Any) -> None:
+        super().__init__("load", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
@@ -306,10 +308,14 @@ class LoadNode(Node):
                 return False
         return True
 
+    def _latest_credit(self) -> int:
+        """Find the time up to which the load is used, from where the horizon counts, [ns]."""
+        return self._credit_ns
+
     def _pump(self) -> None:
         if not (self._twin_listens() or self._ended):
             return
-        latest_ns = self._credit_ns + round(self._values.horizon * 1e9)
+        latest_ns = self._latest_credit() + round(self._values.horizon * 1e9)
         while not self._ended and (not self._paused or self._steps_left):
             if self._unsent is None:
                 first = self._replay.next_sample

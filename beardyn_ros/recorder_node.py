@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from rclpy.node import Node
 
@@ -51,10 +52,16 @@ PARAMETERS = (
 
 
 class RecorderNode(Node):
-    """Every topic of one axlebox into files."""
+    """Every topic of one axlebox into files.
 
-    def __init__(self) -> None:
-        super().__init__("recorder", namespace="axlebox")
+    Parameters
+    ----------
+    **of_node
+        Passed on to the node: another namespace, parameters.
+    """
+
+    def __init__(self, **of_node: Any) -> None:
+        super().__init__("recorder", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)

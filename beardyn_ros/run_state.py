@@ -21,6 +21,8 @@ STOPPED = "stopped"
 INTERRUPTED = "interrupted"
 END_STATES = (FINISHED, STOPPED, INTERRUPTED)
 
+SCENE_TIER = "scene"
+
 
 @dataclass(frozen=True)
 class Rig:
@@ -37,13 +39,20 @@ class Rig:
     description: RunDescription
 
 
-def scene_rig(scene_name: str) -> Callable[[], Rig]:
-    """Make the builder of rigs for a scene by name or path; the scene is read and checked at once."""
+def scene_rig(scene_name: str, tier: str = SCENE_TIER) -> Callable[[], Rig]:
+    """Make the builder of rigs for a scene by name or path; the scene is read and checked at once.
+
+    Parameters
+    ----------
+    scene_name : str
+    tier : str
+        `SCENE_TIER` for the scene's own.
+    """
     from beardyn_core.choice import load_scene
     from beardyn_core.record.description import RunDescription
     from beardyn_core.twin import Twin
 
-    scene = load_scene(scene_name, outside_load=True)
+    scene = load_scene(scene_name, tier=None if tier == SCENE_TIER else tier, outside_load=True)
 
     def build() -> Rig:
         twin = Twin(scene)

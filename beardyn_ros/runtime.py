@@ -81,7 +81,8 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
             raise InputError(f"the ROS arguments cannot be read: {error}") from error
         node = make_node()
         executor = SingleThreadedExecutor()
-        executor.add_node(node)
+        for each in (node, *getattr(node, "members", ())):
+            executor.add_node(each)
         while not (stop.is_set() or node.finished):
             executor.spin_once(timeout_sec=SPIN_SLICE_S)
         code = EXIT_DONE if stop.is_set() and not node.finished else node.exit_code
@@ -120,6 +121,13 @@ def wall_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:
     from rclpy.clock_type import ClockType
 
     return node.create_timer(period, callback, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
+def leave(code: int) -> None:
+    """End the process with a code; a signal that comes while the interpreter ends no longer changes it."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+    sys.exit(code)
 
 
 def stray_arguments(argv: Sequence[str]) -> list[str]:

@@ -101,6 +101,11 @@ class TwinSession:
             self._steps = 0
             self._condition.notify_all()
 
+    @property
+    def paused(self) -> bool:
+        """Whether the run is told to hold."""
+        return self._paused
+
     def step(self) -> str | None:
         """Advance one block while paused; a sentence when that is not possible."""
         with self._condition:
@@ -201,8 +206,7 @@ class TwinSession:
 
     def _one_run(self, rig: Rig) -> None:
         twin, description = rig.twin, rig.description
-        frame = self.options.frame
-        self._encoder = BlockEncoder(description.roller_count, description.sensor_names, frame)
+        self._encoder = BlockEncoder(description.roller_count, description.sensor_names, self.options.frame)
         self._wait(lambda: self._active)
         run_id = f"{self.options.instance}-{self._run_count}"
         self._run_count += 1

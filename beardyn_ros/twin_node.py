@@ -17,6 +17,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.record.messages import encode_clock, encode_diagnostics, encode_time
 from beardyn_core.record.topics import topic
 from beardyn_ros.answers import StepService
+from beardyn_ros.description_publisher import DescriptionPublisher
 from beardyn_ros.diagnostics import (
     LAG,
     TWIN,
@@ -33,11 +34,12 @@ from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.run_state import END_STATES, FINISHED, PAUSED, Outgoing, Rig, SessionOptions, scene_rig
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
 from beardyn_ros.session import TwinSession
+from beardyn_ros.simulation_services import SimulationServices, interfaces
 from beardyn_ros.spreading import Spreader
 from beardyn_ros.twin_parameters import PARAMETERS
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
-RigLoader = Callable[[str], Callable[[], Rig]]
+RigLoader = Callable[[str, str], Callable[[], Rig]]
 
 REPORT_PERIOD_S = 0.2
 LAST_WORDS_TIMEOUT_S = 2.0
@@ -67,7 +69,7 @@ class TwinNode(LifecycleNode):
     Parameters
     ----------
     load_rig : callable or None
-        Gives, for the parameter ``scene``, a builder of rigs; ``None``: scenes of the config room.
+        Gives, for ``scene`` and ``tier``, a builder of rigs; ``None``: scenes of the config room.
     """
 
     def __init__(self, load_rig: RigLoader | None = None) -> None:
@@ -77,6 +79,7 @@ class TwinNode(LifecycleNode):
         self._load_rig = load_rig or scene_rig
         self._values = ParameterValues(self, PARAMETERS)
         self._frame = frame_of(self.get_namespace(), self._values.frame_id)
+        self._description = DescriptionPublisher(self, self._frame, self._values)
         self._name = diagnostic_name(self.get_namespace(), TWIN)
         self._namesakes = Namesakes(self._name)
         self._born = time.monotonic()
@@ -99,6 +102,9 @@ class TwinNode(LifecycleNode):
         self.create_service(SetBool, "pause", self._on_pause)
         self._steps = StepService(self, "step", self._order_step, "one block of 20 ms is published")
         self.create_service(Trigger, "reset", self._on_reset)
+        self._simulation = SimulationServices(
+            self, lambda: self._session, self._reset, self._quit, interfaces()
+        )
         self.add_post_set_parameters_callback(self._on_parameters)
         if self._values.autostart:
             self._autostart = wall_timer(self, 0.0, self._start_up)
@@ -114,7 +120,7 @@ class TwinNode(LifecycleNode):
         """Read the scene and start compiling it in the background."""
         values = self._values
         try:
-            make_rig = self._load_rig(values.scene)
+            make_rig = self._load_rig(values.scene, values.tier)
         except InputError as error:
             for sentence in error.problems:
                 self.get_logger().error(sentence)
@@ -185,6 +191,7 @@ class TwinNode(LifecycleNode):
             self._flush()
         self._load.serve(None)
         self._session, self._consumed_ns = None, None
+        self._simulation.look()
         return alive
 
     def _settle(self) -> None:
@@ -217,13 +224,23 @@ class TwinNode(LifecycleNode):
         return "the twin is not configured" if self._session is None else self._session.step() or ""
 
     def _on_reset(self, _request: Any, response: Any) -> Any:
+        problem = self._reset()
+        done = "the scene starts again at t = 0 with a new recording"
+        response.success, response.message = not problem, problem or done
+        return response
+
+    def _reset(self) -> str:
+        """Start the scene again; a sentence when that is not possible."""
         problem = "the twin is not configured" if self._session is None else self._session.reset() or ""
         if not problem:
             self._consumed_ns, self._clock_ns = None, 0
             self._steps.fail("the run was left by a reset")
-        done = "the scene starts again at t = 0 with a new recording"
-        response.success, response.message = not problem, problem or done
-        return response
+        return problem
+
+    def _quit(self) -> None:
+        """End the process as SIGINT does."""
+        self._end_session("the twin was told to quit")
+        self.finished = True
 
     @property
     def _speed_factor(self) -> float:
@@ -253,6 +270,7 @@ class TwinNode(LifecycleNode):
         if sentence != self._announced:
             self._announced = sentence
             self._report()
+        self._simulation.look()
         if report.state in END_STATES and not self.finished:
             self._finish(report.state)
 
@@ -263,6 +281,8 @@ class TwinNode(LifecycleNode):
             self._over = False
         for name, cdr in outgoing.messages:
             self._out.publish(name, cdr)
+        trends = ((name, cdr) for _, name, cdr in outgoing.trends)
+        self._description.follow((*outgoing.messages, *trends))
         if outgoing.clock_ns is None:
             return
         self._trends.spread(outgoing.trends, self._speed_factor)

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from beardyn_core.scene.tier import TIER_NAMES
+from beardyn_ros.description_publisher import DESCRIPTION_PARAMETERS
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.parameters import NodeParameter
+from beardyn_ros.run_state import SCENE_TIER
 
 PARAMETERS = (
     NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
+    NodeParameter(
+        "tier",
+        SCENE_TIER,
+        "how much of the bearing moves by itself: lumped and quasistatic are fast; scene: the scene's own",
+        choices=(SCENE_TIER, *TIER_NAMES),
+    ),
     NodeParameter(
         "mode",
         "lockstep",
@@ -73,4 +82,5 @@ PARAMETERS = (
     ),
     NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
     FRAME_ID,
+    *DESCRIPTION_PARAMETERS,
 )

@@ -13,7 +13,7 @@ from beardyn_ros.__main__ import PROGRAMS
 from beardyn_ros.runtime import EXIT_CODES
 
 PAGE = Path(__file__).with_name("nodes.md")
-NODES = ("twin", "load", "recorder", "monitor", "viewer")
+NODES = ("twin", "load", "recorder", "monitor", "viewer", "car_load", "car_recorder")
 
 HEAD = """# Nodes
 
@@ -21,7 +21,8 @@ Written by `python docs/write_nodes.py` from the tables in the code.
 
 Every node starts with `ros2 run beardyn NODE` or `python -m beardyn_ros NODE`, takes parameters as
 `--ros-args -p NAME:=VALUE` or `--params-file FILE`, refuses unknown names and bad values with a
-sentence, and ends cleanly on SIGINT and SIGTERM.
+sentence, and ends cleanly on SIGINT and SIGTERM. In a file shared by several nodes (`/**:`) a name that a
+node does not know is left to the others, with a warning; under the node's own name it is an error.
 """
 
 SERVICES = """
@@ -32,10 +33,26 @@ executor, activate solves the equilibrium under the first load and runs; with `a
 itself. All nodes tick by the wall clock, with `use_sim_time` on or off; while the twin is paused `/clock`
 repeats the time at which it stands.
 
+At a `speed_factor` above 0 the single samples of a block (`force`, `imu`, `shaft`, `joint_states`) go out
+one after the other over the next 20 ms of simulated time, so that readers with sensor data QoS (depth 5) get
+them all. At 0 they come block by block: such a reader needs a depth of a few hundred, or `reliable` with keep
+all.
+
+Where `simulation_interfaces` is installed, the twin offers the standard services of a simulator as well:
+
+| service | what it does |
+|---|---|
+| `get_simulator_features` | lists what follows |
+| `get_simulation_state` | stopped (not configured, ended or stopped), loading (compiling), playing, paused |
+| `set_simulation_state` | playing, paused; stopped is pause and reset; quitting ends the process |
+| `step_simulation` | `steps` blocks of 20 ms while paused; answers when they are done |
+| `reset_simulation` | time and state together (scope 0, 3 or 255); one alone is unsupported |
+
 ### What its diagnostics say
 
-Statuses are named in full, `axlebox/twin` in the namespace `/axlebox`, with the namespace as `hardware_id`;
-`run_id` changes with every run and begins with `instance`, which a twin keeps from its start to its end.
+After REP-107 statuses are named in full, `axlebox/twin` in the namespace `/axlebox`, with the namespace as
+`hardware_id`; `run_id` changes with every run and begins with `instance`, which a twin keeps from its start
+to its end.
 
 * `real_time_factor` is that of the whole node: simulated time over the time from load to a block that is
   handed over, with encoding and publishing, without waiting for the pace; `kernel_real_time_factor` is that
@@ -50,10 +67,24 @@ A second twin under the same full name refuses to start (exit code 2), and the f
 it; a recorder that hears two in turns closes its file and ends with 2. Of several twins in one graph only one
 may publish `/clock`; a twin that meets another publisher of it warns.
 
-At a `speed_factor` above 0 the single samples of a block (`force`, `imu`, `shaft`, `joint_states`) go out
-one after the other over the next 20 ms of simulated time, so that readers with sensor data QoS (depth 5) get
-them all. At 0 they come block by block: such a reader needs a depth of a few hundred, or `reliable` with keep
-all.
+### What RViz shows
+
+| topic | type | content |
+|---|---|---|
+| `robot_description` | `std_msgs/msg/String`, latched | URDF of box, cup, cone, cages and rollers |
+| `/tf_static` | `tf2_msgs/msg/TFMessage`, latched | cup, sensors, parts, and the box in `parent_frame` |
+| `/tf` | `tf2_msgs/msg/TFMessage` | with `joint_tf`: cone, cages and rollers, every 20 ms |
+
+The frame of a box is its namespace, `axlebox` or `car/axle_1_left`, or `frame_id`: origin at the bearing
+centre, x forwards, y left along the axle, z up (REP-103). Parts and sensors are below it: `axlebox/cone`,
+`axlebox/axlebox_top`. Accelerometers are in the frame of their sensor (REP-145: specific force, +g on z at
+rest, orientation and rate marked as not measured; `-r imu:=imu/data_raw` gives the topic its usual name),
+everything else in that of the box. In RViz add RobotModel with the topic `/axlebox/robot_description`, and
+set the fixed frame to that of the box or of the vehicle. Joints are called as in `joint_states`, so a
+`robot_state_publisher` works in place of `joint_tf` (remap `joint_states`, no `frame_prefix`). Meshes are
+STL files computed from the bearing's dimensions, in `$BEARDYN_CACHE_DIR/meshes` or `~/.cache/beardyn/meshes`:
+RViz on another machine does not find them. The ROS 2 wheels have no tf2_msgs: without it the frames are
+left out, the description is there.
 """
 
 LOAD_SERVICES = """
@@ -96,6 +127,34 @@ A bag does not wait for credit: with `--rate` it may run ahead of the twin by `l
 `load_queue_size` MB, beyond which the twin stops and says so.
 """
 
+CAR = """
+## Eight boxes of a car
+
+`ros2 launch beardyn car.launch.py` starts a twin in each of `/car/axle_1_left` to `/car/axle_4_right`, with
+one load (`car_load`) and one recorder (`car_recorder`); `--show-args` lists its arguments. The twins are of
+tier `lumped` unless `tier:=` says otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of
+them a spall. The first twin publishes `/clock`.
+
+The scene is the run of the first wheel. A wheel further back comes over the same track later, by its
+distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts
+turn at the present speed of the train. The right rail is another one of the same kind (the next seed), and
+curves turn the other way for the right boxes; loads that are given (constant, stepped, CSV) are the same left
+and right. Defects of the wheel are on one wheel, `wheel_defects_on`. All boxes have axes of the same
+directions, so that row 0, inboard on the left, is outboard on the right. `load/truth` of each box says how
+far behind it is. No box gets load further ahead than `horizon` of the slowest: they stay together, and the
+`/clock` of one is right for all. Each box has the topics and services of a load node of its own
+(`/car/axle_1_left/load/blocks`); `/car/load/pause` holds all of them.
+
+What ends first ends the others in order:
+
+| first | then |
+|---|---|
+| the load, all sent | the twins compute what they have and end, then the recorder closes its files |
+| a twin or the load, by failure | load and twins are interrupted, then the recorder closes its files |
+| the recorder | load and twins are interrupted: they do not go on unrecorded |
+| Ctrl-C | everything is interrupted, files are closed |
+"""
+
 PROTOCOL = """
 ## Load protocol
 
@@ -133,6 +192,8 @@ def page() -> str:
     lines = [HEAD, "| exit code | meaning |", "|---|---|"]
     lines += [*(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items()), ""]
     for node in NODES:
+        if node == "car_load":
+            lines.append(CAR)
         lines += [f"## {node}", "", f"{PROGRAMS[node][1].capitalize()}.", ""]
         lines += ["| parameter | type | default | allowed | meaning |", "|---|---|---|---|---|"]
         lines += [*parameter_rows(node), ""]

@@ -19,7 +19,7 @@ from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.live_load import encode_shaft, encode_wrench
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
-from test.ros.test_recorder import recorder_is_connected
+from test.ros.test_recorder import is_connected
 from test.ros.test_wall_time import has_come
 
 RATE_HZ = 200.0
@@ -136,7 +136,7 @@ def test_a_twin_that_was_told_to_stop_is_recorded_as_interrupted(graph: Graph) -
     path = graph.folder / "run.mcap"
     graph.fake_twin(speed_factor=1.0)
     graph.node_process("recorder", output=str(path))
-    recorder_is_connected(graph)
+    is_connected(graph, "recorder")
     graph.fake_load(duration=60.0)
     graph.until_state("running")
     graph.until(lambda: float(graph.statuses("twin")[-1].value("simulated_time")) > 1.0, "a second")

@@ -9,7 +9,7 @@ import numpy as np
 from beardyn_core.record.messages import DIAGNOSTICS, Diagnostic, decode, encode_diagnostics
 from beardyn_core.record.reading import read_run
 from test.ros.graph import Graph
-from test.ros.test_recorder import recorder_is_connected
+from test.ros.test_recorder import is_connected
 
 
 def box(graph: Graph, namespace: str, kind: str, **parameters: object) -> None:
@@ -82,7 +82,7 @@ def test_a_second_twin_of_the_same_name_refuses_and_the_recording_of_the_first_i
     path = graph.folder / "run.mcap"
     graph.fake_twin(speed_factor=1.0)
     graph.node_process("recorder", output=str(path))
-    recorder_is_connected(graph)
+    is_connected(graph, "recorder")
     graph.fake_load(duration=2.0, fade=0.1, loop=True)
     graph.until_state("running")
     graph.fake_twin("second", speed_factor=1.0)
@@ -106,7 +106,7 @@ def test_a_recorder_refuses_to_mix_two_twins_that_speak_in_turns(graph: Graph) -
     path = graph.folder / "run.mcap"
     graph.fake_twin(speed_factor=1.0)
     graph.node_process("recorder", output=str(path))
-    recorder_is_connected(graph)
+    is_connected(graph, "recorder")
     graph.fake_load(duration=60.0)
     graph.until_state("running")
     graph.until(

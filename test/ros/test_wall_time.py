@@ -15,7 +15,7 @@ from beardyn_core.record.load_stream import decode_load
 from beardyn_core.record.messages import header_stamp
 from beardyn_core.record.reading import read_run
 from test.ros.graph import Graph
-from test.ros.test_recorder import recorder_is_connected
+from test.ros.test_recorder import is_connected
 
 
 def has_come(graph: Graph, name: str, count: int) -> bool:
@@ -28,7 +28,7 @@ def test_nodes_run_with_use_sim_time_on_and_off(graph: Graph, simulated: bool) -
     graph.fake_twin(speed_factor=2.0, use_sim_time=simulated)
     graph.node_process("recorder", output=str(path), use_sim_time=simulated)
     graph.node_process("monitor", use_sim_time=simulated)
-    recorder_is_connected(graph)
+    is_connected(graph, "recorder")
     graph.fake_load(duration=1.0, use_sim_time=simulated)
     for name in ("twin", "load", "recorder", "monitor"):
         assert graph.exit_code(name) == 0
