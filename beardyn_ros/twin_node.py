@@ -7,7 +7,9 @@ the node's namespace. Exit codes: `beardyn_ros.runtime.EXIT_CODES`.
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -24,6 +26,7 @@ from beardyn_core.record.messages import (
     encode_time,
     header_stamp,
 )
+from beardyn_core.record.published import published_values
 from beardyn_core.record.topics import FRAME, TWIST, WRENCH, topic
 from beardyn_ros.diagnostics import diagnostic_name, needs_attention, twin_diagnostic
 from beardyn_ros.parameters import NodeParameter, ParameterValues
@@ -128,6 +131,8 @@ class TwinNode(LifecycleNode):
         self._consumed_ns: int | None = None
         self._clock_ns = 0
         self._announced = ""
+        self._messages_of_run: Counter[str] = Counter()
+        self._all_published = False
         self._readers_ignored_until = 0.0
         self._blocks_unconfirmed = 0
         self._out = TopicPublishers(self, "truth", *SIGNAL_TOPICS, "load/consumed", "/diagnostics")
@@ -317,16 +322,23 @@ class TwinNode(LifecycleNode):
 
     def _publish(self, outgoing: Outgoing) -> None:
         for name, cdr in outgoing.messages:
-            self._out.publish(name, cdr)
+            if name == "truth":
+                self._messages_of_run.clear()  # a new run begins
+                self._all_published = False
+            self._publish_of_run(name, cdr)
         if outgoing.clock_ns is None:
             return
         self._clock_ns, self._consumed_ns = outgoing.clock_ns, outgoing.consumed_ns
         if self._values.publish_clock:
-            self._out.publish("/clock", encode_clock(outgoing.clock_ns))
-        self._out.publish("load/consumed", encode_time(outgoing.consumed_ns))
+            self._publish_of_run("/clock", encode_clock(outgoing.clock_ns))
+        self._publish_of_run("load/consumed", encode_time(outgoing.consumed_ns))
         self._blocks_unconfirmed += 1
         if self._blocks_unconfirmed >= BLOCKS_BEFORE_CONFIRMATION and self._speed_factor == 0.0:
             self._wait_for_readers()
+
+    def _publish_of_run(self, name: str, cdr: bytes) -> None:
+        self._messages_of_run[name] += 1
+        self._out.publish(name, cdr)
 
     def _wait_for_readers(self) -> None:
         """Wait for the readers when there is no pace: what a reliable reader wants is not overwritten.
@@ -343,7 +355,7 @@ class TwinNode(LifecycleNode):
 
     def _report(self) -> None:
         if self._consumed_ns is not None:
-            self._out.publish("load/consumed", encode_time(self._consumed_ns))
+            self._publish_of_run("load/consumed", encode_time(self._consumed_ns))
         if self._session is None:
             return
         senders = self._intake.publisher_counts()
@@ -352,15 +364,18 @@ class TwinNode(LifecycleNode):
             # whoever was paused knowingly is gone: from here on silence is a loss again
             self._load_paused = False
             self._session.feed.pause(False)
+        report = self._session.report()
         status = twin_diagnostic(
             diagnostic_name(self.get_namespace(), "twin"),
-            self._session.report(),
+            report,
             self._session.feed.refusals.report(),
             self._out.lost_messages,
             self._values.mode,
             self._speed_factor,
             sum(senders.values()),
         )
+        if report.state in END_STATES and self._all_published:
+            status = replace(status, values=status.values + published_values(self._messages_of_run))
         self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, FRAME, [status]))
 
     def _finish(self, state: str) -> None:
@@ -368,6 +383,7 @@ class TwinNode(LifecycleNode):
         assert self._session is not None
         for outgoing in self._session.collect():
             self._publish(outgoing)
+        self._all_published = True
         self._flush()
         self._report()
         self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)
