@@ -18,6 +18,7 @@ session        the twin in its own thread: compile, wait for load, advance, pace
 pacer          when a block is due on the wall clock
 twin_node      the lifecycle node around a session: topics, services, diagnostics
 twin_watch     is the twin there, has it ended, how
+refusals       malformed messages: counted, warned of, not taken
 recording      messages into files, one a run, with proof of what was lost
 recorder_node  every topic into a crash-safe MCAP file
 monitor_node   monitoring: vibration, shaft, load and temperature, nothing else

@@ -18,12 +18,14 @@ EXIT_DONE = 0
 EXIT_BAD_INPUT = 2
 EXIT_INVALID_MODEL = 3
 EXIT_LOAD_LOST = 4
+EXIT_INCOMPLETE = 5
 EXIT_CODES = {
     EXIT_DONE: "done, or stopped by SIGINT or SIGTERM",
     1: "demo only: a node has ended early or has fallen silent",
     EXIT_BAD_INPUT: "bad input: an argument, a parameter, a scene or another file",
     EXIT_INVALID_MODEL: "the model has left its validity, or the twin has failed",
     EXIT_LOAD_LOST: "the load never came, stopped coming or overflowed; load and recorder: there is no twin",
+    EXIT_INCOMPLETE: "recorder: messages that the twin has published are not in the file",
     130: "demo only: interrupted by Ctrl+C",
 }
 

@@ -13,6 +13,7 @@ from functools import cache
 from importlib import import_module
 from typing import Any
 
+from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -26,7 +27,7 @@ HISTORY_FACTOR = 20
 PUBLISH_TRIES = 20
 PUBLISH_RETRY_S = 0.005
 DEEPEST_HISTORY = 4000
-LONGEST_SWEEP = 5000
+LONGEST_SWEEP = 1000  # of one topic, then it is the turn of the next
 
 
 @cache
@@ -116,16 +117,35 @@ class TopicPublishers:
         return tuple(self._publishers)
 
 
+class _PolledGroup(CallbackGroup):
+    """Keeps its subscriptions out of what the executor waits for."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Never."""
+        return False
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Never begin."""
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Do nothing: nothing has begun."""
+
+
 class RawIntake:
     """Subscriptions that hand over CDR bytes, all queues emptied in one sweep.
 
     Parameters
     ----------
     node : rclpy.node.Node
+    polled : bool
+        Messages do not wake the executor, which costs more than taking them: a timer of the node calls
+        `sweep`.
     """
 
-    def __init__(self, node: Any) -> None:
+    def __init__(self, node: Any, *, polled: bool = False) -> None:
         self._node = node
+        self._group = _PolledGroup() if polled else None
         self._subscriptions: list[tuple[Any, Any, Callable[[bytes], None]]] = []
 
     def add(
@@ -143,15 +163,21 @@ class RawIntake:
             self.sweep()
 
         subscription = self._node.create_subscription(
-            kind, entry.name, on_message, quality_of_service(entry, keep_all, complete), raw=True
+            kind,
+            entry.name,
+            on_message,
+            quality_of_service(entry, keep_all, complete),
+            callback_group=self._group,
+            raw=True,
         )
         self._subscriptions.append((subscription, kind, handler))
 
     def sweep(self) -> int:
         """Take everything that has arrived; how many messages that were."""
-        count = 0
+        total = 0
         for subscription, kind, handler in self._subscriptions:
             handle = subscription.handle
+            count = 0
             try:
                 with handle:
                     while count < LONGEST_SWEEP and (taken := handle.take_message(kind, True)) is not None:
@@ -159,7 +185,9 @@ class RawIntake:
                         count += 1
             except InvalidHandle:
                 continue
-        return count
+            finally:
+                total += count
+        return total
 
     def publisher_counts(self) -> dict[str, int]:
         """Count the publishers that each subscription is connected to, by absolute topic name."""
