@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
-from beardyn_core.observe.chain.levels import levels_in_band, rise
+from beardyn_core.observe.chain.levels import levels_of, rise
 from beardyn_core.observe.chain.result import MonitorResult
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
@@ -70,7 +70,7 @@ class Chain:
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
         verdict = self.decide(found, stretch, settings)
-        levels = levels_in_band(stretch.acceleration, stretch.rate, settings.band, speed)
+        levels = levels_of(stretch.in_band(settings.band), speed)
         best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
         return MonitorResult(
             verdict=verdict.name,

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from beardyn_core.observe.chain.settings import MonitorSettings
 from beardyn_core.observe.chain.stretch import Stretch
-from beardyn_core.observe.features import envelope
 
 Float = NDArray[np.float64]
 Bool = NDArray[np.bool_]
@@ -42,7 +41,7 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     revolutions = int(turned[-1])
     if revolutions < _LEAST_REVOLUTIONS:
         return np.zeros(SECTORS, dtype=bool)
-    power = envelope(stretch.acceleration, stretch.rate, settings.strike_band) ** 2
+    power = stretch.squared_envelope(settings.strike_band)
     sums = np.concatenate(([0.0], np.cumsum(power)))
     edges = np.searchsorted(turned, np.arange(revolutions * SECTORS + 1) / SECTORS)
     means = np.diff(sums[edges]) / np.maximum(np.diff(edges), 1)
