@@ -145,3 +145,16 @@ def scan_recording(path: Path | str) -> McapScan | BagScan:
         It is absent or no recording at all.
     """
     return BagScan(path) if is_folder_of_files(path) else McapScan(path)
+
+
+def cut_files(path: Path | str) -> list[Path]:
+    """List the files of a recording that are there and were not closed properly."""
+    found = []
+    for file in files_of(path):
+        if file.is_file() and file.stat().st_size:
+            scan = McapScan(file)
+            for _ in scan.messages():
+                pass
+            if not scan.complete:
+                found.append(file)
+    return found

@@ -18,6 +18,7 @@ from beardyn_core.record.mcap_writing import McapWriter
 
 # Kept free in a file for what is written when it ends: schemas, channels, indexes, metadata.
 _SUMMARY_BYTES = 128 * 1024
+_WORTHWHILE = 0.05  # share of a file that still has to be free after a chunk, else a new one begins
 # Stamped by others or not at all: the length of a file is that of the twin's signals.
 _NOT_TIMED = ("load/", "monitor/", "truth", "/diagnostics")
 SMALLEST_BYTES = 1_000_000
@@ -122,8 +123,12 @@ class BagWriter:
         if not self._writer.message_count:
             return False
         most, longest = self._splitting.most_bytes, self._splitting.longest_ns
-        if most and self._writer.size + len(cdr) + _SUMMARY_BYTES > most:
-            return True
+        if most:
+            free = most - _SUMMARY_BYTES - len(cdr)
+            if self._writer.size > free:
+                self._writer.flush()  # compressed it is smaller than was feared
+                if self._writer.size > free - _WORTHWHILE * most:
+                    return True
         if not longest or self._begin_ns is None or name.startswith(_NOT_TIMED):
             return False
         return stamp_ns - self._begin_ns >= longest

@@ -127,9 +127,14 @@ class McapWriter:
         """Write the chunk in progress to the file when it is full or `FLUSH_SECONDS` have passed."""
         now = monotonic()
         if self._chunk_bytes >= CHUNK_BYTES or now - self._flushed >= FLUSH_SECONDS:
-            self._flushed, self._chunk_bytes = now, 0
-            with self._disk():
-                self._writer.flush()
+            self._flushed = now
+            self.flush()
+
+    def flush(self) -> None:
+        """Write the chunk in progress to the file."""
+        self._chunk_bytes = 0
+        with self._disk():
+            self._writer.flush()
 
     def close(self, status: str = "") -> None:
         """Write the summary and close the file; a second call does nothing.
