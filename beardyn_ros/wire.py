@@ -19,6 +19,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
+from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.topics import Topic, topic
 
 # Our publishers keep more than the table promises: a reader that gets no processor for a second or two
@@ -54,9 +55,12 @@ def quality_of_service(
         only its latest message matters on (`truth`) keeps its depth.
     """
     reliable = complete or offered or entry.reliability == "reliable"
-    deep = offered and entry.durability == "volatile" and entry.depth > 0
+    depth = entry.depth or DEEPEST_HISTORY
+    if offered and entry.durability == "volatile" and entry.depth > 0:
+        # what is small and frequent is kept for as long as the blocks: ten seconds and more
+        depth = entry.depth * HISTORY_FACTOR if entry.type == CLOUD else DEEPEST_HISTORY
     return QoSProfile(
-        depth=(entry.depth or DEEPEST_HISTORY) * (HISTORY_FACTOR if deep else 1),
+        depth=depth,
         history=HistoryPolicy.KEEP_ALL if keep_all or entry.depth == 0 else HistoryPolicy.KEEP_LAST,
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +16,7 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import relative_name
 from test.record.conftest import write_recording
+from test.record.test_broken_files import told
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 from test.ros.test_recorder import recorder_is_connected
@@ -99,13 +98,7 @@ def test_a_file_with_malformed_messages_is_reported_without_them(name: str, tmp_
     assert run.malformed == {name: len(MALFORMED[name])}
     assert np.array_equal(run.vibration.values, whole.vibration.values)
     assert np.array_equal(run.bodies.pose, whole.bodies.pose)
-    done = subprocess.run(
-        [sys.executable, "-m", "beardyn_core", "report", str(path)],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    assert f"malformed messages, left out: {name} {len(MALFORMED[name])}" in done.stdout
-    assert "Traceback" not in done.stderr
+    code, said = told("report", str(path))
+    assert code == 0, said
+    assert f"malformed messages, left out: {name} {len(MALFORMED[name])}" in said
+    assert "Traceback" not in said

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,6 +12,7 @@ from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import relative_name
 from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
+from test.record.test_broken_files import told
 from test.ros.graph import Graph
 from test.ros.test_recorder import recorder_is_connected
 
@@ -25,10 +24,9 @@ TRUE_DEFAULTS = """<?xml version="1.0" encoding="UTF-8" ?>
 
 def reported(path: Path) -> str:
     """What ``beardyn report`` prints."""
-    words = [sys.executable, "-m", "beardyn_core", "report", str(path)]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    code, said = told("report", str(path))
+    assert code == 0, said
+    return said
 
 
 def recorded_counts(path: Path) -> dict[str, int]:
