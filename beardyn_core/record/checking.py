@@ -181,8 +181,8 @@ def _joints_of(entry: Topic, cdr: bytes) -> _Joints:
         if length:
             at = _aligned(at) + 8 * length
         begin = at
-    if at > len(cdr):
-        raise MalformedError("it ends before its numbers do")
+    if not at <= len(cdr) <= at + _PADDING:
+        raise MalformedError(f"it has {len(cdr)} bytes, its joints take {at}")
     return _Joints(len(cdr), tuple(fixed))
 
 
