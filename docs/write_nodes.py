@@ -70,13 +70,13 @@ A bag does not wait for credit: with `--rate` it may run ahead of the twin by `l
 RECORDER = """
 The last word of the twin on `/diagnostics` says how many messages of every topic it has published (values
 `messages TOPIC`). The recorder waits for what is still on its way, then says which topics lack how many, and
-ends with 5; `beardyn report` finds the same in the file. A twin that is killed has no last word: the file says
-that it vanished. Malformed messages are counted (`refused: TOPIC` in its diagnostic, as in those of monitor
-and viewer) and not recorded. A disk that stalls is waited for in the background, up to 128 MB.
+ends with 5; `beardyn report` finds the same in the file. A twin that is killed has no last word: the file
+says that it vanished. Malformed messages are counted (`refused: TOPIC` in its diagnostic, as in those of
+monitor and viewer) and not recorded. A disk that stalls is waited for in the background, up to 128 MB.
 
 With `max_file_size` or `max_file_duration` a run becomes a folder as rosbag2 makes it: each file is whole in
-itself and names the next one, `metadata.yaml` lists them. `beardyn report`, `view`, `export` and `monitor` take
-the folder or its `metadata.yaml` in the place of a file, and so does `ros2 bag`.
+itself and names the next one, `metadata.yaml` lists them. `beardyn report`, `view`, `export` and `monitor`
+take the folder or its `metadata.yaml` in the place of a file, and so does `ros2 bag`.
 
 ### Fast DDS
 

@@ -27,7 +27,7 @@ from test.ros.graph import Graph
 
 BEGIN_S = 2.0  # of a run before a fault
 CLOUDS = ("load/blocks", "vibration", "force_waveform", "bodies", "contacts")
-CLOCKS_NS = (0, 4_000_000_000_000_000_000, 1, 10**18, 0)
+CLOCKS_NS = (0, 2_000_000_000_000_000_000, 1, 10**18, 0)
 
 
 class Soak:
