@@ -19,8 +19,8 @@ from beardyn_core.record.mcap_writing import McapWriter
 # Kept free in a file for what is written when it ends: schemas, channels, indexes, metadata.
 _SUMMARY_BYTES = 128 * 1024
 _WORTHWHILE = 0.05  # share of a file that still has to be free after a chunk, else a new one begins
-# Stamped by others or not at all: the length of a file is that of the twin's signals.
-_NOT_TIMED = ("load/", "monitor/", "truth", "/diagnostics")
+# Stamped by others, ahead, or not at all: the length of a file is that of the twin's signals.
+_NOT_TIMED = ("load/", "monitor/", "truth", "/")
 SMALLEST_BYTES = 1_000_000
 
 
