@@ -70,6 +70,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
     previous = {number: signal.signal(number, _stopper(stop)) for number in (signal.SIGINT, signal.SIGTERM)}
     node: Any = None
     code = EXIT_DONE
+    problems: list[str] = []
     try:
         stray = stray_arguments(argv)
         if stray:
@@ -88,17 +89,21 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
             executor.spin_once(timeout_sec=SPIN_SLICE_S)
         code = EXIT_DONE if stop.is_set() and not node.finished else node.exit_code
     except InputError as error:
-        for sentence in error.problems:
-            print(f"beardyn: {sentence}", file=sys.stderr)
-        code = EXIT_BAD_INPUT
+        problems = error.problems
     finally:
         alive = False
         if node is not None:
-            alive = bool(node.close())
+            try:
+                alive = bool(node.close())
+            except InputError as error:  # such as a disk that refuses the rest, too
+                problems += [each for each in error.problems if each not in problems]
             node.destroy_node()
         rclpy.try_shutdown()
         for number, handler in previous.items():
             signal.signal(number, handler)
+    for sentence in problems:
+        print(f"beardyn: {sentence}", file=sys.stderr)
+        code = EXIT_BAD_INPUT
     if alive:
         # A thread is inside the compiler, which cannot be interrupted; nothing is left to save.
         sys.stdout.flush()

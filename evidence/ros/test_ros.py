@@ -19,7 +19,7 @@ pytestmark = [pytest.mark.ros, pytest.mark.slow]
 
 def test_a_killed_recorder_lacks_at_most_a_second_each_time(tmp_path: Path) -> None:
     with Graph(tmp_path) as graph:
-        found = killed_recorders(graph, tmp_path, 3)
+        found = list(killed_recorders(graph, tmp_path, 3))
     assert max(each.lost_s for each in found) <= LARGEST_LOSS_S
     assert not any(each.gaps for each in found)
 

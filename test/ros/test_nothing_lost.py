@@ -124,3 +124,14 @@ def test_a_disk_that_stalls_costs_no_message(graph: Graph) -> None:
     assert graph.exit_code("twin") == 0
     assert "the disk stalls" in graph.processes.log("recorder")
     assert code_and_report_agree(graph, path) == 0
+
+
+def test_a_full_disk_is_a_sentence_and_code_2(graph: Graph) -> None:
+    graph.fake_twin(speed_factor=2.0)
+    graph.node_process("recorder", output="/dev/full", replace=True)
+    recorder_is_connected(graph)
+    graph.fake_load(duration=4.0)
+    assert graph.exit_code("recorder") == 2
+    log = graph.processes.log("recorder")
+    assert "No space left on device" in log
+    assert "Traceback" not in log
