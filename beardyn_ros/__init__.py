@@ -9,6 +9,7 @@ requirements          says which Python packages of a distribution are too old
 parameters            parameters declared once from a table, refused with a sentence
 addressed             which parameters were given to one node itself, which to whoever shares a file
 wire                  topics of the table as publishers, and raw subscriptions that are emptied in one sweep
+message_guard         malformed messages: counted, warned of, not taken
 frames                names of frames, one tree for each axlebox
 poses                 place and orientation of one frame in another
 transforms            transforms as tf2 messages

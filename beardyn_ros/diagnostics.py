@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from beardyn_core.record.messages import Diagnostic
+from beardyn_core.record.published import published_values
 from beardyn_ros.load_gate import RefusalReport
 from beardyn_ros.replay import Replay
 from beardyn_ros.run_state import (
@@ -118,7 +119,7 @@ def twin_diagnostic(
     values.append(("refused_messages", str(refused.count)))
     values += [(f"refused: {reason}", str(count)) for reason, count in refused.by_reason]
     if ended:
-        values += [(f"messages {topic}", str(count)) for topic, count in sorted(standing.sent.items())]
+        values += published_values(standing.sent)
     return Diagnostic(name, level, sentence, tuple(values))
 
 
@@ -155,7 +156,7 @@ def load_diagnostic(
         ("passages", str(len(replay.passages))),
         ("loop", str(replay.loop).lower()),
         ("lost_messages", str(lost_messages)),
-        *((f"messages {topic}", str(count)) for topic, count in sorted(sent.items())),
+        *published_values(sent),
     )
     return Diagnostic(name, WARN if lost_messages else OK, f"the load is {state}", values)
 

@@ -294,11 +294,12 @@ class TwinNode(LifecycleNode):
             self._trends.drain(TRENDS_TIMEOUT_S)
             self._steps.complete()
         self._blocks_unconfirmed += 1
-        if self._blocks_unconfirmed >= BLOCKS_BEFORE_CONFIRMATION and self._speed_factor == 0.0:
+        tied_to_a_clock = 0.0 < self._speed_factor <= 1.0
+        if self._blocks_unconfirmed >= BLOCKS_BEFORE_CONFIRMATION and not tied_to_a_clock:
             self._wait_for_readers()
 
     def _wait_for_readers(self) -> None:
-        """Wait for the readers when there is no pace: what a reliable reader wants is not overwritten.
+        """Wait for the readers in a run without pace or faster than real time: nothing is overwritten.
 
         A reader that has died must not hold the twin, so its silence is believed for a while.
         """

@@ -14,11 +14,13 @@ from functools import cache
 from importlib import import_module
 from typing import Any
 
+from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
+from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.topics import Topic, topic
 
 # Our publishers keep more than the table promises: a reader that gets no processor for a second or two
@@ -28,7 +30,7 @@ PUBLISH_TRIES = 20
 PUBLISH_RETRY_S = 0.005
 DEEPEST_HISTORY = 4000
 RECENT_S = 5.0
-LONGEST_SWEEP = 5000
+LONGEST_SWEEP = 1000  # of one topic, then it is the turn of the next
 
 
 @cache
@@ -55,9 +57,12 @@ def quality_of_service(
         only its latest message matters on (`truth`) keeps its depth.
     """
     reliable = complete or offered or entry.reliability == "reliable"
-    deep = offered and entry.durability == "volatile" and entry.depth > 0
+    depth = entry.depth or DEEPEST_HISTORY
+    if offered and entry.durability == "volatile" and entry.depth > 0:
+        # what is small and frequent is kept for as long as the blocks: ten seconds and more
+        depth = entry.depth * HISTORY_FACTOR if entry.type == CLOUD else DEEPEST_HISTORY
     return QoSProfile(
-        depth=(entry.depth or DEEPEST_HISTORY) * (HISTORY_FACTOR if deep else 1),
+        depth=depth,
         # a publisher that kept all would wait for a reader that hangs, and with it everybody else
         history=HistoryPolicy.KEEP_ALL
         if keep_all or (entry.depth == 0 and not offered)
@@ -130,16 +135,35 @@ class TopicPublishers:
         return tuple(self._publishers)
 
 
+class _PolledGroup(CallbackGroup):
+    """Keeps its subscriptions out of what the executor waits for."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Never."""
+        return False
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Never begin."""
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Do nothing: nothing has begun."""
+
+
 class RawIntake:
     """Subscriptions that hand over CDR bytes, all queues emptied in one sweep.
 
     Parameters
     ----------
     node : rclpy.node.Node
+    polled : bool
+        Messages do not wake the executor, which costs more than taking them: a timer of the node calls
+        `sweep`.
     """
 
-    def __init__(self, node: Any) -> None:
+    def __init__(self, node: Any, *, polled: bool = False) -> None:
         self._node = node
+        self._group = _PolledGroup() if polled else None
         self._subscriptions: list[tuple[Any, Any, Callable[[bytes], None]]] = []
 
     def add(
@@ -157,15 +181,21 @@ class RawIntake:
             self.sweep()
 
         subscription = self._node.create_subscription(
-            kind, entry.name, on_message, quality_of_service(entry, keep_all, complete), raw=True
+            kind,
+            entry.name,
+            on_message,
+            quality_of_service(entry, keep_all, complete),
+            callback_group=self._group,
+            raw=True,
         )
         self._subscriptions.append((subscription, kind, handler))
 
     def sweep(self) -> int:
         """Take everything that has arrived; how many messages that were."""
-        count = 0
+        total = 0
         for subscription, kind, handler in self._subscriptions:
             handle = subscription.handle
+            count = 0
             try:
                 with handle:
                     while count < LONGEST_SWEEP and (taken := handle.take_message(kind, True)) is not None:
@@ -173,7 +203,9 @@ class RawIntake:
                         count += 1
             except InvalidHandle:
                 continue
-        return count
+            finally:
+                total += count
+        return total
 
     def publisher_counts(self) -> dict[str, int]:
         """Count the publishers that each subscription is connected to, by absolute topic name."""

@@ -155,6 +155,25 @@ What ends first ends the others in order:
 | Ctrl-C | everything is interrupted, files are closed |
 """
 
+RECORDER = """
+The last word of the twin on `/diagnostics` says how many messages of every topic it has published (values
+`messages TOPIC`). The recorder waits for what is still on its way, then says which topics lack how many, and
+ends with 5; `beardyn report` finds the same in the file. A twin that is killed has no last word: the file
+says that it vanished. Malformed messages are counted (`refused: TOPIC` in its diagnostic, as in those of
+monitor and viewer) and not recorded. A disk that stalls is waited for in the background, up to 128 MB.
+
+With `max_file_size` or `max_file_duration` a run becomes a folder as rosbag2 makes it: each file is whole in
+itself and names the next one, `metadata.yaml` lists them. `beardyn report`, `view`, `export` and `monitor`
+take the folder or its `metadata.yaml` in the place of a file, and so does `ros2 bag`.
+
+### Fast DDS
+
+Nodes that no one has given a Fast DDS profile (`FASTDDS_DEFAULT_PROFILES_FILE`) take the one of the package,
+in a sourced ROS too: without it what was lost on the way is sent again up to 3 s later. A profile of your own
+should have a heartbeat period of 20 ms. The twin waits for its readers in runs faster than real time; up to
+real time it keeps ten seconds for a slow one.
+"""
+
 PROTOCOL = """
 ## Load protocol
 
@@ -197,7 +216,7 @@ def page() -> str:
         lines += [f"## {node}", "", f"{PROGRAMS[node][1].capitalize()}.", ""]
         lines += ["| parameter | type | default | allowed | meaning |", "|---|---|---|---|---|"]
         lines += [*parameter_rows(node), ""]
-        lines += {"twin": [SERVICES], "load": [LOAD_SERVICES]}.get(node, [])
+        lines += {"twin": [SERVICES], "load": [LOAD_SERVICES], "recorder": [RECORDER]}.get(node, [])
     lines += [PROTOCOL, "## Topics", "", "| topic | type | QoS | rate | content |", "|---|---|---|---|---|"]
     for topic in TOPICS:
         quality = topic.reliability + (", latched" if topic.durability == "transient_local" else "")

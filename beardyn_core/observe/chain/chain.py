@@ -13,7 +13,7 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
-from beardyn_core.observe.chain.levels import levels_in_band, rise
+from beardyn_core.observe.chain.levels import levels_of, rise
 from beardyn_core.observe.chain.result import MonitorResult
 from beardyn_core.observe.chain.tracking import by_angle, squared_envelope
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
@@ -61,7 +61,7 @@ class Chain:
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
         verdict = self.decide(found, stretch, settings)
-        levels = levels_in_band(stretch.acceleration, stretch.rate, settings.band, speed)
+        levels = levels_of(stretch.in_band(settings.band), speed)
         cup, cone, roller = found.candidates
         best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
         return MonitorResult(

@@ -36,7 +36,23 @@ def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], 
     speed : float
         Of the shaft, [Hz].
     """
-    passed = analytic_band(acceleration, rate, band).real
+    return levels_of(analytic_band(acceleration, rate, band).real, speed)
+
+
+def levels_of(passed: Float, speed: float) -> Levels:
+    """Compute the levels of a signal that has passed the band.
+
+    Parameters
+    ----------
+    passed : float64 array, shape [sample, axis]
+        [m/s^2].
+    speed : float
+        Of the shaft, [Hz].
+
+    Returns
+    -------
+    Levels
+    """
     power = np.mean(passed**2, axis=0)
     peak = np.abs(passed).max(axis=0)
     return Levels(

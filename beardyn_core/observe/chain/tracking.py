@@ -6,7 +6,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band
 from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
-from beardyn_core.observe.features import envelope, resample_by_angle
+from beardyn_core.observe.features import resample_by_angle
 
 
 def squared_envelope(stretch: Stretch, band: Band) -> Float:
@@ -22,7 +22,7 @@ def squared_envelope(stretch: Stretch, band: Band) -> Float:
     Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
     Process. 25, section 4.3: the squared envelope has no harmonics of its own making.
     """
-    return envelope(stretch.acceleration, stretch.rate, (band.low, band.high)) ** 2
+    return stretch.squared_envelope((band.low, band.high))
 
 
 def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float:
