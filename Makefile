@@ -19,7 +19,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs step ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -48,6 +48,9 @@ performance: ## write docs/performance.md from bench.json
 
 costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (compiles 30 sets the first time)
 	@$(BIN)/python benchmarks/effect_costs.py $(ARGS)
+
+soak: $(VENV)/.ready-test ## set up, then nodes killed, fed nonsense, on a full disk, for ARGS="--minutes 60" (default 5)
+	@$(BIN)/python -m evidence.ros.soak $(ARGS)
 
 step: $(VENV)/.ready-test ## set up, then time steps against an explicit reference of 0.1 us: tables, step.json, docs/step.md
 	@$(BIN)/python -m evidence.step $(ARGS)

@@ -1,29 +1,52 @@
 """ROS 2 nodes of the twin, and what they are made of, in the order of the data.
 
-============== ==============================================================================
-module         responsibility
-============== ==============================================================================
-environment    what ROS 2 from wheels needs to start; says clearly when there is no ROS 2
-runtime        one process, one node: arguments, signals, executor, exit code
-parameters     parameters declared once from a table, refused with a sentence
-wire           topics of the table as publishers, and raw subscriptions that are emptied in one sweep
-load_gate      what comes in as load: checked, counted, queued
-scenario       what the load node replays: load, events, and the truth that it tells
-replay         a scenario as an endless stream: loop, seek, cross-fade, passages
-replay_clock   pace and pause of a live replay
-load_node      replays an operation or a CSV as stamped load blocks, within the credit
-load_feed      load for the twin's thread: waiting, age, knowing pauses
-run_state      options of a session, the messages it hands over, its report
-session        the twin in its own thread: compile, wait for load, advance, pace
-pacer          when a block is due on the wall clock
-twin_node      the lifecycle node around a session: topics, services, diagnostics
-twin_watch     is the twin there, has it ended, how
-recording      messages into files, one a run, with proof of what was lost
-recorder_node  every topic into a crash-safe MCAP file
-monitor_node   monitoring: vibration, shaft, load and temperature, nothing else
-viewer_node    live view in rerun
-diagnostics    reports as diagnostic_msgs
-processes      child processes that never outlive their parent
-demo           all nodes as separate processes on one scene
-============== ==============================================================================
+===================== ======================================================================================
+module                responsibility
+===================== ======================================================================================
+environment           what ROS 2 from wheels needs to start; says clearly when there is no ROS 2
+runtime               one process, one node: arguments, signals, executor, exit code
+requirements          says which Python packages of a distribution are too old
+parameters            parameters declared once from a table, refused with a sentence
+addressed             which parameters were given to one node itself, which to whoever shares a file
+wire                  topics of the table as publishers, and raw subscriptions that are emptied in one sweep
+message_guard         malformed messages: counted, warned of, not taken
+frames                names of frames, one tree for each axlebox
+poses                 place and orientation of one frame in another
+transforms            transforms as tf2 messages
+stl                   meshes of the parts as STL files, from the bearing's own dimensions
+description           the bearing in its box as URDF
+description_publisher robot_description, /tf_static and /tf
+identity              runs of a twin, frame of a load, two twins under one name
+answers               services that answer when the work is done
+load_gate             what comes in as load: checked, counted, queued
+live_filter           low-pass filter of live load, its delay known
+held_load             live load: checked, filtered, its last value held
+scenario              what the load node replays: load, events, and the truth that it tells
+replay                a scenario as an endless stream: loop, seek, cross-fade, passages
+replay_clock          pace and pause of a live replay
+load_parameters       parameters of the load node
+live_load             load of one moment as the messages of the live mode
+load_node             replays an operation or a CSV as stamped load blocks, within the credit
+load_intake           topics that carry load, decoded for the twin or refused
+load_feed             load for the twin's thread: waiting, age, knowing pauses
+run_state             options of a session, the messages it hands over, its report
+session               the twin in its own thread: compile, wait for load, advance, pace
+pacer                 when a block is due on the wall clock
+spreading             trend messages one after the other instead of in bursts
+twin_parameters       parameters of the twin node
+simulation_services   the services of simulation_interfaces, where it is installed
+twin_node             the lifecycle node around a session: topics, services, diagnostics
+twin_watch            is the twin there, has it ended, how
+recording             messages into files, one a run, with proof of what was lost
+recorder_node         every topic into a crash-safe MCAP file
+monitor_node          monitoring: vibration, shaft, load and temperature, nothing else
+viewer_node           live view in rerun
+car                   the axleboxes of a car by name and place; one process for the nodes of all
+car_scenario          one scenario as the loads of all boxes, each wheel over the same track later
+car_load              feeds every box of a car, all in step
+car_recorder          records every box of a car, a file each
+diagnostics           reports as diagnostic_msgs
+processes             child processes that never outlive their parent
+demo                  all nodes as separate processes on one scene
+===================== ======================================================================================
 """

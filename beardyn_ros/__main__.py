@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
-from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_CODES
+from beardyn_ros.requirements import missing_requirements
+from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_CODES, leave
 
 PROGRAMS = {
     "twin": ("twin_node", "simulate the bearing and publish what its sensors read"),
@@ -15,6 +16,8 @@ PROGRAMS = {
     "recorder": ("recorder_node", "record every topic into a crash-safe MCAP file"),
     "viewer": ("viewer_node", "live view in rerun"),
     "monitor": ("monitor_node", "monitoring algorithm on vibration, shaft, load and temperature"),
+    "car_load": ("car_load", "the load of every axlebox of a car from one scenario, all in step"),
+    "car_recorder": ("car_recorder", "record every axlebox of a car, a file each"),
     "demo": ("demo", "all of them as separate processes on one scene"),
 }
 
@@ -33,6 +36,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     if not ros_available():
         print(MISSING_ROS, file=sys.stderr)
         return EXIT_BAD_INPUT
+    missing = missing_requirements()
+    if missing:
+        for sentence in missing:
+            print(f"beardyn: {sentence}", file=sys.stderr)
+        return EXIT_BAD_INPUT
     if {"-h", "--help"} & set(rest) and name != "demo":
         print(node_help(name))
         return 0
@@ -42,7 +50,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def usage() -> str:
     """Write the overview of the programs."""
     lines = ["usage: python -m beardyn_ros NODE [--ros-args -p NAME:=VALUE ... --params-file FILE]", ""]
-    lines += [f"  {name:9} {purpose}" for name, (_, purpose) in PROGRAMS.items()]
+    lines += [f"  {name:12} {purpose}" for name, (_, purpose) in PROGRAMS.items()]
     lines += ["", "exit codes:", *(f"  {code:<9} {meaning}" for code, meaning in EXIT_CODES.items())]
     return "\n".join([*lines, "", "`python -m beardyn_ros NODE --help` lists a node's parameters."])
 
@@ -64,4 +72,4 @@ def node_help(name: str) -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main())

@@ -9,6 +9,8 @@ import tempfile
 from pathlib import Path
 
 FASTDDS_PROFILE = Path(__file__).with_name("fastdds_profile.xml")
+FASTDDS_2_PROFILE = Path(__file__).with_name("fastdds_2_profile.xml")
+FASTDDS_2_DISTRIBUTIONS = ("humble", "iron", "jazzy")  # some names in a profile changed with Fast DDS 3
 PROFILE_VARIABLES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 MISSING_ROS = (
     "beardyn: rclpy is not importable, so there is no ROS 2 in this environment. Either install it with "
@@ -29,20 +31,23 @@ def prepare_environment() -> None:
     Notes
     -----
     The wheels leave `AMENT_PREFIX_PATH` unset, a missing or read-only home stops the logger, and the
-    announcements and acknowledgements of Fast DDS come up to 3 s apart unless a profile says otherwise.
+    announcements and acknowledgements of Fast DDS come up to 3 s apart unless a profile says otherwise: what
+    is lost on the way is then sent again too late. Another middleware does not read the profile.
     """
     if not (os.environ.get("ROS_LOG_DIR") or os.environ.get("ROS_HOME") or _home_is_writable()):
         folder = Path(tempfile.gettempdir()) / f"ros_log_{os.getuid()}"
         folder.mkdir(parents=True, exist_ok=True)
         os.environ["ROS_LOG_DIR"] = str(folder)
         os.environ.setdefault("HOME", str(folder))
-    if os.environ.get("ROS_DISTRO"):
-        return  # a sourced ROS 2: its Fast DDS may be of another version than the profile
-    if not os.environ.get("AMENT_PREFIX_PATH"):
+    distribution = os.environ.get("ROS_DISTRO", "")
+    if not distribution and not os.environ.get("AMENT_PREFIX_PATH"):
         os.environ["AMENT_PREFIX_PATH"] = str(_wheel_prefix())
-    chosen = any(os.environ.get(name) for name in PROFILE_VARIABLES)
-    if not chosen and FASTDDS_PROFILE.is_file():
-        os.environ[PROFILE_VARIABLES[0]] = str(FASTDDS_PROFILE)
+    if any(os.environ.get(name) for name in PROFILE_VARIABLES):
+        return
+    old = distribution in FASTDDS_2_DISTRIBUTIONS
+    profile, variable = (FASTDDS_2_PROFILE if old else FASTDDS_PROFILE), PROFILE_VARIABLES[old]
+    if profile.is_file():
+        os.environ[variable] = str(profile)
 
 
 def _wheel_prefix() -> Path:

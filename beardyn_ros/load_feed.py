@@ -1,4 +1,4 @@
-"""What the twin is fed with: load of the queue in lockstep, the held value in live mode."""
+"""What the twin is fed with: load of the queue in lockstep, the filtered value in live mode."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.load_gate import HeldLoad, LiveLoad, LoadGate, Refusals, shifted
+from beardyn_ros.held_load import HeldLoad, LiveLoad
+from beardyn_ros.load_gate import LoadGate, Refusals, shifted
 from beardyn_ros.run_state import PAUSED, RUNNING, WAITING_FOR_LOAD, SessionOptions
 from beardyn_ros.runtime import EXIT_LOAD_LOST
 
@@ -55,8 +56,8 @@ class LoadFeed:
         self._wait = wait
         self._say = say
         self.refusals = Refusals()
-        self.gate = LoadGate(options.queue_ns, options.queue_bytes, self.refusals, condition)
-        self.live = LiveLoad(self.refusals, condition)
+        self.gate = LoadGate(options.queue_ns, options.queue_bytes, self.refusals, condition, options.join)
+        self.live = LiveLoad(self.refusals, condition, options.live_bandwidth)
         self.begin_ns = 0
         self.paused = False
         self.slept_s = 0.0
@@ -91,11 +92,7 @@ class LoadFeed:
                 return self.live.held() is not None or self.gate.ended
             return self.gate.waiting > 0 or self.gate.ended
 
-        timeout = self._options.start_timeout
-        if not self._load_comes(there, timeout):
-            raise StoppedError(
-                f"no load has come within {timeout:g} s (parameter start_timeout) on {topics}", EXIT_LOAD_LOST
-            )
+        self._await_first(there, topics)
         if self._options.mode == "live":
             held = self.live.held()
             if held is not None:
@@ -106,7 +103,30 @@ class LoadFeed:
                 load = self.gate.take_through(begin_ns + block_ns)
                 assert load is not None
                 return load
-        raise StoppedError("the load stream has ended before its first sample", EXIT_LOAD_LOST)
+        raise StoppedError(
+            self.gate.failure or "the load stream has ended before its first sample", EXIT_LOAD_LOST
+        )
+
+    def _await_first(self, there: Callable[[], bool], topics: str) -> None:
+        """Wait for the first load; what comes but cannot be used is waited for no longer than usual."""
+        timeout = self._options.start_timeout
+        if not self._load_comes(lambda: there() or bool(self.gate.lacks_its_beginning), timeout):
+            raise StoppedError(
+                f"no load has come within {timeout:g} s (parameter start_timeout) on {topics}"
+                + self._last_refusal(),
+                EXIT_LOAD_LOST,
+            )
+        timeout = self._options.load_timeout
+        if not (there() or self._load_comes(there, timeout)):
+            raise StoppedError(
+                f"the load stream lacks its beginning, and {timeout:g} s (parameter load_timeout) have not "
+                f"brought it: {self.gate.lacks_its_beginning}" + self._last_refusal(),
+                EXIT_LOAD_LOST,
+            )
+
+    def _last_refusal(self) -> str:
+        last = self.refusals.report().last_sentence
+        return f"; last refusal: {last}" if last else ""
 
     def cover(self, twin: Any) -> float | None:
         """Feed load until the next block is covered; seconds waited, ``None`` at the end of the stream.
@@ -121,9 +141,15 @@ class LoadFeed:
             held = self.live.held()
             assert held is not None
             if held.age > self._options.max_age:
+                refused = self.live.refused_since()
+                cause = (
+                    f"{refused} message(s) have come since and were refused{self._last_refusal()}"
+                    if refused
+                    else "its source has stopped"
+                )
                 raise StoppedError(
                     f"the live load is {held.age:.2f} s old, more than max_age = "
-                    f"{self._options.max_age:g} s: its source has stopped",
+                    f"{self._options.max_age:g} s: {cause}",
                     EXIT_LOAD_LOST,
                 )
             twin.feed(_constant_load(held, twin.next_end_ns))
@@ -142,11 +168,9 @@ class LoadFeed:
             if not self._load_comes(
                 lambda: self.gate.waiting > 0 or self.gate.ended or bool(self.gate.failure), timeout
             ):
-                last = self.refusals.report().last_sentence
-                hint = f"; last refusal: {last}" if last else ""
                 raise StoppedError(
                     f"no usable load for {timeout:g} s (parameter load_timeout): load that covers "
-                    f"t = {(twin.next_end_ns + self.begin_ns) / 1e9:.3f} s is missing{hint}",
+                    f"t = {(twin.next_end_ns + self.begin_ns) / 1e9:.3f} s is missing{self._last_refusal()}",
                     EXIT_LOAD_LOST,
                 )
         return time.monotonic() - begin - self.slept_s

@@ -11,6 +11,7 @@ import threading
 import time
 from collections import Counter, deque
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,8 @@ from beardyn_core.scene.load_buffer import (
 
 # time, wrench, shaft speed and bogie of one sample
 SAMPLE_BYTES = 88
+RECENT_S = 5.0
+REFUSED_BLOCKS_KEPT = 64
 
 
 @dataclass(frozen=True)
@@ -38,11 +41,14 @@ class RefusalReport:
     by_reason : tuple of (reason, count)
     last_sentence : str
         About the latest one, '' when there was none.
+    recent : bool
+        Whether the latest one was within the last `RECENT_S` seconds.
     """
 
     count: int
     by_reason: tuple[tuple[str, int], ...]
     last_sentence: str
+    recent: bool
 
 
 class Refusals:
@@ -52,18 +58,22 @@ class Refusals:
         self._lock = threading.Lock()
         self._counts: Counter[str] = Counter()
         self._last = ""
+        self._last_at = -RECENT_S
 
     def add(self, reason: str, sentence: str) -> str:
         """Count one refusal and give its sentence back."""
         with self._lock:
             self._counts[reason] += 1
             self._last = sentence
+            self._last_at = time.monotonic()
         return sentence
 
     def report(self) -> RefusalReport:
         """Return the counts so far."""
         with self._lock:
-            return RefusalReport(self._counts.total(), tuple(sorted(self._counts.items())), self._last)
+            recent = bool(self._last) and time.monotonic() - self._last_at < RECENT_S
+            counts = tuple(sorted(self._counts.items()))
+            return RefusalReport(self._counts.total(), counts, self._last, recent)
 
 
 def unphysical(
@@ -93,8 +103,18 @@ def unphysical(
     return None
 
 
+class _RefusedBlock(NamedTuple):
+    """Sample numbers and first time of a block that was not taken."""
+
+    first: int
+    last: int
+    begin_ns: int
+
+
 class LoadGate:
     """Queue of load samples between the subscription and the twin's thread.
+
+    A stream begins at sample 0: a block from further on shows that its beginning was lost.
 
     Parameters
     ----------
@@ -105,33 +125,44 @@ class LoadGate:
     refusals : Refusals
     condition : threading.Condition
         Guards the queue and is notified of every change.
+    join : bool
+        Whether a stream may be joined at any of its samples.
     """
 
     def __init__(
-        self, longest_ns: int, most_bytes: int, refusals: Refusals, condition: threading.Condition
+        self,
+        longest_ns: int,
+        most_bytes: int,
+        refusals: Refusals,
+        condition: threading.Condition,
+        join: bool = False,
     ) -> None:
         self.longest_ns = longest_ns
         self.most_bytes = most_bytes
         self.refusals = refusals
         self.condition = condition
-        self._begin(None)
+        self._join = join
+        self._begin(after_reset=False)
 
     def restart(self) -> None:
         """Forget everything; the stream begins again at sample 0, leftovers of the old one are dropped."""
         with self.condition:
-            self._begin(0)
+            self._begin(after_reset=True)
 
-    def _begin(self, expected: int | None) -> None:
+    def _begin(self, after_reset: bool) -> None:
         self._parts: deque[LoadHistory] = deque()
         self._waiting = 0
-        self._expected = expected
-        self._after_reset = expected is not None
-        self._hole_until = -1
+        self._expected = 0
+        self._after_reset = after_reset
+        self._refused: deque[_RefusedBlock] = deque(maxlen=REFUSED_BLOCKS_KEPT)
+        self._first: tuple[int, int] | None = None  # sample and time of the first one taken
         self._last: LoadHistory | None = None
         self.ended = False
         self.failure = ""
 
-    def offer(self, load: LoadHistory, samples: NDArray[np.int64]) -> str | None:
+    def offer(
+        self, load: LoadHistory, samples: NDArray[np.int64], wrong: tuple[str, str] | None = None
+    ) -> str | None:
         """Take one block; the sentence of the refusal when it is not taken.
 
         Parameters
@@ -140,22 +171,30 @@ class LoadGate:
             Empty: the end of the stream.
         samples : int64 array, shape [sample]
             Running index of each sample.
+        wrong : tuple of (reason, sentence) or None
+            What is already known to be wrong with the message.
         """
         with self.condition:
             if self._after_reset and (len(samples) == 0 or samples[0] != 0):
                 return None
-            if len(samples) == 0 and not self.ended:
+            if len(samples) == 0 and not self.ended and wrong is None:
                 self._end()
                 return None
-            problem = self._problem(load, samples)
+            if self._join and self._first is None and len(samples):
+                self._expected = int(samples[0])
+            problem = wrong or self._problem(load, samples)
             if problem is not None:
-                self._hole_until = max([self._hole_until, *samples[-1:].tolist()])
+                if len(samples):
+                    begin = int(samples[0])
+                    self._refused.append(_RefusedBlock(begin, begin + len(samples) - 1, int(load.time_ns[0])))
+                self.condition.notify_all()
                 first = f" from sample {samples[0]}" if len(samples) else ""
                 return self.refusals.add(problem[0], f"load/blocks{first} refused: {problem[1]}")
             self._after_reset = False
             self._parts.append(load)
             self._waiting += len(load)
             self._expected = int(samples[-1]) + 1
+            self._first = self._first or (int(samples[0]), int(load.time_ns[0]))
             self._last = load.part(len(load) - 1, len(load))
             self.condition.notify_all()
         return None
@@ -166,13 +205,45 @@ class LoadGate:
 
     def _end(self) -> None:
         self.ended = True
-        if self._hole_until >= (self._expected or 0):
-            hole = f"{self._expected or 0} to {self._hole_until}"
+        hole_until = max((block.last for block in self._refused if self._leaves_a_hole(block)), default=-1)
+        if hole_until >= 0:
             self.failure = (
-                f"the load stream has ended, but its samples {hole} were refused and never sent again; "
-                f"last refusal: {self.refusals.report().last_sentence}"
+                f"the load stream has ended, but its samples {self._expected} to {hole_until} were refused "
+                f"and never sent again; last refusal: {self.refusals.report().last_sentence}"
             )
         self.condition.notify_all()
+
+    def _leaves_a_hole(self, block: _RefusedBlock) -> bool:
+        """Check whether a refused block belongs to the stream and was never sent again.
+
+        Where the block stands in time must fit its sample numbers: a message with wild numbers is no
+        part of the stream, which is complete without it.
+        """
+        if block.last < self._expected:
+            return False
+        if block.first <= self._expected or self._first is None or self._last is None:
+            return True
+        first_sample, first_ns = self._first
+        last_ns = int(self._last.time_ns[0])
+        if last_ns == first_ns:
+            return True
+        spacing_ns = (last_ns - first_ns) / (self._expected - 1 - first_sample)
+        predicted_ns = (block.first - self._expected + 1) * spacing_ns
+        return 0.5 * predicted_ns <= block.begin_ns - last_ns <= 2.0 * predicted_ns
+
+    @property
+    def lacks_its_beginning(self) -> str:
+        """What is missing when blocks have come but none that the stream can begin with; '' otherwise."""
+        with self.condition:
+            if self._first is not None or not self._refused or self._after_reset:
+                return ""
+            begin = min(block.first for block in self._refused)
+        if begin == 0:
+            return "its first block was refused"
+        return (
+            f"samples 0 to {begin - 1} are missing: they were sent before the twin listened (`ros2 bag play` "
+            "needs --delay 1), or the stream is to be joined where it stands (parameter join)"
+        )
 
     def _problem(self, load: LoadHistory, samples: NDArray[np.int64]) -> tuple[str, str] | None:
         if self.ended:
@@ -185,9 +256,9 @@ class LoadGate:
             return bad
         if np.any(np.diff(load.time_ns) <= 0):
             return "out of order", "its times do not increase from sample to sample"
-        if self._expected is not None and first_sample < self._expected:
+        if first_sample < self._expected:
             return "out of order", f"sample {self._expected} comes next, these samples were there before"
-        if self._expected is not None and first_sample > self._expected:
+        if first_sample > self._expected:
             return (
                 "gap",
                 f"{first_sample - self._expected} samples are missing from sample {self._expected} on",
@@ -195,6 +266,11 @@ class LoadGate:
         if self._last is not None and load.time_ns[0] <= self._last.time_ns[0]:
             return "out of order", (
                 f"it begins at {load.time_ns[0] / 1e9:.6f} s, not after {self._last.time_ns[0] / 1e9:.6f} s"
+            )
+        leap_ns = 0 if self._last is None else int(load.time_ns[0] - self._last.time_ns[0])
+        if leap_ns > self.longest_ns:
+            return "far future", (
+                f"it begins {leap_ns * 1e-9:.6g} s after the sample before it, more than load_queue holds"
             )
         run = load if self._last is None else joined([self._last, load])
         jump = speed_jump(run.time_ns, run.shaft_speed)
@@ -276,93 +352,3 @@ def joined(parts: list[LoadHistory]) -> LoadHistory:
         np.concatenate([part.shaft_speed for part in parts]),
         np.concatenate([part.bogie for part in parts]),
     )
-
-
-@dataclass(frozen=True)
-class HeldLoad:
-    """Last value of the live load.
-
-    Parameters
-    ----------
-    wrench : array, shape [6], [N, N m]
-    shaft_speed : float, [rad/s]
-    age : float
-        Of the older of the two, since its arrival, [s].
-    """
-
-    wrench: NDArray[np.float64]
-    shaft_speed: float
-    age: float
-
-
-class LiveLoad:
-    """Last wrench and shaft speed, one message a sample.
-
-    Parameters
-    ----------
-    refusals : Refusals
-    condition : threading.Condition
-    """
-
-    def __init__(self, refusals: Refusals, condition: threading.Condition) -> None:
-        self.refusals = refusals
-        self.condition = condition
-        self._wrench: NDArray[np.float64] | None = None
-        self._speed: float | None = None
-        self._arrival = {"load/wrench": 0.0, "load/shaft": 0.0}
-        self._stamp: dict[str, int] = {}
-
-    def offer_wrench(self, wrench: NDArray[np.float64], stamp_ns: int) -> str | None:
-        """Take force and moment, shape [6]; the sentence of the refusal when refused."""
-        problem = unphysical(wrench[None, :], np.zeros(1), np.zeros((1, 3)))
-        return self._take("load/wrench", stamp_ns, problem, wrench=wrench)
-
-    def offer_speed(self, speed: float, stamp_ns: int) -> str | None:
-        """Take the shaft speed, [rad/s]; the sentence of the refusal when refused."""
-        problem = unphysical(np.zeros((1, 6)), np.array([speed]), np.zeros((1, 3)))
-        return self._take("load/shaft", stamp_ns, problem, speed=speed)
-
-    def _take(
-        self,
-        topic: str,
-        stamp_ns: int,
-        problem: tuple[str, str] | None,
-        wrench: NDArray[np.float64] | None = None,
-        speed: float | None = None,
-    ) -> str | None:
-        with self.condition:
-            if problem is None and stamp_ns <= self._stamp.get(topic, -1):
-                problem = (
-                    "out of order",
-                    f"its stamp {stamp_ns / 1e9:.6f} s is not after {self._stamp[topic] / 1e9:.6f} s",
-                )
-            if problem is None and speed is not None and self._speed is not None and topic in self._stamp:
-                jump = speed_jump(np.array([self._stamp[topic], stamp_ns]), np.array([self._speed, speed]))
-                problem = ("absurd", jump) if jump else None
-            if problem is not None:
-                return self.refusals.add(problem[0], f"{topic} refused: {problem[1]}")
-            self._stamp[topic] = stamp_ns
-            self._arrival[topic] = time.monotonic()
-            if wrench is not None:
-                self._wrench = wrench
-            if speed is not None:
-                self._speed = speed
-            self.condition.notify_all()
-        return None
-
-    def restart_age(self) -> None:
-        """Count the age of what is held from now on: its source was silent on purpose."""
-        with self.condition:
-            self._arrival = dict.fromkeys(self._arrival, time.monotonic())
-
-    def accept_any_stamp(self) -> None:
-        """Accept any stamp next: the sender starts again."""
-        with self.condition:
-            self._stamp.clear()
-
-    def held(self) -> HeldLoad | None:
-        """Return the last value, ``None`` until both messages have come."""
-        with self.condition:
-            if self._wrench is None or self._speed is None:
-                return None
-            return HeldLoad(self._wrench, self._speed, time.monotonic() - min(self._arrival.values()))

@@ -18,90 +18,42 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from rclpy.node import Node
 from std_srvs.srv import SetBool, Trigger
 
 from beardyn_core.errors import InputError
-from beardyn_core.record.load_stream import LONGEST_NS, encode_load
-from beardyn_core.record.messages import (
-    TIME,
-    decode,
-    decode_string,
-    encode_diagnostics,
-    encode_string,
-    header,
-    make,
-    serialize,
-)
-from beardyn_core.record.topics import FRAME, TWIST, WRENCH, topic
+from beardyn_core.record.load_stream import encode_load
+from beardyn_core.record.messages import decode_string, encode_diagnostics, encode_string, header_stamp
+from beardyn_core.record.topics import topic
 from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.answers import StepService
 from beardyn_ros.diagnostics import diagnostic_name, load_diagnostic
-from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.frames import frame_of
+from beardyn_ros.identity import run_instance
+from beardyn_ros.live_filter import LowPass
+from beardyn_ros.live_load import encode_shaft, encode_wrench
+from beardyn_ros.load_parameters import PARAMETERS
+from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.replay import Replay
 from beardyn_ros.replay_clock import ReplayClock
-from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node
+from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node, wall_timer
 from beardyn_ros.scenario import ENDED, PAUSED, PLAYING, Scenario, scene_scenario, truth_text
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
 ScenarioLoader = Callable[[str, str, float], Scenario]
 
 PUMP_PERIOD_S = 0.005
-LAST_WORDS_TIMEOUT_S = 5.0
+LAST_WORDS_TIMEOUT_S = 0.5
+HUNG_READER_TIMEOUT_S = 2.0
+OTHERS_TIMEOUT_S = 3.0
+TWIN_SILENT_AFTER_S = 0.6  # it repeats its credit every 0.2 s
+LIVE_RATE_OVER_BANDWIDTH = 5.0
 ALONE_TIMEOUT_S = 3.0
 SETTLED_AFTER_S = 0.3  # a recorder may be found a moment later than the twin
 LOOK_PERIOD_S = 0.1
 IDLE_PERIOD_S = 0.2
 REPORT_PERIOD_S = 0.5
-
-PARAMETERS = (
-    NodeParameter(
-        "scene", "cup_spall", "shipped scene by name, or path of a scene file: its operation is replayed"
-    ),
-    NodeParameter("csv", "", "CSV file of time, speed and force, replayed instead of the scene's operation"),
-    NodeParameter(
-        "duration", 0.0, "simulated time to replay, 0 for the scene's own", "s", minimum=0.0, maximum=86_399.0
-    ),
-    NodeParameter(
-        "mode",
-        "lockstep",
-        "lockstep sends load/blocks; live sends load/wrench and load/shaft, stamped in time of the load",
-        choices=("lockstep", "live"),
-    ),
-    NodeParameter("horizon", 1.0, "how far to stay ahead of the credit", "s", minimum=0.1, maximum=60.0),
-    NodeParameter("block", 0.1, "load in one message", "s", minimum=0.001, maximum=LONGEST_NS * 1e-9 / 2),
-    NodeParameter(
-        "live_rate", 200.0, "messages per wall second in live mode", "Hz", minimum=1.0, maximum=1000.0
-    ),
-    NodeParameter(
-        "speed_factor",
-        1.0,
-        "simulated seconds per wall second in live mode, 0 means 1, as in the twin",
-        minimum=0.0,
-        maximum=100.0,
-        live=True,
-    ),
-    NodeParameter(
-        "position",
-        0.0,
-        "where in the scenario the replay begins; a change is a seek: stamps go on, the position moves with "
-        "a cross-fade",
-        "s",
-        minimum=0.0,
-        maximum=86_399.0,
-        live=True,
-    ),
-    NodeParameter(
-        "loop",
-        False,
-        "go on at the start of the scenario when it ends, with a cross-fade, until `loop` is set to false",
-        live=True,
-    ),
-    NodeParameter("fade", 0.5, "cross-fade of a seek or a loop", "s", minimum=0.001, maximum=60.0),
-    NodeParameter(
-        "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
-    ),
-    NodeParameter("exit_when_done", True, "end the process when everything is replayed and received"),
-)
 
 
 class LoadNode(Node):
@@ -111,14 +63,17 @@ class LoadNode(Node):
     ----------
     load_scenario : callable or None
         ``load_scenario(scene, csv, duration)``; ``None``: scenes of the config room.
+    **of_node
+        Passed on to the node: another namespace, parameters.
     """
 
-    def __init__(self, load_scenario: ScenarioLoader | None = None) -> None:
-        super().__init__("load", namespace="axlebox")
+    def __init__(self, load_scenario: ScenarioLoader | None = None, **of_node: Any) -> None:
+        super().__init__("load", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
         values = self._values
+        self._frame = frame_of(self.get_namespace(), values.frame_id)
         if values.block >= values.horizon:
             raise InputError(
                 f"node load: block {values.block:g} s must be shorter than horizon {values.horizon:g} s"
@@ -129,8 +84,9 @@ class LoadNode(Node):
         self._live = values.mode == "live"
         self._live_clock = ReplayClock(self._pace)
         self._paused = False
-        self._steps = 0
-        self._run_id = ""
+        self._steps_left = 0
+        self._run_id = self._next_run_id = ""
+        self._heard_at = -TWIN_SILENT_AFTER_S
         self._out = TopicPublishers(
             self,
             "load/blocks",
@@ -153,10 +109,12 @@ class LoadNode(Node):
             "waiting for a twin"
         )
         self._busy_period_s = 1.0 / values.live_rate if self._live else PUMP_PERIOD_S
-        self._timer = self.create_timer(IDLE_PERIOD_S, self._on_timer)
-        self.create_timer(REPORT_PERIOD_S, self._report)
+        self._timer = wall_timer(self, IDLE_PERIOD_S, self._on_timer)
+        wall_timer(self, REPORT_PERIOD_S, self._report)
         self.create_service(SetBool, "load/pause", self._on_pause)
-        self.create_service(Trigger, "load/step", self._on_step)
+        self._steps = StepService(
+            self, "load/step", self._order_step, f"one block of {values.block:g} s is sent"
+        )
         self.create_service(Trigger, "load/reset", self._on_reset)
         self.add_on_set_parameters_callback(self._refuse_change)
         self.add_post_set_parameters_callback(self._on_parameters)
@@ -174,48 +132,72 @@ class LoadNode(Node):
     def _restart(self) -> None:
         self._replay.restart()
         self._live_clock.restart()
+        self._new_live_filter()
         self._unsent: tuple[LoadHistory, int] | None = None
         self._ended = False
         self._credit_ns = self._replay.next_ns
+        self._credit_at = time.monotonic()
         self._published_truth: tuple[object, ...] = ()
         self._publish_truth()
 
+    def _new_live_filter(self) -> None:
+        """Begin to filter what is sampled; the rate is one of wall time, the filter works in the load's."""
+        self._live_filter = LowPass(self._values.live_rate / (LIVE_RATE_OVER_BANDWIDTH * self._pace))
+        self._live_last_ns = -1
+
     def _on_consumed(self, cdr: bytes) -> None:
-        stamp = decode(TIME, cdr)
-        self._credit_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        credit_ns = header_stamp(cdr)
+        self._heard_at = time.monotonic()
+        if credit_ns != self._credit_ns:
+            self._credit_ns, self._credit_at = credit_ns, self._heard_at
 
     def _on_truth(self, cdr: bytes) -> None:
-        run_id = str(json.loads(decode_string(cdr)).get("run_id", ""))
-        known, self._run_id = self._run_id, run_id
-        if known and run_id != known:
+        try:
+            run_id = str(json.loads(decode_string(cdr)).get("run_id", ""))
+        except Exception as error:  # a foreign message may break the decoder in any way
+            self.get_logger().warning(f"truth refused: it cannot be read ({error!r})")
+            return
+        self._next_run_id = run_id
+        same_twin = run_instance(run_id) == run_instance(self._run_id)
+        if same_twin or not self._run_id:
+            self._follow_run()
+
+    def _follow_run(self) -> None:
+        """Serve the run that was told last, from the start when it is another one."""
+        known, self._run_id = self._run_id, self._next_run_id
+        if known and self._run_id != known:
             self.get_logger().info("a new run has begun, the replay starts again")
             self._restart()
         self._publish_truth()
 
+    def _follow_the_next_twin(self) -> None:
+        """Serve another twin as soon as the one served so far is silent: two cannot feed on one stream."""
+        silent = time.monotonic() - self._heard_at > TWIN_SILENT_AFTER_S
+        if self._next_run_id != self._run_id and silent:
+            self._follow_run()
+
     # --- services and parameters -------------------------------------------------------------------
 
     def _on_pause(self, request: Any, response: Any) -> Any:
-        self._paused, self._steps = bool(request.data), 0
+        self._paused, self._steps_left = bool(request.data), 0
+        self._steps.fail("the load was paused anew" if request.data else "the load plays on")
         self._live_clock.pause(self._paused)
         self._publish_truth()
         self._on_timer()
         response.success, response.message = True, self._state
         return response
 
-    def _on_step(self, _request: Any, response: Any) -> Any:
-        problem = ""
+    def _order_step(self) -> str:
         if self._live:
-            problem = "a step is one block of load, which only lockstep has"
-        elif self._ended:
-            problem = "the stream has ended"
-        elif not self._paused:
-            problem = "the load is playing: call load/pause with true first"
-        else:
-            self._steps += 1
-            self._on_timer()
-        response.success = not problem
-        response.message = problem or f"one block of {self._values.block:g} s ordered"
-        return response
+            return "a step is one block of load, which only lockstep has"
+        if self._ended:
+            return "the stream has ended"
+        if not self._paused:
+            return "the load is playing: call load/pause with true first"
+        self._steps_left += 1
+        self._timer.timer_period_ns = round(self._busy_period_s * 1e9)
+        self._timer.reset()
+        return ""
 
     def _on_reset(self, _request: Any, response: Any) -> Any:
         if self._ended:
@@ -247,6 +229,7 @@ class LoadNode(Node):
                 self._publish_truth()
             elif change.name == "speed_factor":
                 self._live_clock.set_pace(self._pace)
+                self._new_live_filter()
 
     # --- replay ------------------------------------------------------------------------------------
 
@@ -261,12 +244,17 @@ class LoadNode(Node):
     def _report(self) -> None:
         name = diagnostic_name(self.get_namespace(), "load")
         lead = (self._replay.next_ns - self._credit_ns) * 1e-9
-        status = load_diagnostic(name, self._state, self._replay, lead, self._out.lost_messages)
-        self._out.publish("/diagnostics", encode_diagnostics(self._credit_ns, FRAME, [status]))
+        sent = {each: self._out.sent[each] for each in self._out.names if each != "/diagnostics"}
+        status = load_diagnostic(name, self._state, self._replay, lead, self._out.lost_messages, sent)
+        hardware = frame_of(self.get_namespace())
+        self._out.publish("/diagnostics", encode_diagnostics(self._credit_ns, hardware, [status]))
+        self._steps.fail_late("the block is not sent yet: it waits for the twin to take what it has")
 
     def _on_timer(self) -> None:
+        self._follow_the_next_twin()
         (self._pump_live if self._live else self._pump)()
-        idle = not self._announced or self._paused or (self._ended and not self._values.exit_when_done)
+        rests = self._paused and not self._steps_left
+        idle = not self._announced or rests or (self._ended and not self._values.exit_when_done)
         period_ns = round((IDLE_PERIOD_S if idle else self._busy_period_s) * 1e9)
         if self._timer.timer_period_ns != period_ns:
             self._timer.timer_period_ns = period_ns
@@ -300,7 +288,8 @@ class LoadNode(Node):
     def _all_connected(self) -> bool:
         """Check whether the twin, and every other listener that the graph knows, is connected.
 
-        Recorder and monitor listen to the load too; the twin is the one that gives credit.
+        Recorder and monitor listen to the load too; the twin is the one that gives credit. The others
+        are waited for in the beginning only, and not for ever: one may hang, or ask for another QoS.
         """
         names = ("load/wrench", "load/shaft", "load/blocks") if self._live else ("load/blocks",)
         counts = tuple(self._out.publisher(name).get_subscription_count() for name in names)
@@ -312,15 +301,22 @@ class LoadNode(Node):
             self._twinless_since = time.monotonic()
         for name, count in zip(names, counts, strict=True):
             known = self.get_subscriptions_info_by_topic(self.resolve_topic_name(name))
-            if count < len(known) or not twins & {(info.node_namespace, info.node_name) for info in known}:
+            patient = not self._announced and time.monotonic() - self._listeners_since < OTHERS_TIMEOUT_S
+            if count == 0 or (patient and count < len(known)):
+                return False
+            if not twins & {(info.node_namespace, info.node_name) for info in known}:
                 return False
         return True
+
+    def _latest_credit(self) -> int:
+        """Find the time up to which the load is used, from where the horizon counts, [ns]."""
+        return self._credit_ns
 
     def _pump(self) -> None:
         if not (self._twin_listens() or self._ended):
             return
-        latest_ns = self._credit_ns + round(self._values.horizon * 1e9)
-        while not self._ended and (not self._paused or self._steps):
+        latest_ns = self._latest_credit() + round(self._values.horizon * 1e9)
+        while not self._ended and (not self._paused or self._steps_left):
             if self._unsent is None:
                 first = self._replay.next_sample
                 until_ns = self._replay.next_ns + round(self._values.block * 1e9)
@@ -330,10 +326,14 @@ class LoadNode(Node):
             if len(load) == 0:
                 self._end_stream()
                 return
-            if load.time_ns[-1] > latest_ns or not self._out.publish("load/blocks", encode_load(load, first)):
+            if load.time_ns[-1] > latest_ns or not self._out.publish(
+                "load/blocks", encode_load(load, first, self._frame)
+            ):
                 return
             self._unsent = None
-            self._steps = max(self._steps - 1, 0)
+            if self._steps_left:
+                self._steps_left -= 1
+                self._steps.complete()
         if self._ended:
             self._end_stream()
 
@@ -346,44 +346,43 @@ class LoadNode(Node):
             load = self._replay.take(self._replay.samples_before(now_ns + 1))
             self._publish_truth()
             if len(load):
-                stamp = int(load.time_ns[-1])
-                self._out.publish("load/wrench", encode_wrench(load.wrench[-1], stamp))
-                self._out.publish("load/shaft", encode_shaft(float(load.shaft_speed[-1]), stamp))
+                stamp, filtered = int(load.time_ns[-1]), self._filtered(load)
+                self._out.publish("load/wrench", encode_wrench(filtered[:6], stamp, self._frame))
+                self._out.publish("load/shaft", encode_shaft(float(filtered[6]), stamp, self._frame))
             if not self._replay.exhausted:
                 return
         self._end_stream()
 
+    def _filtered(self, load: LoadHistory) -> NDArray[np.float64]:
+        """Filter the samples since the last message: wrench and speed at the last of them, shape [7]."""
+        before = self._live_last_ns if self._live_last_ns >= 0 else int(load.time_ns[0]) - 1
+        steps = np.diff(load.time_ns, prepend=before) * 1e-9
+        self._live_last_ns = int(load.time_ns[-1])
+        return self._live_filter.push(steps, np.column_stack([load.wrench, load.shaft_speed]))
+
     def _end_stream(self) -> None:
         if not self._ended:
             empty = self._scenario.history.part(0, 0)
-            self._ended = self._out.publish("load/blocks", encode_load(empty, self._replay.next_sample))
+            self._ended = self._out.publish(
+                "load/blocks", encode_load(empty, self._replay.next_sample, self._frame)
+            )
+            self._credit_at = time.monotonic()
             self._publish_truth()
+            self._report()
+            self._steps.fail("the stream has ended")
             self.get_logger().info("everything is replayed, the stream is ended")
         elif self._values.exit_when_done:
-            # The twin still reads: leaving before it has everything would lose the tail.
+            # The twin still reads: leaving before it has everything would lose the tail. When it has taken
+            # nothing for a while, whoever has not confirmed yet hangs.
             listeners = self._out.publisher("load/blocks").get_subscription_count()
-            self.finished = listeners == 0 or self._out.wait_until_received("load/blocks", 0.001)
+            hung = time.monotonic() - self._credit_at > HUNG_READER_TIMEOUT_S
+            self.finished = listeners == 0 or hung or self._out.wait_until_received("load/blocks", 0.001)
 
     def close(self) -> bool:
-        """Leave nothing half-sent; there is no thread to end."""
-        self._out.wait_until_received("load/blocks", LAST_WORDS_TIMEOUT_S if self.finished else 0.0)
+        """Publish the last word; there is no thread to end."""
+        self._report()
+        self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)
         return False
-
-
-def encode_wrench(wrench: np.ndarray, stamp_ns: int) -> bytes:
-    """Encode one ``load/wrench`` as CDR, shape [6], [N, N m]."""
-    force = make("geometry_msgs/msg/Vector3", x=wrench[0], y=wrench[1], z=wrench[2])
-    torque = make("geometry_msgs/msg/Vector3", x=wrench[3], y=wrench[4], z=wrench[5])
-    content = make("geometry_msgs/msg/Wrench", force=force, torque=torque)
-    return serialize(make(WRENCH, header=header(stamp_ns, FRAME), wrench=content))
-
-
-def encode_shaft(speed: float, stamp_ns: int) -> bytes:
-    """Encode one ``load/shaft`` as CDR, [rad/s] about +y."""
-    zero = make("geometry_msgs/msg/Vector3", x=0.0, y=0.0, z=0.0)
-    turning = make("geometry_msgs/msg/Vector3", x=0.0, y=speed, z=0.0)
-    content = make("geometry_msgs/msg/Twist", linear=zero, angular=turning)
-    return serialize(make(TWIST, header=header(stamp_ns, FRAME), twist=content))
 
 
 def main(argv: Sequence[str], load_scenario: ScenarioLoader | None = None) -> int:

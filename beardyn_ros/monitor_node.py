@@ -19,8 +19,8 @@ from beardyn_core.config import load_bearing
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import algorithm_named
 from beardyn_core.observe.monitoring import Monitor
-from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
-from beardyn_core.record.load_stream import decode_load
+from beardyn_core.record.cloud_layout import cloud_points
+from beardyn_core.record.clouds import cloud_times
 from beardyn_core.record.messages import (
     Diagnostic,
     decode,
@@ -28,11 +28,14 @@ from beardyn_core.record.messages import (
     encode_diagnostics,
     header_stamp,
 )
-from beardyn_core.record.topics import FRAME, JOINTS, TEMPERATURE, WRENCH, topic
+from beardyn_core.record.reading import run_of_messages
+from beardyn_core.record.topics import TEMPERATURE, WRENCH, topic
 from beardyn_core.study.monitored_recording import HOT_BOX, Finding, conclude
-from beardyn_ros.diagnostics import MONITOR, diagnostic_name
+from beardyn_ros.diagnostics import MONITOR, OK, TWIN, WARN, diagnostic_name
+from beardyn_ros.frames import frame_of
+from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.runtime import run_node
+from beardyn_ros.runtime import run_node, wall_timer
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
@@ -73,17 +76,25 @@ class MonitorNode(Node):
             raise InputError(problems)
         self._orders = fault_frequencies(self._bearing)
         self._out = TopicPublishers(self, "monitor/result", "/diagnostics")
-        self._intake = RawIntake(self)
-        self._intake.add(topic("vibration"), self._on_vibration)
-        self._intake.add(topic("shaft"), self._on_shaft)
-        self._intake.add(topic("load/blocks"), self._on_load)
-        self._intake.add(topic("load/wrench"), self._on_wrench)
-        self._intake.add(topic("temperature"), self._on_temperature)
-        self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
-        self._watch = TwinWatch(lambda: self.count_publishers(topic("vibration").path(self.get_namespace())))
+        self._intake = RawIntake(self, polled=True)
+        self._guard = MessageGuard(self)
+        for name, handler in (
+            ("vibration", self._on_vibration),
+            ("shaft", self._on_shaft),
+            ("load/blocks", self._on_load),
+            ("load/wrench", self._on_wrench),
+            ("temperature", self._on_temperature),
+            ("/diagnostics", self._on_diagnostics),
+        ):
+            entry = topic(name)
+            self._intake.add(entry, self._guard.guarded(entry, handler), keep_all=name != "/diagnostics")
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("vibration").path(self.get_namespace())),
+        )
         self._begin()
         self._reported_at = 0.0
-        self.create_timer(TICK_S, self._tick)
+        wall_timer(self, TICK_S, self._tick)
         self.get_logger().info(
             f"{self._bearing.name}: BPFO {self._orders.bpfo:.4f}, BPFI {self._orders.bpfi:.4f}, "
             f"BSF {self._orders.bsf:.4f}, FTF {self._orders.ftf:.4f} per shaft revolution"
@@ -93,14 +104,13 @@ class MonitorNode(Node):
         self._monitor = Monitor(self._orders, self._bearing.roller_count, algorithm=self._algorithm)
         self._findings: list[Finding] = []
         self._last_sample = -1
-        self._shaft_time: list[int] = []
-        self._shaft_angle: list[float] = []
+        self._shaft: list[bytes] = []
         self._summed_up = False
 
     # --- what a train has --------------------------------------------------------------------------
 
     def _on_vibration(self, cdr: bytes) -> None:
-        points = cloud_to_arrays(cdr)
+        points = cloud_points(cdr)
         if not len(points):
             return
         if int(points["sample"][-1]) <= self._last_sample:
@@ -111,16 +121,18 @@ class MonitorNode(Node):
         self._monitor.push_vibration(cloud_times(cdr, points), acceleration)
 
     def _on_shaft(self, cdr: bytes) -> None:
-        self._shaft_time.append(header_stamp(cdr))
-        self._shaft_angle.append(float(decode(JOINTS, cdr).position[0]))
+        self._shaft.append(cdr)
+
+    def _push_shaft(self) -> None:
+        if self._shaft:
+            turning = run_of_messages({"shaft": self._shaft}, None).shaft
+            self._monitor.push_shaft(turning.time_ns, turning.angle)
+            self._shaft = []
 
     def _on_load(self, cdr: bytes) -> None:
-        try:
-            load, _ = decode_load(cdr)
-        except Exception:  # somebody else's mistake; the twin tells about it
-            return
-        if len(load):
-            self._monitor.push_load(load.time_ns, load.wrench[:, 2])
+        points = cloud_points(cdr)
+        if len(points):
+            self._monitor.push_load(cloud_times(cdr, points), points["fz"].astype(float))
 
     def _on_wrench(self, cdr: bytes) -> None:
         vertical = float(decode(WRENCH, cdr).wrench.force.z)
@@ -138,9 +150,7 @@ class MonitorNode(Node):
 
     def _tick(self) -> None:
         self._intake.sweep()
-        if self._shaft_time:
-            self._monitor.push_shaft(np.array(self._shaft_time, np.int64), np.array(self._shaft_angle))
-            self._shaft_time, self._shaft_angle = [], []
+        self._push_shaft()
         result = self._monitor.update()
         if result is not None:
             self._report_finding(Finding.of(result))
@@ -164,7 +174,9 @@ class MonitorNode(Node):
     def _publish(self, finding: Finding, *extra: tuple[str, str]) -> None:
         status = finding.to_diagnostic(diagnostic_name(self.get_namespace(), MONITOR), extra)
         stamp = round(finding.time * 1e9)
-        self._out.publish("monitor/result", encode_diagnostics(stamp, FRAME, [status]))
+        self._out.publish(
+            "monitor/result", encode_diagnostics(stamp, frame_of(self.get_namespace()), [status])
+        )
 
     def _sum_up(self) -> None:
         """Log the last word about the run: the most frequent verdict."""
@@ -184,7 +196,7 @@ class MonitorNode(Node):
         verdict = self._findings[-1].verdict if self._findings else "waiting"
         status = Diagnostic(
             diagnostic_name(namespace, MONITOR),
-            1 if self._monitor.lost or self._monitor.refused else 0,
+            WARN if self._monitor.lost or self._monitor.refused or self._guard.total else OK,
             self._findings[-1].reason if self._findings else "listening",
             (
                 ("connected", "true" if connected else "false"),
@@ -192,10 +204,11 @@ class MonitorNode(Node):
                 ("analyses", str(len(self._findings))),
                 ("gaps_in_vibration", str(self._monitor.lost)),
                 ("refused_blocks", str(self._monitor.refused)),
+                *self._guard.values(),
             ),
         )
         stamp = round(self._findings[-1].time * 1e9) if self._findings else 0
-        self._out.publish("/diagnostics", encode_diagnostics(stamp, FRAME, [status]))
+        self._out.publish("/diagnostics", encode_diagnostics(stamp, frame_of(self.get_namespace()), [status]))
 
     def close(self) -> bool:
         """Do nothing: there is nothing to save and no thread to end."""

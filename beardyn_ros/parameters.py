@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
 from beardyn_core.errors import InputError
+from beardyn_ros.addressed import own_parameters
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,11 @@ class ParameterValues:
         Its overrides (command line, parameter file) are checked against the table.
     table : sequence of NodeParameter
 
+    Notes
+    -----
+    A name that the table does not have is an error when it is given to this node itself, by ``-p`` or under
+    its own name in a file. Under ``/**:`` it is meant for others, and only told.
+
     Raises
     ------
     InputError
@@ -98,10 +105,12 @@ class ParameterValues:
         self._node = node
         overrides = node._parameter_overrides
         known = ", ".join(sorted(self._table))
+        unknown = [name for name in overrides if name not in self._table and not _owned_by_ros(name)]
+        own = own_parameters(node.get_fully_qualified_name(), sys.argv) if unknown else set()
         problems = [
             f"node {node.get_name()}: unknown parameter '{name}', known are {known}"
-            for name in overrides
-            if name not in self._table and not _owned_by_ros(name)
+            for name in unknown
+            if name in own
         ]
         for parameter in table:
             if parameter.name not in overrides:
@@ -114,6 +123,11 @@ class ParameterValues:
                 overrides[parameter.name] = Parameter(parameter.name, value=value)
         if problems:
             raise InputError(problems)
+        if unknown:
+            names = ", ".join(f"'{name}'" for name in unknown)
+            node.get_logger().warning(
+                f"not a parameter of this node, left to the others that share it: {names}"
+            )
         for parameter in table:
             node.declare_parameter(parameter.name, parameter.default, _descriptor(parameter))
         node.add_on_set_parameters_callback(self._check_live_change)

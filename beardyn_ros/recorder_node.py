@@ -1,26 +1,39 @@
-"""Records every topic of the table into a crash-safe MCAP file, one file a run."""
+"""Records every topic of the table into crash-safe MCAP files, one a run or several."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from rclpy.node import Node
 
 from beardyn_core.errors import InputError
-from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
-from beardyn_core.record.topics import FRAME, TOPICS, Topic, topic
-from beardyn_ros.diagnostics import OK, RECORDER, WARN, diagnostic_name
+from beardyn_core.record.bag_writing import SMALLEST_BYTES, Splitting
+from beardyn_core.record.messages import Diagnostic, decode_diagnostics, encode_diagnostics
+from beardyn_core.record.published import (
+    MissingMessages,
+    missing_messages,
+    missing_sentence,
+    published_counts,
+)
+from beardyn_core.record.topics import TOPICS, Topic, topic
+from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, diagnostic_name
+from beardyn_ros.frames import frame_of
+from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.recording import Recording, free_name, parsed_truth
-from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node
+from beardyn_ros.recording import Recording, RunFile, free_name, is_recorded
+from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_INCOMPLETE, EXIT_LOAD_LOST, run_node, wall_timer
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
-TICK_S = 0.1
+TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
-TAIL_TIMEOUT_S = 3.0
+# Fast DDS by itself sends again what was lost up to 3 s later; a twin that is gone sends nothing any more.
+TAIL_TIMEOUT_S = 8.0
+GONE_TIMEOUT_S = 1.0
+COUNTS_TIMEOUT_S = 2.0
 MONITOR_TIMEOUT_S = 20.0
 OLD_RUN_TIMEOUT_S = 1.0
 TWIN_TOPICS = (
@@ -42,6 +55,23 @@ PARAMETERS = (
         "file to write; further runs get _2, _3; empty: <scene>_<date>.mcap here",
     ),
     NodeParameter("replace", False, "replace the file when it exists, instead of refusing to start"),
+    NodeParameter(
+        "max_file_size",
+        0.0,
+        "largest file, at least 1; a run is then a folder, named as output without its ending, with files "
+        "NAME_0.mcap, NAME_1.mcap and metadata.yaml; 0: no limit",
+        "MB",
+        minimum=0.0,
+        maximum=1e6,
+    ),
+    NodeParameter(
+        "max_file_duration",
+        0.0,
+        "longest simulated time in a file, else as max_file_size; 0: no limit",
+        "s",
+        minimum=0.0,
+        maximum=1e6,
+    ),
     NodeParameter("exit_when_done", True, "close the file and end the process when the twin has ended"),
     NodeParameter(
         "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
@@ -50,46 +80,77 @@ PARAMETERS = (
 
 
 class RecorderNode(Node):
-    """Every topic of one axlebox into files."""
+    """Every topic of one axlebox into files.
 
-    def __init__(self) -> None:
-        super().__init__("recorder", namespace="axlebox")
+    Parameters
+    ----------
+    **of_node
+        Passed on to the node: another namespace, parameters.
+    """
+
+    def __init__(self, **of_node: Any) -> None:
+        super().__init__("recorder", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
+        self._splitting = Splitting(
+            round(self._values.max_file_size * 1e6), round(self._values.max_file_duration * 1e9)
+        )
         self._check_output()
-        self._recording = Recording(self._path_of, self.get_namespace(), replace=self._values.replace)
+        self._recording = Recording(
+            self._path_of, self.get_namespace(), replace=self._values.replace, splitting=self._splitting
+        )
         self._out = TopicPublishers(self, "/diagnostics")
-        self._intake = RawIntake(self)
+        self._intake = RawIntake(self, polled=True)
+        self._guard = MessageGuard(self)
         self._names: set[str] = set()
         for entry in TOPICS:
             self._record(entry)
-        self._watch = TwinWatch(lambda: self.count_publishers(topic("truth").path(self.get_namespace())))
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+        )
         self._ended_at: float | None = None
+        self._lacking = (0, 0.0)
         self._monitor_done = False
         self._reported_at = 0.0
         self._announced_ready = False
-        self.create_timer(TICK_S, self._tick)
+        wall_timer(self, TICK_S, self._tick)
         self.get_logger().info(f"recorder of {self.get_namespace()} is waiting for a twin")
 
     def _check_output(self) -> None:
-        output = self._values.output
-        if output and not Path(output).expanduser().resolve().parent.is_dir():
+        output, most = self._values.output, self._splitting.most_bytes
+        if 0 < most < SMALLEST_BYTES:
+            raise InputError(
+                f"node recorder: max_file_size {most / 1e6:g} MB is too small for what a file says about "
+                f"itself; give at least {SMALLEST_BYTES / 1e6:g} MB, or 0 for no limit"
+            )
+        if not output:
+            return
+        path = Path(output).expanduser()
+        if not path.resolve().parent.is_dir():
             raise InputError(
                 f"node recorder: output '{output}': the folder does not exist; create it or choose another"
             )
-        if output and Path(output).expanduser().is_dir():
+        if path.is_dir() and not self._splitting:
             raise InputError(f"node recorder: output '{output}' is a folder; a file name is needed")
-        if output and Path(output).expanduser().is_file() and not self._values.replace:
+        there = self._named(path)
+        if (there.is_file() or is_recorded(there)) and not self._values.replace:
+            what = "file" if there.is_file() else "folder"
             raise InputError(
-                f"node recorder: output '{output}': the file exists; give another name, or replace:=true"
+                f"node recorder: output '{there}': the {what} exists; give another name, or replace:=true"
             )
+
+    def _named(self, path: Path) -> Path:
+        """Name what a run is written to: a file, or a folder when files are split."""
+        return path.with_suffix("") if self._splitting and path.suffix == ".mcap" else path
 
     def _path_of(self, scene: str, number: int) -> Path:
         if self._values.output:
             path = Path(self._values.output).expanduser()
         else:
             path = Path(f"{scene}_{time.strftime('%Y%m%d_%H%M%S')}.mcap")
+        path = self._named(path)
         if number > 1 or not self._values.replace:
             path = free_name(path, number)
         self.get_logger().info(f"recording into {path}")
@@ -100,7 +161,8 @@ class RecorderNode(Node):
     def _record(self, entry: Topic) -> None:
         if entry.name not in self._names:
             self._names.add(entry.name)
-            self._intake.add(entry, self._handler(entry), complete=True)
+            guarded = self._guard.guarded(entry, self._handler(entry))
+            self._intake.add(entry, guarded, complete=True)
 
     def _handler(self, entry: Topic) -> Callable[[bytes], None]:
         def take(cdr: bytes) -> None:
@@ -116,10 +178,14 @@ class RecorderNode(Node):
         return take
 
     def _on_truth(self, cdr: bytes) -> None:
-        self._ended_at, self._monitor_done, self._watch.last = None, False, None
-        description = parsed_truth(decode_string(cdr)).get("description")
-        names = description.get("sensor_names", []) if isinstance(description, dict) else []
-        for name in names[1:]:
+        self._ended_at, self._monitor_done = None, False
+        current = self._recording.current
+        self._watch.begin_run("" if current is None else current.run_id)
+        run = None if current is None else current.description
+        if run is not None:
+            checker = self._guard.checker
+            checker.body_count, checker.roller_count = len(run.body_names), run.roller_count
+        for name in () if run is None else run.sensor_names[1:]:
             self._record(topic(f"vibration/{name}"))
 
     # --- state -------------------------------------------------------------------------------------
@@ -138,7 +204,11 @@ class RecorderNode(Node):
             self.get_logger().info("connected to every topic of the twin")
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._watch.ended:
+        if self._watch.mixed and not self.finished:
+            self.get_logger().error(self._watch.mixed)
+            self._end(self._watch.mixed)
+            self.exit_code, self.finished = EXIT_BAD_INPUT, True
+        elif self._last_word() is not None:
             self._end_when_complete()
         elif self._watch.vanished() and self._recording.current is not None:
             self._end("the twin has vanished without a last word")
@@ -154,30 +224,46 @@ class RecorderNode(Node):
             )
             self.exit_code, self.finished = EXIT_LOAD_LOST, True
 
+    def _last_word(self) -> Diagnostic | None:
+        """Find what the twin said when the present run was over; ``None`` before that."""
+        current, said = self._recording.current, self._watch.last
+        if current is None or said is None or not self._watch.ended:
+            return None
+        return said if said.value("run_id") in (None, "", current.run_id) else None
+
+    def _missing_messages(self) -> list[MissingMessages] | None:
+        """List what the twin has published and is not in the file; ``None`` when it has not said."""
+        current, said = self._recording.current, self._last_word()
+        published = published_counts(said, self.get_namespace()) if said is not None else {}
+        if current is None or not published:
+            return None
+        return missing_messages(published, current.counts)
+
     def _end_when_complete(self) -> None:
-        if self._recording.current is None:
-            return
         now = time.monotonic()
         self._ended_at = self._ended_at or now
-        wanted = int(self._watch.value("waveform_samples", 0))
-        complete = self._recording.current.loss.received.get("vibration", 0) >= wanted
-        waiting_for_tail = not complete and now - self._ended_at < TAIL_TIMEOUT_S
+        if self._waits_for_tail(now):
+            return
         monitored = self.count_publishers(topic("monitor/result").path(self.get_namespace())) > 0
-        waiting_for_monitor = (
-            monitored and not self._monitor_done and now - self._ended_at < MONITOR_TIMEOUT_S
-        )
-        if not (waiting_for_tail or waiting_for_monitor):
-            if not complete:
-                loss = self._recording.current.loss
-                missing = wanted - loss.received.get("vibration", 0)
-                self.get_logger().warning(
-                    f"{missing} of {wanted} vibration samples are not in the file, "
-                    f"{loss.missed_at_start} of them from before the recorder was there"
-                )
-            self._end(self._watch.end_sentence)
+        if monitored and not self._monitor_done and now - self._ended_at < MONITOR_TIMEOUT_S:
+            return
+        self._end(self._watch.end_sentence)
+
+    def _waits_for_tail(self, now: float) -> bool:
+        """Check whether missing messages may still come: as long as some do, and a while after."""
+        assert self._ended_at is not None
+        missing = self._missing_messages()
+        gone = self._watch.absent_for() > GONE_TIMEOUT_S
+        if missing is None:
+            return not gone and now - self._ended_at < COUNTS_TIMEOUT_S
+        lacking = sum(each.count for each in missing)
+        if lacking != self._lacking[0]:
+            self._lacking = (lacking, now)
+        return lacking > 0 and not gone and now - max(self._lacking[1], self._ended_at) < TAIL_TIMEOUT_S
 
     def _end(self, status: str) -> None:
         self._intake.sweep()
+        missing = self._missing_messages()
         self._report()
         current = self._recording.current
         lost = self._recording.lost_samples
@@ -185,8 +271,18 @@ class RecorderNode(Node):
         if current is not None:
             text = f"{current.path}: {current.message_count} messages, {lost} samples lost"
             self.get_logger().info(f"{text}. {status}" if status else text)
+            self._tell_missing(missing, current)
         if self._values.exit_when_done:
             self.finished = True
+
+    def _tell_missing(self, missing: list[MissingMessages] | None, current: RunFile) -> None:
+        if not missing and not current.loss.total:
+            return
+        self.exit_code = EXIT_INCOMPLETE
+        if missing:
+            begin = current.loss.missed_at_start
+            late = f"; {begin} vibration samples were before the recorder was there" if begin else ""
+            self.get_logger().error(f"{current.path}: {missing_sentence(missing)}{late}")
 
     def _report(self) -> None:
         self._reported_at = time.monotonic()
@@ -198,6 +294,8 @@ class RecorderNode(Node):
             level, sentence = WARN, f"{lost} samples have been lost on the way"
         elif current is not None and current.problem:
             level, sentence = WARN, current.problem
+        if self._guard.total:
+            level, sentence = WARN, f"{sentence}; {self._guard.sentence()}"
         values = [
             ("connected", "false" if missing else "true"),
             ("missing_topics", " ".join(missing)),
@@ -208,9 +306,14 @@ class RecorderNode(Node):
         ]
         if current is not None:
             values += [(f"lost: {name}", str(count)) for name, count in sorted(current.loss.lost.items())]
+        missing_counts = self._missing_messages()
+        if missing_counts is not None:
+            values.append(("missing_messages", str(sum(each.count for each in missing_counts))))
+            values += [(f"missing: {each.topic}", str(each.count)) for each in missing_counts]
+        values += self._guard.values()
         status = Diagnostic(diagnostic_name(self.get_namespace(), RECORDER), level, sentence, tuple(values))
         stamp = current.last_ns.get("load/consumed", 0) if current else 0
-        self._out.publish("/diagnostics", encode_diagnostics(stamp, FRAME, [status]))
+        self._out.publish("/diagnostics", encode_diagnostics(stamp, frame_of(self.get_namespace()), [status]))
 
     def close(self) -> bool:
         """Finish the file; there is no thread to end."""

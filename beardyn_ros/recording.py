@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from beardyn_core.errors import InputError
-from beardyn_core.record.clouds import CLOUD, cloud_to_arrays
+from beardyn_core.record.bag_scanning import INDEX
+from beardyn_core.record.bag_writing import BagWriter, Splitting
+from beardyn_core.record.cloud_layout import cloud_points
+from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import decode_string, header_stamp
 from beardyn_core.record.topics import STRING, Topic
 
+WHOLE = Splitting()
 MESSAGES_BEFORE_TRUTH = 20_000
 COUNTED_CLOUDS = ("force_waveform", "bodies", "load/blocks")
 STAMP_STEPS_NS = {"force": 2_500_000, "imu": 2_500_000, "shaft": 2_500_000, "joint_states": 5_000_000}
@@ -36,7 +40,7 @@ class LossWatch:
         """Note one message."""
         name = entry.name
         if entry.type == CLOUD and (name in COUNTED_CLOUDS or name.startswith("vibration")):
-            samples = cloud_to_arrays(cdr)["sample"]
+            samples = cloud_points(cdr)["sample"]
             if len(samples):
                 first, last = int(samples[0]), int(samples[-1])
                 if name == "vibration" and name not in self.received:
@@ -60,34 +64,51 @@ class LossWatch:
 
 
 class RunFile:
-    """One run in one MCAP file.
+    """One run in one MCAP file, or in a folder of several.
 
     Parameters
     ----------
     path : Path
+        Of the folder when files are split.
     namespace : str
     truth : str or None
         Content of the topic; ``None`` when none has come.
     replace : bool
         Whether an existing file is replaced.
+    splitting : Splitting
     """
 
-    def __init__(self, path: Path, namespace: str, truth: str | None, *, replace: bool = False) -> None:
+    def __init__(
+        self,
+        path: Path,
+        namespace: str,
+        truth: str | None,
+        *,
+        replace: bool = False,
+        splitting: Splitting = WHOLE,
+    ) -> None:
         self.path = path
         self.run_id = ""
         self.problem = ""
+        self.description: RunDescription | None = None
         self.loss = LossWatch()
         self.last_ns: dict[str, int] = {}
         self._simulated_ns = 0
-        self._writer = McapWriter(path, namespace, replace=replace)
+        self._writer: McapWriter | BagWriter
+        if splitting:
+            self._writer = BagWriter(path, namespace, splitting, replace=replace, background=True)
+        else:
+            self._writer = McapWriter(path, namespace, replace=replace, background=True)
         if truth is None:
             self.problem = "no truth has come: the file does not say which scene it holds"
             return
+        self.run_id = run_id_of(truth)
         try:
-            self.run_id = run_id_of(truth)
-            self._writer.describe(RunDescription.from_json(truth))
+            self.description = RunDescription.from_json(truth)
         except InputError as error:
             self.problem = str(error)
+        else:
+            self._writer.describe(self.description)
 
     def add(self, entry: Topic, cdr: bytes) -> None:
         """Append one message; live load stands at the last simulated time seen, its header as it came."""
@@ -116,6 +137,11 @@ class RunFile:
         """Messages written so far."""
         return self._writer.message_count
 
+    @property
+    def counts(self) -> Mapping[str, int]:
+        """Messages written so far by name in the topic table."""
+        return self._writer.counts
+
 
 class Recording:
     """Sorts messages into one file per run.
@@ -128,6 +154,7 @@ class Recording:
         Of the topics.
     replace : bool
         Whether existing files are replaced.
+    splitting : Splitting
 
     Notes
     -----
@@ -135,8 +162,16 @@ class Recording:
     until its stamps jump back, which is when its part of the new run begins.
     """
 
-    def __init__(self, path_of: Callable[[str, int], Path], namespace: str, *, replace: bool = False) -> None:
+    def __init__(
+        self,
+        path_of: Callable[[str, int], Path],
+        namespace: str,
+        *,
+        replace: bool = False,
+        splitting: Splitting = WHOLE,
+    ) -> None:
         self._path_of = path_of
+        self._splitting = splitting
         self._replace = replace
         self._namespace = namespace
         self._early: list[tuple[Topic, bytes]] = []
@@ -174,7 +209,7 @@ class Recording:
         if truth is not None:
             scene = str(parsed_truth(truth).get("scene", "run"))
         path = self._path_of(scene, len(self.paths) + 1)
-        self.current = RunFile(path, self._namespace, truth, replace=self._replace)
+        self.current = RunFile(path, self._namespace, truth, replace=self._replace, splitting=self._splitting)
         self.paths.append(path)
         early, self._early = self._early, []
         for entry, cdr in early:
@@ -186,7 +221,8 @@ class Recording:
             return self.current
         if entry.name in LIVE_LOAD:
             return self.current  # its clock may run on through a reset
-        if header_stamp(cdr) > self._old.last_ns.get(entry.name, -1):
+        last = self._old.last_ns.get(entry.name)
+        if last is not None and header_stamp(cdr) > last:
             return self._old
         self._switched.add(entry.name)
         return self.current
@@ -231,7 +267,12 @@ def free_name(path: Path, number: int) -> Path:
         Of the run, from 1.
     """
     named = path if number == 1 else path.with_name(f"{path.stem}_{number}{path.suffix}")
-    return free_name(path, number + 1) if named.is_file() else named
+    return free_name(path, number + 1) if named.is_file() or is_recorded(named) else named
+
+
+def is_recorded(folder: Path) -> bool:
+    """Tell whether a folder holds a recording in several files."""
+    return folder.is_dir() and ((folder / INDEX).exists() or any(folder.glob("*.mcap")))
 
 
 def run_id_of(truth: str) -> str:

@@ -18,7 +18,10 @@ RUNNING = "running"
 PAUSED = "paused"
 FINISHED = "finished"
 STOPPED = "stopped"
-END_STATES = (FINISHED, STOPPED)
+INTERRUPTED = "interrupted"
+END_STATES = (FINISHED, STOPPED, INTERRUPTED)
+
+SCENE_TIER = "scene"
 
 
 @dataclass(frozen=True)
@@ -36,13 +39,20 @@ class Rig:
     description: RunDescription
 
 
-def scene_rig(scene_name: str) -> Callable[[], Rig]:
-    """Make the builder of rigs for a scene by name or path; the scene is read and checked at once."""
+def scene_rig(scene_name: str, tier: str = SCENE_TIER) -> Callable[[], Rig]:
+    """Make the builder of rigs for a scene by name or path; the scene is read and checked at once.
+
+    Parameters
+    ----------
+    scene_name : str
+    tier : str
+        `SCENE_TIER` for the scene's own.
+    """
     from beardyn_core.choice import load_scene
     from beardyn_core.record.description import RunDescription
     from beardyn_core.twin import Twin
 
-    scene = load_scene(scene_name, outside_load=True)
+    scene = load_scene(scene_name, tier=None if tier == SCENE_TIER else tier, outside_load=True)
 
     def build() -> Rig:
         twin = Twin(scene)
@@ -69,6 +79,14 @@ class SessionOptions:
         Longest stretch of load that may wait, [ns].
     queue_bytes : int
         Most memory that it may take.
+    join : bool
+        Whether a stream of load may be joined after its sample 0.
+    live_bandwidth : float
+        Of the filter of live load, [Hz].
+    frame : str
+        Frame of every header.
+    instance : str
+        Marks this twin among others of the same name; run ids begin with it.
     """
 
     mode: str
@@ -77,6 +95,10 @@ class SessionOptions:
     max_age: float
     queue_ns: int
     queue_bytes: int
+    join: bool
+    live_bandwidth: float
+    frame: str
+    instance: str
 
 
 @dataclass(frozen=True)
@@ -86,15 +108,21 @@ class Outgoing:
     Parameters
     ----------
     messages : tuple of (topic, bytes)
+    trends : tuple of (offset, topic, bytes)
+        Single samples, with their time since the first of them, [s]: to be spread over the block.
     clock_ns : int or None
         Simulated time after it; ``None``: not part of the run.
     consumed_ns : int
         The same in the time of the load, whose first sample may stand anywhere.
+    ordered : bool
+        Whether the service `step` has ordered this block.
     """
 
     messages: tuple[tuple[str, bytes], ...]
+    trends: tuple[tuple[float, str, bytes], ...] = ()
     clock_ns: int | None = None
     consumed_ns: int = 0
+    ordered: bool = False
 
 
 @dataclass
@@ -111,6 +139,10 @@ class SessionReport:
         Since the start of the run; pauses are not counted.
     compute_s : float
         Time spent inside the twin.
+    busy_s : float
+        Time from load to a block that is handed over, waiting for the pace left out.
+    processor_s : float
+        Processor time of the whole process since the start of the run, all threads, [s].
     window_rtf : float
         Real-time factor of the last second or so.
     status : int
@@ -139,6 +171,8 @@ class SessionReport:
     wall_s: float = 0.0
     waited_for_load_s: float = 0.0
     compute_s: float = 0.0
+    busy_s: float = 0.0
+    processor_s: float = 0.0
     window_rtf: float = 0.0
     status: int = 0
     energy_residual: float = 0.0

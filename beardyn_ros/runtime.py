@@ -18,12 +18,14 @@ EXIT_DONE = 0
 EXIT_BAD_INPUT = 2
 EXIT_INVALID_MODEL = 3
 EXIT_LOAD_LOST = 4
+EXIT_INCOMPLETE = 5
 EXIT_CODES = {
     EXIT_DONE: "done, or stopped by SIGINT or SIGTERM",
     1: "demo only: a node has ended early or has fallen silent",
-    EXIT_BAD_INPUT: "bad input: an argument, a parameter, a scene or another file",
+    EXIT_BAD_INPUT: "bad input: an argument, a parameter, a scene or another file; two twins of one name",
     EXIT_INVALID_MODEL: "the model has left its validity, or the twin has failed",
     EXIT_LOAD_LOST: "the load never came, stopped coming or overflowed; load and recorder: there is no twin",
+    EXIT_INCOMPLETE: "recorder: messages that the twin has published are not in the file",
     130: "demo only: interrupted by Ctrl+C",
 }
 
@@ -68,6 +70,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
     previous = {number: signal.signal(number, _stopper(stop)) for number in (signal.SIGINT, signal.SIGTERM)}
     node: Any = None
     code = EXIT_DONE
+    problems: list[str] = []
     try:
         stray = stray_arguments(argv)
         if stray:
@@ -81,28 +84,57 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
             raise InputError(f"the ROS arguments cannot be read: {error}") from error
         node = make_node()
         executor = SingleThreadedExecutor()
-        executor.add_node(node)
+        for each in (node, *getattr(node, "members", ())):
+            executor.add_node(each)
         while not (stop.is_set() or node.finished):
             executor.spin_once(timeout_sec=SPIN_SLICE_S)
         code = EXIT_DONE if stop.is_set() and not node.finished else node.exit_code
     except InputError as error:
-        for sentence in error.problems:
-            print(f"beardyn: {sentence}", file=sys.stderr)
-        code = EXIT_BAD_INPUT
+        problems = error.problems
     finally:
         alive = False
         if node is not None:
-            alive = bool(node.close())
+            try:
+                alive = bool(node.close())
+            except InputError as error:  # such as a disk that refuses the rest, too
+                problems += [each for each in error.problems if each not in problems]
             node.destroy_node()
         rclpy.try_shutdown()
         for number, handler in previous.items():
             signal.signal(number, handler)
+    for sentence in problems:
+        print(f"beardyn: {sentence}", file=sys.stderr)
+        code = EXIT_BAD_INPUT
     if alive:
         # A thread is inside the compiler, which cannot be interrupted; nothing is left to save.
         sys.stdout.flush()
         sys.stderr.flush()
         os._exit(code)
     return code
+
+
+def wall_timer(node: Any, period: float, callback: Callable[[], None]) -> Any:
+    """Create a timer of the wall clock, which also ticks while simulated time stands still.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        With `use_sim_time` its own timers would wait for ``/clock``.
+    period : float
+        [s].
+    callback : callable
+    """
+    from rclpy.clock import Clock
+    from rclpy.clock_type import ClockType
+
+    return node.create_timer(period, callback, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
+def leave(code: int) -> None:
+    """End the process with a code; a signal that comes while the interpreter ends no longer changes it."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+    sys.exit(code)
 
 
 def stray_arguments(argv: Sequence[str]) -> list[str]:

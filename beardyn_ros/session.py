@@ -10,11 +10,9 @@ from __future__ import annotations
 import threading
 import time
 import traceback
-import uuid
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
@@ -28,6 +26,7 @@ from beardyn_ros.run_state import (
     EQUILIBRIUM,
     FINISHED,
     IDLE,
+    INTERRUPTED,
     PAUSED,
     READY,
     RUNNING,
@@ -40,6 +39,8 @@ from beardyn_ros.run_state import (
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL
 
 BLOCKS_WAITING_TO_BE_PUBLISHED = 32
+# one sample a message: spread over the block, while a waveform is one message a block
+TREND_TOPICS = ("force", "imu", "shaft", "joint_states")
 
 
 class TwinSession:
@@ -100,6 +101,11 @@ class TwinSession:
             self._steps = 0
             self._condition.notify_all()
 
+    @property
+    def paused(self) -> bool:
+        """Whether the run is told to hold."""
+        return self._paused
+
     def step(self) -> str | None:
         """Advance one block while paused; a sentence when that is not possible."""
         with self._condition:
@@ -128,6 +134,12 @@ class TwinSession:
         if self._thread.is_alive():
             self._thread.join(timeout)
         return self._thread.is_alive()
+
+    def interrupt(self, why: str) -> None:
+        """Say why a run was left; after `end`, when nothing else is said any more."""
+        if self._report.state not in END_STATES:
+            simulated = f"simulated t = {self._report.simulated_s:.3f} s"
+            self._set_state(INTERRUPTED, f"{why} at {simulated}")
 
     def collect(self) -> list[Outgoing]:
         """Collect everything that waits to be published, oldest first."""
@@ -194,9 +206,9 @@ class TwinSession:
 
     def _one_run(self, rig: Rig) -> None:
         twin, description = rig.twin, rig.description
-        self._encoder = BlockEncoder(description.roller_count, description.sensor_names)
+        self._encoder = BlockEncoder(description.roller_count, description.sensor_names, self.options.frame)
         self._wait(lambda: self._active)
-        run_id = f"{uuid.uuid4().hex[:8]}-{self._run_count}"
+        run_id = f"{self.options.instance}-{self._run_count}"
         self._run_count += 1
         with self._condition:
             self._report.run_id = run_id
@@ -207,16 +219,32 @@ class TwinSession:
         twin.start(first)
         self._set_state(RUNNING, "running")
         self.pacer.begin()
-        begin, waited = time.monotonic(), 0.0
+        begin, processor_begin, waited = time.monotonic(), time.process_time(), 0.0
         while True:
-            waited += self._hold()
+            held, ordered = self._hold()
+            waited += held
             starved = self.feed.cover(twin)
             waited += self.feed.slept_s
             if starved is None:
                 break
             self.pacer.shift(starved + self.feed.slept_s)
-            block = twin.advance()
-            self._deliver(twin, block, time.monotonic() - begin - waited, starved)
+            covered_at = time.monotonic()
+            outgoing, block = self._outgoing_of(twin.advance(), ordered)
+            ready_at = time.monotonic()
+            while (delay := self.pacer.delay(block.end_ns)) > 0.0:
+                self._wait(lambda: False, delay)
+            due_at = time.monotonic()
+            self.pacer.check_late(block.end_ns)
+            self._put(outgoing, block)
+            now = time.monotonic()
+            with self._condition:
+                report = self._report
+                report.simulated_s = (block.index + 1) * twin.block_ns * 1e-9
+                report.wall_s = now - begin - waited
+                report.waited_for_load_s += starved
+                report.processor_s = time.process_time() - processor_begin
+                report.busy_s += (ready_at - covered_at) + (now - due_at)
+                report.recent.append((now, report.simulated_s))
         sentence = "the load stream has ended, every block that it covers is published"
         if self.options.mode == "live":
             sentence = (
@@ -225,63 +253,55 @@ class TwinSession:
             )
         self._set_state(FINISHED, sentence)
 
-    def _deliver(self, twin: Any, block: Block, wall: float, starved: float) -> None:
-        messages = self._messages(block)
-        while (delay := self.pacer.delay(block.end_ns)) > 0.0:
-            self._wait(lambda: False, delay)
-        self.pacer.check_late(block.end_ns)
-        simulated = (block.index + 1) * twin.block_ns * 1e-9
-        with self._condition:
-            report = self._report
-            report.blocks += 1
-            report.simulated_s = simulated
-            report.wall_s = wall
-            report.waited_for_load_s += starved
-            report.compute_s += block.wall_s
-            report.status = block.status
-            report.waveform_samples += _waveform_samples(block)
-            if block.audit is not None:
-                report.energy_residual = block.audit.residual
-            report.recent.append((time.monotonic(), simulated))
-        self._put(Outgoing(messages, block.end_ns, block.end_ns + self.feed.begin_ns))
-
     def _hand_over_last_block(self, error: ValidityError) -> None:
         block = getattr(error, "block", None)
-        if block is None:
-            return
-        with self._condition:
-            self._report.status = block.status
-            self._report.blocks += 1
-            self._report.waveform_samples += _waveform_samples(block)
-        self._put(Outgoing(self._messages(block), block.end_ns, block.end_ns + self.feed.begin_ns))
+        if block is not None:
+            self._put(*self._outgoing_of(block))
 
-    def _messages(self, block: Block) -> tuple[tuple[str, bytes], ...]:
-        return tuple((name, cdr) for name, _, cdr in self._encoder.encode(block))
+    def _outgoing_of(self, block: Block, ordered: bool = False) -> tuple[Outgoing, Block]:
+        messages, trends = [], []
+        first_ns = int(block.trend_time_ns[0]) if len(block.trend_time_ns) else 0
+        for name, stamp_ns, cdr in self._encoder.encode(block):
+            if name in TREND_TOPICS:
+                trends.append(((stamp_ns - first_ns) * 1e-9, name, cdr))
+            else:
+                messages.append((name, cdr))
+        trends.sort(key=lambda trend: trend[0])
+        consumed_ns = block.end_ns + self.feed.begin_ns
+        return Outgoing(tuple(messages), tuple(trends), block.end_ns, consumed_ns, ordered), block
 
-    def _hold(self) -> float:
-        """Wait while paused or inactive; seconds held."""
+    def _hold(self) -> tuple[float, bool]:
+        """Wait while paused or inactive; seconds held, and whether the next block is ordered by a step."""
         with self._condition:
             if self._steps and self._active:
                 self._steps -= 1
-                return 0.0
+                return 0.0, True
             if self._active and not self._paused:
-                return 0.0
+                return 0.0, False
         begin = time.monotonic()
         self._set_state(PAUSED, "paused: the service step advances one block, pause with false goes on")
         self._wait(lambda: self._active and (not self._paused or self._steps > 0))
         with self._condition:
-            if self._steps:
-                self._steps -= 1
+            ordered = self._steps > 0
+            self._steps -= ordered
         held = time.monotonic() - begin
         self.pacer.shift(held)
         if not self._paused:
             self._set_state(RUNNING, "running")
-        return held
+        return held, ordered
 
-    def _put(self, outgoing: Outgoing) -> None:
+    def _put(self, outgoing: Outgoing, block: Block | None = None) -> None:
+        """Hand over what is to be published, and count the block that it comes from."""
         self._wait(lambda: len(self._outgoing) < BLOCKS_WAITING_TO_BE_PUBLISHED)
         with self._condition:
             self._outgoing.append(outgoing)
+            if block is not None:
+                self._report.blocks += 1
+                self._report.status = block.status
+                self._report.compute_s += block.wall_s
+                self._report.waveform_samples += _waveform_samples(block)
+                if block.audit is not None:
+                    self._report.energy_residual = block.audit.residual
         self._wake()
 
     def _set_state(self, state: str, sentence: str) -> None:

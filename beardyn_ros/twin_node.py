@@ -1,6 +1,6 @@
 """The lifecycle node of the twin.
 
-Parameters: `PARAMETERS`. Services: ``~/../pause`` (SetBool), ``step`` and ``reset`` (Trigger), all in
+Parameters: `twin_parameters`. Services: ``~/../pause`` (SetBool), ``step`` and ``reset`` (Trigger), all in
 the node's namespace. Exit codes: `beardyn_ros.runtime.EXIT_CODES`.
 """
 
@@ -10,37 +10,47 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from std_srvs.srv import SetBool, Trigger
 
 from beardyn_core.errors import InputError
-from beardyn_core.record.load_stream import decode_load
-from beardyn_core.record.messages import (
-    decode,
-    decode_string,
-    encode_clock,
-    encode_diagnostics,
-    encode_time,
-    header_stamp,
+from beardyn_core.record.messages import encode_clock, encode_diagnostics, encode_time
+from beardyn_core.record.topics import topic
+from beardyn_ros.answers import StepService
+from beardyn_ros.description_publisher import DescriptionPublisher
+from beardyn_ros.diagnostics import (
+    LAG,
+    TWIN,
+    NodeStanding,
+    diagnostic_name,
+    lag_diagnostic,
+    needs_attention,
+    twin_diagnostic,
 )
-from beardyn_core.record.topics import FRAME, TWIST, WRENCH, topic
-from beardyn_ros.diagnostics import diagnostic_name, needs_attention, twin_diagnostic
-from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.run_state import END_STATES, FINISHED, Outgoing, Rig, SessionOptions, scene_rig
-from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node
-from beardyn_ros.scenario import says_paused
+from beardyn_ros.frames import frame_of
+from beardyn_ros.identity import Namesakes
+from beardyn_ros.load_intake import LoadIntake
+from beardyn_ros.parameters import ParameterValues
+from beardyn_ros.run_state import END_STATES, FINISHED, PAUSED, Outgoing, Rig, SessionOptions, scene_rig
+from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
 from beardyn_ros.session import TwinSession
+from beardyn_ros.simulation_services import SimulationServices, interfaces
+from beardyn_ros.spreading import Spreader
+from beardyn_ros.twin_parameters import PARAMETERS
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
-RigLoader = Callable[[str], Callable[[], Rig]]
+RigLoader = Callable[[str, str], Callable[[], Rig]]
 
 REPORT_PERIOD_S = 0.2
 LAST_WORDS_TIMEOUT_S = 2.0
 THREAD_END_TIMEOUT_S = 2.0
 SLOW_READER_TIMEOUT_S = 1.0
 READERS_IGNORED_S = 5.0
+SETTLED_AFTER_S = 1.0  # before a run begins: a twin of the same name would have spoken by then
+NAMESAKE_TIMEOUT_S = 1.5  # the same when the graph knows another publisher, which may have died
+TRENDS_TIMEOUT_S = 0.1
 BLOCKS_BEFORE_CONFIRMATION = 10  # of more than 100 that the shallowest history holds
+UNCOUNTED_TOPICS = ("load/consumed", "/diagnostics")  # they go on when the run is over
 SIGNAL_TOPICS = (
     "force",
     "force_waveform",
@@ -52,61 +62,6 @@ SIGNAL_TOPICS = (
     "contacts",
 )
 
-PARAMETERS = (
-    NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
-    NodeParameter(
-        "mode",
-        "lockstep",
-        "lockstep waits for load/blocks; live holds the last load/wrench and load/shaft, whose stamps may "
-        "be of any one clock as long as they increase",
-        choices=("lockstep", "live"),
-    ),
-    NodeParameter(
-        "speed_factor",
-        0.0,
-        "simulated seconds per wall second, 1 is real time, 0 is as fast as it goes (in live mode: 1); "
-        "in lockstep the results do not depend on it",
-        minimum=0.0,
-        maximum=1000.0,
-        live=True,
-    ),
-    NodeParameter("autostart", True, "configure and activate at once, without a lifecycle manager"),
-    NodeParameter(
-        "exit_when_done", True, "end the process when the load stream has ended or the run has stopped"
-    ),
-    NodeParameter(
-        "start_timeout", 120.0, "longest wait for the first load, 0 for ever", "s", minimum=0.0, maximum=1e6
-    ),
-    NodeParameter(
-        "load_timeout",
-        10.0,
-        "longest wait for load that stopped coming in lockstep, 0 for ever",
-        "s",
-        minimum=0.0,
-        maximum=1e6,
-    ),
-    NodeParameter(
-        "max_age", 0.5, "oldest load that the live mode may hold", "s", minimum=0.02, maximum=3600.0
-    ),
-    NodeParameter(
-        "load_queue",
-        120.0,
-        "load that may wait; more is an error that ends the run",
-        "s",
-        minimum=0.1,
-        maximum=3600.0,
-    ),
-    NodeParameter(
-        "load_queue_size",
-        256.0,
-        "memory that waiting load may take, 88 bytes a sample",
-        "MB",
-        minimum=0.1,
-        maximum=16_384.0,
-    ),
-    NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
-)
-
 
 class TwinNode(LifecycleNode):
     """Publishes what a `TwinSession` simulates.
@@ -114,7 +69,7 @@ class TwinNode(LifecycleNode):
     Parameters
     ----------
     load_rig : callable or None
-        Gives, for the parameter ``scene``, a builder of rigs; ``None``: scenes of the config room.
+        Gives, for ``scene`` and ``tier``, a builder of rigs; ``None``: scenes of the config room.
     """
 
     def __init__(self, load_rig: RigLoader | None = None) -> None:
@@ -123,8 +78,13 @@ class TwinNode(LifecycleNode):
         self.exit_code = 0
         self._load_rig = load_rig or scene_rig
         self._values = ParameterValues(self, PARAMETERS)
+        self._frame = frame_of(self.get_namespace(), self._values.frame_id)
+        self._description = DescriptionPublisher(self, self._frame, self._values)
+        self._name = diagnostic_name(self.get_namespace(), TWIN)
+        self._namesakes = Namesakes(self._name)
+        self._born = time.monotonic()
+        self._settled = self._wanted_active = self._over = False
         self._session: TwinSession | None = None
-        self._load_paused = False
         self._consumed_ns: int | None = None
         self._clock_ns = 0
         self._announced = ""
@@ -133,15 +93,21 @@ class TwinNode(LifecycleNode):
         self._out = TopicPublishers(self, "truth", *SIGNAL_TOPICS, "load/consumed", "/diagnostics")
         if self._values.publish_clock:
             self._out.publisher("/clock")
-        self._intake = RawIntake(self)
+        self._trends = Spreader(self._out.publish)
+        self._load = LoadIntake(self, self._frame)
+        self._namesake_intake = RawIntake(self)
+        self._namesake_intake.add(topic("/diagnostics"), self._namesakes.hear, keep_all=False)
         self._guard = self.create_guard_condition(self._publish_waiting)
-        self.create_timer(REPORT_PERIOD_S, self._report)
+        wall_timer(self, REPORT_PERIOD_S, self._on_timer)
         self.create_service(SetBool, "pause", self._on_pause)
-        self.create_service(Trigger, "step", self._on_step)
+        self._steps = StepService(self, "step", self._order_step, "one block of 20 ms is published")
         self.create_service(Trigger, "reset", self._on_reset)
+        self._simulation = SimulationServices(
+            self, lambda: self._session, self._reset, self._quit, interfaces()
+        )
         self.add_post_set_parameters_callback(self._on_parameters)
         if self._values.autostart:
-            self._autostart = self.create_timer(0.0, self._start_up)
+            self._autostart = wall_timer(self, 0.0, self._start_up)
 
     # --- lifecycle ---------------------------------------------------------------------------------
 
@@ -154,7 +120,7 @@ class TwinNode(LifecycleNode):
         """Read the scene and start compiling it in the background."""
         values = self._values
         try:
-            make_rig = self._load_rig(values.scene)
+            make_rig = self._load_rig(values.scene, values.tier)
         except InputError as error:
             for sentence in error.problems:
                 self.get_logger().error(sentence)
@@ -168,95 +134,80 @@ class TwinNode(LifecycleNode):
             max_age=values.max_age,
             queue_ns=round(values.load_queue * 1e9),
             queue_bytes=round(values.load_queue_size * 1e6),
+            join=values.join,
+            live_bandwidth=values.live_bandwidth,
+            frame=self._frame,
+            instance=self._namesakes.instance,
         )
         self._session = TwinSession(make_rig, options, self._speed_factor, self._guard.trigger)
-        if not self._intake.publisher_counts():
-            self._intake.add(topic("load/blocks"), self._on_load)
-            self._intake.add(topic("load/truth"), self._on_load_truth)
-            if values.mode == "live":
-                self._intake.add(topic("load/wrench"), self._on_wrench)
-                self._intake.add(topic("load/shaft"), self._on_shaft)
-        self._session.feed.pause(self._load_paused)
+        self._load.serve(self._session.feed, live=values.mode == "live")
         self._session.compile()
         return super().on_configure(state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Run, as soon as the scene is compiled and load is there."""
-        assert self._session is not None
-        self._session.activate(True)
+        self._wanted_active = True
+        self._settle()
         return super().on_activate(state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Hold before the next block."""
         assert self._session is not None
+        self._wanted_active = False
         self._session.activate(False)
         return super().on_deactivate(state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Forget the twin; a new configure reads the scene again."""
-        self._end_session()
+        self._end_session("the twin was cleaned up by its lifecycle")
         return super().on_cleanup(state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """End the process."""
-        self._end_session()
+        self._end_session("the twin was shut down by its lifecycle")
         self.finished = True
         return super().on_shutdown(state)
 
     def close(self) -> bool:
         """Publish the last state and end the thread; whether the thread is still alive."""
-        if self._session is None:
+        alive = self._end_session("the twin was told to stop (SIGINT or SIGTERM)")
+        self._trends.end()
+        return alive
+
+    def _end_session(self, why: str) -> bool:
+        """End the run with a last word, unless it has had one; whether its thread is still alive."""
+        session = self._session
+        if session is None:
             return False
+        self._steps.fail(why)
+        alive = session.end(THREAD_END_TIMEOUT_S)
         if not self.finished:
-            self._publish_waiting()
+            for outgoing in session.collect():
+                self._publish(outgoing)
+            session.interrupt(why)
+            self._trends.drain(TRENDS_TIMEOUT_S)
+            self._over = True
             self._report()
             self._flush()
-        return self._end_session()
+        self._load.serve(None)
+        self._session, self._consumed_ns = None, None
+        self._simulation.look()
+        return alive
 
-    def _end_session(self) -> bool:
-        session, self._session = self._session, None
-        self._consumed_ns = None
-        return session.end(THREAD_END_TIMEOUT_S) if session is not None else False
-
-    # --- load --------------------------------------------------------------------------------------
-
-    def _on_load(self, cdr: bytes) -> None:
-        if self._session is None:
-            return
-        try:
-            load, samples = decode_load(cdr)
-        except Exception as error:  # a foreign message may break the decoder in any way
-            refusal: str | None = self._session.feed.gate.refuse(
-                "wrong fields",
-                "it is not a block of load samples with the fields sample, t, fx..mz, shaft_speed "
-                f"({error!r})",
+    def _settle(self) -> None:
+        """Let a run begin as soon as no other twin of this name is to be expected."""
+        if self._namesakes.older and not self.finished:
+            self.get_logger().error(
+                f"there is a twin {self._name} already: two of them would feed on one load and publish on "
+                "the same topics; give this one a namespace of its own (-r __ns:=/left)"
             )
-        else:
-            refusal = self._session.feed.gate.offer(load, samples)
-        self._report_refusal(refusal)
-
-    def _on_load_truth(self, cdr: bytes) -> None:
-        self._load_paused = says_paused(decode_string(cdr))
-        if self._session is not None:
-            self._session.feed.pause(self._load_paused)
-
-    def _on_wrench(self, cdr: bytes) -> None:
-        if self._session is None:
-            return
-        content = decode(WRENCH, cdr).wrench
-        force, torque = content.force, content.torque
-        wrench = np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
-        self._report_refusal(self._session.feed.live.offer_wrench(wrench, header_stamp(cdr)))
-
-    def _on_shaft(self, cdr: bytes) -> None:
-        if self._session is None:
-            return
-        speed = float(decode(TWIST, cdr).twist.angular.y)
-        self._report_refusal(self._session.feed.live.offer_speed(speed, header_stamp(cdr)))
-
-    def _report_refusal(self, sentence: str | None) -> None:
-        if sentence is not None:
-            self.get_logger().warning(sentence, throttle_duration_sec=1.0)
+            self.exit_code, self.finished = EXIT_BAD_INPUT, True
+        if not self._settled:
+            others = self.count_publishers(self.resolve_topic_name("truth")) > 1
+            wait = NAMESAKE_TIMEOUT_S if others else SETTLED_AFTER_S
+            self._settled = time.monotonic() - self._born > wait
+        if self._settled and self._wanted_active and self._session is not None and not self.finished:
+            self._session.activate(True)
 
     # --- services ----------------------------------------------------------------------------------
 
@@ -265,24 +216,31 @@ class TwinNode(LifecycleNode):
             response.success, response.message = False, "the twin is not configured"
         else:
             self._session.pause(request.data)
+            self._steps.fail("the twin was paused anew" if request.data else "the twin runs on")
             response.success, response.message = True, "paused" if request.data else "running on"
         return response
 
-    def _on_step(self, _request: Any, response: Any) -> Any:
-        return self._answer(response, "step", "one block of 20 ms ordered")
+    def _order_step(self) -> str:
+        return "the twin is not configured" if self._session is None else self._session.step() or ""
 
     def _on_reset(self, _request: Any, response: Any) -> Any:
-        response = self._answer(response, "reset", "the scene starts again at t = 0 with a new recording")
-        if response.success:
-            self._consumed_ns, self._clock_ns = None, 0
-        return response
-
-    def _answer(self, response: Any, order: str, done: str) -> Any:
-        problem = "the twin is not configured"
-        if self._session is not None:
-            problem = getattr(self._session, order)() or ""
+        problem = self._reset()
+        done = "the scene starts again at t = 0 with a new recording"
         response.success, response.message = not problem, problem or done
         return response
+
+    def _reset(self) -> str:
+        """Start the scene again; a sentence when that is not possible."""
+        problem = "the twin is not configured" if self._session is None else self._session.reset() or ""
+        if not problem:
+            self._consumed_ns, self._clock_ns = None, 0
+            self._steps.fail("the run was left by a reset")
+        return problem
+
+    def _quit(self) -> None:
+        """End the process as SIGINT does."""
+        self._end_session("the twin was told to quit")
+        self.finished = True
 
     @property
     def _speed_factor(self) -> float:
@@ -312,24 +270,36 @@ class TwinNode(LifecycleNode):
         if sentence != self._announced:
             self._announced = sentence
             self._report()
+        self._simulation.look()
         if report.state in END_STATES and not self.finished:
             self._finish(report.state)
 
     def _publish(self, outgoing: Outgoing) -> None:
+        if outgoing.clock_ns is None:  # the truth of a new run
+            self._trends.flush()
+            self._out.sent.clear()
+            self._over = False
         for name, cdr in outgoing.messages:
             self._out.publish(name, cdr)
+        trends = ((name, cdr) for _, name, cdr in outgoing.trends)
+        self._description.follow((*outgoing.messages, *trends))
         if outgoing.clock_ns is None:
             return
+        self._trends.spread(outgoing.trends, self._speed_factor)
         self._clock_ns, self._consumed_ns = outgoing.clock_ns, outgoing.consumed_ns
         if self._values.publish_clock:
             self._out.publish("/clock", encode_clock(outgoing.clock_ns))
         self._out.publish("load/consumed", encode_time(outgoing.consumed_ns))
+        if outgoing.ordered:
+            self._trends.drain(TRENDS_TIMEOUT_S)
+            self._steps.complete()
         self._blocks_unconfirmed += 1
-        if self._blocks_unconfirmed >= BLOCKS_BEFORE_CONFIRMATION and self._speed_factor == 0.0:
+        tied_to_a_clock = 0.0 < self._speed_factor <= 1.0
+        if self._blocks_unconfirmed >= BLOCKS_BEFORE_CONFIRMATION and not tied_to_a_clock:
             self._wait_for_readers()
 
     def _wait_for_readers(self) -> None:
-        """Wait for the readers when there is no pace: what a reliable reader wants is not overwritten.
+        """Wait for the readers in a run without pace or faster than real time: nothing is overwritten.
 
         A reader that has died must not hold the twin, so its silence is believed for a while.
         """
@@ -341,34 +311,65 @@ class TwinNode(LifecycleNode):
                 self._readers_ignored_until = time.monotonic() + READERS_IGNORED_S
                 return
 
+    def _on_timer(self) -> None:
+        self._settle()
+        self._report()
+        if self._session is None:
+            return
+        report = self._session.report()
+        stands = report.state == PAUSED or self._over
+        if stands and report.blocks and self._values.publish_clock:
+            self._out.publish("/clock", encode_clock(self._clock_ns))
+        if report.state in END_STATES:
+            self._steps.fail(f"the run is {report.state}: {report.sentence}")
+        self._steps.fail_late("the block is not done yet: it waits for load that covers it")
+
     def _report(self) -> None:
         if self._consumed_ns is not None:
             self._out.publish("load/consumed", encode_time(self._consumed_ns))
         if self._session is None:
             return
-        senders = self._intake.publisher_counts()
-        known = senders.pop(self.resolve_topic_name("load/truth"), 0)
-        if self._load_paused and not known:
-            # whoever was paused knowingly is gone: from here on silence is a loss again
-            self._load_paused = False
-            self._session.feed.pause(False)
-        status = twin_diagnostic(
-            diagnostic_name(self.get_namespace(), "twin"),
-            self._session.report(),
-            self._session.feed.refusals.report(),
-            self._out.lost_messages,
-            self._values.mode,
-            self._speed_factor,
-            sum(senders.values()),
+        report = self._session.report()
+        if report.state in END_STATES and not self._over:
+            return  # the last word comes when everything else is out: it counts the messages
+        standing = NodeStanding(
+            instance=self._namesakes.instance,
+            since_ns=self._namesakes.since_ns,
+            mode=self._values.mode,
+            speed_factor=self._speed_factor,
+            load_publishers=self._load.count_senders(),
+            sent={name: self._out.sent[name] for name in self._out.names if name not in UNCOUNTED_TOPICS},
+            lost_messages=self._out.lost_messages,
+            warnings=self._warnings(),
         )
-        self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, FRAME, [status]))
+        refused = self._session.feed.refusals.report()
+        lag_name = diagnostic_name(self.get_namespace(), LAG)
+        statuses = [
+            twin_diagnostic(self._name, report, refused, standing),
+            lag_diagnostic(lag_name, report, self._speed_factor),
+        ]
+        hardware = frame_of(self.get_namespace())
+        self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, hardware, statuses))
+
+    def _warnings(self) -> tuple[str, ...]:
+        """Describe what is wrong with the graph or the middleware at present."""
+        found = []
+        if self._namesakes.younger:
+            found.append(f"another twin speaks as {self._name}: it needs a namespace of its own")
+        if self._values.publish_clock and self.count_publishers("/clock") > 1:
+            found.append("somebody else publishes /clock too: only one twin may (parameter publish_clock)")
+        if self._out.lost_recently:
+            found.append(f"{self._out.lost_messages} message(s) could not be published")
+        return tuple(found)
 
     def _finish(self, state: str) -> None:
         """Finish the run: publish everything, then the last report, then rest or end."""
         assert self._session is not None
         for outgoing in self._session.collect():
             self._publish(outgoing)
+        self._trends.drain(TRENDS_TIMEOUT_S)
         self._flush()
+        self._over = True
         self._report()
         self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)
         if self._values.exit_when_done:

@@ -7,33 +7,67 @@ from collections.abc import Callable
 from typing import Any
 
 from beardyn_core.record.messages import Diagnostic
-from beardyn_ros.diagnostics import TWIN, is_from
+from beardyn_ros.identity import run_instance
 from beardyn_ros.run_state import END_STATES, FINISHED
 
 VANISHED_AFTER_S = 3.0
 
 
 class TwinWatch:
-    """Follows the twin's diagnostics and the presence of its publishers.
+    """Follows the diagnostics of one twin and the presence of its publishers.
 
     Parameters
     ----------
+    name : str
+        Full name of the twin's status, as `diagnostics.diagnostic_name` makes it: ``axlebox/twin``.
     publisher_count : callable
         How many publishers one of the twin's topics has.
     """
 
-    def __init__(self, publisher_count: Callable[[], int]) -> None:
+    def __init__(self, name: str, publisher_count: Callable[[], int]) -> None:
+        self._name = name
         self._publisher_count = publisher_count
+        self._run_id = ""
+        self._told = False
+        self._instance = ""
+        self._former: set[str] = set()
         self._seen = False
         self._missing_since: float | None = None
         self._absent_since = time.monotonic()
         self.last: Diagnostic | None = None
+        self.mixed = ""
+
+    def begin_run(self, run_id: str) -> None:
+        """Follow the run that a ``truth`` has told; what was said about an earlier one is forgotten."""
+        self._note_instance(run_id)
+        if self.last is not None and self.last.value("run_id") != run_id:
+            self.last = None
+        self._run_id, self._told = run_id, bool(run_id)
 
     def take_statuses(self, statuses: tuple[Diagnostic, ...]) -> None:
-        """Take the statuses of one diagnostics message."""
+        """Take the statuses of one diagnostics message; those of other twins and other runs are left."""
         for status in statuses:
-            if is_from(status, TWIN):
+            if status.name != self._name:
+                continue
+            run_id = status.value("run_id") or ""
+            self._note_instance(run_id)
+            if not self._told and run_id:
+                self._run_id = run_id
+            if run_id == self._run_id:
                 self.last = status
+
+    def _note_instance(self, run_id: str) -> None:
+        """Notice when two twins under this name take turns: their messages cannot be told apart."""
+        instance = run_instance(run_id)
+        if not instance or instance == self._instance:
+            return
+        if instance in self._former:
+            self.mixed = (
+                f"two twins speak as {self._name} at once, their messages cannot be told apart: give each a "
+                "namespace of its own (-r __ns:=/left)"
+            )
+        self._former.add(self._instance)
+        self._instance = instance
 
     def value(self, key: str, default: Any = None) -> Any:
         """Look up a value of the twin's last status."""

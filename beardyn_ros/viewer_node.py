@@ -10,17 +10,21 @@ from rclpy.node import Node
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.messages import decode_diagnostics, decode_string
+from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
 from beardyn_core.record.rerun_live import LiveView
 from beardyn_core.record.rerun_view import live_stream
 from beardyn_core.record.topics import topic, vibration_topic
 from beardyn_core.record.viewer import has_display
+from beardyn_ros.diagnostics import OK, TWIN, WARN, diagnostic_name
+from beardyn_ros.frames import frame_of
+from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.runtime import run_node
+from beardyn_ros.runtime import run_node, wall_timer
 from beardyn_ros.twin_watch import TwinWatch
-from beardyn_ros.wire import RawIntake
+from beardyn_ros.wire import RawIntake, TopicPublishers
 
 TICK_S = 0.1
+REPORT_PERIOD_S = 0.5
 DRAWN = (
     "truth",
     "force",
@@ -61,32 +65,45 @@ class ViewerNode(Node):
             live_stream(self._values.target, Path(self._values.output).expanduser(), self._values.port)
         )
         self._view = LiveView(stream.stream)
-        self._intake = RawIntake(self)
+        self._out = TopicPublishers(self, "/diagnostics")
+        self._intake = RawIntake(self, polled=True)
+        self._guard = MessageGuard(self)
         for name in DRAWN:
-            self._intake.add(topic(name), self._drawer(name))
+            self._draw(name)
         self._further: set[str] = set()
-        self._intake.add(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
-        self._watch = TwinWatch(lambda: self.count_publishers(topic("truth").path(self.get_namespace())))
-        self.create_timer(TICK_S, self._tick)
+        diagnostics = topic("/diagnostics")
+        self._intake.add(diagnostics, self._guard.guarded(diagnostics, self._on_diagnostics), keep_all=False)
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+        )
+        wall_timer(self, TICK_S, self._tick)
+        wall_timer(self, REPORT_PERIOD_S, self._report)
         self.get_logger().info(f"drawing into {stream.where}")
+
+    def _draw(self, name: str) -> None:
+        entry = topic(name)
+        self._intake.add(entry, self._guard.guarded(entry, self._drawer(name)))
 
     def _drawer(self, name: str) -> Callable[[bytes], None]:
         def draw(cdr: bytes) -> None:
             try:
                 self._view.feed(name, cdr)
                 if name == "truth":
-                    self._draw_further_sensors(RunDescription.from_json(decode_string(cdr)))
+                    self._know(RunDescription.from_json(decode_string(cdr)))
             except InputError as error:
                 self.get_logger().error(str(error), throttle_duration_sec=5.0)
 
         return draw
 
-    def _draw_further_sensors(self, run: RunDescription) -> None:
+    def _know(self, run: RunDescription) -> None:
+        checker = self._guard.checker
+        checker.body_count, checker.roller_count = len(run.body_names), run.roller_count
         for number in range(1, len(run.sensor_names)):
             name = vibration_topic(number, run.sensor_names)
             if name not in self._further:
                 self._further.add(name)
-                self._intake.add(topic(name), self._drawer(name))
+                self._draw(name)
 
     def _on_diagnostics(self, cdr: bytes) -> None:
         self._watch.take_statuses(decode_diagnostics(cdr)[1])
@@ -96,6 +113,15 @@ class ViewerNode(Node):
         self._view.flush()
         if self._watch.ended or self._watch.vanished():
             self.finished = bool(self._values.exit_when_done)
+
+    def _report(self) -> None:
+        status = Diagnostic(
+            diagnostic_name(self.get_namespace(), "viewer"),
+            WARN if self._guard.total else OK,
+            self._guard.sentence() or "drawing",
+            self._guard.values(),
+        )
+        self._out.publish("/diagnostics", encode_diagnostics(0, frame_of(self.get_namespace()), [status]))
 
     def close(self) -> bool:
         """Draw the rest and close the stream; there is no thread to end."""

@@ -8,16 +8,19 @@ sisters, in one sweep.
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from typing import Any
 
+from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
+from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.topics import Topic, topic
 
 # Our publishers keep more than the table promises: a reader that gets no processor for a second or two
@@ -26,7 +29,8 @@ HISTORY_FACTOR = 20
 PUBLISH_TRIES = 20
 PUBLISH_RETRY_S = 0.005
 DEEPEST_HISTORY = 4000
-LONGEST_SWEEP = 5000
+RECENT_S = 5.0
+LONGEST_SWEEP = 1000  # of one topic, then it is the turn of the next
 
 
 @cache
@@ -53,10 +57,16 @@ def quality_of_service(
         only its latest message matters on (`truth`) keeps its depth.
     """
     reliable = complete or offered or entry.reliability == "reliable"
-    deep = offered and entry.durability == "volatile" and entry.depth > 0
+    depth = entry.depth or DEEPEST_HISTORY
+    if offered and entry.durability == "volatile" and entry.depth > 0:
+        # what is small and frequent is kept for as long as the blocks: ten seconds and more
+        depth = entry.depth * HISTORY_FACTOR if entry.type == CLOUD else DEEPEST_HISTORY
     return QoSProfile(
-        depth=(entry.depth or DEEPEST_HISTORY) * (HISTORY_FACTOR if deep else 1),
-        history=HistoryPolicy.KEEP_ALL if keep_all or entry.depth == 0 else HistoryPolicy.KEEP_LAST,
+        depth=depth,
+        # a publisher that kept all would wait for a reader that hangs, and with it everybody else
+        history=HistoryPolicy.KEEP_ALL
+        if keep_all or (entry.depth == 0 and not offered)
+        else HistoryPolicy.KEEP_LAST,
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL
         if entry.durability == "transient_local"
@@ -77,7 +87,9 @@ class TopicPublishers:
     def __init__(self, node: Any, *names: str) -> None:
         self._node = node
         self._publishers: dict[str, Any] = {}
+        self.sent: Counter[str] = Counter()
         self.lost_messages = 0
+        self._lost_at = -RECENT_S
         for name in names:
             self.publisher(name)
 
@@ -96,12 +108,19 @@ class TopicPublishers:
         for attempt in range(PUBLISH_TRIES):
             try:
                 publisher.publish(cdr)
+                self.sent[name] += 1
                 return True
             except rclpy_implementation.RCLError:  # "cannot publish data": full
                 if attempt + 1 < PUBLISH_TRIES:
                     time.sleep(PUBLISH_RETRY_S)
         self.lost_messages += 1
+        self._lost_at = time.monotonic()
         return False
+
+    @property
+    def lost_recently(self) -> bool:
+        """Whether a message was given up within the last seconds."""
+        return time.monotonic() - self._lost_at < RECENT_S
 
     def wait_until_received(self, name: str, timeout: float) -> bool:
         """Wait until every reliable reader has acknowledged a topic, for at most `timeout` seconds."""
@@ -116,16 +135,35 @@ class TopicPublishers:
         return tuple(self._publishers)
 
 
+class _PolledGroup(CallbackGroup):
+    """Keeps its subscriptions out of what the executor waits for."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Never."""
+        return False
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Never begin."""
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Do nothing: nothing has begun."""
+
+
 class RawIntake:
     """Subscriptions that hand over CDR bytes, all queues emptied in one sweep.
 
     Parameters
     ----------
     node : rclpy.node.Node
+    polled : bool
+        Messages do not wake the executor, which costs more than taking them: a timer of the node calls
+        `sweep`.
     """
 
-    def __init__(self, node: Any) -> None:
+    def __init__(self, node: Any, *, polled: bool = False) -> None:
         self._node = node
+        self._group = _PolledGroup() if polled else None
         self._subscriptions: list[tuple[Any, Any, Callable[[bytes], None]]] = []
 
     def add(
@@ -143,15 +181,21 @@ class RawIntake:
             self.sweep()
 
         subscription = self._node.create_subscription(
-            kind, entry.name, on_message, quality_of_service(entry, keep_all, complete), raw=True
+            kind,
+            entry.name,
+            on_message,
+            quality_of_service(entry, keep_all, complete),
+            callback_group=self._group,
+            raw=True,
         )
         self._subscriptions.append((subscription, kind, handler))
 
     def sweep(self) -> int:
         """Take everything that has arrived; how many messages that were."""
-        count = 0
+        total = 0
         for subscription, kind, handler in self._subscriptions:
             handle = subscription.handle
+            count = 0
             try:
                 with handle:
                     while count < LONGEST_SWEEP and (taken := handle.take_message(kind, True)) is not None:
@@ -159,7 +203,9 @@ class RawIntake:
                         count += 1
             except InvalidHandle:
                 continue
-        return count
+            finally:
+                total += count
+        return total
 
     def publisher_counts(self) -> dict[str, int]:
         """Count the publishers that each subscription is connected to, by absolute topic name."""

@@ -13,7 +13,7 @@ from beardyn_ros.__main__ import PROGRAMS
 from beardyn_ros.runtime import EXIT_CODES
 
 PAGE = Path(__file__).with_name("nodes.md")
-NODES = ("twin", "load", "recorder", "monitor", "viewer")
+NODES = ("twin", "load", "recorder", "monitor", "viewer", "car_load", "car_recorder")
 
 HEAD = """# Nodes
 
@@ -21,14 +21,70 @@ Written by `python docs/write_nodes.py` from the tables in the code.
 
 Every node starts with `ros2 run beardyn NODE` or `python -m beardyn_ros NODE`, takes parameters as
 `--ros-args -p NAME:=VALUE` or `--params-file FILE`, refuses unknown names and bad values with a
-sentence, and ends cleanly on SIGINT and SIGTERM.
+sentence, and ends cleanly on SIGINT and SIGTERM. In a file shared by several nodes (`/**:`) a name that a
+node does not know is left to the others, with a warning; under the node's own name it is an error.
 """
 
 SERVICES = """
 Services of the twin, in its namespace: `pause` (`std_srvs/SetBool`), `step` (`std_srvs/Trigger`, one
-block while paused) and `reset` (`std_srvs/Trigger`, back to t = 0; a reset starts a new recording). The
-twin is a lifecycle node: configure loads the scene and compiles off the executor, activate solves the
-equilibrium under the first load and runs; with `autostart` it does both by itself.
+block while paused, answered when it is published) and `reset` (`std_srvs/Trigger`, back to t = 0; a reset
+starts a new recording). The twin is a lifecycle node: configure loads the scene and compiles off the
+executor, activate solves the equilibrium under the first load and runs; with `autostart` it does both by
+itself. All nodes tick by the wall clock, with `use_sim_time` on or off; while the twin is paused `/clock`
+repeats the time at which it stands.
+
+At a `speed_factor` above 0 the single samples of a block (`force`, `imu`, `shaft`, `joint_states`) go out
+one after the other over the next 20 ms of simulated time, so that readers with sensor data QoS (depth 5) get
+them all. At 0 they come block by block: such a reader needs a depth of a few hundred, or `reliable` with keep
+all.
+
+Where `simulation_interfaces` is installed, the twin offers the standard services of a simulator as well:
+
+| service | what it does |
+|---|---|
+| `get_simulator_features` | lists what follows |
+| `get_simulation_state` | stopped (not configured, ended or stopped), loading (compiling), playing, paused |
+| `set_simulation_state` | playing, paused; stopped is pause and reset; quitting ends the process |
+| `step_simulation` | `steps` blocks of 20 ms while paused; answers when they are done |
+| `reset_simulation` | time and state together (scope 0, 3 or 255); one alone is unsupported |
+
+### What its diagnostics say
+
+After REP-107 statuses are named in full, `axlebox/twin` in the namespace `/axlebox`, with the namespace as
+`hardware_id`; `run_id` changes with every run and begins with `instance`, which a twin keeps from its start
+to its end.
+
+* `real_time_factor` is that of the whole node: simulated time over the time from load to a block that is
+  handed over, with encoding and publishing, without waiting for the pace; `kernel_real_time_factor` is that
+  of the simulation alone, `processor_time_per_simulated_time` counts all threads of the process.
+* `axlebox/lag` is a status of its own: by how much simulated time is behind the pace, WARN beyond 0.1 s of
+  wall time.
+* WARN goes again 5 s after the last refused or lost message; the counts stay.
+* The last word, in state `finished`, `stopped` or `interrupted` (SIGINT, SIGTERM, lifecycle), counts the
+  messages of the run by topic: `messages force` and so on.
+
+A second twin under the same full name refuses to start (exit code 2), and the first one warns while it hears
+it; a recorder that hears two in turns closes its file and ends with 2. Of several twins in one graph only one
+may publish `/clock`; a twin that meets another publisher of it warns.
+
+### What RViz shows
+
+| topic | type | content |
+|---|---|---|
+| `robot_description` | `std_msgs/msg/String`, latched | URDF of box, cup, cone, cages and rollers |
+| `/tf_static` | `tf2_msgs/msg/TFMessage`, latched | cup, sensors, parts, and the box in `parent_frame` |
+| `/tf` | `tf2_msgs/msg/TFMessage` | with `joint_tf`: cone, cages and rollers, every 20 ms |
+
+The frame of a box is its namespace, `axlebox` or `car/axle_1_left`, or `frame_id`: origin at the bearing
+centre, x forwards, y left along the axle, z up (REP-103). Parts and sensors are below it: `axlebox/cone`,
+`axlebox/axlebox_top`. Accelerometers are in the frame of their sensor (REP-145: specific force, +g on z at
+rest, orientation and rate marked as not measured; `-r imu:=imu/data_raw` gives the topic its usual name),
+everything else in that of the box. In RViz add RobotModel with the topic `/axlebox/robot_description`, and
+set the fixed frame to that of the box or of the vehicle. Joints are called as in `joint_states`, so a
+`robot_state_publisher` works in place of `joint_tf` (remap `joint_states`, no `frame_prefix`). Meshes are
+STL files computed from the bearing's dimensions, in `$BEARDYN_CACHE_DIR/meshes` or `~/.cache/beardyn/meshes`:
+RViz on another machine does not find them. The ROS 2 wheels have no tf2_msgs: without it the frames are
+left out, the description is there.
 """
 
 LOAD_SERVICES = """
@@ -60,22 +116,81 @@ load is lost as ever. Reset of the twin starts the stream again at sample 0 and 
 Any node may send the load. A recording of a lockstep run replays to the same bits:
 
 ```
-ros2 bag play run.mcap --topics /axlebox/load/blocks /axlebox/load/truth
+ros2 bag play run.mcap --delay 1 --topics /axlebox/load/blocks /axlebox/load/truth
 ```
+
+Without the delay the player sends its first block before the twin has found it. A stream begins at sample
+0: when that is missing the twin says which samples are, waits for `load_timeout` in case they are sent
+again, and ends with exit code 4. `join:=true` takes a stream from where it stands.
 
 A bag does not wait for credit: with `--rate` it may run ahead of the twin by `load_queue` seconds or
 `load_queue_size` MB, beyond which the twin stops and says so.
 """
 
+CAR = """
+## Eight boxes of a car
+
+`ros2 launch beardyn car.launch.py` starts a twin in each of `/car/axle_1_left` to `/car/axle_4_right`, with
+one load (`car_load`) and one recorder (`car_recorder`); `--show-args` lists its arguments. The twins are of
+tier `lumped` unless `tier:=` says otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of
+them a spall. The first twin publishes `/clock`.
+
+The scene is the run of the first wheel. A wheel further back comes over the same track later, by its
+distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts
+turn at the present speed of the train. The right rail is another one of the same kind (the next seed), and
+curves turn the other way for the right boxes; loads that are given (constant, stepped, CSV) are the same left
+and right. Defects of the wheel are on one wheel, `wheel_defects_on`. All boxes have axes of the same
+directions, so that row 0, inboard on the left, is outboard on the right. `load/truth` of each box says how
+far behind it is. No box gets load further ahead than `horizon` of the slowest: they stay together, and the
+`/clock` of one is right for all. Each box has the topics and services of a load node of its own
+(`/car/axle_1_left/load/blocks`); `/car/load/pause` holds all of them.
+
+What ends first ends the others in order:
+
+| first | then |
+|---|---|
+| the load, all sent | the twins compute what they have and end, then the recorder closes its files |
+| a twin or the load, by failure | load and twins are interrupted, then the recorder closes its files |
+| the recorder | load and twins are interrupted: they do not go on unrecorded |
+| Ctrl-C | everything is interrupted, files are closed |
+"""
+
+RECORDER = """
+The last word of the twin on `/diagnostics` says how many messages of every topic it has published (values
+`messages TOPIC`). The recorder waits for what is still on its way, then says which topics lack how many, and
+ends with 5; `beardyn report` finds the same in the file. A twin that is killed has no last word: the file
+says that it vanished. Malformed messages are counted (`refused: TOPIC` in its diagnostic, as in those of
+monitor and viewer) and not recorded. A disk that stalls is waited for in the background, up to 128 MB.
+
+With `max_file_size` or `max_file_duration` a run becomes a folder as rosbag2 makes it: each file is whole in
+itself and names the next one, `metadata.yaml` lists them. `beardyn report`, `view`, `export` and `monitor`
+take the folder or its `metadata.yaml` in the place of a file, and so does `ros2 bag`.
+
+### Fast DDS
+
+Nodes that no one has given a Fast DDS profile (`FASTDDS_DEFAULT_PROFILES_FILE`) take the one of the package,
+in a sourced ROS too: without it what was lost on the way is sent again up to 3 s later. A profile of your own
+should have a heartbeat period of 20 ms. The twin waits for its readers in runs faster than real time; up to
+real time it keeps ten seconds for a slow one.
+"""
+
 PROTOCOL = """
 ## Load protocol
 
-`load/blocks` is reliable and keeps all. The load node stays within `horizon` of the simulated time that
-the twin repeats on `load/consumed` every 0.2 s; an empty block ends the stream. Samples are linear in
-between, and in lockstep a block is computed only when a sample at or after its end has arrived: the
-signals are the same to the last bit at any speed. Messages with NaN, out of order, with gaps or absurd
-numbers are counted and refused in `/diagnostics`. Every sample has a running number: a loss shows as a gap
-and never as a guess.
+`load/blocks` is reliable and keeps all. The load node stays within `horizon` of the simulated time that the
+twin repeats on `load/consumed` every 0.2 s; an empty block ends the stream. Samples are linear in between,
+and in lockstep a block is computed only when a sample at or after its end has arrived: the signals are the
+same to the last bit at any speed. Messages with NaN, out of order, with gaps or absurd numbers, from the
+far future or in another frame than `frame_id` (none is taken too) are counted and refused in
+`/diagnostics`. Every sample has a running number: a loss shows as a gap and never as a guess. A refused
+block may be sent again; when the stream ends with one of its blocks still missing the twin ends with exit
+code 4.
+
+In `live` mode force and speed pass a Bessel filter of order 4 before they are sampled every 20 ms: above
+`live_bandwidth` next to nothing is folded into the signal, below it everything is 0.336 / `live_bandwidth`
+late. Stamps may be of any clock that runs forward. A stamp that does not follow the one before it, or lies
+far in the future, is refused; after five in a row that follow each other the source has set its clock, and
+the load goes on.
 """
 
 
@@ -96,10 +211,12 @@ def page() -> str:
     lines = [HEAD, "| exit code | meaning |", "|---|---|"]
     lines += [*(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items()), ""]
     for node in NODES:
+        if node == "car_load":
+            lines.append(CAR)
         lines += [f"## {node}", "", f"{PROGRAMS[node][1].capitalize()}.", ""]
         lines += ["| parameter | type | default | allowed | meaning |", "|---|---|---|---|---|"]
         lines += [*parameter_rows(node), ""]
-        lines += {"twin": [SERVICES], "load": [LOAD_SERVICES]}.get(node, [])
+        lines += {"twin": [SERVICES], "load": [LOAD_SERVICES], "recorder": [RECORDER]}.get(node, [])
     lines += [PROTOCOL, "## Topics", "", "| topic | type | QoS | rate | content |", "|---|---|---|---|---|"]
     for topic in TOPICS:
         quality = topic.reliability + (", latched" if topic.durability == "transient_local" else "")

@@ -12,6 +12,7 @@ ladder      docs/ladder.md: what accuracy costs
 automatic   docs/automatic.md: what `effects: auto` chooses, on trial
 trial       docs/trial.md: the monitor on trial
 performance docs/performance.md: speeds measured by `benchmarks`
+ros         the ROS graph with nodes killed, starved and fed nonsense; what each node costs
 pages       where pages and pictures go, and how pictures are made small
 =========== ======================================================================================
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,6 @@ from beardyn_core.errors import InputError
 from beardyn_core.outputs import is_being_written
 
 if TYPE_CHECKING:
-    from beardyn_core.record.mcap_scanning import Recovery
     from beardyn_core.record.reporting import Report
 
 _KEYS = {
@@ -39,7 +39,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "that was cut off by a crash is copied, as far as it is readable, to NAME.recovered.mcap; one that "
         "is there already stays as it is.",
     )
-    parser.add_argument("recording", metavar="run.mcap", help="recording to report on")
+    parser.add_argument(
+        "recording", metavar="run.mcap", help="recording to report on, or its folder of several"
+    )
     parser.add_argument("--force", action="store_true", help="replace NAME.recovered.mcap when it exists")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.set_defaults(run=run)
@@ -47,26 +49,28 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
+    from beardyn_core.record.bag_scanning import cut_files
     from beardyn_core.record.mcap_scanning import recover, recovered_name
     from beardyn_core.record.reporting import report
 
     found = report(args.recording)
-    recovery: Recovery | None = None
+    recovered: list[Path] = []
     problems, notes = [], []
-    if not found.complete:
-        target = recovered_name(args.recording)
-        if is_being_written(Path(args.recording)):
-            notes.append(f"{args.recording}: another process is writing this file; this is what it holds now")
+    for file in () if found.complete else cut_files(args.recording):
+        target = recovered_name(file)
+        if is_being_written(file):
+            notes.append(f"{file}: another process is writing this file; this is what it holds now")
         elif target.exists() and not args.force:
             notes.append(f"{target}: is there already and stays as it is; --force recovers the file again")
         else:
             try:
-                recovery = recover(args.recording, target, replace=args.force)
+                recovery = recover(file, target, replace=args.force)
                 notes.append(recovery.sentence())
+                recovered.append(recovery.target)
             except InputError as error:
-                problems = error.problems
+                problems += error.problems
     if args.json:
-        print(json_text("report", json_object(found, recovery)))
+        print(json_text("report", json_object(found, recovered)))
     else:
         print(found.to_text())
     for note in notes:
@@ -76,8 +80,8 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def json_object(found: Report, recovery: Recovery | None) -> dict[str, Any]:
-    """Gather what ``--json`` prints; the recovery is the copy of a file that was cut off."""
+def json_object(found: Report, recovered: Sequence[Path]) -> dict[str, Any]:
+    """Gather what ``--json`` prints; the recovered are copies of files that were cut off."""
     from beardyn_core.scene.defect import defect_from
 
     content = found.to_json()
@@ -87,7 +91,7 @@ def json_object(found: Report, recovery: Recovery | None) -> dict[str, Any]:
         "gaps": renamed(content["gaps"], {"time": "time_s"}),
         "faults": [defect_from(defect).described() for defect in content["faults"]],
         "defects": [_defect(defect) for defect in content["faults"]],
-        "recovered": None if recovery is None else recovery.target,
+        "recovered": recovered[0] if recovered else None,
     }
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil, floor
 from typing import Annotated as A
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
+from scipy.fft import ifft, irfft, rfft
 
 from beardyn_core.arrays import Float
 
@@ -19,15 +21,67 @@ def analytic_band(signal: Float, rate: float, band: tuple[float, float]) -> NDAr
 
     Cosine edges of a tenth of the width of the band lie inside of it; samples are along the first axis.
     """
-    count = len(signal)
-    spectrum = np.fft.fft(signal, axis=0)
-    frequency = np.fft.fftfreq(count, 1.0 / rate)
+    return analytic_part(rfft(signal, axis=0), len(signal), rate, band)
+
+
+def analytic_part(
+    spectrum: NDArray[np.complex128], count: int, rate: float, band: tuple[float, float]
+) -> NDArray[np.complex128]:
+    """Cut a band out of a spectrum as `analytic_band` does out of a signal.
+
+    Parameters
+    ----------
+    spectrum : complex128 array, shape [line, ...]
+        ``scipy.fft.rfft`` of the signal along its first axis.
+    count : int
+        Samples of the signal.
+    rate : float
+        [Hz].
+    band : tuple of 2 floats
+        [Hz].
+
+    Returns
+    -------
+    complex128 array, shape [sample, ...]
+    """
+    weighted, lines = _weighted(spectrum, count, rate, band)
+    whole = np.zeros((count, *spectrum.shape[1:]), np.complex128)
+    whole[lines] = 2.0 * weighted
+    return np.asarray(ifft(whole, axis=0, overwrite_x=True), np.complex128)
+
+
+def real_part(spectrum: NDArray[np.complex128], count: int, rate: float, band: tuple[float, float]) -> Float:
+    """Compute the real part of `analytic_part`: the signal in a band.
+
+    Parameters
+    ----------
+    spectrum, count, rate, band
+        As of `analytic_part`.
+
+    Returns
+    -------
+    float64 array, shape [sample, ...]
+    """
+    weighted, lines = _weighted(spectrum, count, rate, band)
+    part = np.zeros_like(spectrum)
+    part[lines] = weighted
+    return np.asarray(irfft(part, count, axis=0), np.float64)
+
+
+def _weighted(
+    spectrum: NDArray[np.complex128], count: int, rate: float, band: tuple[float, float]
+) -> tuple[NDArray[np.complex128], slice]:
+    """Weigh the lines of a band with its cosine edges, and say which they are."""
     low, high = band
+    step = rate / count
+    # the line of half the sampling rate is its own mirror image: it belongs to no positive frequency
+    lines = slice(max(ceil(low / step), 0), min(floor(high / step) + 1, (count + 1) // 2))
+    frequency = step * np.arange(lines.start, max(lines.stop, lines.start))
     edge = _EDGE * (high - low)
     rise = np.clip((frequency - low) / edge, 0.0, 1.0)
     fall = np.clip((high - frequency) / edge, 0.0, 1.0)
-    weight = 2.0 * (0.5 - 0.5 * np.cos(np.pi * rise)) * (0.5 - 0.5 * np.cos(np.pi * fall))
-    return np.fft.ifft(spectrum * weight.reshape(-1, *(1,) * (signal.ndim - 1)), axis=0)
+    weight = (0.5 - 0.5 * np.cos(np.pi * rise)) * (0.5 - 0.5 * np.cos(np.pi * fall))
+    return spectrum[lines] * weight.reshape(-1, *(1,) * (spectrum.ndim - 1)), lines
 
 
 def envelope(signal: Float, rate: float, band: tuple[float, float]) -> Float:
@@ -51,9 +105,13 @@ def envelope(signal: Float, rate: float, band: tuple[float, float]) -> Float:
     Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
     Process. 25, section 4 (envelope analysis).
     """
-    analytic = analytic_band(signal, rate, band)
+    return np.sqrt(squared_magnitude(analytic_band(signal, rate, band)))
+
+
+def squared_magnitude(analytic: NDArray[np.complex128]) -> Float:
+    """Compute the squared envelope of an analytic signal, summed over its axes, shape [sample]."""
     square = analytic.real**2 + analytic.imag**2
-    return np.sqrt(square if signal.ndim == 1 else square.sum(axis=1))
+    return square if analytic.ndim == 1 else square.sum(axis=1)
 
 
 def resample_by_angle(signal: Float, angle: Float, samples_per_revolution: int) -> Float:
@@ -155,6 +213,6 @@ def kurtosis(signal: Float) -> float:
     ----------
     signal : float64 array
     """
-    centred = signal - signal.mean()
-    variance = np.mean(centred**2)
-    return float(np.mean(centred**4) / variance**2) if variance > 0.0 else 0.0
+    square = (signal - signal.mean()) ** 2
+    variance = square.mean()
+    return float(np.mean(square**2) / variance**2) if variance > 0.0 else 0.0

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.record.messages import decode, header, header_stamp, make, serialize
+from beardyn_core.record.cloud_layout import cloud_points
+from beardyn_core.record.messages import header, header_stamp, make, serialize
 
 CLOUD = "sensor_msgs/msg/PointCloud2"
 
 _DATATYPES = {"i1": 1, "u1": 2, "i2": 3, "u2": 4, "i4": 5, "u4": 6, "f4": 7, "f8": 8}
-_FORMATS = {number: np.dtype(f"<{code}") for code, number in _DATATYPES.items()}
 _STAMP = struct.Struct("<iI")
 _LENGTH = struct.Struct("<I")
 
@@ -89,23 +89,14 @@ def cloud_to_arrays(cdr: bytes) -> NDArray[Any]:
     Returns
     -------
     structured array, shape [point]
-        Index it by the field's name: ``cloud_to_arrays(cdr)["ax"]``.
+        Index it by the field's name: ``cloud_to_arrays(cdr)["ax"]``. Read-only: a look into the bytes.
+
+    Raises
+    ------
+    MalformedError
+        Fields, sizes and data do not fit each other.
     """
-    message = decode(CLOUD, cdr)
-    dtype = np.dtype(
-        {
-            "names": [field.name for field in message.fields],
-            "formats": [
-                (_FORMATS[field.datatype], (field.count,)) if field.count > 1 else _FORMATS[field.datatype]
-                for field in message.fields
-            ],
-            "offsets": [field.offset for field in message.fields],
-            "itemsize": message.point_step,
-        }
-    )
-    if message.is_bigendian:
-        dtype = dtype.newbyteorder(">")
-    return np.frombuffer(message.data.tobytes(), dtype, count=message.width * message.height)
+    return cloud_points(cdr)
 
 
 def cloud_times(cdr: bytes, points: NDArray[Any]) -> NDArray[np.int64]:

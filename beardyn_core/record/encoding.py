@@ -46,7 +46,12 @@ def force_template(frame: str) -> Template:
 
 
 def imu_template(frame: str) -> Template:
-    """Prepare messages of ``imu``: slot ``acceleration``; orientation and rate are marked as not known."""
+    """Prepare messages of ``imu``: slot ``acceleration``; orientation and rate are marked as not known.
+
+    References
+    ----------
+    REP-145: specific force in the frame of the sensor; the first covariance of what is not measured is -1.
+    """
     unknown = np.zeros(9)
     unknown[0] = -1.0
 
@@ -110,18 +115,19 @@ class BlockEncoder:
     sensor_names : tuple of str
         Accelerometers, in the order of `Block.vibration`.
     frame : str
-        Frame of every header.
+        Frame of every header; accelerometers and parts have theirs below it, ``<frame>/<sensor>``.
     """
 
     def __init__(self, roller_count: int, sensor_names: tuple[str, ...], frame: str = FRAME) -> None:
         self._rollers = 2 * roller_count
         self._sensor_names = sensor_names
         self._force = force_template(frame)
-        self._imu = imu_template(frame)
+        frames = [f"{frame}/{name}" for name in sensor_names]
+        self._imu = imu_template(frames[0] if frames else frame)
         self._shaft = joint_template(SHAFT_JOINT, frame, effort=False)
         self._joints = joint_template(orbit_joints(roller_count), frame, effort=True)
         self._waveform = CloudTemplate(WAVEFORM, frame)
-        self._vibration = CloudTemplate(VIBRATION, frame)
+        self._vibration = [CloudTemplate(VIBRATION, each) for each in frames]
         self._bodies = CloudTemplate(BODIES, frame)
         self._contacts = CloudTemplate(CONTACTS, frame)
         self._temperatures = [temperature_template(f"{frame}/{node}") for node in NODES]
@@ -177,7 +183,8 @@ class BlockEncoder:
             stamp = int(vibration.time_ns[0])
             points = points_of(VIBRATION, vibration.sample, vibration.time_ns, stamp)
             fill(points, ACCELERATION_AXES, vibration.acceleration)
-            yield vibration_topic(sensor, self._sensor_names), stamp, self._vibration.encode(points, stamp)
+            cdr = self._vibration[sensor].encode(points, stamp)
+            yield vibration_topic(sensor, self._sensor_names), stamp, cdr
 
     def _snapshots(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
         times = block.snapshot_time_ns

@@ -12,8 +12,8 @@ import numpy as np
 from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import GAP, Measurement
+from beardyn_core.record.bag_scanning import scan_recording
 from beardyn_core.record.load_stream import decode_load, joined_load
-from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.messages import decode, header_stamp
 from beardyn_core.record.reading import wrench_values
 from beardyn_core.record.topics import JOINTS, TWIST, WRENCH, namespace_of, relative_name
@@ -59,7 +59,7 @@ def read_recorded_load(path: Path, take: str = "both") -> Measurement:
 
 
 def _messages(path: Path) -> dict[str, list[bytes]]:
-    scan = McapScan(path)
+    scan = scan_recording(path)
     names = {"load/blocks", *(name for pair in _PAIRS for name in pair)}
     found: dict[str, list[bytes]] = defaultdict(list)
     space = None

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from time import monotonic
+from typing import Any
 
 import yaml
+from mcap.data_stream import RecordBuilder
+from mcap.records import ChunkIndex
 from mcap.well_known import MessageEncoding, SchemaEncoding
 from mcap.writer import CompressionType, Writer
 
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_write
+from beardyn_core.record.background_file import BackgroundFile
+from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_profile, yaml_text
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import END_RECORD, trim
 from beardyn_core.record.messages import typestore
 from beardyn_core.record.topics import NAMESPACE, Topic, topic
 from beardyn_core.versions import versions
 
-CHUNK_BYTES = 128 * 1024
+CHUNK_BYTES = 1024 * 1024
 FLUSH_SECONDS = 0.5
 DESCRIPTION_FILE = "run.json"
 SCENE_FILE = "scene.yaml"
@@ -28,13 +33,13 @@ SUMMARY_RECORD = "beardyn"
 COMPLETE = "complete"
 
 _VERSION = versions()["beardyn"]
-_FOREVER = {"sec": 9223372036, "nsec": 854775807}
+_RECORD_BYTES = 31 + 16  # around a message in a chunk, and of it in the index
 
 
 class McapWriter:
     """MCAP file, profile ``ros2``, that a kill leaves readable up to the last flush.
 
-    Messages are gathered into zstd chunks of at most `CHUNK_BYTES`; `flush_if_due`, which every
+    Messages are gathered into zstd chunks of about `CHUNK_BYTES`; `flush_if_due`, which every
     `add` calls, hands the chunk in progress to the operating system twice a second. A caller that
     can fall silent calls it from a timer too. A disk that refuses is an `InputError` that says what the
     file holds, up to its last whole chunk; further writing raises the same and `close` does nothing.
@@ -46,22 +51,36 @@ class McapWriter:
         Of the topics with relative names.
     replace : bool
         Whether an existing file is replaced; otherwise it is an `InputError`.
+    background : bool
+        Whether a thread writes, so that a slow disk does not hold up the caller.
     """
 
-    def __init__(self, path: Path | str, namespace: str = NAMESPACE, *, replace: bool = False) -> None:
+    def __init__(
+        self,
+        path: Path | str,
+        namespace: str = NAMESPACE,
+        *,
+        replace: bool = False,
+        background: bool = False,
+    ) -> None:
         self.path = Path(path)
         self._namespace = namespace
         try:
-            self._file = open_to_write(self.path, replace=replace)
+            file = open_to_write(self.path, replace=replace)
         except OSError as error:
             raise InputError(
                 f"{self.path}: cannot write the recording ({error.strerror}); "
                 "choose a file in a folder that exists and is writable"
             ) from error
-        self._writer = Writer(self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
+        self._file: Any = file
+        if background:
+            self._file = BackgroundFile(file)
+        # Chunks end where `add` and `flush_if_due` say.
+        self._writer = Writer(self._file, chunk_size=1 << 62, compression=CompressionType.ZSTD)
+        self._writer._Writer__chunk_indices = _PackedIndexes()  # type: ignore[attr-defined]
+        self._chunk_bytes = 0
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
-        self._topics: dict[str, Topic] = {}
         self._counts: dict[str, int] = {}
         self._first_ns: int | None = None
         self._last_ns = 0
@@ -101,17 +120,23 @@ class McapWriter:
                 channel = self._open_channel(topic(name))
             sequence = self._counts[name] = self._counts[name] + 1
             self._writer.add_message(channel, log_time, cdr, log_time, sequence & 0xFFFFFFFF)
+        self._chunk_bytes += len(cdr) + _RECORD_BYTES
         self._first_ns = log_time if self._first_ns is None else min(self._first_ns, log_time)
         self._last_ns = max(self._last_ns, log_time)
         self.flush_if_due()
 
     def flush_if_due(self) -> None:
-        """Write the chunk in progress to the file when `FLUSH_SECONDS` have passed."""
+        """Write the chunk in progress to the file when it is full or `FLUSH_SECONDS` have passed."""
         now = monotonic()
-        if now - self._flushed >= FLUSH_SECONDS:
+        if self._chunk_bytes >= CHUNK_BYTES or now - self._flushed >= FLUSH_SECONDS:
             self._flushed = now
-            with self._disk():
-                self._writer.flush()
+            self.flush()
+
+    def flush(self) -> None:
+        """Write the chunk in progress to the file."""
+        self._chunk_bytes = 0
+        with self._disk():
+            self._writer.flush()
 
     def close(self, status: str = "") -> None:
         """Write the summary and close the file; a second call does nothing.
@@ -129,11 +154,12 @@ class McapWriter:
         """
         if self._closed:
             return
+        facts = bag_metadata([self.facts], self._namespace)
         with self._disk():
             self._closed = True
             self._writer.flush()  # the last chunk first: a file that lacks it must not say how it ended
             self._writer.add_metadata(END_RECORD, {"status": status or COMPLETE})
-            self._writer.add_metadata("rosbag2", {"serialized_metadata": self._rosbag2_metadata()})
+            self._writer.add_metadata("rosbag2", {"serialized_metadata": yaml_text(facts)})
             self._writer.finish()
             self._file.close()
 
@@ -141,6 +167,21 @@ class McapWriter:
     def message_count(self) -> int:
         """Messages written so far."""
         return sum(self._counts.values())
+
+    @property
+    def counts(self) -> Mapping[str, int]:
+        """Messages written so far by name in the topic table."""
+        return self._counts
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file so far, the chunk in progress as large as if it could not be compressed."""
+        return int(self._file.tell()) + self._chunk_bytes
+
+    @property
+    def facts(self) -> FileFacts:
+        """What the metadata of rosbag2 says about the file."""
+        return FileFacts(self.path.name, self._first_ns or 0, self._last_ns, dict(self._counts))
 
     @contextmanager
     def _disk(self) -> Iterator[None]:
@@ -172,58 +213,27 @@ class McapWriter:
             MessageEncoding.CDR,
             schema,
             {
-                "offered_qos_profiles": yaml.safe_dump([_qos_profile(entry)], sort_keys=False),
+                "offered_qos_profiles": yaml.safe_dump([qos_profile(entry)], sort_keys=False),
                 "topic_type_hash": typestore().hash_rihs01(entry.type),
             },
         )
-        self._channels[entry.name], self._topics[entry.name], self._counts[entry.name] = channel, entry, 0
+        self._channels[entry.name], self._counts[entry.name] = channel, 0
         return channel
 
-    def _rosbag2_metadata(self) -> str:
-        start = self._first_ns or 0
-        span = {"nanoseconds": self._last_ns - start}
-        begin = {"nanoseconds_since_epoch": start}
-        whole = {"path": self.path.name, "starting_time": begin, "duration": span}
-        return yaml.safe_dump(
-            {
-                "version": 9,
-                "storage_identifier": "mcap",
-                "duration": span,
-                "starting_time": begin,
-                "message_count": self.message_count,
-                "topics_with_message_count": [
-                    {
-                        "topic_metadata": {
-                            "name": entry.path(self._namespace),
-                            "type": entry.type,
-                            "serialization_format": "cdr",
-                            "offered_qos_profiles": [_qos_profile(entry)],
-                            "type_description_hash": typestore().hash_rihs01(entry.type),
-                        },
-                        "message_count": self._counts[name],
-                    }
-                    for name, entry in self._topics.items()
-                ],
-                "compression_format": "",
-                "compression_mode": "",
-                "relative_file_paths": [self.path.name],
-                "files": [{**whole, "message_count": self.message_count}],
-                "custom_data": None,
-                "ros_distro": "",
-            },
-            sort_keys=False,
-        )
 
+class _PackedIndexes:
+    """Indexes of the chunks of a file as bytes; the library keeps ten times as much until the end."""
 
-def _qos_profile(entry: Topic) -> dict[str, object]:
-    return {
-        "history": "keep_last" if entry.depth else "keep_all",
-        "depth": entry.depth,
-        "reliability": entry.reliability,
-        "durability": entry.durability,
-        "deadline": dict(_FOREVER),
-        "lifespan": dict(_FOREVER),
-        "liveliness": "automatic",
-        "liveliness_lease_duration": dict(_FOREVER),
-        "avoid_ros_namespace_conventions": False,
-    }
+    def __init__(self) -> None:
+        self._records = bytearray()
+
+    def append(self, index: ChunkIndex) -> None:
+        builder = RecordBuilder()
+        index.write(builder)
+        self._records += builder.end()
+
+    def __iter__(self) -> Iterator[_PackedIndexes]:
+        return iter((self,))
+
+    def write(self, builder: RecordBuilder) -> None:
+        builder.write(self._records)

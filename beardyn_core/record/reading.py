@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,6 +20,8 @@ from beardyn_core.errors import InputError
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
 from beardyn_core.record import arrays
+from beardyn_core.record.bag_scanning import BagScan, scan_recording
+from beardyn_core.record.checking import MessageChecker, take_out_malformed
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import (
@@ -70,23 +72,34 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     InputError
         The file is absent, not MCAP, or holds not one usable message of the namespace.
     """
-    scan = McapScan(path)
+    scan = scan_recording(path)
     recorded: dict[str, list[bytes]] = defaultdict(list)
+    types: dict[str, str] = {}
     for message in scan.messages():
         recorded[message.topic].append(message.cdr)
+        types[message.topic] = message.type
     if namespace is None:
-        namespace = next((space for space in map(namespace_of, recorded) if space is not None), NAMESPACE)
-    cdrs: dict[str, list[bytes]] = defaultdict(list)
-    cdrs.update({relative_name(path, namespace): messages for path, messages in recorded.items()})
-    if not any(name != path for name, path in zip(cdrs, recorded, strict=True)):
+        namespace = namespace_in(recorded)
+    names = {path: relative_name(path, namespace) for path in recorded}
+    if not any(name != path for path, name in names.items()):
         found = f"it has {', '.join(sorted(recorded))}" if recorded else scan.problem or "it has no messages"
         raise InputError(f"{scan.path}: no messages under the namespace {namespace}; {found}")
     with arrays.decoding_checked(scan.path):
-        return _run(scan, cdrs)
+        cdrs = {names[path]: messages for path, messages in recorded.items()}
+        return _run(scan, cdrs, {names[path]: kind for path, kind in types.items()})
 
 
-def _run(scan: McapScan, cdrs: Mapping[str, list[bytes]]) -> Run:
+def namespace_in(paths: Iterable[str]) -> str:
+    """Find the namespace of the first axlebox that absolute topic names tell of."""
+    return next((space for space in map(namespace_of, paths) if space is not None), NAMESPACE)
+
+
+def _run(scan: McapScan | BagScan, cdrs: dict[str, list[bytes]], types: Mapping[str, str]) -> Run:
+    malformed = take_out_malformed(cdrs, types, MessageChecker())
     description = _description(scan, cdrs)
+    if description is not None:
+        known = MessageChecker(len(description.body_names), description.roller_count)
+        malformed += take_out_malformed(cdrs, types, known, ("bodies", "contacts"))
     scene_text = scan.attachments.get(SCENE_FILE, b"").decode(errors="replace")
     return run_of_messages(
         cdrs,
@@ -94,8 +107,9 @@ def _run(scan: McapScan, cdrs: Mapping[str, list[bytes]]) -> Run:
         path=scan.path,
         complete=scan.complete,
         problem=scan.problem,
-        status=scan.metadata[END_RECORD]["status"] or COMPLETE if END_RECORD in scan.metadata else None,
+        status=scan.metadata[END_RECORD].get("status") or COMPLETE if END_RECORD in scan.metadata else None,
         scene_text=scene_text or (description.scene_text if description else ""),
+        malformed=malformed,
     )
 
 
@@ -260,7 +274,7 @@ class _Joints:
     effort: Float
 
 
-def _description(scan: McapScan, cdrs: Mapping[str, list[bytes]]) -> RunDescription | None:
+def _description(scan: McapScan | BagScan, cdrs: Mapping[str, list[bytes]]) -> RunDescription | None:
     truth = cdrs.get("truth", ())
     if DESCRIPTION_FILE in scan.attachments:
         with suppress(InputError):  # damaged: the topic says the same
@@ -332,8 +346,9 @@ def _joints(cdrs: Sequence[bytes]) -> _Joints:
     if rows is not None:
         effort = rows["effort"] if "effort" in (rows.dtype.names or ()) else np.zeros((len(rows), 0))
         return _Joints(names, _times(rows), rows["position"].copy(), rows["velocity"].copy(), effort.copy())
+    efforts = len(first.effort)
     stamped = [(header_stamp(cdr), decode(JOINTS, cdr)) for cdr in cdrs]
-    stamped = [(stamp, message) for stamp, message in stamped if tuple(message.name) == names]
+    stamped = [each for each in stamped if tuple(each[1].name) == names and len(each[1].effort) == efforts]
     parts = (
         [getattr(message, part) for _, message in stamped] for part in ("position", "velocity", "effort")
     )

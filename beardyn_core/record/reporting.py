@@ -14,11 +14,14 @@ from numpy.typing import NDArray
 
 from beardyn_core.observe.summary import TorqueBudget
 from beardyn_core.record.arrays import decoding_checked
+from beardyn_core.record.bag_scanning import BagScan, scan_recording
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.reading import read_run
+from beardyn_core.record.published import MissingMessages, last_published, missing_messages, missing_sentence
+from beardyn_core.record.reading import namespace_in, read_run
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import diagnosed, recorded_budget
+from beardyn_core.record.topics import relative_name
 from beardyn_core.scene.defect import defect_from
 
 SAMPLE_RANGE = 1 << 32
@@ -73,6 +76,11 @@ class Report:
     budget: A[TorqueBudget | None, "losses by source after the start has settled, if the recording says"]
     monitor: A[str | None, "last verdict of the monitor"]
     sensor_rates_Hz: A[Mapping[str, float], "accelerometers by name"]
+    missing_messages: A[
+        tuple[MissingMessages, ...] | None,
+        "topics of which the twin has published more than is recorded; ``None``: it had no last word",
+    ]
+    malformed_messages: A[Mapping[str, int], "left out because they are not what their topic promises"]
 
     def to_json(self) -> dict[str, Any]:
         """Give the content as a mapping for JSON."""
@@ -93,7 +101,7 @@ def report(path: Path | str) -> Report:
     InputError
         The file is absent, not MCAP, or holds not one usable message.
     """
-    scan = McapScan(path)
+    scan = scan_recording(path)
     times: dict[tuple[str, str], list[int]] = defaultdict(list)
     for message in scan.messages():
         times[message.topic, message.type].append(message.log_time)
@@ -102,7 +110,7 @@ def report(path: Path | str) -> Report:
         return _report(scan, run, times)
 
 
-def _report(scan: McapScan, run: Run, times: Mapping[tuple[str, str], list[int]]) -> Report:
+def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], list[int]]) -> Report:
     """Report a file; `times` are the log times of each topic and its type, [ns]."""
     # of everything when the twin has said nothing
     own = [each for (topic, _), each in times.items() if not topic.endswith(NOT_OF_THE_TWIN)]
@@ -136,7 +144,21 @@ def _report(scan: McapScan, run: Run, times: Mapping[tuple[str, str], list[int]]
         sensor_rates_Hz=dict(zip(description.sensor_names, description.sensor_rates, strict=True))
         if description
         else {},
+        missing_messages=_missing(run, times),
+        malformed_messages=run.malformed,
     )
+
+
+def _missing(run: Run, times: Mapping[tuple[str, str], list[int]]) -> tuple[MissingMessages, ...] | None:
+    """Compare what is recorded with what the twin says in its last word."""
+    namespace = namespace_in(topic for topic, _ in times)
+    published = last_published((each for _, statuses in run.diagnostics for each in statuses), namespace)
+    if published is None:
+        return None
+    recorded = {relative_name(topic, namespace): len(each) for (topic, _), each in times.items()}
+    for name, count in run.malformed.items():
+        recorded[name] -= count
+    return tuple(missing_messages(published, recorded))
 
 
 def _rate(times: list[int]) -> float | None:
@@ -210,8 +232,16 @@ def _lines(r: Report) -> list[str]:
     lines.append("")
     if r.attachments:
         lines.append("attached " + ", ".join(f"{name} ({size} B)" for name, size in r.attachments.items()))
-    lines.append("no samples missing" if not r.gaps else f"{len(r.gaps)} gaps:")
+    if r.missing_messages:
+        lines.append(missing_sentence(r.missing_messages))
+    elif not r.gaps:
+        lines.append("no samples missing")
+    if r.gaps:
+        lines.append(f"{len(r.gaps)} gaps:")
     lines += [f"  {gap.topic}: {gap.missing} samples after {gap.time:.4f} s" for gap in r.gaps[:20]]
     if len(r.gaps) > 20:
         lines.append(f"  ... and {len(r.gaps) - 20} more")
+    if r.malformed_messages:
+        counts = ", ".join(f"{name} {count}" for name, count in r.malformed_messages.items())
+        lines.append(f"malformed messages, left out: {counts}")
     return lines

@@ -51,6 +51,8 @@ class Run:
         Resolved YAML of the scene.
     summary : callable, optional
         Gives the summary of the simulation; otherwise it is made from the arrays.
+    malformed : mapping of str to int, optional
+        Messages of a file that were left out because they are not what their topic promises, by topic.
     """
 
     def __init__(
@@ -64,6 +66,7 @@ class Run:
         status: str | None = None,
         scene_text: str = "",
         summary: Callable[[], RunSummary] | None = None,
+        malformed: Mapping[str, int] | None = None,
     ) -> None:
         self._source = source
         self.description = description
@@ -72,6 +75,7 @@ class Run:
         self.problem = problem
         self.status = status
         self.scene_text = scene_text
+        self.malformed = dict(malformed or {})
         self._summary = summary
 
     @classmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -108,15 +109,22 @@ def _life(run: Run) -> RatingLife | None:
 
 def diagnosed(run: Run, key: str) -> list[float]:
     """Collect a number that the diagnostics of the twin carry."""
-    values = (status.value(key) for _, statuses in run.diagnostics for status in statuses)
-    return [float(value) for value in values if value is not None]
+    values = (_number(status.value(key)) for _, statuses in run.diagnostics for status in statuses)
+    return [value for value in values if value is not None]
+
+
+def _number(text: str | None) -> float | None:
+    """Read a number; ``None`` for what is none, as a foreign diagnostic may have it."""
+    with suppress(ValueError):
+        return None if text is None else float(text)
+    return None
 
 
 def recorded_budget(run: Run) -> TorqueBudget | None:
     """Make the torque budget of the energies in the diagnostics, without the first part of the run."""
     wanted = [loss_key(source) for source in (*LOSS_NAMES, NUMERICAL)]
     rows = [
-        (stamp * 1e-9, *(float(status.value(key) or 0.0) for key in wanted))
+        (stamp * 1e-9, *(_number(status.value(key)) or 0.0 for key in wanted))
         for stamp, statuses in run.diagnostics
         for status in statuses
         if not set(wanted).isdisjoint(key for key, _ in status.values)

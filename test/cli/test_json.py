@@ -21,6 +21,7 @@ from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSSES
 from beardyn_core.observe.stage_clock import StageTime
 from beardyn_core.observe.summary import torque_budget
+from beardyn_core.record.published import MissingMessages
 from beardyn_core.record.reporting import Gap, report
 from beardyn_core.scene.defect import Growth, MissingRoller, Patch, RollerError, WornPocket
 from beardyn_core.study.desk_run import RunSummary
@@ -125,8 +126,10 @@ def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         budget=budget,
         gaps=(Gap("vibration", 0.5, 3),),
         faults=[asdict(fault) for fault in faults],
+        missing_messages=(MissingMessages("imu", 80, 32),),
+        malformed_messages={"load/blocks": 1},
     )
-    found = read(json_text("report", report_command.json_object(full, None)))
+    found = read(json_text("report", report_command.json_object(full, ())))
     assert found["defects"][0]["growth"]["width_grows"] is True
     assert found["defects"][0]["width_m"] == 6e-3
     assert found["faults"][1] == "roller 3, row 0, +10.0 µm in diameter"

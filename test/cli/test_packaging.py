@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -13,7 +14,8 @@ import pytest
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import KINDS
 
-EXECUTABLES = ("twin", "load", "recorder", "viewer", "monitor")
+EXECUTABLES = ("twin", "load", "recorder", "viewer", "monitor", "car_load", "car_recorder")
+FROM_PIP = {"mcap", "mcap-ros2-support", "pyarrow", "rerun-sdk", "xarray", "zstandard"}  # no rosdep key
 LEFT_OUT = (".git", ".venv", "build", "__pycache__", "*.egg-info", "*.mcap", "*.rrd")
 
 
@@ -76,6 +78,26 @@ def test_package_xml_and_setup_agree(repository: Path, wheel: zipfile.ZipFile) -
     assert f"Version: {package.findtext('version')}" in lines
     assert package.get("format") == "3"
     assert package.findtext("export/build_type") == "ament_python"
+
+
+def test_package_xml_names_every_requirement_that_rosdep_has(
+    repository: Path, wheel: zipfile.ZipFile
+) -> None:
+    package = ElementTree.parse(repository / "package.xml").getroot()
+    (metadata,) = (name for name in wheel.namelist() if name.endswith(".dist-info/METADATA"))
+    lines = wheel.read(metadata).decode().splitlines()
+    wanted: dict[str, set[str]] = {"exec_depend": set(), "test_depend": set()}
+    for line in lines:
+        if line.startswith("Requires-Dist: ") and ("extra" not in line or "'test'" in line.replace('"', "'")):
+            name = re.split(r"[ <>=;~!\[]", line.removeprefix("Requires-Dist: "))[0]
+            wanted["test_depend" if "extra" in line else "exec_depend"].add(name.lower())
+    assert {"numba", "pydantic"} <= wanted["exec_depend"]
+    assert {"hypothesis", "pytest", "psutil"} <= wanted["test_depend"]
+    for tag, names in wanted.items():
+        keys = {str(element.text) for element in package.iter(tag)}
+        for name in names - FROM_PIP:
+            spelled = {"pyyaml": "yaml", "rosbags": "rosbags-pip"}.get(name, name)
+            assert f"python3-{spelled}" in keys, f"{name} is in setup.py and not in package.xml"
 
 
 @pytest.mark.parametrize("name", EXECUTABLES)

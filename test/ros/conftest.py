@@ -1,6 +1,9 @@
 from __future__ import annotations
 
 import importlib.util
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -24,6 +27,29 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def graph(tmp_path: Path) -> Iterator[Graph]:
     with Graph(tmp_path) as running:
         yield running
+
+
+@pytest.fixture(scope="session")
+def _interface_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("interfaces")
+
+
+@pytest.fixture
+def built_interfaces(
+    request: pytest.FixtureRequest, _interface_folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Package for this test and its processes, built by rosidl of the wheels; name it before `graph`."""
+    from test.ros.interfaces import can_build
+
+    if not can_build():
+        pytest.skip("g++ or the headers of the ROS 2 wheels are missing")
+    folder = _interface_folder / request.param
+    if not folder.exists():
+        command = [sys.executable, "-m", "test.ros.interfaces", request.param, str(folder)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=500)
+        assert done.returncode == 0, done.stdout + done.stderr
+    monkeypatch.syspath_prepend(folder / "python")
+    monkeypatch.setenv("PYTHONPATH", str(folder / "python"), prepend=os.pathsep)
 
 
 @pytest.fixture(scope="session")

@@ -101,7 +101,7 @@ class FakeTwin:
         return dict(self._description.truth)
 
 
-def fake_rig(scene: str) -> Callable[[], Any]:
+def fake_rig(scene: str, _tier: str) -> Callable[[], Any]:
     from beardyn_ros.run_state import Rig
 
     if scene not in SCENES:
@@ -140,4 +140,6 @@ def main(words: Sequence[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    from beardyn_ros.runtime import leave
+
+    leave(main(sys.argv[1:]))

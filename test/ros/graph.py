@@ -92,6 +92,11 @@ class Graph:
         assert code is not None
         return code
 
+    def dismiss(self, name: str) -> None:
+        """Forget a process that has ended with an error, as it should."""
+        assert self.exit_code(name) != 0
+        del self.processes._children[name]
+
     # --- messages ----------------------------------------------------------------------------------
 
     def listen(self, *names: str) -> None:
@@ -117,14 +122,14 @@ class Graph:
             assert time.monotonic() < deadline, f"{what} has not come in {timeout:g} s. {self._logs()}"
         return value
 
-    def statuses(self, part: str) -> list[Any]:
+    def statuses(self, part: str, namespace: str = NAMESPACE) -> list[Any]:
         """Diagnostics of a part so far, oldest first."""
         from beardyn_core.record.messages import decode_diagnostics
-        from beardyn_ros.diagnostics import is_from
 
+        name = f"{namespace.strip('/')}/{part}"
         found: list[Any] = []
         for cdr in self.messages["/diagnostics"]:
-            found += [status for status in decode_diagnostics(cdr)[1] if is_from(status, part)]
+            found += [status for status in decode_diagnostics(cdr)[1] if status.name == name]
         return found
 
     def until_state(self, state: str, check_processes: bool = True) -> Any:

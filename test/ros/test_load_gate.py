@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import problem_with
-from beardyn_ros.load_gate import LiveLoad, LoadGate, Refusals
+from beardyn_ros.held_load import LiveLoad
+from beardyn_ros.load_gate import LoadGate, Refusals
 
 STEP_NS = 500_000
 
@@ -79,7 +80,7 @@ def test_leftovers_of_the_old_stream_are_dropped_after_a_restart() -> None:
 
 
 def test_live_load_refuses_old_stamps_and_absurd_numbers() -> None:
-    live = LiveLoad(Refusals(), threading.Condition())
+    live = LiveLoad(Refusals(), threading.Condition(), bandwidth=10.0)
     assert live.held() is None
     assert live.offer_wrench(np.full(6, 5.0), 10) is None
     assert live.offer_speed(100.0, 10) is None
@@ -113,7 +114,7 @@ def test_a_change_of_50_rad_per_s_or_one_over_a_tenth_of_a_second_is_taken() -> 
 
 
 def test_live_load_refuses_a_jump_of_the_shaft_speed() -> None:
-    live = LiveLoad(Refusals(), threading.Condition())
+    live = LiveLoad(Refusals(), threading.Condition(), bandwidth=10.0)
     assert live.offer_speed(100.0, 0) is None
     assert "jumps from 100 to 160" in (live.offer_speed(160.0, 20_000_000) or "")
     assert live.offer_speed(101.0, 40_000_000) is None

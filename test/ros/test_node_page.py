@@ -22,7 +22,7 @@ def test_help_and_page_list_every_exit_code() -> None:
     from beardyn_ros.runtime import EXIT_CODES
 
     page = (DOCS / "nodes.md").read_text(encoding="utf-8")
-    assert list(EXIT_CODES) == [0, 1, 2, 3, 4, 130]
+    assert list(EXIT_CODES) == [0, 1, 2, 3, 4, 5, 130]
     for code, meaning in EXIT_CODES.items():
         assert f"| {code} | {meaning} |" in page
         assert f"  {code:<9} {meaning}" in usage()

@@ -106,7 +106,7 @@ def test_kill_9_of_the_recorder_leaves_a_recoverable_file_and_the_twin_runs_on(g
 def test_live_load_stamped_with_wall_time_leaves_the_span_of_the_file_alone(graph: Graph) -> None:
     from mcap.reader import make_reader
 
-    from beardyn_ros.load_node import encode_shaft, encode_wrench
+    from beardyn_ros.live_load import encode_shaft, encode_wrench
 
     path = graph.folder / "run.mcap"
     graph.fake_twin(mode="live")

@@ -83,7 +83,7 @@ def test_the_recording_tells_the_same_budget(lossy: tuple[desk_run.RunSummary, R
         assert ours.source == recorded.source
         assert recorded.power == pytest.approx(ours.power, rel=0.02, abs=2.0)
     assert "rolling resistance" in found.to_text()
-    content = json.loads(json_text("report", report_object(found, None)), parse_constant=pytest.fail)
+    content = json.loads(json_text("report", report_object(found, ())), parse_constant=pytest.fail)
     assert content["torque_budget"]["torque_sum_N_m"] == pytest.approx(found.budget.torque)
 
 

@@ -13,11 +13,11 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
-from beardyn_core.observe.chain.levels import levels_in_band, rise
+from beardyn_core.observe.chain.levels import levels_of, rise
 from beardyn_core.observe.chain.result import MonitorResult
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
 from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
-from beardyn_core.observe.features import envelope, resample_by_angle
+from beardyn_core.observe.features import resample_by_angle
 
 
 def squared_envelope(stretch: Stretch, band: Band) -> Float:
@@ -33,7 +33,7 @@ def squared_envelope(stretch: Stretch, band: Band) -> Float:
     Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
     Process. 25, section 4.3: the squared envelope has no harmonics of its own making.
     """
-    return envelope(stretch.acceleration, stretch.rate, (band.low, band.high)) ** 2
+    return stretch.squared_envelope((band.low, band.high))
 
 
 def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float:
@@ -98,7 +98,7 @@ class Chain:
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
         verdict = self.decide(found, stretch, settings)
-        levels = levels_in_band(stretch.acceleration, stretch.rate, settings.band, speed)
+        levels = levels_of(stretch.in_band(settings.band), speed)
         cup, cone, roller = found.candidates
         best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
         return MonitorResult(

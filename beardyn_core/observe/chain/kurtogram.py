@@ -7,7 +7,7 @@ from typing import Annotated as A
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import ifft, rfft
+from scipy.fft import ifft
 
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors
@@ -33,17 +33,19 @@ def by_kurtogram(stretch: Stretch, settings: MonitorSettings) -> Band:
     narrowest = max(settings.narrowest_band, settings.orders_in_band * stretch.shaft_frequency)
     bands = [
         band
-        for band in fast_kurtogram(stretch, narrowest, settings)
-        if band.low >= settings.lowest_band and band.kurtosis > _STANDS_OUT * band.scatter
+        for band in fast_kurtogram(stretch, narrowest, settings, settings.lowest_band)
+        if band.kurtosis > _STANDS_OUT * band.scatter
     ]
     return max(bands, key=lambda band: band.kurtosis, default=Band(*settings.band))
 
 
-def fast_kurtogram(stretch: Stretch, narrowest: float, settings: MonitorSettings) -> list[Band]:
+def fast_kurtogram(
+    stretch: Stretch, narrowest: float, settings: MonitorSettings, lowest: float = 0.0
+) -> list[Band]:
     """Compute spectral kurtosis in bands of the 1/3-binary tree: all, halves, thirds, quarters, sixths ...
 
-    Bands come from wide to narrow; below the narrowest width [Hz] nothing is divided further. Sectors in
-    which the wheel strikes the rail are left out.
+    Bands come from wide to narrow; below the narrowest width [Hz] nothing is divided further, and bands that
+    reach below the lowest frequency [Hz] are left out, as are sectors in which the wheel strikes the rail.
 
     Notes
     -----
@@ -58,7 +60,7 @@ def fast_kurtogram(stretch: Stretch, narrowest: float, settings: MonitorSettings
     Signal Process. 21, sections 2 and 3.2 (1/3-binary tree).
     """
     half = 0.5 * stretch.rate
-    spectrum = rfft(stretch.acceleration - stretch.acceleration.mean(axis=0), axis=0)
+    spectrum = stretch.spectrum  # the weight of the mean, its first line, is 0 in every band
     turned = (stretch.shaft_angle - stretch.shaft_angle[0]) / (2.0 * np.pi)
     quiet = ~struck_sectors(stretch, settings)[np.minimum((turned % 1.0 * SECTORS).astype(int), SECTORS - 1)]
     parts = sorted(
@@ -68,6 +70,7 @@ def fast_kurtogram(stretch: Stretch, narrowest: float, settings: MonitorSettings
         _band(spectrum, quiet, half, part / count, (part + 1) / count)
         for count in parts
         for part in range(count)
+        if part / count * half >= lowest
     ]
 
 

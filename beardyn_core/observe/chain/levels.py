@@ -24,7 +24,11 @@ class Levels:
 
 def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], speed: float) -> Levels:
     """Compute the levels of an acceleration [m/s^2], shape [sample, axis]; rate, band and speed in [Hz]."""
-    passed = analytic_band(acceleration, rate, band).real
+    return levels_of(analytic_band(acceleration, rate, band).real, speed)
+
+
+def levels_of(passed: Float, speed: float) -> Levels:
+    """Compute the levels of what has passed a band [m/s^2], shape [sample, axis]; speed in [Hz]."""
     power = np.mean(passed**2, axis=0)
     peak = np.abs(passed).max(axis=0)
     return Levels(

@@ -6,7 +6,6 @@ import numpy as np
 
 from beardyn_core.arrays import Bool, Float
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.features import envelope
 
 SECTORS = 64
 # power of a sector over that of the usual one: a strike, and its ringing beside
@@ -30,7 +29,7 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     revolutions = int(turned[-1])
     if revolutions < _LEAST_REVOLUTIONS:
         return np.zeros(SECTORS, dtype=bool)
-    power = envelope(stretch.acceleration, stretch.rate, settings.strike_band) ** 2
+    power = stretch.squared_envelope(settings.strike_band)
     sums = np.concatenate(([0.0], np.cumsum(power)))
     edges = np.searchsorted(turned, np.arange(revolutions * SECTORS + 1) / SECTORS)
     means = np.diff(sums[edges]) / np.maximum(np.diff(edges), 1)

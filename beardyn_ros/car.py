@@ -1,0 +1,130 @@
+"""The eight axleboxes of a car: their names, where they sit, and one process for the nodes of all.
+
+A car has two bogies of two axles. Axle 1 leads; a box is called ``axle_<n>_<side>``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from re import fullmatch
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from beardyn_core.errors import InputError
+from beardyn_ros.parameters import NodeParameter
+
+SIDES = ("left", "right")
+EIGHT_BOXES = tuple(f"axle_{axle}_{side}" for axle in range(1, 5) for side in SIDES)
+NAMESPACE = "car"
+
+BOXES = NodeParameter(
+    "boxes",
+    " ".join(EIGHT_BOXES),
+    "axleboxes, each a namespace below that of this node: axle_<1 to 4>_<left or right>, axle 1 leads",
+)
+
+
+@dataclass(frozen=True)
+class Box:
+    """One axlebox of a car.
+
+    Parameters
+    ----------
+    name : str
+    axle : int
+        1 leads.
+    side : str
+        ``left`` or ``right``, looking forwards.
+    """
+
+    name: str
+    axle: int
+    side: str
+
+    def behind(self, axle_distance: float, bogie_distance: float) -> float:
+        """Compute how far its wheel runs behind the first, [m].
+
+        Parameters
+        ----------
+        axle_distance : float
+            Between the axles of a bogie, [m].
+        bogie_distance : float
+            Between the centres of the bogies, [m].
+        """
+        return (self.axle - 1) // 2 * bogie_distance + (self.axle - 1) % 2 * axle_distance
+
+
+def boxes_named(text: str) -> tuple[Box, ...]:
+    """Read the parameter ``boxes``: names with blanks or commas in between.
+
+    Raises
+    ------
+    InputError
+        With every name that is none, or comes twice.
+    """
+    names = text.replace(",", " ").split()
+    problems = [] if names else ["parameter 'boxes' is empty; name one box at least, such as axle_1_left"]
+    boxes: list[Box] = []
+    for name in names:
+        found = fullmatch(r"axle_([1-4])_(left|right)", name)
+        if found is None:
+            problems.append(
+                f"parameter 'boxes': '{name}' is no axlebox of a car; allowed are {', '.join(EIGHT_BOXES)}"
+            )
+        elif names.count(name) > 1 and name in [box.name for box in boxes]:
+            problems.append(f"parameter 'boxes': '{name}' comes twice")
+        else:
+            boxes.append(Box(name, int(found[1]), found[2]))
+    if problems:
+        raise InputError(problems)
+    return tuple(boxes)
+
+
+class NodeGroup(Node):
+    """A node with a member of its own kind for every box of a car, all in one process.
+
+    Parameters
+    ----------
+    name : str
+        Of the node, in the namespace of the car.
+    """
+
+    members: Sequence[Any] = ()
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name, namespace=NAMESPACE)
+        self.members = []
+
+    def of_member(self, box: Box, values: dict[str, Any]) -> dict[str, Any]:
+        """Gather what the node of a box is made with: its namespace, and parameters as the group has them."""
+        return {
+            "namespace": f"{self.get_namespace().rstrip('/')}/{box.name}",
+            "parameter_overrides": [Parameter(name, value=value) for name, value in values.items()],
+            "use_global_arguments": False,
+        }
+
+    @property
+    def finished(self) -> bool:
+        """Whether every member has finished, or one with an error."""
+        return all(member.finished for member in self.members) or any(
+            member.finished and member.exit_code for member in self.members
+        )
+
+    @property
+    def exit_code(self) -> int:
+        """Exit code of the first member that has failed."""
+        return next((code for member in self.members if (code := int(member.exit_code))), 0)
+
+    def close(self) -> bool:
+        """Close every member; whether a thread is still alive."""
+        alive = [member.close() for member in self.members]
+        return any(alive)
+
+    def destroy_node(self) -> None:
+        """Destroy the members, then the node."""
+        for member in self.members:
+            member.destroy_node()
+        super().destroy_node()

@@ -1,0 +1,86 @@
+"""Parameters of the twin node."""
+
+from __future__ import annotations
+
+from beardyn_core.scene.tier import TIER_NAMES
+from beardyn_ros.description_publisher import DESCRIPTION_PARAMETERS
+from beardyn_ros.frames import FRAME_ID
+from beardyn_ros.parameters import NodeParameter
+from beardyn_ros.run_state import SCENE_TIER
+
+PARAMETERS = (
+    NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
+    NodeParameter(
+        "tier",
+        SCENE_TIER,
+        "how much of the bearing moves by itself: lumped and quasistatic are fast; scene: the scene's own",
+        choices=(SCENE_TIER, *TIER_NAMES),
+    ),
+    NodeParameter(
+        "mode",
+        "lockstep",
+        "lockstep waits for load/blocks; live holds the last load/wrench and load/shaft behind a filter, "
+        "their stamps may be of any one clock as long as they increase",
+        choices=("lockstep", "live"),
+    ),
+    NodeParameter(
+        "speed_factor",
+        0.0,
+        "simulated seconds per wall second, 1 is real time, 0 is as fast as it goes (in live mode: 1); "
+        "in lockstep the results do not depend on it",
+        minimum=0.0,
+        maximum=1000.0,
+        live=True,
+    ),
+    NodeParameter("autostart", True, "configure and activate at once, without a lifecycle manager"),
+    NodeParameter(
+        "exit_when_done", True, "end the process when the load stream has ended or the run has stopped"
+    ),
+    NodeParameter(
+        "start_timeout", 120.0, "longest wait for the first load, 0 for ever", "s", minimum=0.0, maximum=1e6
+    ),
+    NodeParameter(
+        "load_timeout",
+        10.0,
+        "longest wait for load that stopped coming in lockstep, 0 for ever",
+        "s",
+        minimum=0.0,
+        maximum=1e6,
+    ),
+    NodeParameter(
+        "max_age", 0.5, "oldest load that the live mode may hold", "s", minimum=0.02, maximum=3600.0
+    ),
+    NodeParameter(
+        "live_bandwidth",
+        10.0,
+        "live load passes a low-pass filter before it is sampled every 20 ms: its half-power point; the "
+        "delay is 0.336 / live_bandwidth, 34 ms at 10 Hz; 40 Hz is damped by 34 dB then",
+        "Hz",
+        minimum=0.1,
+        maximum=15.0,
+    ),
+    NodeParameter(
+        "join",
+        False,
+        "take a load stream from where it stands; otherwise a stream whose sample 0 is missing is refused",
+    ),
+    NodeParameter(
+        "load_queue",
+        120.0,
+        "load that may wait; more is an error that ends the run",
+        "s",
+        minimum=0.1,
+        maximum=3600.0,
+    ),
+    NodeParameter(
+        "load_queue_size",
+        256.0,
+        "memory that waiting load may take, 88 bytes a sample",
+        "MB",
+        minimum=0.1,
+        maximum=16_384.0,
+    ),
+    NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
+    FRAME_ID,
+    *DESCRIPTION_PARAMETERS,
+)

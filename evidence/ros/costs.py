@@ -1,0 +1,115 @@
+"""Processor time and memory of every node per simulated second: ``python -m evidence.ros.costs``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated as A
+
+from test.ros.graph import Graph
+
+NODES = ("twin", "load", "recorder", "monitor")
+START_S = 6.0  # imports, discovery and the first analyses are not counted
+FAKE = "fake"
+PATIENCE_S = 900.0
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What one node took."""
+
+    node: str
+    cpu: A[float, "processor time per simulated second, [-]"]
+    memory_before: A[float, "resident, [MB]"]
+    memory_after: float
+
+
+def costs(
+    graph: Graph, scene: str, duration: float, output: Path
+) -> tuple[float, list[Cost], dict[str, str]]:
+    """Run all nodes in real time and measure them.
+
+    Parameters
+    ----------
+    graph : Graph
+    scene : str
+        `FAKE` for a twin without physics.
+    duration : float
+        Simulated time that is measured, [s].
+    output : Path
+        Of the recorder.
+
+    Returns
+    -------
+    tuple
+        Simulated time, the cost of each node, and the last values of the twin's diagnostic.
+    """
+    replay = {"duration": duration + 2.0 * START_S, "loop": False}
+    if scene == FAKE:
+        graph.fake_twin(speed_factor=1.0)
+    else:
+        graph.node_process("twin", scene=scene, speed_factor=1.0)
+    graph.node_process("recorder", output=str(output))
+    graph.node_process("monitor")
+    listeners = ("recorder", "monitor")
+    graph.until(
+        lambda: all(any(s.value("connected") == "true" for s in graph.statuses(n)) for n in listeners),
+        "recorder and monitor",
+        timeout=PATIENCE_S,
+    )
+    if scene == FAKE:
+        graph.fake_load(**replay)
+    else:
+        graph.node_process("load", scene=scene, **replay)
+    begin, before = _at(graph, START_S)
+    end, after = _at(graph, START_S + duration)
+    found = [Cost(n, (after[n][0] - before[n][0]) / (end - begin), before[n][1], after[n][1]) for n in NODES]
+    return end - begin, found, dict(graph.statuses("twin")[-1].values)
+
+
+def _at(graph: Graph, moment: float) -> tuple[float, dict[str, tuple[float, float]]]:
+    """Wait for a simulated time; return it, and processor time and memory of each node."""
+
+    def simulated() -> float:
+        found = graph.statuses("twin")
+        del graph.messages["/diagnostics"][:-50]
+        return float(found[-1].value("simulated_time") or 0.0) if found else 0.0
+
+    graph.until(
+        lambda: simulated() >= moment, f"simulated time {moment:g} s", timeout=PATIENCE_S + 2 * moment
+    )
+    return simulated(), {node: usage(graph.processes.pid(node)) for node in NODES}
+
+
+def usage(pid: int) -> tuple[float, float]:
+    """Read processor time [s] and resident memory [MB] of a process."""
+    words = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
+    ticks = int(words[11]) + int(words[12])
+    return ticks / os.sysconf("SC_CLK_TCK"), pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Measure and print a table."""
+    parser = argparse.ArgumentParser(prog="python -m evidence.ros.costs", description=__doc__)
+    parser.add_argument("--scene", default=FAKE, help=f"scene by name or path; default {FAKE}: no physics")
+    parser.add_argument("--seconds", type=float, default=60.0, help="simulated time (default 60)")
+    args = parser.parse_args(words)
+    with tempfile.TemporaryDirectory(prefix="costs-") as name, Graph(Path(name)) as graph:
+        span, found, values = costs(graph, args.scene, args.seconds, Path(name) / "run.mcap")
+    print(f"{args.scene}: {span:.1f} s simulated, pace {values.get('pace')}")
+    for each in found:
+        print(
+            f"{each.node:10}{each.cpu:7.3f} CPU-s/s {each.memory_before:8.1f} ->{each.memory_after:7.1f} MB"
+        )
+    print(f"{'others':10}{sum(each.cpu for each in found if each.node != 'twin'):7.3f} CPU-s/s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,28 @@
+"""The short parts of the trials of the ROS graph; `make soak` and the commands run all of them."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+if importlib.util.find_spec("rclpy") is None:
+    pytest.skip("rclpy is not installed (pip install .[ros])", allow_module_level=True)
+
+from evidence.ros.kills import LARGEST_LOSS_S, killed_recorders
+from evidence.ros.soak import soak
+from test.ros.graph import Graph
+
+pytestmark = [pytest.mark.ros, pytest.mark.slow]
+
+
+def test_a_killed_recorder_lacks_at_most_a_second_each_time(tmp_path: Path) -> None:
+    with Graph(tmp_path) as graph:
+        found = list(killed_recorders(graph, tmp_path, 3))
+    assert max(each.lost_s for each in found) <= LARGEST_LOSS_S
+    assert not any(each.gaps for each in found)
+
+
+def test_five_minutes_of_faults_leave_nothing_that_does_not_hold(tmp_path: Path) -> None:
+    assert soak(tmp_path, 300.0) == []

@@ -1,0 +1,204 @@
+"""Runs a launch file where `launch` and `launch_ros` are not installed: they are in no package registry.
+
+Stands in for the few classes that `launch/car.launch.py` uses, with their documented behaviour and with real
+processes: ``python -m test.ros.launch_stand_in FOLDER car.launch.py name:=value``. With ``--fake-twin`` the
+twin is the fake one. As with ``ros2 launch``, SIGINT shuts everything down, and the exit code is 0.
+"""
+
+from __future__ import annotations
+
+import json
+import runpy
+import signal
+import subprocess
+import sys
+import time
+import types
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+FOLDER = Path(__file__).parents[2] / "launch"
+
+
+class Record:
+    """An action, event or handler: remembers its arguments."""
+
+    def __init__(self, *positional: Any, **named: Any) -> None:
+        self.positional = positional
+        self.__dict__.update(named)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(f"{type(self).__name__} was given no {name}")
+
+
+class DeclareLaunchArgument(Record):
+    pass
+
+
+class OpaqueFunction(Record):
+    pass
+
+
+class RegisterEventHandler(Record):
+    pass
+
+
+class OnProcessExit(Record):
+    pass
+
+
+class EmitEvent(Record):
+    pass
+
+
+class SignalProcess(Record):
+    pass
+
+
+class LogInfo(Record):
+    pass
+
+
+class TimerAction(Record):
+    cancelled = False
+
+    def cancel(self) -> None:
+        self.cancelled = True
+
+
+class Shutdown(Record):
+    pass
+
+
+class LaunchDescription(Record):
+    pass
+
+
+class LaunchConfiguration(Record):
+    def perform(self, context: Any) -> str:
+        return str(context.launch_configurations[self.positional[0]])
+
+
+class Node(Record):
+    """A process of the package, its parameters in a file under the node's full name as launch_ros does."""
+
+    def start(self, folder: Path, fake_twin: bool) -> subprocess.Popen[bytes]:
+        full_name = f"/{self.namespace}/{self.name}"
+        file = folder / f"{full_name.strip('/').replace('/', '.')}.yaml"
+        values = {name: value for part in self.parameters for name, value in part.items()}
+        fake = self.executable == "twin" and fake_twin
+        values = {**values, "scene": "fake"} if fake else values
+        file.write_text(json.dumps({full_name: {"ros__parameters": values}}))
+        module = "test.ros.fake_twin" if fake else "beardyn_ros"
+        words = ["--ros-args", "-r", f"__node:={self.name}", "-r", f"__ns:=/{self.namespace}"]
+        words += ["--params-file", str(file)]
+        return subprocess.Popen([sys.executable, "-m", module, self.executable, *words])
+
+
+def matches_action(node: Node) -> Callable[[Node], bool]:
+    return lambda other: other is node
+
+
+class Launcher:
+    """Carries out the actions of a launch description until every process has ended."""
+
+    def __init__(self, folder: Path, fake_twin: bool, configurations: dict[str, str]) -> None:
+        self.folder = folder
+        self.fake_twin = fake_twin
+        self.launch_configurations = configurations
+        self.running: dict[Node, subprocess.Popen[bytes]] = {}
+        self.handlers: list[OnProcessExit] = []
+        self.timers: list[tuple[float, TimerAction]] = []
+        self.kill_at: float | None = None
+
+    def carry_out(self, actions: Sequence[Any]) -> None:
+        for action in actions:
+            if isinstance(action, DeclareLaunchArgument):
+                self.launch_configurations.setdefault(action.positional[0], action.default_value)
+            elif isinstance(action, OpaqueFunction):
+                self.carry_out(action.function(self))
+            elif isinstance(action, RegisterEventHandler):
+                self.handlers.append(action.positional[0])
+            elif isinstance(action, Node):
+                self.running[action] = action.start(self.folder, self.fake_twin)
+                print(f"[launch] {action.namespace}/{action.name} pid {self.running[action].pid}", flush=True)
+            elif isinstance(action, LogInfo):
+                print(action.msg, flush=True)
+            elif isinstance(action, TimerAction):
+                self.timers.append((time.monotonic() + action.period, action))
+            elif isinstance(action, Shutdown):
+                self.shut_down()
+            elif isinstance(action, EmitEvent):
+                for node in list(self.running):
+                    if action.event.process_matcher(node):
+                        self.running[node].send_signal(action.event.signal_number)
+            else:
+                raise TypeError(f"the stand-in knows no {type(action).__name__}")
+
+    def shut_down(self) -> None:
+        if self.kill_at is None:
+            self.kill_at = time.monotonic() + 10.0
+            for child in self.running.values():
+                child.send_signal(signal.SIGINT)
+
+    def run(self) -> None:
+        while self.running or self.timers:
+            time.sleep(0.05)
+            self.timers = [timer for timer in self.timers if not timer[1].cancelled and self.kill_at is None]
+            for node, child in list(self.running.items()):
+                if child.poll() is not None:
+                    del self.running[node]
+                    self.report_exit(node, child.returncode)
+            for due in [timer for timer in self.timers if timer[0] < time.monotonic()]:
+                self.timers.remove(due)
+                self.carry_out(due[1].actions)
+            if self.kill_at is not None and time.monotonic() > self.kill_at:
+                for child in self.running.values():
+                    child.kill()
+
+    def report_exit(self, node: Node, code: int) -> None:
+        event = Record(action=node, returncode=code, process_name=f"{node.namespace}/{node.name}")
+        print(f"[launch] {event.process_name} exit {code}", flush=True)
+        for handler in self.handlers:
+            if handler.target_action is node and self.kill_at is None:
+                self.carry_out(handler.on_exit(event, self))
+
+
+MODULES: dict[str, dict[str, Any]] = {
+    "launch": {"LaunchDescription": LaunchDescription, "LaunchContext": Any, "LaunchDescriptionEntity": Any},
+    "launch.actions": {
+        "DeclareLaunchArgument": DeclareLaunchArgument,
+        "EmitEvent": EmitEvent,
+        "LogInfo": LogInfo,
+        "OpaqueFunction": OpaqueFunction,
+        "RegisterEventHandler": RegisterEventHandler,
+        "Shutdown": Shutdown,
+        "TimerAction": TimerAction,
+    },
+    "launch.event_handlers": {"OnProcessExit": OnProcessExit},
+    "launch.events": {"matches_action": matches_action},
+    "launch.events.process": {"SignalProcess": SignalProcess},
+    "launch.substitutions": {"LaunchConfiguration": LaunchConfiguration},
+    "launch_ros": {},
+    "launch_ros.actions": {"Node": Node},
+}
+
+
+def main(words: Sequence[str]) -> int:
+    for name, content in MODULES.items():
+        module = types.ModuleType(name)
+        module.__dict__.update(content)
+        sys.modules[name] = module
+    folder, file, *given = [word for word in words if word != "--fake-twin"]
+    described = runpy.run_path(str(FOLDER / file))["generate_launch_description"]()
+    launcher = Launcher(Path(folder), "--fake-twin" in words, dict(word.split(":=", 1) for word in given))
+    signal.signal(signal.SIGINT, lambda *_: launcher.shut_down())
+    signal.signal(signal.SIGTERM, lambda *_: launcher.shut_down())
+    launcher.carry_out(described.positional[0])
+    launcher.run()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

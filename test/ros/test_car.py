@@ -1,0 +1,262 @@
+"""Several axleboxes of a car: one load source, one recorder, and an orderly end whatever ends first."""
+
+from __future__ import annotations
+
+import re
+import signal
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import psutil
+import pytest
+
+from beardyn_core.errors import InputError
+from beardyn_core.record.reading import read_run
+from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.car import EIGHT_BOXES, Box, boxes_named
+from test.ros.graph import Graph
+
+TWO = ("axle_1_left", "axle_4_right")
+RADIUS = 0.46
+
+
+def history(speed: np.ndarray, spacing_ns: int = 500_000) -> LoadHistory:
+    count = len(speed)
+    time = np.arange(count) * spacing_ns * 1e-9
+    wrench = np.zeros((count, 6))
+    wrench[:, 2] = 6e4 + 5e3 * np.sin(2 * np.pi * 40.0 * time)
+    return LoadHistory(
+        np.arange(count, dtype=np.int64) * spacing_ns, wrench, speed / RADIUS, np.zeros((count, 3))
+    )
+
+
+def test_a_wheel_further_back_gets_the_force_later_by_the_way_over_the_speed() -> None:
+    from beardyn_ros.car_scenario import passed_later
+
+    whole = history(np.full(4001, 50.0))
+    first, begin = passed_later(whole, RADIUS, 0.0, 20.0)
+    last, _ = passed_later(whole, RADIUS, 20.0, 20.0)
+    assert begin == pytest.approx(0.4, abs=5e-4)
+    assert len(first) == len(last) == 4001 - 800
+    assert first.time_ns[0] == 0
+    delay = 800
+    # a cubic through 50 samples a wave: better than 1e-4 of the amplitude
+    assert np.allclose(last.wrench[delay:, 2], first.wrench[:-delay, 2], atol=0.5)
+    assert np.allclose(last.wrench[:, 2], whole.wrench[:-delay, 2], atol=0.5)
+
+
+def test_a_slowing_train_has_one_speed_and_longer_delays() -> None:
+    from beardyn_ros.car_scenario import passed_later
+
+    speed = np.linspace(60.0, 20.0, 8001)
+    whole = history(speed)
+    last, begin = passed_later(whole, RADIUS, 20.0, 20.0)
+    first = round(begin / 5e-4)
+    assert np.array_equal(last.shaft_speed, whole.shaft_speed[first:])
+    way = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * 5e-4)])
+    then = np.interp(way[-1] - 20.0, way, whole.time_ns * 1e-9)
+    assert last.wrench[-1, 2] == pytest.approx(6e4 + 5e3 * np.sin(2 * np.pi * 40.0 * then), abs=1.0)
+
+
+def test_a_train_that_stands_or_turns_back_is_refused_with_a_sentence() -> None:
+    from beardyn_ros.car_scenario import passed_later
+
+    with pytest.raises(InputError, match=r"20 m behind the first.*runs 0\.0 m"):
+        passed_later(history(np.zeros(100)), RADIUS, 20.0, 20.0)
+    with pytest.raises(InputError, match="turns back"):
+        passed_later(history(np.linspace(50.0, -50.0, 8001)), RADIUS, 2.5, 20.0)
+    whole = history(np.zeros(100))
+    assert passed_later(whole, RADIUS, 0.0, 0.0)[0] is whole
+
+
+def test_boxes_are_named_by_axle_and_side() -> None:
+    assert len(boxes_named(" ".join(EIGHT_BOXES))) == 8
+    assert boxes_named("axle_3_left, axle_4_right") == (
+        Box("axle_3_left", 3, "left"),
+        Box("axle_4_right", 4, "right"),
+    )
+    assert [box.behind(2.5, 17.5) for box in boxes_named(" ".join(EIGHT_BOXES))[::2]] == [0, 2.5, 17.5, 20]
+    for text, sentence in (
+        ("", "is empty"),
+        ("axle_9_left", "'axle_9_left' is no"),
+        ("axle_1_left " * 2, "twice"),
+    ):
+        with pytest.raises(InputError, match=sentence):
+            boxes_named(text)
+
+
+def test_the_right_rail_is_another_one_and_a_wheel_defect_stays_with_its_wheel() -> None:
+    from beardyn_ros.car_scenario import CarGeometry, CarScenario
+
+    boxes = boxes_named("axle_1_left axle_2_left axle_1_right")
+    geometry = CarGeometry(2.5, 17.5, "axle_2_left")
+    scenario = CarScenario(boxes, geometry, "wheel_flat", "", 0.5)
+    leading, flat, right = (scenario.of(box) for box in boxes)
+    assert len(leading.history) * 5 == pytest.approx(
+        len(flat.history), rel=0.02
+    )  # 2 kHz, and 10 kHz with a flat
+    assert flat.history.wrench[:, 2].max() > 1.2 * leading.history.wrench[:, 2].max()
+    assert leading.history.time_ns[-1] >= 0.49e9
+    assert not np.allclose(leading.history.wrench[:, 2], right.history.wrench[:, 2], atol=100.0)
+    assert leading.events["box"]["name"] == "axle_1_left"
+    assert flat.events["box"]["behind_first_wheel_m"] == 2.5
+
+
+class Car:
+    """The launch file, running in a test."""
+
+    def __init__(self, graph: Graph, boxes: tuple[str, ...], *words: str, fake: bool = True) -> None:
+        self.graph, self.boxes = graph, boxes
+        graph.processes.start(
+            "car", "-m", "test.ros.launch_stand_in", str(graph.folder), "car.launch.py",
+            *(["--fake-twin"] if fake else []), f"boxes:={' '.join(boxes)}",
+            f"output:={graph.folder / 'car.mcap'}", *words,
+        )  # fmt: skip
+
+    @property
+    def log(self) -> str:
+        return self.graph.processes.log("car")
+
+    def pid(self, name: str) -> int:
+        found = re.search(rf"^\[launch\] {name} pid (\d+)$", self.log, re.M)
+        assert found is not None, self.log
+        return int(found[1])
+
+    def exits(self) -> dict[str, int]:
+        return {
+            name: int(code) for name, code in re.findall(r"^\[launch\] (\S+) exit (-?\d+)$", self.log, re.M)
+        }
+
+    def names(self) -> list[str]:
+        return [*(f"car/{box}/twin" for box in self.boxes), "car/load", "car/recorder"]
+
+    def until_running(self) -> None:
+        def running() -> bool:
+            last: dict[str, Any] = {status.name: status for status in self.graph.statuses("twin")}
+            states = [last.get(f"car/{box}/twin") for box in self.boxes]
+            return all(each is not None and int(each.value("blocks")) > 10 for each in states)
+
+        self.graph.until(running, "all boxes to run")
+
+    def end(self) -> None:
+        """Wait for the end of everything, and that nothing is left behind."""
+        assert self.graph.exit_code("car") == 0, self.log
+        pids = [self.pid(name) for name in self.names()]
+        _, alive = psutil.wait_procs([psutil.Process(p) for p in pids if psutil.pid_exists(p)], timeout=2.0)
+        assert alive == []
+        assert "Traceback" not in self.log, self.log
+
+    def file(self, box: str) -> Path:
+        return self.graph.folder / f"car_{box}.mcap"
+
+
+def test_a_car_ends_with_its_load_and_every_box_has_a_whole_file(graph: Graph) -> None:
+    car = Car(graph, TWO, "duration:=2.0")
+    car.end()
+    assert car.exits() == dict.fromkeys(car.names(), 0)
+    loads = {}
+    for box in TWO:
+        run = read_run(car.file(box))
+        assert np.array_equal(run.vibration.sample, np.arange(100 * 512))
+        assert (run.complete, run.status) == (True, "complete")
+        loads[box] = run.load
+    assert {"car/axle_1_left/twin", "car/axle_4_right/twin"} <= {s.name for s in graph.statuses("twin")}
+    assert not np.allclose(loads[TWO[0]].wrench[:500], loads[TWO[1]].wrench[:500])
+
+
+@pytest.mark.slow
+def test_boxes_of_a_car_stay_together_within_the_horizon(graph: Graph) -> None:
+    car = Car(graph, TWO, "scene:=static_80kN", "duration:=6.0", "speed_factor:=1.0")
+    car.until_running()
+    slow = psutil.Process(car.pid("car/axle_4_right/twin"))
+    slow.suspend()
+
+    def ahead() -> bool:
+        last = {status.name: float(status.value("simulated_time")) for status in graph.statuses("twin")}
+        return last["car/axle_1_left/twin"] - last["car/axle_4_right/twin"] > 0.8
+
+    graph.until(ahead, "the other box to run ahead")
+    graph.until(
+        lambda: graph.statuses("twin")[-1].value("load_queue") == "0", "the other box to wait for load"
+    )
+    last = {status.name: float(status.value("simulated_time")) for status in graph.statuses("twin")}
+    assert (
+        last["car/axle_1_left/twin"] - last["car/axle_4_right/twin"] < 1.4
+    )  # the horizon, and credit on its way
+    slow.resume()
+    car.end()
+    assert car.exits() == dict.fromkeys(car.names(), 0)
+
+
+@pytest.mark.parametrize(
+    ("first", "number"),
+    [
+        ("car/axle_4_right/twin", signal.SIGKILL),
+        *(
+            pytest.param(name, signal.SIGKILL, marks=pytest.mark.slow)
+            for name in ("car/load", "car/recorder")
+        ),
+        *(
+            pytest.param(name, signal.SIGINT, marks=pytest.mark.slow)
+            for name in ("car/load", "car/recorder", "car/axle_4_right/twin")
+        ),
+    ],
+)
+def test_a_car_ends_orderly_whatever_ends_first(graph: Graph, first: str, number: signal.Signals) -> None:
+    car = Car(graph, TWO, "scene:=static_80kN", "duration:=60.0", "speed_factor:=1.0")
+    car.until_running()
+    psutil.Process(car.pid(first)).send_signal(number)
+    car.end()
+    exits = car.exits()
+    assert set(exits) == set(car.names())
+    assert exits[first] == (-number if number == signal.SIGKILL else 0)
+    assert all(code in (0, 4) for name, code in exits.items() if name != first)
+    if first != "car/recorder":
+        assert exits["car/recorder"] == 0
+    for box in TWO:
+        assert len(read_run(car.file(box)).vibration) > 10 * 512
+
+
+def test_sigint_ends_a_car_with_closed_files(graph: Graph) -> None:
+    car = Car(graph, TWO, "scene:=static_80kN", "duration:=60.0", "speed_factor:=1.0")
+    car.until_running()
+    graph.processes.signal("car", signal.SIGINT)
+    car.end()
+    assert car.exits() == dict.fromkeys(car.names(), 0)
+    for box in TWO:
+        assert len(read_run(car.file(box)).vibration) > 10 * 512
+
+
+def test_load_of_a_car_refuses_what_it_cannot_do(graph: Graph) -> None:
+    graph.start("names", "beardyn_ros", "car_load", boxes="axle_7_left")
+    graph.start("scene", "beardyn_ros", "car_load", scene="no_such_scene")
+    graph.start("back", "beardyn_ros", "car_load", scene="reversing")
+    graph.start("flat", "beardyn_ros", "car_load", boxes="axle_2_left", scene="smooth_run")
+    told = {
+        "names": "is no axlebox",
+        "scene": "no_such_scene",
+        "back": "turns back",
+        "flat": "none of",
+    }
+    for name, word in told.items():
+        assert graph.exit_code(name) == 2
+        assert word in graph.processes.log(name)
+        assert "Traceback" not in graph.processes.log(name)
+
+
+@pytest.mark.slow
+def test_eight_boxes_of_a_car_run_to_the_end_and_one_of_them_is_spalled(graph: Graph) -> None:
+    from beardyn_core.choice import load_scene
+    from beardyn_core.twin import Twin
+
+    for scene in ("smooth_run", "cup_spall"):
+        Twin(load_scene(scene, tier="lumped", outside_load=True)).warm()
+    car = Car(graph, EIGHT_BOXES, "duration:=1.0", "faulty_box:=axle_2_left", fake=False)
+    graph.until(lambda: graph.processes.exit_code("car") is not None, "the end", timeout=280.0)
+    car.end()
+    assert car.exits() == dict.fromkeys(car.names(), 0)
+    for box in EIGHT_BOXES:
+        run = read_run(car.file(box))
+        assert len(run.vibration) == 50 * 512
+        assert bool(run.truth["faults"]) == (box == "axle_2_left")

@@ -1,0 +1,137 @@
+"""Nothing is lost in silence: node and report tell, by topic, what was published and is not recorded."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.reporting import report
+from beardyn_core.record.topics import relative_name
+from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
+from test.record.test_broken_files import told
+from test.ros.graph import Graph
+from test.ros.test_recorder import is_connected
+
+INCOMPLETE = 5
+TRUE_DEFAULTS = """<?xml version="1.0" encoding="UTF-8" ?>
+<dds xmlns="http://www.eprosima.com"><profiles></profiles></dds>
+"""
+
+
+def reported(path: Path) -> str:
+    """What ``beardyn report`` prints."""
+    code, said = told("report", str(path))
+    assert code == 0, said
+    return said
+
+
+def recorded_counts(path: Path) -> dict[str, int]:
+    counts: dict[str, int] = {}
+    for message in McapScan(path).messages():
+        name = relative_name(message.topic)
+        counts[name] = counts.get(name, 0) + 1
+    return counts
+
+
+def code_and_report_agree(graph: Graph, path: Path) -> int:
+    """Exit code of the recorder: 0 exactly when nothing is missing; log and report say the same."""
+    code, log = graph.exit_code("recorder"), graph.processes.log("recorder")
+    missing = report(path).missing_messages
+    assert missing is not None, log
+    assert code == (INCOMPLETE if missing else 0), log
+    text = reported(path)
+    for each in missing:
+        told = f"{each.topic} {each.count} of {each.published}"
+        assert told in log
+        assert told in text
+    assert ("no samples missing" in text) == (not missing)
+    return code
+
+
+def test_what_came_before_the_recorder_is_missing_and_told_by_topic(graph: Graph) -> None:
+    path = graph.folder / "run.mcap"
+    graph.fake_twin(speed_factor=2.0)
+    graph.fake_load(duration=40.0)
+    graph.until(
+        lambda: any(float(s.value("simulated_time")) > 0.5 for s in graph.statuses("twin")), "half a second"
+    )
+    graph.node_process("recorder", output=str(path))
+    assert graph.exit_code("twin") == 0
+    assert code_and_report_agree(graph, path) == INCOMPLETE
+    missing = {each.topic: each for each in report(path).missing_messages or ()}
+    assert missing["vibration"].published == 2000
+    assert missing["force"].published == 16_000
+    assert missing["vibration"].recorded == recorded_counts(path)["vibration"]
+    assert "before the recorder was there" in graph.processes.log("recorder")
+
+
+def test_a_whole_recording_ends_with_0_and_has_every_published_message(graph: Graph) -> None:
+    path = graph.folder / "run.mcap"
+    graph.fake_twin()
+    graph.node_process("recorder", output=str(path))
+    is_connected(graph, "recorder")
+    graph.fake_load(duration=4.0)
+    assert code_and_report_agree(graph, path) == 0
+    counts = recorded_counts(path)
+    assert (counts["vibration"], counts["force"], counts["joint_states"]) == (200, 1600, 800)
+    assert counts["truth"] == 1
+
+
+@pytest.fixture(params=["sourced", "true defaults"])
+def sourced(
+    request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Graph]:
+    """A graph in a sourced ROS; with `true defaults` the user's own empty Fast DDS profile is in force."""
+    prepare_environment()  # AMENT_PREFIX_PATH, which a sourced ROS has
+    for name in PROFILE_VARIABLES:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("ROS_DISTRO", "kilted")
+    if request.param == "true defaults":
+        profile = tmp_path / "empty.xml"
+        profile.write_text(TRUE_DEFAULTS)
+        monkeypatch.setenv(PROFILE_VARIABLES[0], str(profile))
+    with Graph(tmp_path) as running:
+        running.has_profile = request.param == "sourced"  # type: ignore[attr-defined]
+        yield running
+    assert os.environ["ROS_DISTRO"] == "kilted"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("factor", [0.0, 4.0])
+def test_in_a_sourced_ros_the_code_tells_the_truth_and_nothing_is_lost(sourced: Graph, factor: float) -> None:
+    path = sourced.folder / "run.mcap"
+    sourced.fake_twin(speed_factor=factor)
+    sourced.node_process("recorder", output=str(path))
+    is_connected(sourced, "recorder")
+    sourced.fake_load(duration=12.0)
+    code = code_and_report_agree(sourced, path)
+    if sourced.has_profile:  # type: ignore[attr-defined]
+        assert code == 0, sourced.processes.log("recorder")
+
+
+@pytest.mark.slow
+def test_a_disk_that_stalls_costs_no_message(graph: Graph) -> None:
+    """Eight seconds, longer than the history of any topic at that speed."""
+    path = graph.folder / "run.mcap"
+    graph.fake_twin(speed_factor=2.0)
+    graph.start("recorder", "test.ros.slow_disk", "8", "recorder", output=str(path))
+    is_connected(graph, "recorder")
+    graph.fake_load(duration=24.0)
+    assert graph.exit_code("twin") == 0
+    assert "the disk stalls" in graph.processes.log("recorder")
+    assert code_and_report_agree(graph, path) == 0
+
+
+def test_a_full_disk_is_a_sentence_and_code_2(graph: Graph) -> None:
+    graph.fake_twin(speed_factor=2.0)
+    graph.node_process("recorder", output="/dev/full", replace=True)
+    is_connected(graph, "recorder")
+    graph.fake_load(duration=4.0)
+    assert graph.exit_code("recorder") == 2
+    log = graph.processes.log("recorder")
+    assert "No space left on device" in log
+    assert "Traceback" not in log

@@ -1,0 +1,136 @@
+"""Several axleboxes in one graph: whose status, whose frame, and two twins under one name."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+
+from beardyn_core.record.messages import DIAGNOSTICS, Diagnostic, decode, encode_diagnostics
+from beardyn_core.record.reading import read_run
+from test.ros.graph import Graph
+from test.ros.test_recorder import is_connected
+
+
+def box(graph: Graph, namespace: str, kind: str, **parameters: object) -> None:
+    """Start a node of one axlebox under the name ``<kind>_<namespace>``."""
+    module = "test.ros.fake_twin" if kind in ("twin", "load") else "beardyn_ros"
+    words = ["--ros-args", "-r", f"__ns:=/{namespace}"]
+    for key, value in parameters.items():
+        words += ["-p", f"{key}:={str(value).lower() if isinstance(value, bool) else value}"]
+    graph.processes.start(f"{kind}_{namespace}", "-m", module, kind, *words)
+
+
+def test_the_end_of_one_axlebox_leaves_recorder_and_monitor_of_another_at_work(graph: Graph) -> None:
+    path = graph.folder / "left.mcap"
+    box(graph, "left", "twin", scene="fake", speed_factor=1.0, publish_clock=False)
+    box(graph, "left", "recorder", output=path)
+    box(graph, "left", "monitor")
+    graph.until(lambda: graph.statuses("twin", "/left"), "the left twin")
+    graph.until(
+        lambda: any(s.value("connected") == "true" for s in graph.statuses("recorder", "/left")),
+        "the recorder's connection",
+    )
+    box(graph, "right", "twin", scene="fake", exit_when_done=False, publish_clock=False)
+    graph.until(lambda: graph.statuses("twin", "/right"), "the right twin")
+    box(graph, "left", "load", duration=8.0)
+    box(graph, "right", "load", duration=0.5)
+    graph.until(
+        lambda: graph.statuses("twin", "/right")[-1].value("state") == "finished", "the end of the right run"
+    )
+    # another product in the same graph has a part called twin too
+    stranger = Diagnostic("digital_twin_platform/twin", 0, "done", (("state", "finished"),))
+    graph.out.publish("/diagnostics", encode_diagnostics(0, "platform", [stranger]))
+    assert graph.statuses("twin", "/left")[-1].value("state") != "finished"
+    assert graph.exit_code("twin_left") == 0
+    assert graph.exit_code("recorder_left") == 0
+    assert graph.exit_code("monitor_left") == 0
+    run = read_run(path)
+    assert run.complete
+    assert np.array_equal(run.vibration.sample, np.arange(8 * 50 * 512))
+
+
+def test_frames_and_hardware_ids_are_those_of_the_namespace_or_as_given(graph: Graph) -> None:
+    box(graph, "left", "twin", scene="fake", publish_clock=False)
+    box(graph, "right", "twin", scene="fake", publish_clock=False, frame_id="car/right_box")
+    box(graph, "left", "load", duration=0.2)
+    box(graph, "right", "load", duration=0.2, frame_id="car/right_box")
+    frames: dict[str, str] = {}
+    hardware: dict[str, str] = {}
+
+    def listen(namespace: str) -> None:
+        from geometry_msgs.msg import WrenchStamped
+
+        def take(message: object) -> None:
+            frames[namespace] = message.header.frame_id  # type: ignore[attr-defined]
+
+        graph.node.create_subscription(WrenchStamped, f"/{namespace}/force", take, 50)
+
+    for namespace in ("left", "right"):
+        listen(namespace)
+    graph.until(lambda: len(frames) == 2, "forces of both")
+    for cdr in graph.messages["/diagnostics"]:
+        hardware |= {status.name: status.hardware_id for status in decode(DIAGNOSTICS, cdr).status}
+    assert frames == {"left": "left", "right": "car/right_box"}
+    assert hardware["left/twin"] == hardware["left/load"] == "left"
+    assert hardware["right/twin"] == hardware["right/load"] == "right"
+    assert graph.exit_code("twin_left") == 0
+    assert graph.exit_code("twin_right") == 0
+
+
+def test_a_second_twin_of_the_same_name_refuses_and_the_recording_of_the_first_is_whole(graph: Graph) -> None:
+    path = graph.folder / "run.mcap"
+    graph.fake_twin(speed_factor=1.0)
+    graph.node_process("recorder", output=str(path))
+    is_connected(graph, "recorder")
+    graph.fake_load(duration=2.0, fade=0.1, loop=True)
+    graph.until_state("running")
+    graph.fake_twin("second", speed_factor=1.0)
+    assert graph.exit_code("second") == 2
+    assert "there is a twin axlebox/twin already" in graph.processes.log("second")
+    graph.dismiss("second")
+    assert graph.processes.exit_code("twin") is None
+    warned = [s for s in graph.statuses("twin") if "another twin speaks as axlebox/twin" in s.message]
+    assert [status.level for status in warned[:1]] == [1]
+    graph.until(lambda: graph.statuses("twin")[-1].level == 0, "the end of the warning")
+    assert graph.set_parameter("load", "loop", False).successful
+    assert graph.exit_code("twin") == 0
+    assert graph.exit_code("recorder") == 0
+    run = read_run(path)
+    assert run.status == "complete"
+    blocks = int(graph.statuses("twin")[-1].value("blocks"))
+    assert np.array_equal(run.vibration.sample, np.arange(blocks * 512))
+
+
+def test_a_recorder_refuses_to_mix_two_twins_that_speak_in_turns(graph: Graph) -> None:
+    path = graph.folder / "run.mcap"
+    graph.fake_twin(speed_factor=1.0)
+    graph.node_process("recorder", output=str(path))
+    is_connected(graph, "recorder")
+    graph.fake_load(duration=60.0)
+    graph.until_state("running")
+    graph.until(
+        lambda: any(int(s.value("messages") or 0) > 100 for s in graph.statuses("recorder")), "a recording"
+    )
+    values = (
+        *(("state", "running"), ("run_id", "0badcafe-0")),
+        *(("instance", "0badcafe"), ("since", str(2**62))),
+    )
+    rival = encode_diagnostics(0, "axlebox", [Diagnostic("axlebox/twin", 0, "running", values)])
+    begin = time.monotonic()
+    graph.until(
+        lambda: graph.out.publish("/diagnostics", rival) and time.monotonic() - begin > 0.5, "a rival twin"
+    )
+    assert graph.exit_code("recorder") == 2
+    assert "two twins speak as axlebox/twin at once" in (read_run(path).status or "")
+
+
+def test_a_twin_says_that_somebody_else_publishes_the_clock(graph: Graph) -> None:
+    graph.fake_twin()
+    graph.until_state("waiting for load")
+    graph.out.publisher("/clock")
+    graph.until(
+        lambda: any("somebody else publishes /clock too" in s.message for s in graph.statuses("twin")),
+        "the warning of a second clock",
+    )
+    assert graph.statuses("twin")[-1].level == 1
