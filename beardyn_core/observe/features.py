@@ -60,9 +60,7 @@ def analytic_part(
     return np.asarray(ifft(whole, axis=0, overwrite_x=True), np.complex128)
 
 
-def real_part(
-    spectrum: NDArray[np.complex128], count: int, rate: float, band: tuple[float, float]
-) -> Float:
+def real_part(spectrum: NDArray[np.complex128], count: int, rate: float, band: tuple[float, float]) -> Float:
     """Compute the real part of `analytic_part`: the signal in a band.
 
     Parameters
