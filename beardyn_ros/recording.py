@@ -14,7 +14,7 @@ from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_writing import McapWriter
-from beardyn_core.record.messages import decode_string, header_stamp
+from beardyn_core.record.messages import decode_diagnostics, decode_string, header_stamp
 from beardyn_core.record.topics import STRING, Topic
 
 WHOLE = Splitting()
@@ -217,10 +217,14 @@ class Recording:
 
     def _file_for(self, entry: Topic, cdr: bytes) -> RunFile:
         assert self.current is not None
-        if self._old is None or entry.name in self._switched or entry.type in UNSTAMPED:
+        if self._old is None or entry.type in UNSTAMPED:
             return self.current
         if entry.name in LIVE_LOAD:
             return self.current  # its clock may run on through a reset
+        if entry.name == "/diagnostics" and _speaks_of(self._old.run_id, cdr):
+            return self._old  # its last word
+        if entry.name in self._switched:
+            return self.current
         last = self._old.last_ns.get(entry.name)
         if last is not None and header_stamp(cdr) > last:
             return self._old
@@ -273,6 +277,10 @@ def free_name(path: Path, number: int) -> Path:
 def is_recorded(folder: Path) -> bool:
     """Tell whether a folder holds a recording in several files."""
     return folder.is_dir() and ((folder / INDEX).exists() or any(folder.glob("*.mcap")))
+
+
+def _speaks_of(run_id: str, diagnostics: bytes) -> bool:
+    return any(status.value("run_id") == run_id for status in decode_diagnostics(diagnostics)[1])
 
 
 def run_id_of(truth: str) -> str:

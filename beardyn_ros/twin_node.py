@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
@@ -31,7 +32,17 @@ from beardyn_ros.frames import frame_of
 from beardyn_ros.identity import Namesakes
 from beardyn_ros.load_intake import LoadIntake
 from beardyn_ros.parameters import ParameterValues
-from beardyn_ros.run_state import END_STATES, FINISHED, PAUSED, Outgoing, Rig, SessionOptions, scene_rig
+from beardyn_ros.run_state import (
+    END_STATES,
+    FINISHED,
+    INTERRUPTED,
+    PAUSED,
+    Outgoing,
+    Rig,
+    SessionOptions,
+    SessionReport,
+    scene_rig,
+)
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
 from beardyn_ros.session import TwinSession
 from beardyn_ros.simulation_services import SimulationServices, interfaces
@@ -50,6 +61,7 @@ SETTLED_AFTER_S = 1.0  # before a run begins: a twin of the same name would have
 NAMESAKE_TIMEOUT_S = 1.5  # the same when the graph knows another publisher, which may have died
 TRENDS_TIMEOUT_S = 0.1
 BLOCKS_BEFORE_CONFIRMATION = 10  # of more than 100 that the shallowest history holds
+LEFT = "the run was left by a reset"
 UNCOUNTED_TOPICS = ("load/consumed", "/diagnostics")  # they go on when the run is over
 SIGNAL_TOPICS = (
     "force",
@@ -87,6 +99,7 @@ class TwinNode(LifecycleNode):
         self._session: TwinSession | None = None
         self._consumed_ns: int | None = None
         self._clock_ns = 0
+        self._left: SessionReport | None = None
         self._announced = ""
         self._readers_ignored_until = 0.0
         self._blocks_unconfirmed = 0
@@ -186,6 +199,7 @@ class TwinNode(LifecycleNode):
                 self._publish(outgoing)
             session.interrupt(why)
             self._trends.drain(TRENDS_TIMEOUT_S)
+            self._tell_left_run()
             self._over = True
             self._report()
             self._flush()
@@ -231,10 +245,15 @@ class TwinNode(LifecycleNode):
 
     def _reset(self) -> str:
         """Start the scene again; a sentence when that is not possible."""
-        problem = "the twin is not configured" if self._session is None else self._session.reset() or ""
+        if self._session is None:
+            return "the twin is not configured"
+        report = self._session.report()
+        problem = self._session.reset() or ""
         if not problem:
-            self._consumed_ns, self._clock_ns = None, 0
-            self._steps.fail("the run was left by a reset")
+            self._consumed_ns = None
+            if report.run_id and report.state not in END_STATES:
+                self._left = replace(report, state=INTERRUPTED, sentence=LEFT)
+            self._steps.fail(LEFT)
         return problem
 
     def _quit(self) -> None:
@@ -277,8 +296,9 @@ class TwinNode(LifecycleNode):
     def _publish(self, outgoing: Outgoing) -> None:
         if outgoing.clock_ns is None:  # the truth of a new run
             self._trends.flush()
+            self._tell_left_run()
             self._out.sent.clear()
-            self._over = False
+            self._consumed_ns, self._clock_ns, self._over = None, 0, False
         for name, cdr in outgoing.messages:
             self._out.publish(name, cdr)
         trends = ((name, cdr) for _, name, cdr in outgoing.trends)
@@ -332,6 +352,16 @@ class TwinNode(LifecycleNode):
         report = self._session.report()
         if report.state in END_STATES and not self._over:
             return  # the last word comes when everything else is out: it counts the messages
+        self._tell(report)
+
+    def _tell_left_run(self) -> None:
+        """Publish the last word of a run that a reset has left, when the last of its blocks is out."""
+        if self._left is not None:
+            self._tell(self._left)
+            self._left = None
+
+    def _tell(self, report: SessionReport) -> None:
+        assert self._session is not None
         standing = NodeStanding(
             instance=self._namesakes.instance,
             since_ns=self._namesakes.since_ns,

@@ -36,6 +36,7 @@ def write_bag(folder: Path, splitting: Splitting, *, close: bool = True, blocks:
     for block in SyntheticRun().blocks(blocks):
         for name, stamp, cdr in encoder.encode(block):
             writer.add(name, stamp, cdr)
+        writer._writer.flush()  # a chunk a block, however fast the machine: what is cut keeps whole ones
     if close:
         writer.close()
     return writer

@@ -177,11 +177,12 @@ def test_a_late_reader_gets_the_description_of_every_box_with_meshes_that_exist(
         "left", "-m", "test.ros.fake_twin", "twin", "--ros-args", "-r", "__ns:=/car/left", "-p", "scene:=fake"
     )
     graph.until(
-        lambda: {"axlebox/twin", "car/left/twin"} <= {
-            s.name for s in graph.statuses("twin") if s.value("state") == "waiting for load"
-        },
+        lambda: all(
+            any(s.value("state") == "waiting for load" for s in graph.statuses("twin", namespace))
+            for namespace in ("/axlebox", "/car/left")
+        ),
         "both twins",
-    )  # fmt: skip
+    )
     for namespace, frame in (("/axlebox", "axlebox"), ("/car/left", "car/left")):
         texts = latched(graph, f"{namespace}/robot_description")
         graph.until(texts.__len__, f"the description of {namespace}")

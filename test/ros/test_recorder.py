@@ -16,6 +16,7 @@ from beardyn_core.record.clouds import cloud_to_arrays
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import encode_string, header_stamp
 from beardyn_core.record.reading import read_run
+from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import TOPICS, topic
 from beardyn_ros.recording import Recording, free_name
 from test.ros.fake_twin import fake_history
@@ -163,6 +164,7 @@ def test_reset_begins_a_new_file(graph: Graph) -> None:
     assert first.complete
     assert second.complete
     assert first.status == "the run was left by a reset"
+    assert report(path).missing_messages == report(path.with_name("run_2.mcap")).missing_messages == ()
     assert second.status == "complete"
     assert first.truth["run_id"] != second.truth["run_id"]
     assert np.array_equal(second.vibration.sample, np.arange(75 * 512))
