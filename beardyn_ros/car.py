@@ -15,6 +15,7 @@ from rclpy.parameter import Parameter
 
 from beardyn_core.errors import InputError
 from beardyn_ros.parameters import NodeParameter
+from beardyn_ros.runtime import EXIT_DONE, EXIT_INCOMPLETE
 
 SIDES = ("left", "right")
 EIGHT_BOXES = tuple(f"axle_{axle}_{side}" for axle in range(1, 5) for side in SIDES)
@@ -108,9 +109,10 @@ class NodeGroup(Node):
 
     @property
     def finished(self) -> bool:
-        """Whether every member has finished, or one with an error."""
+        """Whether every member has finished, or one with an error; an incomplete file stops no other box."""
         return all(member.finished for member in self.members) or any(
-            member.finished and member.exit_code for member in self.members
+            member.finished and member.exit_code not in (EXIT_DONE, EXIT_INCOMPLETE)
+            for member in self.members
         )
 
     @property

@@ -60,8 +60,8 @@ to its end.
 * `axlebox/lag` is a status of its own: by how much simulated time is behind the pace, WARN beyond 0.1 s of
   wall time.
 * WARN goes again 5 s after the last refused or lost message; the counts stay.
-* The last word, in state `finished`, `stopped` or `interrupted` (SIGINT, SIGTERM, lifecycle, reset), counts the
-  messages of the run by topic: `messages force` and so on.
+* The last word, in state `finished`, `stopped` or `interrupted` (SIGINT, SIGTERM, lifecycle, reset), counts
+  the messages of the run by topic: `messages force` and so on.
 
 A second twin under the same full name refuses to start (exit code 2), and the first one warns while it hears
 it; a recorder that hears two in turns closes its file and ends with 2. Of several twins in one graph only one

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import signal
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import psutil
@@ -13,7 +14,7 @@ import pytest
 from beardyn_core.errors import InputError
 from beardyn_core.record.reading import read_run
 from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.car import EIGHT_BOXES, Box, boxes_named
+from beardyn_ros.car import EIGHT_BOXES, Box, NodeGroup, boxes_named
 from test.ros.graph import Graph
 
 TWO = ("axle_1_left", "axle_4_right")
@@ -100,6 +101,17 @@ def test_the_right_rail_is_another_one_and_a_wheel_defect_stays_with_its_wheel()
     assert not np.allclose(leading.history.wrench[:, 2], right.history.wrench[:, 2], atol=100.0)
     assert leading.events["box"]["name"] == "axle_1_left"
     assert flat.events["box"]["behind_first_wheel_m"] == 2.5
+
+
+@pytest.mark.parametrize(("code", "ends"), [(5, False), (4, True)])
+def test_a_box_whose_file_is_incomplete_stops_no_other_box(code: int, ends: bool) -> None:
+    group = NodeGroup.__new__(NodeGroup)
+    done = SimpleNamespace(finished=True, exit_code=code)
+    group.members = [done, SimpleNamespace(finished=False, exit_code=0)]
+    assert group.finished is ends
+    group.members = [done, SimpleNamespace(finished=True, exit_code=0)]
+    assert group.finished
+    assert group.exit_code == code
 
 
 class Car:
