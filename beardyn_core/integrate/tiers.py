@@ -53,7 +53,7 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
     )
     return tier_parameters.LumpedParameters(
         step=base.step,
-        base=base,
+        base=tier_parameters.without_roller_dynamics(base),
         kinematic=tier_parameters.kinematic_params(scene),
         motion=motion,
         response=tier_parameters.ring_response_params(base, motion, spring.lever),
@@ -69,7 +69,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
     motion = tier_parameters.ring_motion_params(base)
     return tier_parameters.QuasistaticParameters(
         step=base.step,
-        base=base,
+        base=tier_parameters.without_roller_dynamics(base),
         kinematic=tier_parameters.kinematic_params(scene),
         motion=motion,
         response=tier_parameters.ring_response_params(

@@ -97,6 +97,15 @@ class QuasistaticParameters(NamedTuple):
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
 
 
+def without_roller_dynamics(base: Parameters) -> Parameters:
+    """Leave out what only the dynamics of the rollers read: each number costs time in every call."""
+    effects = base.effects._replace(
+        coupling=None, coulomb=None, mixed=None, load_sharing=None, small_rib=None, cage=None,
+        ring_flexibility=None,
+    )  # fmt: skip
+    return base._replace(effects=effects, explicit=None)
+
+
 def kinematic_params(scene: Scene) -> KinematicParams:
     """Work out the pure rolling of a scene's bearing."""
     bearing, effects = scene.bearing, scene.effects

@@ -70,12 +70,12 @@ class LoadBuffer:
 
     refused: A[int, "pieces that were refused"] = 0
     reason: A[str, "why the last one was"] = ""
-    _parts: list[LoadHistory] = field(default_factory=list)
+    _parts: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = field(default_factory=list)
 
     @property
     def last_ns(self) -> int | None:
         """Time of the newest sample, ``None`` when there is none, [ns]."""
-        return int(self._parts[-1].time_ns[-1]) if self._parts else None
+        return int(self._parts[-1][0][-1]) if self._parts else None
 
     def append(self, load: LoadHistory) -> bool:
         """Append samples to the stream; False, and counted as refused, when they cannot be used."""
@@ -85,7 +85,7 @@ class LoadBuffer:
             self.reason = problem
             return False
         if len(load):
-            self._parts.append(load)
+            self._parts.append((load.time_ns.copy(), load.columns()))  # own: kernels take no read-only ones
         return True
 
     def at_steps(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> NDArray[np.float64]:
@@ -95,11 +95,10 @@ class LoadBuffer:
         same bits as one at a time. Shape [steps * blocks + 1, 10]: wrench [N, N m], shaft speed [rad/s],
         bogie displacement [m].
         """
-        while len(self._parts) > 1 and self._parts[1].time_ns[0] <= start_ns:
+        while len(self._parts) > 1 and self._parts[1][0][0] <= start_ns:
             del self._parts[0]
-        parts = [_window(part, start_ns, end_ns) for part in self._parts]
-        time_ns = np.concatenate([part.time_ns for part in parts])
-        values = np.concatenate([part.columns() for part in parts])
+        parts = [_window(*part, start_ns, end_ns) for part in self._parts]
+        time_ns, values = parts[0] if len(parts) == 1 else map(np.concatenate, zip(*parts, strict=True))
         rows = np.empty((steps * blocks + 1, 10))
         _interpolate_blocks(time_ns, values, start_ns, (end_ns - start_ns) // blocks, steps, rows)
         return rows
@@ -109,11 +108,13 @@ class LoadBuffer:
         return LoadBuffer(self.refused, self.reason, list(self._parts))
 
 
-def _window(part: LoadHistory, start_ns: int, end_ns: int) -> LoadHistory:
+def _window(
+    time_ns: NDArray[np.int64], values: NDArray[np.float64], start_ns: int, end_ns: int
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Return the samples between two times, and one more on either side."""
-    first = int(np.searchsorted(part.time_ns, start_ns, side="right")) - 1
-    last = int(np.searchsorted(part.time_ns, end_ns, side="left")) + 1
-    return part.part(max(first, 0), last)
+    first = int(np.searchsorted(time_ns, start_ns, side="right")) - 1
+    wanted = slice(max(first, 0), int(np.searchsorted(time_ns, end_ns, side="left")) + 1)
+    return time_ns[wanted], values[wanted]
 
 
 @partial(entry, flags=())
