@@ -60,7 +60,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
             return died_in
 
         def _reschedule(self, node: Any) -> None:
-            """Give a process two tests, or tell it that there are no more: it does not begin the last one before."""
+            """Give a process two tests, or tell it that there are no more: else it does not begin one."""
             super()._reschedule(node)
             while not node.shutting_down and self._pending_of(self.assigned_work[node]) < 2:
                 super()._reschedule(node)

@@ -34,8 +34,8 @@ def prepare_environment() -> None:
     -----
     The wheels leave `AMENT_PREFIX_PATH` unset, a missing or read-only home stops the logger, and the
     announcements and acknowledgements of Fast DDS come up to 3 s apart unless a profile says otherwise: what
-    is lost on the way is then sent again too late. The profile also leaves out shared memory, in which a killed
-    process stops others. Another middleware does not read the profile.
+    is lost on the way is then sent again too late. The profile also leaves out shared memory, in which a
+    killed process stops others. Another middleware does not read the profile.
     """
     if not (os.environ.get("ROS_LOG_DIR") or os.environ.get("ROS_HOME") or _home_is_writable()):
         folder = Path(tempfile.gettempdir()) / f"ros_log_{os.getuid()}"
@@ -59,8 +59,9 @@ def this_machine_only() -> dict[str, str]:
     Returns
     -------
     dict
-        With Fast DDS 3 a profile of the loopback interface: ``LOCALHOST`` would add shared memory to any profile.
-        ``LOCALHOST`` where that profile cannot serve: another middleware, Fast DDS 2, a profile of the user's own.
+        With Fast DDS 3 a profile of the loopback interface: ``LOCALHOST`` would add shared memory to any
+        profile. ``LOCALHOST`` where that profile cannot serve: another middleware, Fast DDS 2, a profile of
+        the user's own.
     """
     ours = ("", str(FASTDDS_PROFILE), str(FASTDDS_LOCAL_PROFILE))
     middleware = os.environ.get("RMW_IMPLEMENTATION") or _default_middleware()

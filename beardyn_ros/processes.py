@@ -67,8 +67,8 @@ class Processes:
     def start(self, name: str, *words: str) -> subprocess.Popen[bytes]:
         """Start ``python <words>`` under a name.
 
-        The child itself asks to end with its parent: code of ours between fork and exec (`preexec_fn`) can wait
-        for ever for a lock that one of the middleware's threads held at the fork.
+        The child itself asks to end with its parent: code of ours between fork and exec (`preexec_fn`) can
+        wait for ever for a lock that one of the middleware's threads held at the fork.
         """
         with self.log_path(name).open("wb") as log, _no_interrupt_while_forking():
             child = subprocess.Popen(
