@@ -43,6 +43,28 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
         def _split_scope(self, nodeid: str) -> str:
             return process_group(nodeid)
 
+        def remove_node(self, node: Any) -> str | None:
+            """Take back the work of a process that has died, without the test that it died in.
+
+            pytest-xdist 3.8 would give that test to the next process, and the one after it, for ever.
+            """
+            work = self.assigned_work.pop(node)
+            waiting = [(group, test) for group in work for test, done in work[group].items() if not done]
+            if not waiting:
+                return None
+            group, died_in = waiting[0]
+            work[group][died_in] = True
+            self.workqueue.update({name: tests for name, tests in work.items() if not all(tests.values())})
+            for other in self.assigned_work:
+                self._reschedule(other)
+            return died_in
+
+        def _reschedule(self, node: Any) -> None:
+            """Give a process two tests, or tell it that there are no more: else it does not begin one."""
+            super()._reschedule(node)
+            while not node.shutting_down and self._pending_of(self.assigned_work[node]) < 2:
+                super()._reschedule(node)
+
     config.option.loadscopereorder = False
     return ByGroup(config, log)
 

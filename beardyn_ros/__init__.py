@@ -47,6 +47,7 @@ car_load              feeds every box of a car, all in step
 car_recorder          records every box of a car, a file each
 diagnostics           reports as diagnostic_msgs
 processes             child processes that never outlive their parent
+child                 the start of such a child: it asks to end with its parent
 demo                  all nodes as separate processes on one scene
 ===================== ======================================================================================
 """

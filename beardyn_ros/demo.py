@@ -15,7 +15,7 @@ from typing import Any
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics
 from beardyn_core.study.demo_console import Progress, add_arguments, say
-from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
+from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available, this_machine_only
 from beardyn_ros.processes import Processes, free_domain_id, local_environment
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL
 
@@ -187,7 +187,7 @@ class _Observer:
 
     def __enter__(self) -> _Observer:
         self._before = signal.signal(signal.SIGINT, self._interrupt)
-        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+        os.environ.update(this_machine_only())
         import rclpy
         from rclpy.executors import SingleThreadedExecutor
         from rclpy.node import Node

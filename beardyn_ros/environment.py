@@ -10,7 +10,9 @@ from pathlib import Path
 
 FASTDDS_PROFILE = Path(__file__).with_name("fastdds_profile.xml")
 FASTDDS_2_PROFILE = Path(__file__).with_name("fastdds_2_profile.xml")
+FASTDDS_LOCAL_PROFILE = Path(__file__).with_name("fastdds_local_profile.xml")
 FASTDDS_2_DISTRIBUTIONS = ("humble", "iron", "jazzy")  # some names in a profile changed with Fast DDS 3
+FASTDDS_MIDDLEWARE = ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp")
 PROFILE_VARIABLES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 MISSING_ROS = (
     "beardyn: rclpy is not importable, so there is no ROS 2 in this environment. Either install it with "
@@ -32,7 +34,8 @@ def prepare_environment() -> None:
     -----
     The wheels leave `AMENT_PREFIX_PATH` unset, a missing or read-only home stops the logger, and the
     announcements and acknowledgements of Fast DDS come up to 3 s apart unless a profile says otherwise: what
-    is lost on the way is then sent again too late. Another middleware does not read the profile.
+    is lost on the way is then sent again too late. The profile also leaves out shared memory, in which a
+    killed process stops others. Another middleware does not read the profile.
     """
     if not (os.environ.get("ROS_LOG_DIR") or os.environ.get("ROS_HOME") or _home_is_writable()):
         folder = Path(tempfile.gettempdir()) / f"ros_log_{os.getuid()}"
@@ -48,6 +51,41 @@ def prepare_environment() -> None:
     profile, variable = (FASTDDS_2_PROFILE if old else FASTDDS_PROFILE), PROFILE_VARIABLES[old]
     if profile.is_file():
         os.environ[variable] = str(profile)
+
+
+def this_machine_only() -> dict[str, str]:
+    """Choose the variables of nodes that talk to this machine only.
+
+    Returns
+    -------
+    dict
+        With Fast DDS 3 a profile of the loopback interface: ``LOCALHOST`` would add shared memory to any
+        profile. ``LOCALHOST`` where that profile cannot serve: another middleware, Fast DDS 2, a profile of
+        the user's own.
+    """
+    ours = ("", str(FASTDDS_PROFILE), str(FASTDDS_LOCAL_PROFILE))
+    middleware = os.environ.get("RMW_IMPLEMENTATION") or _default_middleware()
+    can_serve = (
+        middleware in FASTDDS_MIDDLEWARE
+        and os.environ.get("ROS_DISTRO", "") not in FASTDDS_2_DISTRIBUTIONS
+        and all(os.environ.get(name, "") in ours for name in PROFILE_VARIABLES)
+        and FASTDDS_LOCAL_PROFILE.is_file()
+    )
+    if not can_serve:
+        return {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    return {
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT",
+        PROFILE_VARIABLES[0]: str(FASTDDS_LOCAL_PROFILE),
+    }
+
+
+def _default_middleware() -> str:
+    """Ask ROS which middleware it takes when nobody names one; '' when there is no ROS."""
+    if not ros_available():
+        return ""
+    from rclpy.utilities import get_rmw_implementation_identifier
+
+    return str(get_rmw_implementation_identifier())
 
 
 def _wheel_prefix() -> Path:

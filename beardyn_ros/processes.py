@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import os
 import signal
 import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 
+from beardyn_ros.environment import this_machine_only
+
+CHILD = Path(__file__).with_name("child.py")
 FIRST_DOMAIN, LAST_DOMAIN = 20, 99
-PR_SET_PDEATHSIG = 1
 
 
 def free_domain_id(taken: Sequence[int] = ()) -> int:
@@ -43,7 +44,7 @@ def local_environment(domain_id: int) -> dict[str, str]:
     return {
         **os.environ,
         "ROS_DOMAIN_ID": str(domain_id),
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        **this_machine_only(),
         "PYTHONUNBUFFERED": "1",
     }
 
@@ -64,16 +65,19 @@ class Processes:
         self._children: dict[str, subprocess.Popen[bytes]] = {}
 
     def start(self, name: str, *words: str) -> subprocess.Popen[bytes]:
-        """Start ``python <words>`` under a name."""
+        """Start ``python <words>`` under a name.
+
+        The child itself asks to end with its parent: code of ours between fork and exec (`preexec_fn`) can
+        wait for ever for a lock that one of the middleware's threads held at the fork.
+        """
         with self.log_path(name).open("wb") as log, _no_interrupt_while_forking():
             child = subprocess.Popen(
-                [sys.executable, *words],
+                [sys.executable, "-I", "-S", str(CHILD), str(os.getpid()), *words],
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 env=self._environment,
                 start_new_session=True,
-                preexec_fn=_end_with_parent(),
             )
         self._children[name] = child
         return child
@@ -133,7 +137,7 @@ def _signal_group(child: subprocess.Popen[bytes], number: signal.Signals) -> Non
 
 @contextlib.contextmanager
 def _no_interrupt_while_forking() -> Iterator[None]:
-    """Hold SIGINT back while a child begins: between fork and exec it would be the parent's traceback."""
+    """Hold SIGINT back until a child is kept in the list; the child lets it in again."""
     if not sys.platform.startswith("linux"):
         yield
         return
@@ -142,16 +146,3 @@ def _no_interrupt_while_forking() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _end_with_parent() -> Callable[[], None] | None:
-    """Ask the kernel, on Linux, to end the child when its parent is gone, however that happened."""
-    if not sys.platform.startswith("linux"):
-        return None
-    library = ctypes.CDLL(None, use_errno=True)
-
-    def ask_kernel() -> None:
-        library.prctl(PR_SET_PDEATHSIG, int(signal.SIGTERM))
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-
-    return ask_kernel

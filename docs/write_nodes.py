@@ -172,6 +172,15 @@ Nodes that no one has given a Fast DDS profile (`FASTDDS_DEFAULT_PROFILES_FILE`)
 in a sourced ROS too: without it what was lost on the way is sent again up to 3 s later. A profile of your own
 should have a heartbeat period of 20 ms. The twin waits for its readers in runs faster than real time; up to
 real time it keeps ten seconds for a slow one.
+
+The profile has one transport, UDPv4, also between processes of one machine. With shared memory, the default
+of Fast DDS, a process that is killed (`kill -9`, out of memory) while it holds a lock there stops the others:
+the twin stands still for seconds, and after fifteen killed recorders on a busy machine it has ended for want
+of load. Both cost the same processor time. Nodes with default settings (`ros2 topic`, RViz, rosbag2) meet
+these over UDP and need nothing; among themselves they go on with shared memory. With
+`ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST` rmw_fastrtps adds shared memory to any profile: to keep nodes on one
+machine without it, give them `fastdds_local_profile.xml` of the package and `SYSTEM_DEFAULT`, as the demo
+does. A larger `net.core.rmem_max` (4 MB are asked for) spares repetitions in runs faster than real time.
 """
 
 PROTOCOL = """

@@ -1,4 +1,4 @@
-"""Tests in several processes: a file stays in one, and all nodes in one.
+"""Tests in several processes: a file stays in one, and all nodes in one; one that hangs costs only itself.
 
 Without it every process makes the shared runs of a file again, compiles the same kernels, and nodes of two
 tests take each other's time.
@@ -28,6 +28,20 @@ def test_it(number):
 """
 
 
+HANGS = """
+import ctypes
+
+def test_before():
+    pass
+
+def test_hangs():
+    ctypes.PyDLL(None).pause()  # keeps the lock of the interpreter: nothing in Python can end it
+
+def test_after():
+    pass
+"""
+
+
 def test_a_file_and_all_nodes_have_one_process_each(
     repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -48,3 +62,18 @@ def test_a_file_and_all_nodes_have_one_process_each(
     assert all(len(each) == 1 for each in processes)
     assert processes[2] == processes[3]
     assert len({worker for worker, _ in seen}) == 2
+
+
+def test_a_test_that_hangs_in_c_ends_its_process_and_every_other_test_is_run(
+    repository: Path, tmp_path: Path
+) -> None:
+    shutil.copy(repository / "conftest.py", tmp_path)
+    options = "faulthandler_timeout = 3\nfaulthandler_exit_on_timeout = true\n"
+    (tmp_path / "pytest.ini").write_text(f"[pytest]\n{options}")
+    for name, content in (("a", HANGS), ("b", "def test_b():\n    pass\n")):
+        (tmp_path / f"test_{name}.py").write_text(content)
+    words = [sys.executable, "-m", "pytest", "-rA", "-n", "2", "-p", "no:cacheprovider", str(tmp_path)]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert "1 failed, 3 passed" in done.stdout
+    assert "FAILED test_a.py::test_hangs - worker" in done.stdout
+    assert "in test_hangs" in done.stderr + done.stdout  # the traceback says where

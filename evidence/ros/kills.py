@@ -18,7 +18,7 @@ from beardyn_core.record.reading import read_run
 from test.ros.graph import Graph
 
 LARGEST_LOSS_S = 1.0
-KILLS_OF_ONE_RUN = 5
+KILLS_OF_ONE_RUN = 20
 
 
 @dataclass(frozen=True)

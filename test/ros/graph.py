@@ -9,7 +9,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from beardyn_ros.environment import prepare_environment
+from beardyn_ros.environment import prepare_environment, this_machine_only
 from beardyn_ros.processes import Processes, free_domain_id, local_environment
 
 NAMESPACE = "/axlebox"
@@ -41,7 +41,7 @@ class Graph:
 
         from beardyn_ros.wire import RawIntake, TopicPublishers
 
-        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+        os.environ.update(this_machine_only())
         self._context = rclpy.Context()
         rclpy.init(context=self._context, domain_id=self.domain)
         self.node = Node("listener", namespace="axlebox", context=self._context)
