@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import time
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from beardyn_ros.environment import prepare_environment
-from beardyn_ros.processes import Processes, free_domain_id, local_environment
+from beardyn_ros.processes import Processes, free_domain_id, local_environment, release_domain_id
 
 NAMESPACE = "/axlebox"
 PATIENCE_S = 60.0
-_taken: list[int] = []
+_left: deque[int] = deque(maxlen=20)
 
 
 class Graph:
@@ -27,8 +27,7 @@ class Graph:
     def __init__(self, folder: Path) -> None:
         prepare_environment()
         self.folder = folder
-        self.domain = free_domain_id(_taken)
-        _taken.append(self.domain)
+        self.domain = free_domain_id(_left)
         self.processes = Processes(local_environment(self.domain), folder)
         self.messages: dict[str, list[bytes]] = defaultdict(list)
 
@@ -59,6 +58,8 @@ class Graph:
         self._executor.shutdown()
         self.node.destroy_node()
         self._context.try_shutdown()
+        release_domain_id(self.domain)
+        _left.append(self.domain)
 
     # --- processes ---------------------------------------------------------------------------------
 
