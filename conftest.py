@@ -9,8 +9,32 @@ import pytest
 from hypothesis import settings
 
 REPOSITORY = Path(__file__).resolve().parent
-# Files that take longer than about ten seconds, the longest first.
-LONG_FILES = ("test/ros/test_recorder.py",)
+# Files that take longer than about twenty seconds, once compiled or before, the longest first.
+LONG_FILES = (
+    "test/ros/test_load_stream.py",
+    "test/analytic/test_symmetries_of_effects.py",
+    "test/ros/test_recorder.py",
+    "test/kernels/test_defect.py",
+    "test/ros/test_twin_node.py",
+    "test/kernels/test_joint_lamina.py",
+    "test/ros/test_wall_time.py",
+    "test/cli/test_interrupts.py",
+    "test/ros/test_car.py",
+    "test/ros/test_load_control.py",
+    "test/browser/test_web_viewer.py",
+    "test/ros/test_bag_replay.py",
+    "test/choice/test_choose.py",
+    "test/ros/test_several_axleboxes.py",
+    "test/ros/test_nothing_lost.py",
+    "test/analytic/test_dynamics_steady.py",
+    "test/analytic/test_missing_rollers.py",
+    "evidence/hard/test_hard.py",
+    "test/choice/test_robust.py",
+    "test/face/test_examples.py",
+    "test/ros/test_monitor.py",
+    "test/ros/test_real_twin.py",
+    "test/analytic/test_dynamics_free_flight.py",
+)
 
 
 def pytest_configure(config: pytest.Config) -> None:
