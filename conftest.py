@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +9,32 @@ import pytest
 from hypothesis import settings
 
 REPOSITORY = Path(__file__).resolve().parent
-NODES = "test/ros"
+# Files that take longer than about twenty seconds, once compiled or before, the longest first.
+LONG_FILES = (
+    "test/ros/test_load_stream.py",
+    "test/analytic/test_symmetries_of_effects.py",
+    "test/ros/test_recorder.py",
+    "test/kernels/test_defect.py",
+    "test/ros/test_twin_node.py",
+    "test/kernels/test_joint_lamina.py",
+    "test/ros/test_wall_time.py",
+    "test/cli/test_interrupts.py",
+    "test/ros/test_car.py",
+    "test/ros/test_load_control.py",
+    "test/browser/test_web_viewer.py",
+    "test/ros/test_bag_replay.py",
+    "test/choice/test_choose.py",
+    "test/ros/test_several_axleboxes.py",
+    "test/ros/test_nothing_lost.py",
+    "test/analytic/test_dynamics_steady.py",
+    "test/analytic/test_missing_rollers.py",
+    "evidence/hard/test_hard.py",
+    "test/choice/test_robust.py",
+    "test/face/test_examples.py",
+    "test/ros/test_monitor.py",
+    "test/ros/test_real_twin.py",
+    "test/analytic/test_dynamics_free_flight.py",
+)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -20,29 +44,24 @@ def pytest_configure(config: pytest.Config) -> None:
         settings.load_profile("repeatable")
 
 
-def process_group(nodeid: str) -> str:
-    """Name what must run in one process: the tests of a file, for they share runs, and all nodes together."""
-    file = nodeid.partition("::")[0]
-    return NODES if file.startswith(f"{NODES}/") else file
-
-
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with the nodes, the longest group of all, so that no process waits for them at the end."""
-    items.sort(key=lambda item: process_group(item.nodeid) != NODES)
+    """Begin with what takes longest, so that no process works alone at the end."""
+    items.sort(key=lambda item: _rank(item.nodeid))
+
+
+def _rank(nodeid: str) -> int:
+    file = nodeid.partition("::")[0]
+    if file in LONG_FILES:
+        return LONG_FILES.index(file)
+    return len(LONG_FILES) + (not file.startswith("test/ros/"))
 
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Hand whole groups to the processes, in the order of collection.
+    """Hand whole files to the processes, for the tests of a file share runs, in the order of collection."""
+    from xdist.scheduler import LoadFileScheduling
 
-    The marker `xdist_group` would do as well, but pytest 9.2 and pytest-xdist 3.8 ignore it together.
-    """
-    from xdist.scheduler import LoadScopeScheduling
-
-    class ByGroup(LoadScopeScheduling):
-        def _split_scope(self, nodeid: str) -> str:
-            return process_group(nodeid)
-
+    class ByFile(LoadFileScheduling):
         def remove_node(self, node: Any) -> str | None:
             """Take back the work of a process that has died, without the test that it died in.
 
@@ -66,7 +85,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
                 super()._reschedule(node)
 
     config.option.loadscopereorder = False
-    return ByGroup(config, log)
+    return ByFile(config, log)
 
 
 @pytest.fixture(autouse=True)
@@ -78,12 +97,3 @@ def _shipped_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
 def repository() -> Path:
     """Root of the checkout."""
     return REPOSITORY
-
-
-@pytest.fixture(scope="session")
-def kept_equilibria() -> Iterator[None]:
-    """For tests that choose tiers, effects or steps: each static equilibrium is solved once in a session."""
-    from test.choice.equilibria import equilibria_kept
-
-    with equilibria_kept():
-        yield

@@ -17,26 +17,58 @@ from beardyn_ros.environment import this_machine_only
 
 CHILD = Path(__file__).with_name("child.py")
 FIRST_DOMAIN, LAST_DOMAIN = 20, 99
+LAST_PARTICIPANT = 119
+_claims: dict[int, socket.socket] = {}
 
 
 def free_domain_id(taken: Sequence[int] = ()) -> int:
-    """Find a ROS domain that no process of this machine uses: its first discovery ports are free."""
+    """Find a ROS domain that no process of this machine uses, and claim it.
+
+    Its first discovery ports are free, and no other process has claimed it: two that begin at once never get
+    the same one. The claim lasts until `release_domain_id` or the end of this process.
+    """
     span = LAST_DOMAIN - FIRST_DOMAIN + 1
     begin = os.getpid() % span
     for offset in range(span):
         domain = FIRST_DOMAIN + (begin + offset) % span
-        if domain not in taken and all(_port_is_free(7400 + 250 * domain + 10 + 2 * k) for k in range(4)):
+        if domain not in taken and all(_port_is_free(_port(domain, k)) for k in range(4)) and _claim(domain):
             return domain
     return FIRST_DOMAIN + begin
 
 
-def _port_is_free(port: int) -> bool:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        try:
-            probe.bind(("0.0.0.0", port))
-        except OSError:
-            return False
+def release_domain_id(domain: int) -> None:
+    """Give a claimed domain back."""
+    if claim := _claims.pop(domain, None):
+        claim.close()
+
+
+def _claim(domain: int) -> bool:
+    """Hold the discovery port of the last participant of a domain, which no other process can hold then."""
+    claim = _held_port(_port(domain, LAST_PARTICIPANT))
+    if claim is None:
+        return False
+    _claims[domain] = claim
     return True
+
+
+def _port(domain: int, participant: int) -> int:
+    return 7400 + 250 * domain + 10 + 2 * participant
+
+
+def _port_is_free(port: int) -> bool:
+    if held := _held_port(port):
+        held.close()
+    return held is not None
+
+
+def _held_port(port: int) -> socket.socket | None:
+    held = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    try:
+        held.bind(("0.0.0.0", port))
+    except OSError:
+        held.close()
+        return None
+    return held
 
 
 def local_environment(domain_id: int) -> dict[str, str]:

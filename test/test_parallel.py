@@ -1,7 +1,7 @@
-"""Tests in several processes: a file stays in one, and all nodes in one; one that hangs costs only itself.
+"""Tests in several processes: a file stays in one, the longest begin, one that hangs costs only itself.
 
-Without it every process makes the shared runs of a file again, compiles the same kernels, and nodes of two
-tests take each other's time.
+Without it every process makes the shared runs of a file again and compiles the same kernels, and one process
+works alone at the end.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from conftest import LONG_FILES
 
 pytest.importorskip("xdist", reason="pytest-xdist is not installed")
 
@@ -42,13 +44,13 @@ def test_after():
 """
 
 
-def test_a_file_and_all_nodes_have_one_process_each(
+def test_a_file_has_one_process_and_the_longest_files_begin(
     repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shutil.copy(repository / "conftest.py", tmp_path)
     (tmp_path / "pytest.ini").write_text("[pytest]\n")  # the root that names of tests begin at
-    names = ("a/test_a.py", "b/test_b.py", "ros/test_c.py", "ros/test_d.py")
-    files = [tmp_path / "test" / name for name in names]
+    others = [f"test/{name}" for name in ("a/test_a.py", "b/test_b.py", "ros/test_c.py", "ros/test_d.py")]
+    files = [tmp_path / name for name in (*others, LONG_FILES[0])]
     for path in files:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(TESTS)
@@ -58,10 +60,11 @@ def test_a_file_and_all_nodes_have_one_process_each(
     assert done.returncode == 0, done.stdout
     seen = [json.loads(line) for line in (tmp_path / "seen").read_text().splitlines()]
     assert len(seen) == 4 * len(files)
-    processes = [{worker for worker, file in seen if file == str(path)} for path in files]
-    assert all(len(each) == 1 for each in processes)
-    assert processes[2] == processes[3]
+    assert all(len({worker for worker, file in seen if file == str(path)}) == 1 for path in files)
     assert len({worker for worker, _ in seen}) == 2
+    of_each = [list(dict.fromkeys(file for worker, file in seen if worker == w)) for w in ("gw0", "gw1")]
+    begun = {each[0] for each in of_each}
+    assert begun == {str(files[4]), str(files[2])}
 
 
 def test_a_test_that_hangs_in_c_ends_its_process_and_every_other_test_is_run(
@@ -77,3 +80,7 @@ def test_a_test_that_hangs_in_c_ends_its_process_and_every_other_test_is_run(
     assert "1 failed, 3 passed" in done.stdout
     assert "FAILED test_a.py::test_hangs - worker" in done.stdout
     assert "in test_hangs" in done.stderr + done.stdout  # the traceback says where
+
+
+def test_files_that_begin_exist(repository: Path) -> None:
+    assert [file for file in LONG_FILES if not (repository / file).is_file()] == []

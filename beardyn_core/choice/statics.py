@@ -9,8 +9,9 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.roller_equilibrium import spring_params
-from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.faults import roller_oversize
 from beardyn_core.model.mounting import flexibility_params, moved
@@ -57,7 +58,7 @@ class Statics:
         free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
         moment = (case.moment[0], 0.0, case.moment[2]) if free else (0.0, 0.0, 0.0)
         try:
-            return solve(
+            return equilibrium(
                 scene.bearing,
                 case.force,
                 moment,

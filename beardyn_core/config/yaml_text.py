@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Hashable
+from copy import deepcopy
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -89,7 +91,7 @@ def read_mapping(text: str, label: str) -> dict[str, Any]:
         With the line, when the text is not YAML, not a mapping or gives a key twice.
     """
     try:
-        data = yaml.load(text, Loader=_Loader)  # a subclass of the safe loader
+        data = deepcopy(_data(text))
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         where = f", line {mark.line + 1}, column {mark.column + 1}" if mark else ""
@@ -104,6 +106,12 @@ def read_mapping(text: str, label: str) -> dict[str, Any]:
             f"{label}: the file is {found}; it must be a mapping of keys to values (`key: value`)"
         )
     return data
+
+
+@lru_cache(maxsize=128)
+def _data(text: str) -> Any:
+    """Parse a text once: scenes name the same few bearings, lubricants and effects again and again."""
+    return yaml.load(text, Loader=_Loader)  # a subclass of the safe loader
 
 
 def read_file(path: Path) -> dict[str, Any]:

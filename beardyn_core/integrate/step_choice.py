@@ -28,6 +28,7 @@ import numpy as np
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import Cage, EffectSet, LoadSharingTraction, RotatingCage
+from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.friction_steps import (
     LARGEST_EXPECTED_INDEX,
     LARGEST_STEPS,
@@ -36,7 +37,7 @@ from beardyn_core.integrate.friction_steps import (
     friction_steps,
     shared_slope,
 )
-from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.mounting import Mounting
 
@@ -87,7 +88,7 @@ def choose_steps(
     ValidityError
         There is no static equilibrium under the largest load.
     """
-    static = solve(
+    static = equilibrium(
         bearing,
         (0.0, axial, max(abs(load) for load in loads)),
         end_play=bearing.end_play if end_play is None else end_play,

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import pickle
 import time
 
 import numpy as np
@@ -13,8 +14,12 @@ from beardyn_core.bearing.contact_law import line_contact_factor, rib_contact_fa
 from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.profile import Profile
+from beardyn_core.choice import load_scene
+from beardyn_core.choice.choose import choose
 from beardyn_core.config import load_bearing
 from beardyn_core.errors import InputError
+from beardyn_core.integrate import equilibria
+from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.roller_contacts import (
     ConePose,
     cone_contacts,
@@ -326,3 +331,30 @@ def test_nonsense_is_refused_in_words(change, word):
 def test_unsound_bearing_is_refused():
     with pytest.raises(InputError, match="roller_count"):
         solve(dataclasses.replace(HS, roller_count=2), (0, 0, 1e3), end_play=0.0)
+
+
+def test_a_remembered_equilibrium_is_the_solved_one_and_cannot_be_changed():
+    force, bumps = (0.0, 2e3, 6e4), np.zeros((2, HS.roller_count))
+    bumps[0, 3] = 4e-6
+    for oversize, laminae in ((None, 4), (bumps, 4), (bumps, 6)):
+        solved = solve(HS, force, end_play=1e-4, laminae=laminae, oversize=oversize)
+        for _ in range(2):
+            known = equilibrium(HS, force, end_play=1e-4, laminae=laminae, oversize=oversize)
+            for field in dataclasses.fields(StaticSolution):
+                assert np.array_equal(getattr(known, field.name), getattr(solved, field.name)), field.name
+        assert equilibrium(HS, force, end_play=1e-4, laminae=laminae, oversize=oversize) is known
+    with pytest.raises(ValueError, match="read-only"):
+        known.cup_load[0, 0] = 0.0
+
+
+def test_a_choice_solves_each_equilibrium_once(monkeypatch):
+    solved = []
+
+    def counted(*arguments, **conditions):
+        solved.append(pickle.dumps((arguments, sorted(conditions.items()))))
+        return solve(*arguments, **conditions)
+
+    monkeypatch.setattr(equilibria, "solve", counted)
+    equilibria._solved.cache_clear()
+    choose(load_scene("smooth_run"))
+    assert len(solved) == len(set(solved)) > 5

@@ -9,8 +9,6 @@ import pytest
 
 from beardyn_core.cli.main import BAD_INPUT, DONE, main
 
-pytestmark = pytest.mark.usefixtures("kept_equilibria")
-
 
 def test_explain_says_what_a_fixed_scene_has_and_what_auto_would_choose(
     capsys: pytest.CaptureFixture[str],

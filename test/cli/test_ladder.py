@@ -16,8 +16,6 @@ from beardyn_core.study import ladder
 from beardyn_core.study.ladder import Plan, Run
 from beardyn_core.study.measures import MEASURES, Outcome
 
-pytestmark = pytest.mark.usefixtures("kept_equilibria")
-
 FAST = tuple((name, TIERS[name].steps_per_sample) for name in ("lumped", "quasistatic"))
 
 

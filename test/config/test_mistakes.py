@@ -10,7 +10,7 @@ import pytest
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import load_bearing, load_effects, scene_text
 from beardyn_core.config.folders import find
-from beardyn_core.config.yaml_text import read_file, write_mapping
+from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import Cage, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import read_measurement
@@ -366,3 +366,9 @@ def test_a_mistake_in_a_switch_says_what_it_takes(write: Write, effects: str, en
 def test_an_unknown_key_is_the_only_complaint_about_its_mapping(write: Write) -> None:
     (sentence,) = problems_of(write(GOOD + "effects: {thermal: true, audits: true}\n"))
     assert "effects.audits: unknown key; did you mean `audit`?" in sentence
+
+
+def test_what_is_changed_in_a_mapping_is_not_in_the_next_one_of_the_same_text() -> None:
+    first = read_mapping("deep: {list: [1, 2]}", "a.yaml")
+    first["deep"]["list"].append(3)
+    assert read_mapping("deep: {list: [1, 2]}", "b.yaml") == {"deep": {"list": [1, 2]}}

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import time
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from beardyn_ros.environment import prepare_environment, this_machine_only
-from beardyn_ros.processes import Processes, free_domain_id, local_environment
+from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment, this_machine_only
+from beardyn_ros.processes import Processes, free_domain_id, local_environment, release_domain_id
 
 NAMESPACE = "/axlebox"
 PATIENCE_S = 60.0
-_taken: list[int] = []
+USUAL_LEASE, SHORT_LEASE = (f"<leaseDuration><sec>{seconds}</sec>" for seconds in (10, 4))
+_left: deque[int] = deque(maxlen=20)
 
 
 class Graph:
@@ -27,8 +28,7 @@ class Graph:
     def __init__(self, folder: Path) -> None:
         prepare_environment()
         self.folder = folder
-        self.domain = free_domain_id(_taken)
-        _taken.append(self.domain)
+        self.domain = free_domain_id(_left)
         self.processes = Processes(local_environment(self.domain), folder)
         self.messages: dict[str, list[bytes]] = defaultdict(list)
 
@@ -59,6 +59,8 @@ class Graph:
         self._executor.shutdown()
         self.node.destroy_node()
         self._context.try_shutdown()
+        release_domain_id(self.domain)
+        _left.append(self.domain)
 
     # --- processes ---------------------------------------------------------------------------------
 
@@ -73,6 +75,15 @@ class Graph:
     def node_process(self, node: str, /, **parameters: object) -> None:
         """Node of the package."""
         self.start(node, "beardyn_ros", node, **parameters)
+
+    def shorten_lease(self) -> None:
+        """Let processes started from now on count as dead after 4 s of silence instead of 10."""
+        environment = self.processes._environment
+        profile = Path(environment[PROFILE_VARIABLES[0]]).read_text()
+        assert USUAL_LEASE in profile
+        short = self.folder / "short_lease.xml"
+        short.write_text(profile.replace(USUAL_LEASE, SHORT_LEASE))
+        environment[PROFILE_VARIABLES[0]] = str(short)
 
     def start(self, name: str, module: str, *words: str, **parameters: object) -> None:
         """``python -m module words --ros-args -p ...``."""

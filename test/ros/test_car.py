@@ -212,6 +212,7 @@ def test_boxes_of_a_car_stay_together_within_the_horizon(graph: Graph) -> None:
     ],
 )
 def test_a_car_ends_orderly_whatever_ends_first(graph: Graph, first: str, number: signal.Signals) -> None:
+    graph.shorten_lease()
     car = Car(graph, TWO, "scene:=static_80kN", "duration:=60.0", "speed_factor:=1.0")
     car.until_running()
     psutil.Process(car.pid(first)).send_signal(number)

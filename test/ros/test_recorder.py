@@ -176,6 +176,7 @@ def test_reset_begins_a_new_file(graph: Graph) -> None:
 
 def test_kill_9_of_the_twin_is_noticed_by_everybody(graph: Graph) -> None:
     path = graph.folder / "run.mcap"
+    graph.shorten_lease()
     record(graph, path, 60.0, "monitor")
     graph.until_state("running")
     graph.processes.signal("twin", signal.SIGKILL)

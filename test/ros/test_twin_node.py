@@ -37,14 +37,14 @@ def signal_bytes(folder: Path, speed_factor: float) -> dict[str, list[bytes]]:
 
 
 @pytest.mark.ros
-def test_lockstep_signals_are_bit_identical_at_any_speed_factor(tmp_path: Path) -> None:
+@pytest.mark.parametrize("paced", [0.5, pytest.param(1.0, marks=pytest.mark.slow)])
+def test_lockstep_signals_are_bit_identical_at_any_speed_factor(tmp_path: Path, paced: float) -> None:
     runs = []
-    for factor in (0.5, 1.0, 0.0):
+    for factor in (paced, 0.0):
         folder = tmp_path / str(factor)
         folder.mkdir()
         runs.append(signal_bytes(folder, factor))
     assert runs[0] == runs[1]
-    assert runs[0] == runs[2]
     samples = np.concatenate([cloud_to_arrays(cdr)["sample"] for cdr in runs[0]["vibration"]])
     assert np.array_equal(samples, np.arange(20 * 512))
 

@@ -22,7 +22,8 @@ def has_come(graph: Graph, name: str, count: int) -> bool:
     return len(graph.messages[name]) >= count
 
 
-@pytest.mark.parametrize("simulated", [False, True])
+# off is how the nodes of all other tests run
+@pytest.mark.parametrize("simulated", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_nodes_run_with_use_sim_time_on_and_off(graph: Graph, simulated: bool) -> None:
     path = graph.folder / "run.mcap"
     graph.fake_twin(speed_factor=2.0, use_sim_time=simulated)

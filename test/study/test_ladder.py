@@ -27,8 +27,6 @@ from beardyn_core.study.ladder_result import Ladder, Part
 from beardyn_core.study.measures import MEASURES, QUANTITIES, Outcome
 from beardyn_core.twin import Twin
 
-pytestmark = pytest.mark.usefixtures("kept_equilibria")
-
 ASKED = ("force", "deflection", "roller_load", "torque", "vibration")
 STANDARD = load_effects("standard")
 SIZES = [2 * 20 if measure.weighed else len(measure.parts) for measure in MEASURES]

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
-from math import log, sqrt
+from math import exp, log, pi, sqrt
 from typing import Annotated as A
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.stats import norm
+from scipy.special import ndtr  # scipy.stats takes long to import
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
@@ -180,7 +180,8 @@ def trimmed_tail(total: float, lines: int) -> float:
     cumulant = -float(np.sum(np.log1p(-saddle * means)))
     signed = sqrt(2.0 * (saddle * total - cumulant))
     scaled = saddle * sqrt(float(np.sum((means / (1.0 - saddle * means)) ** 2)))
-    return float(norm.sf(signed) + norm.pdf(signed) * (1.0 / scaled - 1.0 / signed))
+    density = exp(-0.5 * signed**2) / sqrt(2.0 * pi)
+    return float(ndtr(-signed) + density * (1.0 / scaled - 1.0 / signed))
 
 
 def reach(order: float, resolution: float) -> float:
