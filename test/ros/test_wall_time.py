@@ -191,18 +191,18 @@ def test_trend_messages_are_spread_and_a_reader_with_sensor_data_quality_gets_th
     script = graph.folder / "reader.py"
     script.write_text(SHALLOW_READER)
     graph.processes.start("reader", str(script))
-    graph.fake_twin(speed_factor=1.0)
+    graph.fake_twin(speed_factor=0.25)  # a busy machine delays the reader: a burst of 8 is one at any pace
     graph.until_state("waiting for load")
     graph.until(lambda: graph.node.count_subscribers("/axlebox/force") == 1, "the reader")
-    graph.fake_load(duration=4.0)
+    graph.fake_load(duration=1.0)
     assert graph.exit_code("twin") == 0
     assert graph.exit_code("reader") == 0
     sent = json.loads(graph.processes.log("reader"))
     gaps_ms = np.diff(sent) * 1e-6
-    assert np.median(gaps_ms) == pytest.approx(2.5, abs=0.6)  # one that is late is made up for
+    assert np.median(gaps_ms) == pytest.approx(10.0, abs=2.4)  # one that is late is made up for
     # a twin that is far behind, on a busy machine, sends what waits at once; in bursts it would be 7 of 8
-    assert np.mean(gaps_ms < 0.9) < 0.25
-    assert len(sent) >= 0.9 * 1600
+    assert np.mean(gaps_ms < 3.6) < 0.25
+    assert len(sent) >= 0.97 * 400
 
 
 def test_last_word_of_a_twin_counts_its_messages_by_topic(graph: Graph) -> None:
