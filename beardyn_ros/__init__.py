@@ -35,6 +35,7 @@ pacer                 when a block is due on the wall clock
 spreading             trend messages one after the other instead of in bursts
 twin_parameters       parameters of the twin node
 simulation_services   the services of simulation_interfaces, where it is installed
+twin_report           what the twin says about its runs, the one that a reset has left too
 twin_node             the lifecycle node around a session: topics, services, diagnostics
 twin_watch            is the twin there, has it ended, how
 recording             messages into files, one a run, with proof of what was lost
