@@ -47,6 +47,7 @@ car_scenario          one scenario as the loads of all boxes, each wheel over th
 car_load              feeds every box of a car, all in step
 car_recorder          records every box of a car, a file each
 diagnostics           reports as diagnostic_msgs
+launching             lets a launch end with a failure when a node has failed
 processes             child processes that never outlive their parent
 child                 the start of such a child: it asks to end with its parent
 demo                  all nodes as separate processes on one scene

@@ -33,7 +33,9 @@ class Growth:
     error: A[float, "standard error of it, neighbours taken as dependent, [MB/h]"]
 
 
-def memory(graph: Graph, scene: str, seconds: float, speed: float, output: Path) -> tuple[float, list[Growth]]:
+def memory(
+    graph: Graph, scene: str, seconds: float, speed: float, output: Path
+) -> tuple[float, list[Growth]]:
     """Run all nodes and watch their resident memory.
 
     Parameters
