@@ -9,8 +9,8 @@ import signal
 from collections.abc import Sequence
 from typing import Any
 
-from launch import Event, LaunchDescriptionEntity
 from launch.actions import EmitEvent, OpaqueFunction, RegisterEventHandler
+from launch.event import Event
 from launch.event_handler import EventHandler
 from launch.event_handlers import OnProcessExit, OnShutdown
 
@@ -19,7 +19,7 @@ class NodeFailed(Event):
     """Nodes have failed, and the launch is about to end."""
 
 
-def failure_of(nodes: Sequence[Any]) -> list[LaunchDescriptionEntity]:
+def failure_of(nodes: Sequence[Any]) -> list[Any]:
     """Make the handlers that let a launch end with 1 when a node has ended with another code than 0.
 
     Nothing is stopped by them. A launch file that includes this one ends with 1, too.
@@ -30,13 +30,13 @@ def failure_of(nodes: Sequence[Any]) -> list[LaunchDescriptionEntity]:
     """
     failed: list[str] = []
 
-    def note(event: Any, context: Any) -> list[LaunchDescriptionEntity]:
+    def note(event: Any, context: Any) -> list[Any]:
         if event.returncode in (0, -signal.SIGINT):  # asked to end before it could listen
             return []
         failed.append(f"{event.process_name} with {event.returncode}")
         return tell(event, context) if context.is_shutdown else []
 
-    def tell(_event: Any, _context: Any) -> list[LaunchDescriptionEntity]:
+    def tell(_event: Any, _context: Any) -> list[Any]:
         # an event of its own: an exception keeps the handlers that come after it from theirs
         return [EmitEvent(event=NodeFailed())] if failed else []
 

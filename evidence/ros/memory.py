@@ -56,11 +56,11 @@ def memory(
         Simulated time, [s], and the growth of each node.
     """
     start_all(graph, scene, output, speed, duration=LOOP_S, loop=True)
-    times, found = [], []
+    times: list[float] = []
+    found: list[list[float]] = []
     begin = time.monotonic()
     while time.monotonic() - begin < seconds:
-        due = begin + len(times) * SAMPLE_PERIOD_S
-        graph.until(lambda due=due: time.monotonic() >= due, "the next look")
+        graph.until(lambda: time.monotonic() >= begin + len(times) * SAMPLE_PERIOD_S, "the next look")
         times.append(time.monotonic() - begin)
         found.append([resident(graph.processes.pid(node)) for node in NODES])
         del graph.messages["/diagnostics"][:-50]

@@ -201,12 +201,7 @@ class Launcher:
 
 
 MODULES: dict[str, dict[str, Any]] = {
-    "launch": {
-        "Event": Event,
-        "LaunchContext": Any,
-        "LaunchDescription": LaunchDescription,
-        "LaunchDescriptionEntity": Any,
-    },
+    "launch": {"LaunchDescription": LaunchDescription, "LaunchContext": Any, "LaunchDescriptionEntity": Any},
     "launch.actions": {
         "DeclareLaunchArgument": DeclareLaunchArgument,
         "EmitEvent": EmitEvent,
@@ -216,6 +211,7 @@ MODULES: dict[str, dict[str, Any]] = {
         "Shutdown": Shutdown,
         "TimerAction": TimerAction,
     },
+    "launch.event": {"Event": Event},
     "launch.event_handler": {"EventHandler": EventHandler},
     "launch.event_handlers": {"OnProcessExit": OnProcessExit, "OnShutdown": OnShutdown},
     "launch.events": {"matches_action": matches_action},
