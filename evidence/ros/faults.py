@@ -10,12 +10,14 @@ from pathlib import Path
 from typing import Annotated as A
 
 import numpy as np
+import pytest
 
 from beardyn_core.record.bag_scanning import files_of
 from beardyn_core.record.messages import decode
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import WRENCH
+from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
 from test.ros import test_load_stream as stream
 from test.ros import test_malformed as malformed
 from test.ros import test_nothing_lost as lost
@@ -59,12 +61,18 @@ def _axleboxes(graph: Graph) -> str:
 
 
 def _tail(folder: Path) -> str:
-    """Record without pace under the middleware's own settings, where messages can be lost."""
+    """Record without pace in a sourced ROS, as the nodes find it."""
+    prepare_environment()  # AMENT_PREFIX_PATH, which a sourced ROS has
     counts, wrong = [], 0
     for number, factor in enumerate((0.0, 0.0, 4.0)):
         place = folder / str(number)
         place.mkdir()
-        with Graph(place) as graph:
+        with ExitStack() as stack:
+            environment = stack.enter_context(pytest.MonkeyPatch.context())
+            for name in PROFILE_VARIABLES:
+                environment.delenv(name, raising=False)
+            environment.setenv("ROS_DISTRO", "kilted")
+            graph = stack.enter_context(Graph(place))
             path = place / "run.mcap"
             graph.fake_twin(speed_factor=factor)
             graph.node_process("recorder", output=str(path))
@@ -165,14 +173,12 @@ def _pause_and_hang(folder: Path) -> str:
         wall.test_a_hung_reliable_reader_of_the_load_stalls_nobody,
     )
     said = []
-    with ExitStack() as stack:
-        for number, scene in enumerate(scenes):
-            place = folder / str(number)
-            place.mkdir()
-            graph = stack.enter_context(Graph(place))
+    for number, scene in enumerate(scenes):
+        place = folder / str(number)
+        place.mkdir()
+        with Graph(place) as graph:
             scene(graph)
             said.append(len(graph.messages["/clock"]))
-            stack.pop_all().close()
     return f"{said[0]} times /clock in a pause, step answers behind its block, a hung reader stalls nobody"
 
 
