@@ -57,7 +57,10 @@ def _last(graph: Graph, key: str, part: str = "twin") -> str:
 def _axleboxes(graph: Graph) -> str:
     axleboxes.test_the_end_of_one_axlebox_leaves_recorder_and_monitor_of_another_at_work(graph)
     run = read_run(graph.folder / "left.mcap")
-    return f"left records {run.vibration.time[-1]:.2f} of 8.00 s, status {run.status}, beside two that end"
+    ran = float(graph.statuses("twin", "/left")[-1].value("simulated_time"))
+    return (
+        f"left records {run.vibration.time[-1]:.2f} of {ran:.2f} s, status {run.status}, beside two that end"
+    )
 
 
 def _tail(folder: Path) -> str:
@@ -95,9 +98,9 @@ def _simulated_time(graph: Graph) -> str:
 def _malformed(graph: Graph) -> str:
     malformed.test_every_node_counts_and_refuses_malformed_messages_and_goes_on(graph)
     refused = {part: _last(graph, "refused_messages", part) for part in ("recorder", "viewer", "twin")}
-    end = report(graph.folder / "run.mcap").end
+    end, ran = report(graph.folder / "run.mcap").end, float(_last(graph, "simulated_time"))
     told = ", ".join(f"{part} {count}" for part, count in refused.items())
-    return f"refused: {told}; the file reaches {end:.2f} of 8 s, codes 0"
+    return f"refused: {told}; the file reaches {end:.2f} of {ran:.2f} s, codes 0"
 
 
 def _aliases(graph: Graph) -> str:
