@@ -127,8 +127,11 @@ def _first_block(graph: Graph) -> str:
 def _bursts(graph: Graph) -> str:
     wall.test_trend_messages_are_spread_and_a_reader_with_sensor_data_quality_gets_them_all(graph)
     sent = json.loads(graph.processes.log("reader"))
-    rate = len(sent) / 4.0
-    return f"a reader of depth 5 gets {rate:.0f} of 400 Hz, {np.median(np.diff(sent)) * 1e-6:.2f} ms apart"
+    spacing = float(np.median(np.diff(sent))) * 1e-6
+    return (
+        f"a reader of depth 5 gets {len(sent)} of {_last(graph, 'messages force')}, {spacing:.2f} ms apart "
+        f"at speed factor {_last(graph, 'speed_factor')}"
+    )
 
 
 def _blame(folder: Path) -> str:
