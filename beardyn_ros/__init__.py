@@ -35,6 +35,7 @@ pacer                 when a block is due on the wall clock
 spreading             trend messages one after the other instead of in bursts
 twin_parameters       parameters of the twin node
 simulation_services   the services of simulation_interfaces, where it is installed
+twin_report           what the twin says about its runs, the one that a reset has left too
 twin_node             the lifecycle node around a session: topics, services, diagnostics
 twin_watch            is the twin there, has it ended, how
 recording             messages into files, one a run, with proof of what was lost
@@ -46,6 +47,7 @@ car_scenario          one scenario as the loads of all boxes, each wheel over th
 car_load              feeds every box of a car, all in step
 car_recorder          records every box of a car, a file each
 diagnostics           reports as diagnostic_msgs
+launching             lets a launch end with a failure when a node has failed
 processes             child processes that never outlive their parent
 child                 the start of such a child: it asks to end with its parent
 demo                  all nodes as separate processes on one scene

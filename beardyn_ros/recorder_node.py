@@ -12,18 +12,14 @@ from rclpy.node import Node
 from beardyn_core.errors import InputError
 from beardyn_core.record.bag_writing import SMALLEST_BYTES, Splitting
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, encode_diagnostics
-from beardyn_core.record.published import (
-    MissingMessages,
-    missing_messages,
-    missing_sentence,
-    published_counts,
-)
+from beardyn_core.record.published import MissingMessages, missing_sentence
 from beardyn_core.record.topics import TOPICS, Topic, topic
 from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
 from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recording import Recording, RunFile, free_name, is_recorded
+from beardyn_ros.run_state import END_STATES, LEFT
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_INCOMPLETE, EXIT_LOAD_LOST, run_node, wall_timer
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
@@ -168,7 +164,7 @@ class RecorderNode(Node):
         def take(cdr: bytes) -> None:
             self._recording.add(entry, cdr)
             if entry.name == "/diagnostics":
-                self._watch.take_statuses(decode_diagnostics(cdr)[1])
+                self._on_statuses(decode_diagnostics(cdr)[1])
             elif entry.name == "truth":
                 self._on_truth(cdr)
             elif entry.name == "monitor/result":
@@ -176,6 +172,12 @@ class RecorderNode(Node):
                 self._monitor_done = any(status.value("final") == "true" for status in statuses)
 
         return take
+
+    def _on_statuses(self, statuses: tuple[Diagnostic, ...]) -> None:
+        self._watch.take_statuses(statuses)
+        for status in statuses:
+            if status.name == self._watch.name and status.value("state") in END_STATES:
+                self._recording.hear(status)
 
     def _on_truth(self, cdr: bytes) -> None:
         self._ended_at, self._monitor_done = None, False
@@ -198,7 +200,8 @@ class RecorderNode(Node):
 
     def _tick(self) -> None:
         self._intake.sweep()
-        self._recording.flush_and_close_old(OLD_RUN_TIMEOUT_S)
+        self._recording.flush_and_close_old(OLD_RUN_TIMEOUT_S, TAIL_TIMEOUT_S)
+        self._tell_left()
         if not self._announced_ready and not self.missing():
             self._announced_ready = True
             self.get_logger().info("connected to every topic of the twin")
@@ -233,11 +236,8 @@ class RecorderNode(Node):
 
     def _missing_messages(self) -> list[MissingMessages] | None:
         """List what the twin has published and is not in the file; ``None`` when it has not said."""
-        current, said = self._recording.current, self._last_word()
-        published = published_counts(said, self.get_namespace()) if said is not None else {}
-        if current is None or not published:
-            return None
-        return missing_messages(published, current.counts)
+        current = self._recording.current
+        return None if current is None else current.missing()
 
     def _end_when_complete(self) -> None:
         now = time.monotonic()
@@ -268,12 +268,19 @@ class RecorderNode(Node):
         current = self._recording.current
         lost = self._recording.lost_samples
         self._recording.close(status)
+        self._tell_left()
         if current is not None:
             text = f"{current.path}: {current.message_count} messages, {lost} samples lost"
             self.get_logger().info(f"{text}. {status}" if status else text)
             self._tell_missing(missing, current)
         if self._values.exit_when_done:
             self.finished = True
+
+    def _tell_left(self) -> None:
+        """Tell of the files that a reset has ended."""
+        for left in self._recording.take_left():
+            self.get_logger().info(f"{left.path}: {left.message_count} messages. {LEFT}")
+            self._tell_missing(left.missing(), left)
 
     def _tell_missing(self, missing: list[MissingMessages] | None, current: RunFile) -> None:
         if not missing and not current.loss.total:
@@ -320,6 +327,7 @@ class RecorderNode(Node):
         if self._recording.current is not None or not self.finished:
             self._intake.sweep()
             self._recording.close("" if self.finished else "the recorder was told to stop")
+            self._tell_left()
         return False
 
 

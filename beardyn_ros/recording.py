@@ -14,8 +14,10 @@ from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_writing import McapWriter
-from beardyn_core.record.messages import decode_diagnostics, decode_string, header_stamp
+from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, header_stamp
+from beardyn_core.record.published import MissingMessages, missing_messages, published_counts
 from beardyn_core.record.topics import STRING, Topic
+from beardyn_ros.run_state import LEFT
 
 WHOLE = Splitting()
 MESSAGES_BEFORE_TRUTH = 20_000
@@ -88,7 +90,9 @@ class RunFile:
         splitting: Splitting = WHOLE,
     ) -> None:
         self.path = path
+        self._namespace = namespace
         self.run_id = ""
+        self.last_word: Diagnostic | None = None
         self.problem = ""
         self.description: RunDescription | None = None
         self.loss = LossWatch()
@@ -142,6 +146,11 @@ class RunFile:
         """Messages written so far by name in the topic table."""
         return self._writer.counts
 
+    def missing(self) -> list[MissingMessages] | None:
+        """List the topics that the twin has published more of; ``None`` when it has had no last word."""
+        published = published_counts(self.last_word, self._namespace) if self.last_word else {}
+        return missing_messages(published, self.counts) if published else None
+
 
 class Recording:
     """Sorts messages into one file per run.
@@ -178,6 +187,7 @@ class Recording:
         self._old: RunFile | None = None
         self._switched: set[str] = set()
         self._old_since = 0.0
+        self._left: list[RunFile] = []
         self.current: RunFile | None = None
         self.paths: list[Path] = []
 
@@ -231,17 +241,39 @@ class Recording:
         self._switched.add(entry.name)
         return self.current
 
-    def flush_and_close_old(self, old_run_timeout: float) -> None:
-        """Flush, and close the old run when its stragglers have had `old_run_timeout` seconds."""
+    def hear(self, status: Diagnostic) -> None:
+        """Note the last word of a twin with the file of the run that it is about."""
+        for file in (self.current, self._old):
+            if file is not None and file.run_id and file.run_id == status.value("run_id"):
+                file.last_word = status
+
+    def flush_and_close_old(self, old_run_timeout: float, tail_timeout: float) -> None:
+        """Flush, and close the old run when its stragglers have had their time.
+
+        Parameters
+        ----------
+        old_run_timeout : float
+            What they get in any case, [s].
+        tail_timeout : float
+            What they get when the file is known to lack some, [s].
+        """
         if self.current is not None:
             self.current.flush_if_due()
-        if self._old is not None and time.monotonic() - self._old_since > old_run_timeout:
-            self._close_old()
+        if self._old is not None:
+            timeout = tail_timeout if self._old.missing() else old_run_timeout
+            if time.monotonic() - self._old_since > timeout:
+                self._close_old()
 
     def _close_old(self) -> None:
         if self._old is not None:
-            self._old.close("the run was left by a reset")
+            self._old.close(LEFT)
+            self._left.append(self._old)
             self._old = None
+
+    def take_left(self) -> list[RunFile]:
+        """Take the closed files of runs that were left by a reset, each once."""
+        left, self._left = self._left, []
+        return left
 
     def close(self, status: str) -> None:
         """Finish the present run; messages of the next wait for its truth."""

@@ -20,6 +20,7 @@ FINISHED = "finished"
 STOPPED = "stopped"
 INTERRUPTED = "interrupted"
 END_STATES = (FINISHED, STOPPED, INTERRUPTED)
+LEFT = "the run was left by a reset"  # begins the last word of such a run
 
 SCENE_TIER = "scene"
 

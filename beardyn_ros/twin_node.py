@@ -8,26 +8,17 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from std_srvs.srv import SetBool, Trigger
 
 from beardyn_core.errors import InputError
-from beardyn_core.record.messages import encode_clock, encode_diagnostics, encode_time
+from beardyn_core.record.messages import encode_clock, encode_time
 from beardyn_core.record.topics import topic
 from beardyn_ros.answers import StepService
 from beardyn_ros.description_publisher import DescriptionPublisher
-from beardyn_ros.diagnostics import (
-    LAG,
-    TWIN,
-    NodeStanding,
-    diagnostic_name,
-    lag_diagnostic,
-    needs_attention,
-    twin_diagnostic,
-)
+from beardyn_ros.diagnostics import TWIN, diagnostic_name, needs_attention
 from beardyn_ros.frames import frame_of
 from beardyn_ros.identity import Namesakes
 from beardyn_ros.load_intake import LoadIntake
@@ -35,12 +26,11 @@ from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.run_state import (
     END_STATES,
     FINISHED,
-    INTERRUPTED,
+    LEFT,
     PAUSED,
     Outgoing,
     Rig,
     SessionOptions,
-    SessionReport,
     scene_rig,
 )
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
@@ -48,6 +38,7 @@ from beardyn_ros.session import TwinSession
 from beardyn_ros.simulation_services import SimulationServices, interfaces
 from beardyn_ros.spreading import Spreader
 from beardyn_ros.twin_parameters import PARAMETERS
+from beardyn_ros.twin_report import TwinReporter
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
 RigLoader = Callable[[str, str], Callable[[], Rig]]
@@ -61,8 +52,6 @@ SETTLED_AFTER_S = 1.0  # before a run begins: a twin of the same name would have
 NAMESAKE_TIMEOUT_S = 1.5  # the same when the graph knows another publisher, which may have died
 TRENDS_TIMEOUT_S = 0.1
 BLOCKS_BEFORE_CONFIRMATION = 10  # of more than 100 that the shallowest history holds
-LEFT = "the run was left by a reset"
-UNCOUNTED_TOPICS = ("load/consumed", "/diagnostics")  # they go on when the run is over
 SIGNAL_TOPICS = (
     "force",
     "force_waveform",
@@ -99,7 +88,6 @@ class TwinNode(LifecycleNode):
         self._session: TwinSession | None = None
         self._consumed_ns: int | None = None
         self._clock_ns = 0
-        self._left: SessionReport | None = None
         self._announced = ""
         self._readers_ignored_until = 0.0
         self._blocks_unconfirmed = 0
@@ -108,6 +96,7 @@ class TwinNode(LifecycleNode):
             self._out.publisher("/clock")
         self._trends = Spreader(self._out.publish)
         self._load = LoadIntake(self, self._frame)
+        self._reporter = TwinReporter(self, self._values, self._namesakes, self._load, self._out)
         self._namesake_intake = RawIntake(self)
         self._namesake_intake.add(topic("/diagnostics"), self._namesakes.hear, keep_all=False)
         self._guard = self.create_guard_condition(self._publish_waiting)
@@ -199,7 +188,7 @@ class TwinNode(LifecycleNode):
                 self._publish(outgoing)
             session.interrupt(why)
             self._trends.drain(TRENDS_TIMEOUT_S)
-            self._tell_left_run()
+            self._reporter.tell_left_run(session, self._clock_ns)
             self._over = True
             self._report()
             self._flush()
@@ -251,8 +240,7 @@ class TwinNode(LifecycleNode):
         problem = self._session.reset() or ""
         if not problem:
             self._consumed_ns = None
-            if report.run_id and report.state not in END_STATES:
-                self._left = replace(report, state=INTERRUPTED, sentence=LEFT)
+            self._reporter.leave(report)
             self._steps.fail(LEFT)
         return problem
 
@@ -294,9 +282,10 @@ class TwinNode(LifecycleNode):
             self._finish(report.state)
 
     def _publish(self, outgoing: Outgoing) -> None:
+        assert self._session is not None
         if outgoing.clock_ns is None:  # the truth of a new run
             self._trends.flush()
-            self._tell_left_run()
+            self._reporter.tell_left_run(self._session, self._clock_ns)
             self._out.sent.clear()
             self._consumed_ns, self._clock_ns, self._over = None, 0, False
         for name, cdr in outgoing.messages:
@@ -352,45 +341,7 @@ class TwinNode(LifecycleNode):
         report = self._session.report()
         if report.state in END_STATES and not self._over:
             return  # the last word comes when everything else is out: it counts the messages
-        self._tell(report)
-
-    def _tell_left_run(self) -> None:
-        """Publish the last word of a run that a reset has left, when the last of its blocks is out."""
-        if self._left is not None:
-            self._tell(self._left)
-            self._left = None
-
-    def _tell(self, report: SessionReport) -> None:
-        assert self._session is not None
-        standing = NodeStanding(
-            instance=self._namesakes.instance,
-            since_ns=self._namesakes.since_ns,
-            mode=self._values.mode,
-            speed_factor=self._speed_factor,
-            load_publishers=self._load.count_senders(),
-            sent={name: self._out.sent[name] for name in self._out.names if name not in UNCOUNTED_TOPICS},
-            lost_messages=self._out.lost_messages,
-            warnings=self._warnings(),
-        )
-        refused = self._session.feed.refusals.report()
-        lag_name = diagnostic_name(self.get_namespace(), LAG)
-        statuses = [
-            twin_diagnostic(self._name, report, refused, standing),
-            lag_diagnostic(lag_name, report, self._speed_factor),
-        ]
-        hardware = frame_of(self.get_namespace())
-        self._out.publish("/diagnostics", encode_diagnostics(self._clock_ns, hardware, statuses))
-
-    def _warnings(self) -> tuple[str, ...]:
-        """Describe what is wrong with the graph or the middleware at present."""
-        found = []
-        if self._namesakes.younger:
-            found.append(f"another twin speaks as {self._name}: it needs a namespace of its own")
-        if self._values.publish_clock and self.count_publishers("/clock") > 1:
-            found.append("somebody else publishes /clock too: only one twin may (parameter publish_clock)")
-        if self._out.lost_recently:
-            found.append(f"{self._out.lost_messages} message(s) could not be published")
-        return tuple(found)
+        self._reporter.tell(self._session, report, self._clock_ns)
 
     def _finish(self, state: str) -> None:
         """Finish the run: publish everything, then the last report, then rest or end."""

@@ -8,7 +8,7 @@ from typing import Any
 
 from beardyn_core.record.messages import Diagnostic
 from beardyn_ros.identity import run_instance
-from beardyn_ros.run_state import END_STATES, FINISHED
+from beardyn_ros.run_state import END_STATES, FINISHED, LEFT
 
 VANISHED_AFTER_S = 3.0
 
@@ -25,7 +25,7 @@ class TwinWatch:
     """
 
     def __init__(self, name: str, publisher_count: Callable[[], int]) -> None:
-        self._name = name
+        self.name = name
         self._publisher_count = publisher_count
         self._run_id = ""
         self._told = False
@@ -47,7 +47,7 @@ class TwinWatch:
     def take_statuses(self, statuses: tuple[Diagnostic, ...]) -> None:
         """Take the statuses of one diagnostics message; those of other twins and other runs are left."""
         for status in statuses:
-            if status.name != self._name:
+            if status.name != self.name:
                 continue
             run_id = status.value("run_id") or ""
             self._note_instance(run_id)
@@ -63,7 +63,7 @@ class TwinWatch:
             return
         if instance in self._former:
             self.mixed = (
-                f"two twins speak as {self._name} at once, their messages cannot be told apart: give each a "
+                f"two twins speak as {self.name} at once, their messages cannot be told apart: give each a "
                 "namespace of its own (-r __ns:=/left)"
             )
         self._former.add(self._instance)
@@ -76,8 +76,9 @@ class TwinWatch:
 
     @property
     def ended(self) -> bool:
-        """Whether the twin has said that its run is over."""
-        return self.value("state") in END_STATES
+        """Whether the twin has said that its run is over, and no reset begins another."""
+        left = self.last is not None and self.last.message.startswith(LEFT)
+        return self.value("state") in END_STATES and not left
 
     @property
     def end_sentence(self) -> str:

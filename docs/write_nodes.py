@@ -203,6 +203,11 @@ the load goes on.
 """
 
 
+LAUNCHES = """The launch files end with 1 when one of their nodes has ended with another code than 0;
+SIGINT is no failure. They stop nothing that another launch file, which includes them, has started.
+"""
+
+
 def parameter_rows(node: str) -> list[str]:
     """Table rows of one node's parameters."""
     rows = []
@@ -219,6 +224,7 @@ def page() -> str:
     """Write the whole page."""
     lines = [HEAD, "| exit code | meaning |", "|---|---|"]
     lines += [*(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items()), ""]
+    lines += [LAUNCHES]
     for node in NODES:
         if node == "car_load":
             lines.append(CAR)

@@ -3,7 +3,7 @@
 Each box is a twin in a namespace of its own, ``/car/axle_1_left`` to ``/car/axle_4_right``. Whatever ends
 first ends the others in order: after the load the twins finish what they have, after the twins the recorder
 closes its files. A node that fails, or goes before it is done, is told, load and twins are stopped, and the
-recorder closes its files after them.
+recorder closes its files after them; the launch then ends with 1.
 """
 
 import signal
@@ -23,6 +23,8 @@ from launch.events import matches_action
 from launch.events.process import SignalProcess
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
+
+from beardyn_ros.launching import failure_of
 
 BOXES = " ".join(f"axle_{axle}_{side}" for axle in range(1, 5) for side in ("left", "right"))
 HALF_AXLE_M, AXLE_HEIGHT_M = 1.0, 0.46
@@ -147,7 +149,7 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     handlers = [
         RegisterEventHandler(OnProcessExit(target_action=node, on_exit=on_exit)) for node in everything
     ]
-    return [*handlers, *twins, *recorders, load]
+    return [*failure_of(everything), *handlers, *twins, *recorders, load]
 
 
 def generate_launch_description() -> LaunchDescription:

@@ -1,4 +1,7 @@
-"""Twin and load on one scene: ``ros2 launch beardyn twin.launch.py scene:=cup_spall speed_factor:=1.0``."""
+"""Twin and load on one scene: ``ros2 launch beardyn twin.launch.py scene:=cup_spall speed_factor:=1.0``.
+
+The launch ends with 1 when a node has failed.
+"""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -6,6 +9,8 @@ from launch.conditions import IfCondition
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
+
+from beardyn_ros.launching import failure_of
 
 ARGUMENTS = (
     ("namespace", "axlebox", "namespace of the axlebox; several twins live side by side"),
@@ -47,20 +52,19 @@ def generate_launch_description() -> LaunchDescription:
         "speed_factor": pace,
         "publish_clock": ParameterValue(LaunchConfiguration("publish_clock"), value_type=bool),
     }
-    return LaunchDescription(
-        [
-            *(
-                DeclareLaunchArgument(name, default_value=default, description=description)
-                for name, default, description in ARGUMENTS
-            ),
-            node("twin", twin),
-            node(
-                "load",
-                {"scene": text("scene"), "csv": text("csv"), "mode": text("mode"), "speed_factor": pace},
-                "load",
-            ),
-            node("recorder", {"output": text("output")}, "recorder"),
-            node("monitor", {"bearing": text("bearing")}, "monitor"),
-            node("viewer", {}, "viewer"),
-        ]
-    )
+    nodes = [
+        node("twin", twin),
+        node(
+            "load",
+            {"scene": text("scene"), "csv": text("csv"), "mode": text("mode"), "speed_factor": pace},
+            "load",
+        ),
+        node("recorder", {"output": text("output")}, "recorder"),
+        node("monitor", {"bearing": text("bearing")}, "monitor"),
+        node("viewer", {}, "viewer"),
+    ]
+    arguments = [
+        DeclareLaunchArgument(name, default_value=default, description=description)
+        for name, default, description in ARGUMENTS
+    ]
+    return LaunchDescription([*arguments, *failure_of(nodes), *nodes])

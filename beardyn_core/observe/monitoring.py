@@ -18,6 +18,7 @@ from beardyn_core.observe.chain.levels import Levels
 _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
 _LEAST_HEATING_NS = 10_000_000_000
+_WINDOWS_KEPT = 2  # of the longest, of a stream that the others do not follow
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,61 @@ def listen(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[chain.M
             yield result
 
 
+class _Samples:
+    """Samples of a stream in their blocks, joined when somebody looks: joining each costs its square.
+
+    Parameters
+    ----------
+    axes : tuple of int
+        Shape of one sample.
+    longest_ns : int
+        What is kept when it would become twice as long, [ns].
+    """
+
+    def __init__(self, axes: tuple[int, ...], longest_ns: int) -> None:
+        self._longest_ns = longest_ns
+        self._axes = axes
+        self.clear()
+
+    def __len__(self) -> int:
+        return sum(len(time) for time, _ in self._blocks)
+
+    def clear(self) -> None:
+        """Drop everything."""
+        self._blocks: list[tuple[Int, Float]] = [(np.empty(0, np.int64), np.empty((0, *self._axes)))]
+
+    def append(self, time_ns: Int, values: Float) -> None:
+        """Add a block that is not empty; the oldest go when nobody has wanted them for long."""
+        if len(self._blocks) == 1 and not len(self._blocks[0][0]):
+            self._blocks = []
+        self._blocks.append((np.array(time_ns), np.array(values)))  # the sender may use its arrays again
+        if self.last_ns - self.first_ns > _WINDOWS_KEPT * self._longest_ns:
+            self.forget(self.last_ns - self._longest_ns)
+
+    @property
+    def first_ns(self) -> int:
+        """Time of the first sample, [ns]; there must be one."""
+        return int(self._blocks[0][0][0])
+
+    @property
+    def last_ns(self) -> int:
+        """Time of the last sample, [ns]; there must be one."""
+        return int(self._blocks[-1][0][-1])
+
+    def joined(self) -> tuple[Int, Float]:
+        """Give times, shape [sample], [ns], and values, shape [sample, ...]."""
+        if len(self._blocks) > 1:
+            times, values = zip(*self._blocks, strict=True)
+            self._blocks = [(np.concatenate(times), np.concatenate(values))]
+        return self._blocks[0]
+
+    def forget(self, before_ns: int, spared: int = 0) -> None:
+        """Drop the samples before a time, [ns], but the last `spared` of them."""
+        time_ns, values = self.joined()
+        kept = max(0, int(np.searchsorted(time_ns, before_ns, side="right" if spared else "left")) - spared)
+        self._blocks = [(time_ns[kept:], values[kept:])]
+
+
 class Monitor:
     """Collects streams and analyses the last revolutions from time to time.
 
@@ -96,12 +152,10 @@ class Monitor:
         self.algorithm = algorithm
         self.lost = 0
         self.refused = 0
-        self._time = np.empty(0, dtype=np.int64)
-        self._acceleration = np.empty((0, 3))
-        self._shaft_time = np.empty(0, dtype=np.int64)
-        self._shaft_angle = np.empty(0)
-        self._load_time = np.empty(0, dtype=np.int64)
-        self._load = np.empty(0)
+        longest_ns = round(self.settings.longest_window * 1e9)
+        self._vibration = _Samples((3,), longest_ns)
+        self._shaft = _Samples((), longest_ns)
+        self._load = _Samples((), longest_ns)
         self._temperatures: list[tuple[int, float]] = []
         self._levels: list[Levels] = []
         self._next_ns: int | None = None
@@ -128,17 +182,17 @@ class Monitor:
         """
         if not len(time_ns):
             return
-        behind = len(self._time) > 0 and time_ns[0] <= self._time[-1]
+        known = len(self._vibration) > 0
+        behind = known and time_ns[0] <= self._vibration.last_ns
         if behind or not np.isfinite(acceleration).all() or (np.diff(time_ns) <= 0).any():
             self.refused += 1
             return
         if self.rate is None and len(time_ns) > 1:
             self.rate = (len(time_ns) - 1) * 1e9 / float(time_ns[-1] - time_ns[0])
-        if len(self._time) and self.rate and (time_ns[0] - self._time[-1]) * 1e-9 * self.rate > 1.5:
+        if known and self.rate and (time_ns[0] - self._vibration.last_ns) * 1e-9 * self.rate > 1.5:
             self.lost += 1
-            self._time, self._acceleration = self._time[:0], self._acceleration[:0]
-        self._time = np.concatenate((self._time, time_ns))
-        self._acceleration = np.concatenate((self._acceleration, acceleration))
+            self._vibration.clear()
+        self._vibration.append(time_ns, acceleration)
 
     def push_shaft(self, time_ns: Int, angle: Float) -> None:
         """Add tachometer samples; an angle that wraps is unwrapped.
@@ -151,17 +205,17 @@ class Monitor:
         """
         if not len(time_ns):
             return
-        joined = np.concatenate((self._shaft_time, time_ns))
-        if (np.diff(joined[-len(time_ns) - 1 :]) <= 0).any() or not np.isfinite(angle).all():
+        behind = len(self._shaft) > 0 and time_ns[0] <= self._shaft.last_ns
+        if behind or (np.diff(time_ns) <= 0).any() or not np.isfinite(angle).all():
             self.refused += 1
             return
-        self._shaft_time = joined
-        self._shaft_angle = np.unwrap(np.concatenate((self._shaft_angle, angle)))
+        before = self._shaft.joined()[1][-1:]
+        self._shaft.append(time_ns, np.unwrap(np.concatenate((before, angle)))[len(before) :])
 
     def push_load(self, time_ns: Int, vertical: Float) -> None:
         """Add samples of the vertical load, [N]."""
-        self._load_time = np.concatenate((self._load_time, time_ns))
-        self._load = np.concatenate((self._load, vertical))
+        if len(time_ns):
+            self._load.append(time_ns, vertical)
 
     def push_temperature(self, time_ns: int, temperature: float) -> None:
         """Add the temperature of the axlebox at one time, [K]."""
@@ -170,11 +224,11 @@ class Monitor:
 
     def update(self) -> chain.MonitorResult | None:
         """Return a new result when one is due, else None."""
-        if not len(self._time) or not len(self._shaft_time):
+        if not len(self._vibration) or not len(self._shaft):
             return None
-        end = int(min(self._time[-1], self._shaft_time[-1]))
+        end = min(self._vibration.last_ns, self._shaft.last_ns)
         if self._next_ns is None:
-            self._next_ns = int(self._time[0]) + round(self.settings.interval * 1e9)
+            self._next_ns = self._vibration.first_ns + round(self.settings.interval * 1e9)
         if end < self._next_ns:
             return None
         interval = round(self.settings.interval * 1e9)
@@ -183,22 +237,22 @@ class Monitor:
 
     def result(self) -> chain.MonitorResult:
         """Analyse the samples so far, due or not."""
-        if not len(self._time) or not len(self._shaft_time) or self.rate is None:
+        if not len(self._vibration) or not len(self._shaft) or self.rate is None:
             return chain.MonitorResult("waiting", "no vibration or no shaft angle yet", 0)
-        last = int(min(self._time[-1], self._shaft_time[-1]))
-        first = max(
-            int(self._time[0]), int(self._shaft_time[0]), last - round(self.settings.longest_window * 1e9)
-        )
-        begin, end = np.searchsorted(self._time, (first, last + 1))
+        time_ns, acceleration = self._vibration.joined()
+        last = min(self._vibration.last_ns, self._shaft.last_ns)
+        longest_ns = round(self.settings.longest_window * 1e9)
+        first = max(self._vibration.first_ns, self._shaft.first_ns, last - longest_ns)
+        begin, end = np.searchsorted(time_ns, (first, last + 1))
         if end - begin < 2:
             return chain.MonitorResult("waiting", "no vibration with shaft angle yet", last)
-        angle = np.interp(self._time[begin:end], self._shaft_time, self._shaft_angle)
+        angle = np.interp(time_ns[begin:end], *self._shaft.joined())
         if angle[-1] < angle[0]:
             angle = -angle
         # the last revolutions, from the first sample on after which the window is not exceeded
         start = int(np.argmax(angle >= angle[-1] - 2.0 * np.pi * self.settings.window_revolutions))
-        self._forget(int(self._time[begin + start]))
-        angle = angle[start:]
+        self._forget(int(time_ns[begin + start]))
+        angle, acceleration = angle[start:], acceleration[begin + start : end]
         revolutions = float(angle[-1] - angle[0]) / (2.0 * np.pi)
         if revolutions < self.settings.least_revolutions or (np.diff(angle) <= 0.0).any():
             return chain.MonitorResult(
@@ -208,10 +262,11 @@ class Monitor:
                 last,
                 revolutions=revolutions,
             )
-        load = self._load[self._load_time <= last]
+        load_time, load = self._load.joined()
+        load = load[load_time <= last]
         stretch = chain.Stretch(
             rate=self.rate,
-            acceleration=self._acceleration[: len(angle)],
+            acceleration=acceleration,
             shaft_angle=angle,
             load=float(load.mean()) if len(load) else np.nan,
             end_ns=last,
@@ -238,9 +293,6 @@ class Monitor:
 
     def _forget(self, before_ns: int) -> None:
         """Drop samples that no later window needs; the shaft keeps one sample before."""
-        kept = int(np.searchsorted(self._time, before_ns))
-        self._time, self._acceleration = self._time[kept:], self._acceleration[kept:]
-        kept = max(0, int(np.searchsorted(self._shaft_time, before_ns, side="right")) - 1)
-        self._shaft_time, self._shaft_angle = self._shaft_time[kept:], self._shaft_angle[kept:]
-        kept = int(np.searchsorted(self._load_time, before_ns))
-        self._load_time, self._load = self._load_time[kept:], self._load[kept:]
+        self._vibration.forget(before_ns)
+        self._shaft.forget(before_ns, spared=1)
+        self._load.forget(before_ns)

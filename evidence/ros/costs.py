@@ -49,11 +49,32 @@ def costs(
     tuple
         Simulated time, the cost of each node, and the last values of the twin's diagnostic.
     """
-    replay = {"duration": duration + 2.0 * START_S, "loop": False}
+    start_all(graph, scene, output, 1.0, duration=duration + 2.0 * START_S, loop=False)
+    begin, before = _at(graph, START_S)
+    end, after = _at(graph, START_S + duration)
+    found = [Cost(n, (after[n][0] - before[n][0]) / (end - begin), before[n][1], after[n][1]) for n in NODES]
+    return end - begin, found, dict(graph.statuses("twin")[-1].values)
+
+
+def start_all(graph: Graph, scene: str, output: Path, speed: float, **replay: object) -> None:
+    """Start all nodes, the load when everybody listens.
+
+    Parameters
+    ----------
+    graph : Graph
+    scene : str
+        `FAKE` for a twin without physics.
+    output : Path
+        Of the recorder.
+    speed : float
+        Speed factor.
+    **replay
+        Parameters of the load node.
+    """
     if scene == FAKE:
-        graph.fake_twin(speed_factor=1.0)
+        graph.fake_twin(speed_factor=speed)
     else:
-        graph.node_process("twin", scene=scene, speed_factor=1.0)
+        graph.node_process("twin", scene=scene, speed_factor=speed)
     graph.node_process("recorder", output=str(output))
     graph.node_process("monitor")
     listeners = ("recorder", "monitor")
@@ -66,10 +87,6 @@ def costs(
         graph.fake_load(**replay)
     else:
         graph.node_process("load", scene=scene, **replay)
-    begin, before = _at(graph, START_S)
-    end, after = _at(graph, START_S + duration)
-    found = [Cost(n, (after[n][0] - before[n][0]) / (end - begin), before[n][1], after[n][1]) for n in NODES]
-    return end - begin, found, dict(graph.statuses("twin")[-1].values)
 
 
 def _at(graph: Graph, moment: float) -> tuple[float, dict[str, tuple[float, float]]]:

@@ -10,7 +10,9 @@ import pytest
 if importlib.util.find_spec("rclpy") is None:
     pytest.skip("rclpy is not installed (pip install .[ros])", allow_module_level=True)
 
+from evidence.ros.faults import FAULTS, Fault
 from evidence.ros.kills import LARGEST_LOSS_S, killed_recorders
+from evidence.ros.review import line_of
 from evidence.ros.soak import soak
 from test.ros.graph import Graph
 
@@ -22,6 +24,12 @@ def test_a_killed_recorder_lacks_at_most_a_second_each_time(tmp_path: Path) -> N
         found = list(killed_recorders(graph, tmp_path, 3))
     assert max(each.lost_s for each in found) <= LARGEST_LOSS_S
     assert not any(each.gaps for each in found)
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: f"fault {fault.number}")
+def test_a_fault_of_the_review_is_mended(fault: Fault, tmp_path: Path) -> None:
+    line = line_of(fault, tmp_path)
+    assert line.holds, line.now
 
 
 def test_five_minutes_of_faults_leave_nothing_that_does_not_hold(tmp_path: Path) -> None:

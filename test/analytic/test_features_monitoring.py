@@ -191,7 +191,22 @@ def test_standstill_keeps_waiting_with_bounded_memory():
     time = np.arange(int(4 * RATE)) / RATE
     results = _feed(monitor, (time, np.zeros_like(time), np.zeros((len(time), 3))))
     assert {result.verdict for result in results} == {"waiting"}
-    assert len(monitor._time) <= 1.6 * RATE
+    assert len(monitor._vibration) <= 1.6 * RATE
+
+
+@pytest.mark.parametrize("stream", ["_vibration", "_shaft", "_load"])
+def test_a_stream_that_the_others_do_not_follow_takes_bounded_memory(stream):
+    monitor = Monitor(ORDERS, ROLLERS, settings=MonitorSettings(longest_window=1.0))
+    for begin in range(0, 10 * 1000, 20):
+        time_ns = (begin + np.arange(20)) * 1_000_000
+        if stream == "_vibration":
+            monitor.push_vibration(time_ns, np.zeros((20, 3)))
+        elif stream == "_shaft":
+            monitor.push_shaft(time_ns, np.zeros(20))
+        else:
+            monitor.push_load(time_ns, np.ones(20))
+        assert monitor.update() is None
+        assert len(getattr(monitor, stream)) <= 2021
 
 
 def test_running_backwards_is_analysed_alike():

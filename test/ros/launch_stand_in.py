@@ -2,7 +2,8 @@
 
 Stands in for the few classes that `launch/car.launch.py` uses, with their documented behaviour and with real
 processes: ``python -m test.ros.launch_stand_in FOLDER car.launch.py name:=value``. With ``--fake-twin`` the
-twin is the fake one. As with ``ros2 launch``, SIGINT shuts everything down, and the exit code is 0.
+twin is the fake one. As with ``ros2 launch``, SIGINT shuts everything down, and the exit code is 0 unless a
+handler has raised.
 """
 
 from __future__ import annotations
@@ -45,6 +46,18 @@ class RegisterEventHandler(Record):
 
 
 class OnProcessExit(Record):
+    pass
+
+
+class OnShutdown(Record):
+    pass
+
+
+class EventHandler(Record):
+    pass
+
+
+class Event:
     pass
 
 
@@ -108,7 +121,9 @@ class Launcher:
         self.fake_twin = fake_twin
         self.launch_configurations = configurations
         self.running: dict[Node, subprocess.Popen[bytes]] = {}
-        self.handlers: list[OnProcessExit] = []
+        self.handlers: list[Record] = []
+        self.is_shutdown = False
+        self.code = 0
         self.timers: list[tuple[float, TimerAction]] = []
         self.kill_at: float | None = None
 
@@ -129,6 +144,8 @@ class Launcher:
                 self.timers.append((time.monotonic() + action.period, action))
             elif isinstance(action, Shutdown):
                 self.shut_down()
+            elif isinstance(action, EmitEvent) and isinstance(action.event, Event):
+                self.handle(action.event)
             elif isinstance(action, EmitEvent):
                 for node in list(self.running):
                     if action.event.process_matcher(node):
@@ -136,7 +153,24 @@ class Launcher:
             else:
                 raise TypeError(f"the stand-in knows no {type(action).__name__}")
 
+    def handle(self, event: Event) -> None:
+        for handler in self.handlers:
+            if isinstance(handler, EventHandler) and handler.matcher(event):
+                try:
+                    self.carry_out(handler.entities)
+                except RuntimeError as error:
+                    print(f"[launch] {error}", flush=True)
+                    self.code = 1
+
+    def begin_shutdown(self) -> None:
+        if not self.is_shutdown:
+            self.is_shutdown = True
+            for handler in self.handlers:
+                if isinstance(handler, OnShutdown):
+                    self.carry_out(handler.on_shutdown(None, self))
+
     def shut_down(self) -> None:
+        self.begin_shutdown()
         if self.kill_at is None:
             self.kill_at = time.monotonic() + 10.0
             for child in self.running.values():
@@ -156,12 +190,13 @@ class Launcher:
             if self.kill_at is not None and time.monotonic() > self.kill_at:
                 for child in self.running.values():
                     child.kill()
+        self.begin_shutdown()
 
     def report_exit(self, node: Node, code: int) -> None:
         event = Record(action=node, returncode=code, process_name=f"{node.namespace}/{node.name}")
         print(f"[launch] {event.process_name} exit {code}", flush=True)
         for handler in self.handlers:
-            if handler.target_action is node and self.kill_at is None:
+            if isinstance(handler, OnProcessExit) and handler.target_action is node:
                 self.carry_out(handler.on_exit(event, self))
 
 
@@ -176,7 +211,9 @@ MODULES: dict[str, dict[str, Any]] = {
         "Shutdown": Shutdown,
         "TimerAction": TimerAction,
     },
-    "launch.event_handlers": {"OnProcessExit": OnProcessExit},
+    "launch.event": {"Event": Event},
+    "launch.event_handler": {"EventHandler": EventHandler},
+    "launch.event_handlers": {"OnProcessExit": OnProcessExit, "OnShutdown": OnShutdown},
     "launch.events": {"matches_action": matches_action},
     "launch.events.process": {"SignalProcess": SignalProcess},
     "launch.substitutions": {"LaunchConfiguration": LaunchConfiguration},
@@ -197,7 +234,7 @@ def main(words: Sequence[str]) -> int:
     signal.signal(signal.SIGTERM, lambda *_: launcher.shut_down())
     launcher.carry_out(described.positional[0])
     launcher.run()
-    return 0
+    return launcher.code
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import relative_name
 from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
@@ -67,6 +68,38 @@ def test_what_came_before_the_recorder_is_missing_and_told_by_topic(graph: Graph
     assert missing["force"].published == 4800
     assert missing["vibration"].recorded == recorded_counts(path)["vibration"]
     assert "before the recorder was there" in graph.processes.log("recorder")
+
+
+def test_a_file_that_a_reset_leaves_incomplete_is_told_and_the_monitor_goes_on(graph: Graph) -> None:
+    from std_srvs.srv import SetBool, Trigger
+
+    def simulated(more_than: float) -> None:
+        graph.until(
+            lambda: float(graph.statuses("twin")[-1].value("simulated_time")) > more_than, "simulated time"
+        )
+
+    path = graph.folder / "run.mcap"
+    graph.fake_twin(speed_factor=2.0)
+    graph.node_process("monitor")
+    is_connected(graph, "monitor")
+    graph.fake_load(duration=3.0)
+    simulated(0.2)
+    assert graph.call("pause", SetBool, data=True).success
+    graph.node_process("recorder", output=str(path))
+    is_connected(graph, "recorder")
+    at = float(graph.statuses("twin")[-1].value("simulated_time"))
+    assert graph.call("pause", SetBool, data=False).success
+    simulated(at)
+    assert graph.call("reset", Trigger).success
+    assert graph.exit_code("recorder") == INCOMPLETE
+    assert graph.exit_code("monitor") == 0
+    assert report(path).missing_messages
+    assert f"{path}: published messages that are not in the file: " in graph.processes.log("recorder")
+    second = path.with_name("run_2.mcap")
+    assert report(second).missing_messages == ()
+    assert f"{second}: published" not in graph.processes.log("recorder")
+    said = [status for _, statuses in read_run(second).results for status in statuses]
+    assert len([status for status in said if status.value("final") == "true"]) == 1
 
 
 def test_a_whole_recording_ends_with_0_and_has_every_published_message(graph: Graph) -> None:
