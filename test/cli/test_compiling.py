@@ -49,7 +49,13 @@ def test_warmup_tells_what_it_found(capsys: pytest.CaptureFixture[str]) -> None:
 def test_ctrl_c_while_compiling_ends_the_command(repository: Path, tmp_path: Path) -> None:
     environment = {**os.environ, "PYTHONPATH": str(repository), "BEARDYN_CACHE_DIR": str(tmp_path)}
     words = [sys.executable, "-m", "beardyn_core.cli.main", "warmup", "static_80kN"]
-    with subprocess.Popen(words, env=environment, stderr=subprocess.PIPE, text=True) as running:
+    with subprocess.Popen(
+        words,
+        env=environment,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored in a job in the background
+    ) as running:
         assert running.stderr is not None
         assert twin.COMPILING in running.stderr.readline()
         running.send_signal(signal.SIGINT)
