@@ -58,7 +58,8 @@ def scene_of(cage: CageModel, **changes: Any) -> Scene:
 
 def with_pocket(scene: Scene, clearance: float) -> Scene:
     cage = replace(scene.bearing.cage, circumferential_clearance=clearance)
-    return replace(scene, bearing=replace(scene.bearing, cage=cage))
+    # a pocket without play is refused unless the bearing is forced
+    return replace(scene, bearing=replace(scene.bearing, cage=cage, forced=clearance == 0.0))
 
 
 @cache
