@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.scene.load_buffer import speed_jump
+from beardyn_core.scene.load_check import speed_jump
 from beardyn_ros.live_filter import LowPass
 from beardyn_ros.load_gate import Refusals, unphysical
 

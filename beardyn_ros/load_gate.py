@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.scene.load import WRENCH_AXES, LoadHistory
-from beardyn_core.scene.load_buffer import (
+from beardyn_core.scene.load_check import (
     LARGEST_DISPLACEMENT,
     LARGEST_FORCE,
     LARGEST_MOMENT,

@@ -18,7 +18,7 @@ from beardyn_core.record.messages import decode, header_stamp
 from beardyn_core.record.reading import wrench_values
 from beardyn_core.record.topics import JOINTS, TWIST, WRENCH, namespace_of, relative_name
 from beardyn_core.scene.load import LoadHistory
-from beardyn_core.scene.load_buffer import problem_with
+from beardyn_core.scene.load_check import problem_with
 
 # pairs of topics of force and of speed, the better first
 _PAIRS = (("load/wrench", "load/shaft"), ("force", "shaft"))

@@ -7,6 +7,7 @@ excitation   irregularity of the rail; flats and waves of the wheel; joints, wel
 running      speed profiles, curves; brake and drive of an axle
 operation    where load and speed come from
 load         load on the journal as samples
+load_check   what samples of load must be to be used
 load_buffer  the load as a stream: accepted, refused, interpolated
 mounting     axlebox, journal, suspension and guidance of a vehicle
 defect       patches, roller diameter, worn pocket

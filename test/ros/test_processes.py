@@ -16,6 +16,7 @@ from beardyn_ros.environment import (
     this_machine_only,
 )
 from beardyn_ros.processes import CHILD
+from test.ros.conftest import ROS_IS_MISSING
 from test.ros.graph import Graph
 
 
@@ -75,3 +76,15 @@ def test_a_child_takes_sigint_though_its_parent_held_it_back(tmp_path: Path, gra
     assert graph.exit_code("waits") != 0
     assert "KeyboardInterrupt" in graph.processes.log("waits")
     graph.dismiss("waits")
+
+
+@pytest.mark.skipif(ROS_IS_MISSING, reason="rclpy is not installed (pip install .[ros])")
+@pytest.mark.parametrize("name", ["recorder_node", "load_node", "twin_node"])
+def test_a_node_that_computes_nothing_yet_brings_no_compiler_along(name: str) -> None:
+    """Numba takes a fifth of a second and 40 MB of every process that imports it."""
+    code = (
+        "from beardyn_ros.environment import prepare_environment\nprepare_environment()\n"
+        f"import sys, beardyn_ros.{name}\nprint('numba' in sys.modules)"
+    )
+    found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert found.stdout.strip() == "False"
