@@ -119,7 +119,9 @@ def test_a_recorder_refuses_to_mix_two_twins_that_speak_in_turns(graph: Graph) -
     rival = encode_diagnostics(0, "axlebox", [Diagnostic("axlebox/twin", 0, "running", values)])
     begin = time.monotonic()
     graph.until(
-        lambda: graph.out.publish("/diagnostics", rival) and time.monotonic() - begin > 0.5, "a rival twin"
+        lambda: graph.out.publish("/diagnostics", rival) and time.monotonic() - begin > 0.5,
+        "a rival twin",
+        check_processes=False,  # the recorder may be quicker
     )
     assert graph.exit_code("recorder") == 2
     assert "two twins speak as axlebox/twin at once" in (read_run(path).status or "")
