@@ -25,9 +25,8 @@ def end_with(parent: int) -> None:
         ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, int(signal.SIGTERM))
         if os.getppid() != parent:
             os._exit(0)
-    signal.signal(
-        signal.SIGINT, signal.SIG_DFL
-    )  # one that has come meanwhile ends the child without a traceback
+    # an interrupt that has come meanwhile ends the child without a traceback
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 

@@ -178,8 +178,8 @@ of Fast DDS, a process that is killed (`kill -9`, out of memory) while it holds 
 the twin stands still for seconds, and after fifteen killed recorders on a busy machine it has ended for want
 of load. With UDP 100 killed recorders lost 0.20 s each on average and 0.42 s at worst, with no gaps
 (`python -m evidence.ros.kills`: a twin without physics at speed factor 1, two idle cores); on cores with
-other work 2.4 s at worst. Both cost the same processor time. Nodes with default settings (`ros2 topic`,
-RViz, rosbag2) meet these over UDP and need nothing; among themselves they go on with shared memory. With
+other work 3.1 s at worst, and one file had two gaps. Both cost the same processor time. Nodes with default
+settings (`ros2 topic`, RViz, rosbag2) meet these over UDP and need nothing; among themselves they go on with shared memory. With
 `ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST` rmw_fastrtps adds shared memory to any profile: to keep nodes on one
 machine without it, give them `fastdds_local_profile.xml` of the package and `SYSTEM_DEFAULT`, as the demo
 does. A larger `net.core.rmem_max` (4 MB are asked for) spares repetitions in runs faster than real time.
