@@ -179,7 +179,8 @@ the twin stands still for seconds, and after fifteen killed recorders on a busy 
 of load. With UDP 100 killed recorders lost 0.20 s each on average and 0.42 s at worst, with no gaps
 (`python -m evidence.ros.kills`: a twin without physics at speed factor 1, two idle cores); on cores with
 other work 3.1 s at worst, and one file had two gaps. Both cost the same processor time. Nodes with default
-settings (`ros2 topic`, RViz, rosbag2) meet these over UDP and need nothing; among themselves they go on with shared memory. With
+settings (`ros2 topic`, RViz, rosbag2) meet these over UDP and need nothing; among themselves they
+go on with shared memory. With
 `ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST` rmw_fastrtps adds shared memory to any profile: to keep nodes on one
 machine without it, give them `fastdds_local_profile.xml` of the package and `SYSTEM_DEFAULT`, as the demo
 does. A larger `net.core.rmem_max` (4 MB are asked for) spares repetitions in runs faster than real time.
