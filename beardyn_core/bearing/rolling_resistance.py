@@ -1,9 +1,11 @@
 """Rolling resistance of one lubricated contact: plain formulas, references of the kernel.
 
 A hydrodynamic film is thicker and its pressure higher on the inlet side. Both surfaces feel a tangential
-force F_R against their motion, and the pressure a couple; seen from the contact point that is the couple
-2 F_R R against the relative rotation of the bodies, plus a pair of forces that traction takes up. All line
-forms here give that couple: its power is couple times relative angular speed, 2 F_R u. `pressure_viscosity`
+force F_R against their motion, and the pressure balances both: seen from the contact point that is the couple
+2 F_R R about the contact line, and a pair of forces (2 R / R_1 - 1) F_R between the bodies, R_1 the radius of
+one of them. All line forms here give that couple; in pure rolling its power is couple times relative angular
+speed, 2 F_R u. The fits of Aihara and of Zhou and Hoeprich are for elastic contacts; where the load is so
+light that they exceed the couple of rigid surfaces, that is the right one: `within_rigid`. `pressure_viscosity`
 is the coefficient of the lubricant, not an angle. The thermal factor reduces the couple, and only here: no
 film thickness enters these formulas.
 """
@@ -11,6 +13,7 @@ film thickness enters these formulas.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated as A
 
@@ -77,6 +80,23 @@ def zhou_hoeprich_line(contact: RollingContact) -> float:
     twice their rolling force times R.
     """
     return _power_law(contact, ZHOU_HOEPRICH_FACTOR, ZHOU_HOEPRICH_SPEED, ZHOU_HOEPRICH_LOAD)
+
+
+def rigid_line(contact: RollingContact) -> float:
+    """Compute the rolling couple of a line contact whose surfaces stay rigid, [N m].
+
+    References
+    ----------
+    Biboulet and Houpert (2010), the rigid isoviscous limit of `biboulet_houpert_force`.
+    """
+    speed, load = 2.0 * contact.speed_parameter, contact.line_load_parameter
+    scale = contact.contact_modulus * contact.radius**2 * contact.length
+    return 2.0 * BIBOULET_HOUPERT_FACTOR * math.sqrt(speed * load) * scale
+
+
+def within_rigid(law: Callable[[RollingContact], float]) -> Callable[[RollingContact], float]:
+    """Limit a law of elastic contacts by the couple of rigid surfaces, [N m]."""
+    return lambda contact: min(law(contact), rigid_line(contact))
 
 
 def biboulet_houpert_force(contact: RollingContact) -> float:

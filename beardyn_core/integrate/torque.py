@@ -23,6 +23,7 @@ from beardyn_core.bearing.rolling_resistance import (
     hertz_half_width,
     hysteresis_line,
     thermal_reduction,
+    within_rigid,
     zhou_hoeprich_line,
 )
 from beardyn_core.errors import InputError
@@ -31,8 +32,8 @@ from beardyn_core.model.faults import surface_radius
 from beardyn_core.model.laminae import equivalent_radius
 
 LINE_FORMS = {
-    "aihara": aihara_line,
-    "zhou_hoeprich": zhou_hoeprich_line,
+    "aihara": within_rigid(aihara_line),
+    "zhou_hoeprich": within_rigid(zhou_hoeprich_line),
     "biboulet_houpert": biboulet_houpert_line,
 }
 

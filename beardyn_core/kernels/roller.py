@@ -25,7 +25,7 @@ from beardyn_core.kernels.point_contact import (
 )
 from beardyn_core.kernels.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
 from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, bent_cup
-from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_rolling, stiffen_rolling
+from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_rolling
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.stage_timer import mark
 from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in
@@ -91,8 +91,6 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     matrix = inertia_matrix(roller.mass, roller.axial_inertia, roller.transverse_inertia, orbit.axis, zero)
     matrix = raceway.stiffen_raceway(matrix, cup, p)
     matrix = raceway.stiffen_raceway(matrix, cone, p)
-    matrix = stiffen_rolling(matrix, cup_rolling, step, effects.rolling)
-    matrix = stiffen_rolling(matrix, cone_rolling, step, effects.rolling)
     matrix = stiffen_drag(matrix, drag, step, effects.drag)
     matrix = stiffen_rib(matrix, rib, effects.rib, p)
     matrix = stiffen_small_rib(matrix, small_rib, effects.small_rib, p)
@@ -100,8 +98,8 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     on_cup, on_cone = raceway.push_raceway(cup, effects.damping), raceway.push_raceway(cone, effects.damping)
     gravity = weight(cosine, sine, roller.mass, effects.gravity)
     force, moment = add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment)
-    moment = push_rolling(push_rolling(moment, cup_rolling, effects.rolling), cone_rolling, effects.rolling)
     total = Wrench(force, moment)
+    total = push_rolling(push_rolling(total, cup_rolling, effects.rolling), cone_rolling, effects.rolling)
     total = push_drag(total, drag, effects.drag)
     total = push_rib(total, rib, effects.rib)
     total = push_small_rib(total, small_rib, effects.small_rib)

@@ -1,15 +1,21 @@
-"""Rolling resistance of a raceway contact: a couple on roller and ring against their relative rotation."""
+"""Rolling resistance of a raceway contact: shear of the inlet against the entrainment, and its pressure.
+
+The oil drawn into a contact holds back the surfaces of roller and ring alike, with a force F_R each against
+the entrainment speed, and the pressure of the inlet balances both. On the roller that is the couple
+M = 2 F_R R about the generator and the force (2 R / R_1 - 1) F_R, on the ring their opposites. Both follow
+the entrainment and lose the power F_R (u_1 + u_2): however much a light roller slips, they slow it down and
+never drive it.
+"""
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.exchange import account, account_loss, react_couple
+from beardyn_core.kernels.exchange import account_loss, react
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, sqrt
 from beardyn_core.kernels.orbit import entrainment_speed
-from beardyn_core.kernels.solve import add_couple
-from beardyn_core.kernels.vectors import Vector, Wrench, add, dot, scale, subtract
+from beardyn_core.kernels.vectors import Vector, Wrench, add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.layout import LOSS_ROLLING
 
 _THERMAL_FACTOR, _THERMAL_EXPONENT = 0.29, 0.78
@@ -18,11 +24,16 @@ _LIGHT_LOAD = 1.0
 
 
 class RollingContact(NamedTuple):
-    """Rolling resistance of one raceway contact before the solve."""
+    """Rolling resistance of one raceway contact, that of the beginning of the step."""
 
-    rate: Any  # couple over relative speed [N m s]
-    relative: Any  # speed about the generator [rad/s]
-    along: Vector  # direction of the generator
+    force: Any  # on the roller, around the ring [N]
+    couple: Any  # on the roller, about the generator [N m]
+    slip: Any  # of the roller against the ring [m/s]
+    relative: Any  # rotation of the roller against the ring about the generator [rad/s]
+    arm: Vector  # contact from the centre of mass of the roller [m]
+    centre: Vector  # of mass of the roller from the ring's origin [m]
+    around: Vector
+    along: Vector
 
 
 @inline
@@ -30,8 +41,9 @@ def rolling_couple(load, speed, ring, rolling):
     """Work out the couple of one raceway contact against rolling, [N m].
 
     Hydrodynamic couple of the inlet, reduced by its heating and by its supply, plus elastic hysteresis. The
-    load is spread evenly along the roller. Speeds below 1 mm/s are treated as 1 mm/s; below 1 N the
-    hydrodynamic couple falls linearly to zero.
+    load is spread evenly along the roller. The fits for elastic contacts exceed the couple of rigid surfaces
+    where loads are light; that of rigid surfaces holds there. Speeds below 1 mm/s are treated as 1 mm/s; below
+    1 N the hydrodynamic couple falls linearly to zero.
 
     ``load``: elastic load of the contact [N]; ``speed``: entrainment speed [m/s].
 
@@ -53,7 +65,8 @@ def rolling_couple(load, speed, ring, rolling):
 def _power_law(log2_load, log2_speed, ring, law):
     if law is None:
         return 0.0
-    return exp2(law.log2_couple[ring] + law.speed_exponent * log2_speed + law.load_exponent * log2_load)
+    elastic = law.log2_couple[ring] + law.speed_exponent * log2_speed + law.load_exponent * log2_load
+    return exp2(at_most(elastic, law.log2_rigid[ring] + 0.5 * (log2_speed + log2_load)))
 
 
 @inline
@@ -84,44 +97,53 @@ def _hysteresis(load, ring, hysteresis):
 def prepare_rolling(contact, ring, view, body, rolling):
     """Work out the `RollingContact` of one raceway; without the effect zeros, which nothing uses."""
     line, load = contact.line, contact.sums.force[0]
+    zero = 0.0 * load
+    slip = contact.slip.around[0]
     if rolling is None:
-        return RollingContact(0.0 * load, 0.0 * load, line.along)
+        return RollingContact(zero, zero, zero, zero, line.arm, contact.centre, line.around, line.along)
     if not contact.sums.touches:
-        return RollingContact(0.0 * load, 0.0 * load, line.along)
+        return RollingContact(zero, zero, zero, zero, line.arm, contact.centre, line.around, line.along)
     speed = entrainment_speed(line, contact.centre, body, view)
+    floor = rolling.smallest_speed
+    couple = rolling_couple(load, speed, ring, rolling) * speed / sqrt(speed * speed + floor * floor)
     relative = dot(subtract(body.omega, view.omega), line.along)
-    floor = rolling.regularisation[ring]
-    couple = rolling_couple(load, speed, ring, rolling)
-    return RollingContact(couple / sqrt(relative * relative + floor * floor), relative, line.along)
+    return RollingContact(
+        rolling.force[ring] * couple,
+        rolling.sense[ring] * couple,
+        slip,
+        relative,
+        line.arm,
+        contact.centre,
+        line.around,
+        line.along,
+    )
 
 
 @inline
-def stiffen_rolling(matrix, contact, step, rolling):
-    """Add the implicit part of the rolling resistance to the roller's matrix."""
-    if rolling is None:
-        return matrix
-    return add_couple(matrix, contact.along, step * contact.rate)
+def _wrench(contact):
+    """Work out force and moment on the roller about its centre of mass."""
+    force = scale(contact.force, contact.around)
+    return Wrench(force, add_scaled(cross(contact.arm, force), contact.couple, contact.along))
 
 
 @inline
-def push_rolling(moment, contact, rolling):
-    """Add the couple at the beginning of the step to a moment."""
+def push_rolling(total, contact, rolling):
+    """Add force and couple to the wrench on the roller."""
     if rolling is None:
-        return moment
-    return add(moment, scale(-contact.rate * contact.relative, contact.along))
+        return total
+    wrench = _wrench(contact)
+    return Wrench(add(total.force, wrench.force), add(total.moment, wrench.moment))
 
 
 @inline
 def settle_rolling(ring, contact, change, total, here, rolling, p):
-    """Settle the couple after the solve: on roller and ring alike, with its loss."""
+    """Settle force and couple after the solve: on roller and ring alike, with their loss."""
     if rolling is None:
         return total
-    rate, relative, along = contact.rate, contact.relative, contact.along
-    gained = dot(change.omega, along)
-    middle = relative + 0.5 * gained
-    couple = scale(-rate * (relative + gained), along)
-    react_couple(ring, couple, here)
-    audit = p.effects.audit
-    account_loss(here, LOSS_ROLLING, p.step * rate * middle * middle, audit)
-    account(here, 0.5 * p.step * rate * gained * middle, 0.0 * rate, audit)
-    return Wrench(total.force, add(total.moment, couple))
+    wrench = _wrench(contact)
+    react(ring, contact.centre, wrench, here)
+    moved = dot(add(change.velocity, cross(change.omega, contact.arm)), contact.around)
+    slid = contact.force * (contact.slip + 0.5 * moved)
+    rolled = contact.couple * (contact.relative + 0.5 * dot(change.omega, contact.along))
+    account_loss(here, LOSS_ROLLING, -p.step * (slid + rolled), p.effects.audit)
+    return Wrench(add(total.force, wrench.force), add(total.moment, wrench.moment))

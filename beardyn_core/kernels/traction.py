@@ -35,6 +35,7 @@ _LARGEST_LOG2_THICKENING = 30.0
 # Aihara's units: largest Hertz pressure in kgf/mm^2, speed in mm/s from m/s
 _LOG2_SPEED_UNIT = math.log2(1000.0)
 _LOG2_PRESSURE_BEND = math.log2(94.404)
+_LOG2_NO_LONGER_FITTED = math.log2(0.25e9 / 9.80665e6)
 _LOG2_AT_HIGH_PRESSURE = math.log2(4.078e-2)
 _LOG2_STEEPNESS = math.log2(2.6)
 _LOG2_AT_LOW_PRESSURE = math.log2(1.008e-4)
@@ -213,15 +214,26 @@ def load_sharing_rate(contact, film, sharing):
 def _shared_rate(contact, slip, inverse_slip, asperities, film, sharing):
     if film is None:
         return asperities
-    wet = (
-        aihara_rate(contact, slip, inverse_slip, sharing.aihara)
-        + eyring_rate(contact, slip, film, sharing.eyring)
-        + bair_winer_rate(contact, slip, film, sharing.bair_winer)
-        + inlet_rate(contact, sharing.inlet)
+    wet = _flat_rate(contact, slip, inverse_slip, film, sharing, sharing.aihara) + inlet_rate(
+        contact, sharing.inlet
     )
     wet = at_most(wet, sharing.friction * contact.load * inverse_slip)
     share = exp2(-1.8 * LOG2_E * exp2(1.2 * (contact.log2_film - sharing.log2_roughness)))
     return wet + (asperities - wet) * share
+
+
+@inline
+def _flat_rate(contact, slip, inverse_slip, film, sharing, aihara):
+    """Take the traction of the flats over slip speed; Aihara's only at the pressures of its tests.
+
+    From 0.5 down to 0.25 GPa it gives way, with the logarithm of the pressure, to a film that shears.
+    """
+    sheared = bair_winer_rate(contact, slip, film, sharing.bair_winer)
+    if aihara is None:
+        return eyring_rate(contact, slip, film, sharing.eyring) + sheared
+    fitted, log2_pressure = aihara_rate(contact, slip, inverse_slip, aihara)
+    share = at_most(at_least(log2_pressure - _LOG2_NO_LONGER_FITTED, 0.0), 1.0)
+    return sheared + share * (fitted - sheared)
 
 
 # --- full films
@@ -255,20 +267,25 @@ def _log2_thickening(pressure, pressure_viscosity, roelands):
 
 @inline
 def aihara_rate(contact, slip, inverse_slip, aihara):
-    """Work out traction as fitted to tests of rolling contacts, [N s/m].
+    """Work out traction as fitted to tests of rolling contacts, and the largest pressure it is for.
 
     mu = mu_max (1 - exp(-2.6 s / s_max)), s slip over entrainment speed, with eta in cP, u in mm/s and the
     largest Hertz pressure p in kgf/mm^2: s_max = 1.2448e7 eta^-1.5 u^-0.75 p^-1.5, mu_max = 4.078e-2 eta^0.1
     u^-0.12 p^0.18 above 94.4 kgf/mm^2 and 1.008e-4 eta^0.1 u^-0.12 p^1.5 below. Where thin or light films
     put s_max beyond the fit it is limited to the largest slide.
 
+    Returns
+    -------
+    rate : lane value
+        Friction over slip speed, [N s/m].
+    log2_pressure : lane value
+        Binary logarithm of the largest Hertz pressure, [log2 kgf/mm^2].
+
     References
     ----------
     Aihara, S. (1987), A new running torque formula for tapered roller bearings under axial load, ASME J.
     Tribol. 109, 471; coefficients as in the published source of D-BRAIN (NSK).
     """
-    if aihara is None:
-        return 0.0
     log2_pressure = 0.5 * contact.log2_load + aihara.log2_pressure[contact.ring, contact.lamina]
     log2_speed = contact.log2_rolling + _LOG2_SPEED_UNIT
     log2_slide = (aihara.log2_slide - 0.75 * log2_speed) - 1.5 * log2_pressure
@@ -281,7 +298,7 @@ def aihara_rate(contact, slip, inverse_slip, aihara):
     )
     friction = exp2((aihara.log2_friction - 0.12 * log2_speed) + log2_friction)
     per_slip = exp2((_LOG2_STEEPNESS - contact.log2_rolling) - log2_slide)
-    return contact.load * friction * decay_rate(per_slip, slip, inverse_slip)
+    return contact.load * friction * decay_rate(per_slip, slip, inverse_slip), log2_pressure
 
 
 @inline

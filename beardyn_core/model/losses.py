@@ -22,6 +22,7 @@ class PowerLawRollingParams(NamedTuple):
     log2_couple: Any  # [ring], at 1 N and 1 m/s [log2 N m]
     speed_exponent: float
     load_exponent: float
+    log2_rigid: Any  # [ring], of rigid surfaces at 1 N and 1 m/s, the upper limit [log2 N m]
 
 
 class BibouletHoupertParams(NamedTuple):
@@ -52,6 +53,9 @@ class RollingParams(NamedTuple):
     hysteresis: HysteresisParams | None
     supply: float
     regularisation: Any  # [ring] [rad/s]
+    smallest_speed: float  # of entrainment, below which the couple falls to zero [m/s]
+    force: Any  # [ring], around the ring on the roller, over the couple [1/m]
+    sense: Any  # [ring], of the couple on the roller about the generator, +1 or -1
 
 
 class DragParams(NamedTuple):
@@ -101,11 +105,12 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         for radius in radii
     ]
     power_law, biboulet_houpert, thermal, hysteresis = None, None, None, None
+    rigid, elastic = (_log2(part) for part in _biboulet_houpert_limits(units))
     if effect.kind in POWER_LAWS:
         line, *exponents = POWER_LAWS[effect.kind]
-        power_law = PowerLawRollingParams(_log2([line(unit) for unit in units]), *exponents)
+        power_law = PowerLawRollingParams(_log2([line(unit) for unit in units]), *exponents, rigid)
     if effect.kind == "biboulet_houpert":
-        biboulet_houpert = BibouletHoupertParams(*(_log2(part) for part in _biboulet_houpert_limits(units)))
+        biboulet_houpert = BibouletHoupertParams(rigid, elastic)
     if effect.kind != "hysteresis" and effect.thermal:
         level = thermal_loading(
             viscosity, lubricant.temperature_coefficient, 1.0, lubricant.thermal_conductivity
@@ -125,6 +130,9 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         hysteresis=hysteresis,
         supply=effect.supply,
         regularisation=effect.regularisation_speed / radii,
+        smallest_speed=effect.regularisation_speed,
+        force=2.0 * math.cos(bearing.half_angle) / bearing.roller_diameter - 0.5 / radii,
+        sense=np.array([-1.0, 1.0]),
     )
 
 

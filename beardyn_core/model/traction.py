@@ -71,7 +71,7 @@ class EyringParams(NamedTuple):
 
 
 class LoadSharingParams(NamedTuple):
-    """Asperities and film share the load; the film has the law of the member that is not ``None``."""
+    """Asperities and film share the load; the film has the laws of the members that are not ``None``."""
 
     friction: float
     slope: float
@@ -154,7 +154,7 @@ def _load_sharing_params(scene: Scene, traction: LoadSharingTraction) -> LoadSha
         if kind == "aihara"
         else None,
         eyring=EyringParams(traction.eyring_stress) if kind == "eyring" else None,
-        bair_winer=ShearedFilmParams(traction.limiting_shear) if kind == "bair_winer" else None,
+        bair_winer=ShearedFilmParams(traction.limiting_shear) if kind != "eyring" else None,
         inlet=_inlet_factor(scene) if traction.inlet_shear else None,
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from test.kernels.naive import Motion, Wrench, closed_form_point, cone_normal, raceway_wrench
-from test.kernels.naive_step import entrainment
+from test.kernels.naive_step import signed_entrainment
 
 Float = NDArray[np.float64]
 
@@ -28,23 +28,30 @@ def rolling_wrench(
     raceway: Any,
     p: Any,
     couple: Callable[[float, float], float],
-    regularisation: float,
+    radius: float,
+    smallest_speed: float,
     orbit_rate: float,
 ) -> Wrench:
-    """Couple of ``couple(load, entrainment_speed)`` against the rolling about the ring's generator."""
+    """Shear on the surface of the roller and pressure through its axis, as they act, with F_R = M / 2R.
+
+    ``radius`` is the equivalent one of the contact; the shear is against the entrainment, the pressure with it.
+    """
+    wrench = Wrench.none()
     load = float(np.linalg.norm(raceway_wrench(motion, raceway, p.roller, p.laminae).force))
     if load == 0.0:
-        return Wrench.none()
+        return wrench
     point = closed_form_point(
         motion.centre, motion.axis, p.roller.radius, motion.ring_axis, p.roller.apex, raceway
     )
     normal = cone_normal(point, motion.ring_axis, p.roller.apex, raceway)
     around = np.cross(motion.ring_axis, normal)
-    generator = np.cross(around, normal) / np.linalg.norm(around)
-    relative = motion.omega - motion.ring_omega
-    speed = entrainment(motion, raceway, p.roller, orbit_rate)
-    rate = couple(load, speed) / math.hypot(float(relative @ generator), regularisation)
-    return rotary_damper(generator, rate, relative)
+    around *= np.sign(raceway.side) / np.linalg.norm(around)
+    speed = signed_entrainment(motion, raceway, p.roller, orbit_rate)
+    shear = couple(load, abs(speed)) / (2.0 * radius) * speed / math.hypot(speed, smallest_speed)
+    wrench.push(-shear * around, point - motion.centre)
+    to_axis = p.roller.radius * math.hypot(1.0, p.roller.taper)  # along the normal
+    wrench.push(2.0 * radius / to_axis * shear * around, point - motion.centre - to_axis * normal)
+    return wrench
 
 
 def drag_wrench(

@@ -153,7 +153,12 @@ def step_roller(
 
 
 def entrainment(motion: Motion, raceway: Any, roller: Any, orbit_rate: float) -> float:
-    """Mean surface speed against the moving contact point, around the ring at mid-contact."""
+    """Size of the mean surface speed against the moving contact point, around the ring at mid-contact."""
+    return abs(signed_entrainment(motion, raceway, roller, orbit_rate))
+
+
+def signed_entrainment(motion: Motion, raceway: Any, roller: Any, orbit_rate: float) -> float:
+    """Mean surface speed against the moving contact point, positive with the ring's positive turn."""
     where = (motion.centre, motion.axis, roller.radius, motion.ring_axis, roller.apex, raceway)
     point = closed_form_point(*where)
     normal = cone_normal(point, motion.ring_axis, roller.apex, raceway)
@@ -164,4 +169,4 @@ def entrainment(motion: Motion, raceway: Any, roller: Any, orbit_rate: float) ->
     surface = float((motion.velocity + np.cross(motion.omega, point - motion.centre)) @ around)
     radius = float(np.hypot(point[0], point[1]))
     contact = float(motion.ring_velocity @ around) + orbit_rate * radius
-    return abs(0.5 * (ring + surface) - contact)
+    return 0.5 * (ring + surface) - contact

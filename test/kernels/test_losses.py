@@ -31,8 +31,8 @@ CASES = np.random.default_rng(7)
 LOAD = 10.0 ** CASES.uniform(0.0, 4.5, 200)
 SPEED = 10.0 ** CASES.uniform(-2.0, 1.3, 200)
 FORMS = {
-    "aihara": laws.aihara_line,
-    "zhou_hoeprich": laws.zhou_hoeprich_line,
+    "aihara": laws.within_rigid(laws.aihara_line),
+    "zhou_hoeprich": laws.within_rigid(laws.zhou_hoeprich_line),
     "biboulet_houpert": laws.biboulet_houpert_line,
 }
 
@@ -89,7 +89,7 @@ def test_isothermal_couple_and_hysteresis_add_up(lanes: Any) -> None:
     for q, u in zip(LOAD, SPEED, strict=True):
         line = contact(scene, 1, q, u + 1e-3)
         width = laws.hertz_half_width(q / line.length, line.radius, line.contact_modulus)
-        exact.append(laws.zhou_hoeprich_line(line) + laws.hysteresis_line(q, width, 0.007))
+        exact.append(FORMS["zhou_hoeprich"](line) + laws.hysteresis_line(q, width, 0.007))
     np.testing.assert_allclose(couples(scene, lanes, 1, LOAD, SPEED), exact, rtol=1e-8)
 
 

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.bearing.rolling_resistance import zhou_hoeprich_line
 from beardyn_core.effects import Drag, EffectSet, RollingResistance, Seal
 from beardyn_core.model.layout import (
     ANGULAR,
@@ -28,7 +27,7 @@ from test.kernels import naive_step
 from test.kernels.naive import Motion, Wrench
 from test.kernels.naive_losses import drag_wrench, rolling_wrench
 from test.kernels.rig import Rig, scene_with
-from test.kernels.test_losses import contact, reduction
+from test.kernels.test_losses import FORMS, contact, reduction
 from test.kernels.test_raceway import lamina_friction
 from test.kernels.test_step import cartesian, ring_of, shaken
 
@@ -51,12 +50,12 @@ def laws_of(rig: Rig) -> tuple[tuple[int, Any], ...]:
 
     def rolling(ring: int) -> Any:
         def couple(load: float, speed: float) -> float:
-            full = zhou_hoeprich_line(contact(scene, ring, max(load, 1.0), speed + 1e-3))
+            full = FORMS["zhou_hoeprich"](contact(scene, ring, max(load, 1.0), speed + 1e-3))
             return min(load, 1.0) * full * reduction(scene, speed + 1e-3)
 
         def law(motion: Motion, orbit_rate: float) -> Wrench:
-            at_rest = RollingResistance.regularisation_speed / contact(scene, ring, 1.0, 1.0).radius
-            return rolling_wrench(motion, (p.cup, p.cone)[ring], p, couple, at_rest, orbit_rate)
+            radius, slowest = contact(scene, ring, 1.0, 1.0).radius, RollingResistance.regularisation_speed
+            return rolling_wrench(motion, (p.cup, p.cone)[ring], p, couple, radius, slowest, orbit_rate)
 
         return law
 
@@ -108,8 +107,8 @@ def test_what_the_losses_change_in_a_step_is_that_of_dense_algebra() -> None:
             )
             ours, bare = cartesian(with_[:, row, k]), cartesian(without[:, row, k])
             found.append([*(ours.velocity - bare.velocity), *(ours.momentum - bare.momentum)])
-    for part, least in ((slice(0, 3), 1e-7), (slice(3, 6), 0.1 * p.step)):
+    for part, least in ((slice(0, 3), 1e-7), (slice(3, 6), 0.05 * p.step)):
         got, dense = np.array(found)[:, part], np.array(expected)[:, part]
         size = np.linalg.norm(dense, axis=1).max()
-        assert size > least  # a couple of 0.25 N m, a drag of 0.35 N
+        assert size > least  # a moment of 0.08 N m about the centre, a drag of 0.35 N
         assert np.linalg.norm(got - dense, axis=1).max() < 5e-3 * size
