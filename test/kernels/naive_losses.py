@@ -34,7 +34,7 @@ def rolling_wrench(
 ) -> Wrench:
     """Shear on the surface of the roller and pressure through its axis, as they act, with F_R = M / 2R.
 
-    ``radius`` is the equivalent one of the contact; the shear is against the entrainment, the pressure with it.
+    ``radius``: the equivalent one; the shear is against the entrainment, the pressure with it.
     """
     wrench = Wrench.none()
     load = float(np.linalg.norm(raceway_wrench(motion, raceway, p.roller, p.laminae).force))
