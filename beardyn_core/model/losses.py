@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.starvation import couple_shares
 from beardyn_core.effects import EffectSet
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.scene.scene import Scene
@@ -105,10 +106,17 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         for radius in radii
     ]
     power_law, biboulet_houpert, thermal, hysteresis = None, None, None, None
-    rigid, elastic = (_log2(part) for part in _biboulet_houpert_limits(units))
+    film = scene.effects.film
+    left = couple_shares(1.0 if film is None else film.starvation)
+    rigid, elastic = (
+        _log2(part) + math.log2(share)
+        for part, share in zip(_biboulet_houpert_limits(units), left, strict=True)
+    )
     if effect.kind in POWER_LAWS:
         line, *exponents = POWER_LAWS[effect.kind]
-        power_law = PowerLawRollingParams(_log2([line(unit) for unit in units]), *exponents, rigid)
+        power_law = PowerLawRollingParams(
+            _log2([line(unit) for unit in units]) + math.log2(left.elastic), *exponents, rigid
+        )
     if effect.kind == "biboulet_houpert":
         biboulet_houpert = BibouletHoupertParams(rigid, elastic)
     if effect.kind != "hysteresis" and effect.thermal:
