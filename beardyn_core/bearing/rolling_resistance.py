@@ -5,15 +5,14 @@ force F_R against their motion, and the pressure balances both: seen from the co
 2 F_R R about the contact line, and a pair of forces (2 R / R_1 - 1) F_R between the bodies, R_1 the radius of
 one of them. All line forms here give that couple; in pure rolling its power is couple times relative angular
 speed, 2 F_R u. The fits of Aihara and of Zhou and Hoeprich are for elastic contacts; where the load is so
-light that they exceed the couple of rigid surfaces, that is the right one: `within_rigid`. `pressure_viscosity`
-is the coefficient of the lubricant, not an angle. The thermal factor reduces the couple, and only here: no
-film thickness enters these formulas.
+light that they exceed the couple of rigid surfaces, that is the right one. `pressure_viscosity` is the
+coefficient of the lubricant, not an angle. The thermal factor reduces the couple, and only here: no film
+thickness enters these formulas.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated as A
 
@@ -94,15 +93,13 @@ def rigid_line(contact: RollingContact) -> float:
     return 2.0 * BIBOULET_HOUPERT_FACTOR * math.sqrt(speed * load) * scale
 
 
-def within_rigid(law: Callable[[RollingContact], float]) -> Callable[[RollingContact], float]:
-    """Limit a law of elastic contacts by the couple of rigid surfaces, [N m]."""
-    return lambda contact: min(law(contact), rigid_line(contact))
-
-
-def biboulet_houpert_force(contact: RollingContact) -> float:
+def biboulet_houpert_force(
+    contact: RollingContact, rigid_share: float = 1.0, elastic_share: float = 1.0
+) -> float:
     """Compute the rolling force on either surface of a line contact, [N].
 
-    From the rigid isoviscous to the elastic regime; the rigid limit is Martin's solution within 4 %.
+    From the rigid isoviscous to the elastic regime; the rigid limit is Martin's solution within 4 %. Where
+    oil is missing a share is left of each regime's force.
 
     References
     ----------
@@ -112,14 +109,19 @@ def biboulet_houpert_force(contact: RollingContact) -> float:
     speed, load = 2.0 * contact.speed_parameter, contact.line_load_parameter
     if speed <= 0.0 or load <= 0.0:
         return 0.0
-    regime = BIBOULET_HOUPERT_REGIME * math.sqrt(load / math.sqrt(speed))
-    force = BIBOULET_HOUPERT_FACTOR * math.sqrt(speed * load) / (1.0 + regime**10) ** 0.1
+    regime = BIBOULET_HOUPERT_REGIME * math.sqrt(load / math.sqrt(speed)) * rigid_share / elastic_share
+    force = rigid_share * BIBOULET_HOUPERT_FACTOR * math.sqrt(speed * load) / (1.0 + regime**10) ** 0.1
     return force * contact.contact_modulus * contact.radius * contact.length
 
 
 def biboulet_houpert_line(contact: RollingContact) -> float:
     """Compute the rolling couple 2 F_R R of a line contact, [N m]; see `biboulet_houpert_force`."""
-    return 2.0 * contact.radius * biboulet_houpert_force(contact)
+    return starved_biboulet_houpert_line(contact, 1.0, 1.0)
+
+
+def starved_biboulet_houpert_line(contact: RollingContact, rigid_share: float, elastic_share: float) -> float:
+    """Compute the rolling couple with a share left of each regime's, [N m]."""
+    return 2.0 * contact.radius * biboulet_houpert_force(contact, rigid_share, elastic_share)
 
 
 def hysteresis_line(load: float, half_width: float, loss_factor: float) -> float:

@@ -11,23 +11,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid, trapezoid
 from scipy.optimize import brentq
 
 from beardyn_core.arrays import Float
+from beardyn_core.bearing.oil_layer import CoupleShares
 
 _FAR = 1e5  # where nothing is missed by the flooded inlet
 _POINTS = 4000
-
-
-class CoupleShares(NamedTuple):
-    """Couple over that of a flooded inlet."""
-
-    rigid: float
-    elastic: float
 
 
 def couple_shares(film_share: float) -> CoupleShares:
@@ -77,7 +70,7 @@ def _martin(meniscus: float, outlet: float) -> tuple[Float, Float]:
 
 
 def _elastic_inlet(meniscus: float) -> tuple[float, float]:
-    """Film and couple at a given load, gap 1 + x^1.5 before the edge of the contact, up to a common factor."""
+    """Film and couple at a given load, gap 1 + x^1.5 before the contact's edge, up to a common factor."""
     x = np.geomspace(1e-8 * meniscus, meniscus, 2 * _POINTS)
     built_up = cumulative_trapezoid(x**1.5 / (1.0 + x**1.5) ** 3, x, initial=0.0) + 0.4 * x[0] ** 2.5
     pressure = -np.log(built_up / built_up[-1])

@@ -12,6 +12,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
+from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import (
     CoulombTraction,
@@ -28,7 +29,7 @@ from beardyn_core.effects import (
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.integrate.torque import entrainment_speeds, running_torque
 from beardyn_core.model.laminae import equivalent_radius
-from beardyn_core.model.losses import SEALS, drag_params
+from beardyn_core.model.losses import SEALS, drag_params, oil_supply
 from beardyn_core.scene.scene import Scene
 
 _SPIN_SHARE = 0.18
@@ -90,6 +91,7 @@ class Losses:
             form=effect.kind if film else "aihara",
             thermal=effect.thermal,
             hysteresis=effect.hysteresis,
+            supply=oil_supply(self.scene.effects.film),
         )
         share = effect.supply if film else 0.0
         self._couples = share * np.stack([running.cup_couple, running.cone_couple])
@@ -217,7 +219,10 @@ class Losses:
                 viscosity, oil.temperature_coefficient, self._entrainment[1], oil.thermal_conductivity
             )
             factor = thermal_factor(loading, film.thermal)
-        return film.starvation * factor * thickness / scene.bearing.raceway_roughness
+        found = film.constant_share * factor * thickness
+        if film.oil_layer is not None:
+            found = starved_film(found, layer_thickness(film.oil_layer, viscosity, self._entrainment[1]))
+        return found / scene.bearing.raceway_roughness
 
     def drive(
         self, traction: Traction | None, film: LineFilm | None, *, rolling: bool = True, drag: bool = True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated as A
 from typing import ClassVar
@@ -12,13 +13,22 @@ from beardyn_core.effects.about import About
 FORMULAS = ("dowson_higginson", "pan_hamrock", "pan_hamrock_central", "dowson_toyoda")
 INLET_HEATING = ("none", "murch_wilson", "wilson", "gupta_cheng")
 THICKENING = ("barus", "roelands")
+# Oil on both surfaces before a contact, [m], None for more than any contact takes in.
+LAYERS: dict[str, float | None] = {
+    "flooded": None,
+    "fresh": 2.0e-6,
+    "settled": 0.6e-6,
+    "channelled": 0.3e-6,
+}
+SUPPLIES = tuple(LAYERS)
 
 
 @dataclass(frozen=True)
 class LineFilm:
     """Elastohydrodynamic film of the raceway contacts.
 
-    Inlet heating of ``gupta_cheng`` is for pure rolling under light load.
+    Inlet heating of ``gupta_cheng`` is for pure rolling under light load. What grease has left of the oil on
+    the raceways thins the film and takes from the rolling couple.
     """
 
     about: ClassVar[About] = About(
@@ -29,10 +39,40 @@ class LineFilm:
         source="Dowson and Higginson (1966); Pan and Hamrock (1989); Dowson and Toyoda (1978); Martin (1916)",
     )
 
-    starvation: A[float, At(gt=0.0, le=1.0), "film over the fully flooded film"] = 0.7
+    supply: A[str, At(one_of=SUPPLIES), "oil bath, or a grease just filled in, run in, or pushed aside"] = (
+        "settled"
+    )
+    layer: A[
+        float | None,
+        At("um", gt=0.0, le=1000.0),
+        "oil on both surfaces before a contact, at 0.15 N/m of viscosity times entrainment speed, instead of "
+        "that of the supply",
+    ] = None
+    starvation: A[
+        float | None,
+        At(gt=0.0, le=1.0),
+        "film over the fully flooded film, the same for all contacts, instead of a layer",
+    ] = None
     formula: A[str, At(one_of=FORMULAS), "minimum film, or the central one of the last two"] = FORMULAS[0]
     thermal: A[str, At(one_of=INLET_HEATING), "reduction by shear heating of the inlet"] = "none"
     isoviscous: A[bool, "light contacts have the film of rigid surfaces where it is thicker"] = False
     thickening: A[str, At(one_of=THICKENING), "viscosity at pressure, for film tractions that ask for it"] = (
         "barus"
     )
+
+    def rules(self) -> Iterator[str]:
+        """Check the options against each other."""
+        if self.layer is not None and self.starvation is not None:
+            yield "layer_um and starvation both say how much oil there is; give one of them"
+
+    @property
+    def oil_layer(self) -> float | None:
+        """Layer of oil that starves the contacts, [m]; None where nothing or `starvation` does."""
+        if self.starvation is not None:
+            return None
+        return LAYERS[self.supply] if self.layer is None else self.layer
+
+    @property
+    def constant_share(self) -> float:
+        """Film over the flooded one of every contact, 1 where a layer or nothing starves them."""
+        return 1.0 if self.starvation is None else self.starvation

@@ -113,7 +113,7 @@ class LoadSharingTraction:
         adds="Raceway friction as a load-weighted sum of asperity friction and traction of a sheared film.",
         states="none",
         cost="high",
-        validity="Isothermal film; aihara from 0.5 to 2 GPa, below 0.25 GPa as bair_winer, extrapolated above.",
+        validity="Isothermal film; aihara from 0.5 to 2 GPa, below that towards bair_winer.",
         source="D-BRAIN (NSK); Aihara (1987); Johnson and Tevaarwerk (1977); Bair and Winer (1979)",
     )
 
@@ -124,7 +124,7 @@ class LoadSharingTraction:
     film_traction: A[
         str,
         At(one_of=("aihara", "eyring", "bair_winer")),
-        "a fit to tests (a limiting shear stress below its pressures), a sinh law, or a limiting shear stress",
+        "a fit to tests (limiting shear stress below its pressures), a sinh law, or a limiting shear stress",
     ] = "aihara"
     largest_slide: A[float, At(gt=0.0, le=1.0), "upper limit of s_max of aihara"] = 0.25
     eyring_stress: A[float, At("MPa", gt=0.0), "tau_0 of eyring"] = 5.0e6

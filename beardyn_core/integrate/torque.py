@@ -18,24 +18,15 @@ from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.rolling_resistance import (
     RollingContact,
-    aihara_line,
-    biboulet_houpert_line,
     hertz_half_width,
     hysteresis_line,
     thermal_reduction,
-    within_rigid,
-    zhou_hoeprich_line,
 )
+from beardyn_core.bearing.starved_rolling import FLOODED, FORMS, OilSupply, rolling_couple
 from beardyn_core.errors import InputError
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.faults import surface_radius
 from beardyn_core.model.laminae import equivalent_radius
-
-LINE_FORMS = {
-    "aihara": within_rigid(aihara_line),
-    "zhou_hoeprich": within_rigid(zhou_hoeprich_line),
-    "biboulet_houpert": biboulet_houpert_line,
-}
 
 
 @dataclass(frozen=True)
@@ -67,6 +58,7 @@ def running_torque(
     speed: float,
     *,
     form: str = "aihara",
+    supply: OilSupply = FLOODED,
     thermal: bool = True,
     hysteresis: float = 0.0,
     rib_friction: float = 0.0,
@@ -81,6 +73,8 @@ def running_torque(
         Of the shaft, [rad/s].
     form : str
         ``aihara``, ``zhou_hoeprich`` or ``biboulet_houpert``.
+    supply : OilSupply
+        How much oil the contacts find.
     thermal : bool
         Reduce the couple by heating of the inlet.
     hysteresis : float
@@ -99,8 +93,8 @@ def running_torque(
     rib mu Q_f h sqrt(1 + 0.18 (a/h)^2) R_o/Dm. The equivalent radius and the entrainment speed are not
     those printed there: the cup is concave, and surface speeds are taken against the contact.
     """
-    if form not in LINE_FORMS:
-        raise InputError([f"form is {form!r}; allowed are {', '.join(LINE_FORMS)}."])
+    if form not in FORMS:
+        raise InputError([f"form is {form!r}; allowed are {', '.join(FORMS)}."])
     viscosity = lubricant.dynamic_viscosity(temperature)
     pressure_viscosity = lubricant.pressure_viscosity_at(temperature)
     modulus, length = bearing.material.contact_modulus, bearing.effective_length
@@ -119,7 +113,8 @@ def running_torque(
             load = float(loads[index])
             unit = RollingContact(load, entrainment, radius, length, modulus, viscosity, pressure_viscosity)
             width = hertz_half_width(load / length, radius, modulus)
-            couple[index] = reduction * LINE_FORMS[form](unit) + hysteresis_line(load, width, hysteresis)
+            couple[index] = reduction * rolling_couple(form, unit, supply)
+            couple[index] += hysteresis_line(load, width, hysteresis)
         couples.append(couple)
     cup_radius, cone_radius = surface_radius(bearing, "cup"), surface_radius(bearing, "cone")
     rolling = float(cup_radius * couples[1].sum() + cone_radius * couples[0].sum()) / bearing.roller_diameter

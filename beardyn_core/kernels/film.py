@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from beardyn_core.bearing.oil_layer import TRANSITION
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude
 from beardyn_core.model.layout import LAMINA_FILM
@@ -44,8 +45,8 @@ def log2_film_thickness(log2_force, log2_speed, lamina, ring, laminae, film):
     """Work out the binary logarithm of the film thickness of one lamina, [log2 m].
 
     Power law in speed and load, the rest of the formula is in the lamina table; with the guard of rigid
-    surfaces the thicker of both films. Neglects the drag of starving oil beyond the starvation factor;
-    loads below 1 mN are treated as 1 mN.
+    surfaces the thicker of both films; thinner where there is too little oil. Loads below 1 mN are treated as
+    1 mN.
 
     References
     ----------
@@ -55,7 +56,8 @@ def log2_film_thickness(log2_force, log2_speed, lamina, ring, laminae, film):
         return 0.0
     bounded = at_least(log2_force, _LOG2_LIGHTEST)
     elastic = log2_speed[0] + film.load_exponent * bounded + laminae[LAMINA_FILM + ring, lamina]
-    return thicker_film(elastic, bounded, log2_speed[1], lamina, ring, film.rigid)
+    flooded = thicker_film(elastic, bounded, log2_speed[1], lamina, ring, film.rigid)
+    return starved_film(flooded, log2_speed[1], film.layer)
 
 
 @inline
@@ -70,6 +72,20 @@ def thicker_film(elastic, load_log2, log2_rolling, lamina, ring, rigid):
         return elastic
     film = log2_rolling - load_log2 + rigid.log2_factor[ring, lamina]
     return at_least(elastic, at_most(film, _LOG2_THICKEST_RIGID_FILM))
+
+
+@inline
+def starved_film(flooded, log2_rolling, layer):
+    """Thin a flooded film to what a layer of oil leaves of it, [log2 m].
+
+    References
+    ----------
+    Chevalier et al. (1998), see `bearing.starvation`.
+    """
+    if layer is None:
+        return flooded
+    ratio = flooded - layer.log2_thickness - layer.speed_exponent * log2_rolling
+    return flooded - log2(1.0 + exp2(TRANSITION * ratio)) / TRANSITION
 
 
 @inline

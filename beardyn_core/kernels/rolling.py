@@ -9,8 +9,10 @@ never drive it.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
+from beardyn_core.bearing.oil_layer import ELASTIC_FIT, RIGID_FIT
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account_loss, react
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, sqrt
@@ -20,6 +22,13 @@ from beardyn_core.model.layout import LOSS_ROLLING
 
 _THERMAL_FACTOR, _THERMAL_EXPONENT = 0.29, 0.78
 _SMALLEST_SPEED = 1e-3
+_RIGID_BEGIN, _RIGID_STEEPNESS, _RIGID_POWER = (
+    math.log2(RIGID_FIT[0]),
+    RIGID_FIT[1],
+    -RIGID_FIT[2] / RIGID_FIT[1],
+)
+_ELASTIC_BEGIN, _ELASTIC_STEEPNESS = math.log2(ELASTIC_FIT[0]), ELASTIC_FIT[1]
+_ELASTIC_POWER = -ELASTIC_FIT[2] / ELASTIC_FIT[1]
 _LIGHT_LOAD = 1.0
 
 
@@ -40,10 +49,10 @@ class RollingContact(NamedTuple):
 def rolling_couple(load, speed, ring, rolling):
     """Work out the couple of one raceway contact against rolling, [N m].
 
-    Hydrodynamic couple of the inlet, reduced by its heating and by its supply, plus elastic hysteresis. The
+    Hydrodynamic couple of the inlet, reduced by its heating and by lack of oil, plus elastic hysteresis. The
     load is spread evenly along the roller. The fits for elastic contacts exceed the couple of rigid surfaces
-    where loads are light; that of rigid surfaces holds there. Speeds below 1 mm/s are treated as 1 mm/s; below
-    1 N the hydrodynamic couple falls linearly to zero.
+    where loads are light; that of rigid surfaces holds there. Speeds below 1 mm/s are treated as 1 mm/s;
+    below 1 N the hydrodynamic couple falls linearly to zero.
 
     ``load``: elastic load of the contact [N]; ``speed``: entrainment speed [m/s].
 
@@ -53,8 +62,9 @@ def rolling_couple(load, speed, ring, rolling):
     """
     log2_speed = log2(magnitude(speed) + _SMALLEST_SPEED)
     log2_load = log2(at_least(load, _LIGHT_LOAD))
-    film = _power_law(log2_load, log2_speed, ring, rolling.power_law) + _biboulet_houpert(
-        log2_load, log2_speed, ring, rolling.biboulet_houpert
+    left = _shares_left(log2_load, log2_speed, ring, rolling.starved)
+    film = _power_law(log2_load, log2_speed, left, ring, rolling.power_law) + _biboulet_houpert(
+        log2_load, log2_speed, left, ring, rolling.biboulet_houpert
     )
     carried = at_most(load * (1.0 / _LIGHT_LOAD), 1.0)
     cooled = rolling.supply * carried * _thermal_reduction(log2_speed, rolling.thermal)
@@ -62,19 +72,42 @@ def rolling_couple(load, speed, ring, rolling):
 
 
 @inline
-def _power_law(log2_load, log2_speed, ring, law):
-    if law is None:
-        return 0.0
-    elastic = law.log2_couple[ring] + law.speed_exponent * log2_speed + law.load_exponent * log2_load
-    return exp2(at_most(elastic, law.log2_rigid[ring] + 0.5 * (log2_speed + log2_load)))
+def _shares_left(log2_load, log2_speed, ring, starved):
+    """Work out what lack of oil leaves of the couple of rigid and of elastic surfaces, log2 of both shares.
+
+    References
+    ----------
+    `bearing.starvation`, for the film at the mean load along the roller.
+    """
+    if starved is None:
+        return 0.0, 0.0
+    elastic = (
+        starved.log2_elastic[ring] + starved.elastic_speed * log2_speed + starved.elastic_load * log2_load
+    )
+    rigid = starved.log2_rigid[ring] + starved.rigid_speed * log2_speed - log2_load
+    ratio = at_least(elastic, rigid)
+    return (
+        _RIGID_POWER * log2(1.0 + exp2(_RIGID_STEEPNESS * (ratio + _RIGID_BEGIN))),
+        _ELASTIC_POWER * log2(1.0 + exp2(_ELASTIC_STEEPNESS * (ratio + _ELASTIC_BEGIN))),
+    )
 
 
 @inline
-def _biboulet_houpert(log2_load, log2_speed, ring, law):
+def _power_law(log2_load, log2_speed, left, ring, law):
     if law is None:
         return 0.0
-    rigid = law.log2_rigid[ring] + 0.5 * (log2_speed + log2_load)
-    elastic = law.log2_elastic[ring] + 0.75 * log2_speed
+    elastic = (
+        law.log2_couple[ring] + law.speed_exponent * log2_speed + law.load_exponent * log2_load + left[1]
+    )
+    return exp2(at_most(elastic, law.log2_rigid[ring] + 0.5 * (log2_speed + log2_load) + left[0]))
+
+
+@inline
+def _biboulet_houpert(log2_load, log2_speed, left, ring, law):
+    if law is None:
+        return 0.0
+    rigid = law.log2_rigid[ring] + 0.5 * (log2_speed + log2_load) + left[0]
+    elastic = law.log2_elastic[ring] + 0.75 * log2_speed + left[1]
     return exp2(rigid - 0.1 * log2(1.0 + exp2(10.0 * (rigid - elastic))))
 
 

@@ -13,6 +13,7 @@ from beardyn_core.bearing.film_thickness import (
     rigid_line_film,
     thermal_loading,
 )
+from beardyn_core.bearing.oil_layer import LAYER_EXPONENT, layer_thickness
 from beardyn_core.model.laminae import equivalent_radius, for_springs, lamina_places
 from beardyn_core.scene.scene import Scene
 
@@ -29,6 +30,13 @@ class RigidFilmParams(NamedTuple):
     """Film of rigid surfaces, H = 4.9 U / W."""
 
     log2_factor: Any  # of the film at 1 N on the lamina and 1 m/s, [ring, spring], [log2 m]
+
+
+class LayerParams(NamedTuple):
+    """Layer of oil that starves the contacts."""
+
+    log2_thickness: float  # at 1 m/s [log2 m]
+    speed_exponent: float
 
 
 class RoelandsParams(NamedTuple):
@@ -48,6 +56,7 @@ class FilmParams(NamedTuple):
     load_exponent: float
     thermal: ThermalFilmParams | None
     rigid: RigidFilmParams | None
+    layer: LayerParams | None
     roelands: RoelandsParams | None
 
 
@@ -67,7 +76,7 @@ def film_params(scene: Scene) -> FilmParams | None:
         thermal = ThermalFilmParams(math.log2(loading), law.coefficient, law.exponent)
     if options.isoviscous:
         films = [[rigid_line_film(1.0 / lamina_length, 1.0, r, viscosity) for r in ring] for ring in radii]
-        rigid = RigidFilmParams(for_springs(np.log2(options.starvation * np.array(films))))
+        rigid = RigidFilmParams(for_springs(np.log2(options.constant_share * np.array(films))))
     if options.thickening == "roelands":
         level, exponent = oil.roelands_constants(temperature)
         roelands = RoelandsParams(level / math.log(2.0), exponent)
@@ -79,5 +88,13 @@ def film_params(scene: Scene) -> FilmParams | None:
         load_exponent=formula.load_exponent,
         thermal=thermal,
         rigid=rigid,
+        layer=layer_params(options.oil_layer, viscosity),
         roelands=roelands,
     )
+
+
+def layer_params(layer: float | None, viscosity: float) -> LayerParams | None:
+    """Work out the layer of oil that a contact finds, ``None`` where there is enough."""
+    if layer is None:
+        return None
+    return LayerParams(math.log2(layer_thickness(layer, viscosity, 1.0)), LAYER_EXPONENT)

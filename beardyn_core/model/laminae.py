@@ -76,11 +76,11 @@ def log2_film_factor(
     options: LineFilm | None,
 ) -> float:
     """Work out the binary logarithm of the film thickness at 1 N on the lamina and 1 m/s, [log2 m]."""
-    film = LineFilm(starvation=1.0) if options is None else options
+    film = LineFilm(supply="flooded") if options is None else options
     thickness = line_film(
         1.0 / lamina_length, 1.0, radius, contact_modulus, viscosity, pressure_viscosity, film.formula
     )
-    return math.log2(film.starvation * thickness)
+    return math.log2(film.constant_share * thickness)
 
 
 def lamina_table(scene: Scene) -> NDArray[np.float64]:

@@ -9,10 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing import rolling_resistance as laws
-from beardyn_core.bearing.film_thickness import thermal_loading
+from beardyn_core.bearing.film_thickness import LINE_FORMULAS, thermal_loading
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.oil_layer import CoupleShares
 from beardyn_core.bearing.starvation import couple_shares
-from beardyn_core.effects import EffectSet
+from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply, flooded_film, rigid_film
+from beardyn_core.effects import EffectSet, LineFilm
+from beardyn_core.model.film import layer_params
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.scene.scene import Scene
 
@@ -45,6 +48,16 @@ class HysteresisParams(NamedTuple):
     couple: Any  # [ring], at 1 N [N m]
 
 
+class StarvedRollingParams(NamedTuple):
+    """Flooded film of a whole contact over the layer of oil, which decides how much of the couple is left."""
+
+    log2_elastic: Any  # [ring], at 1 N and 1 m/s
+    elastic_speed: float
+    elastic_load: float
+    log2_rigid: Any  # [ring], at 1 N and 1 m/s
+    rigid_speed: float
+
+
 class RollingParams(NamedTuple):
     """Couple of the raceway contacts against rolling."""
 
@@ -52,6 +65,7 @@ class RollingParams(NamedTuple):
     biboulet_houpert: BibouletHoupertParams | None
     thermal: ThermalRollingParams | None
     hysteresis: HysteresisParams | None
+    starved: StarvedRollingParams | None
     supply: float
     regularisation: Any  # [ring] [rad/s]
     smallest_speed: float  # of entrainment, below which the couple falls to zero [m/s]
@@ -106,17 +120,16 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         for radius in radii
     ]
     power_law, biboulet_houpert, thermal, hysteresis = None, None, None, None
-    film = scene.effects.film
-    left = couple_shares(1.0 if film is None else film.starvation)
+    supply = oil_supply(scene.effects.film)
+    left = CoupleShares(1.0, 1.0) if supply.layer is not None else couple_shares(supply.film_share)
     rigid, elastic = (
         _log2(part) + math.log2(share)
         for part, share in zip(_biboulet_houpert_limits(units), left, strict=True)
     )
     if effect.kind in POWER_LAWS:
-        line, *exponents = POWER_LAWS[effect.kind]
-        power_law = PowerLawRollingParams(
-            _log2([line(unit) for unit in units]) + math.log2(left.elastic), *exponents, rigid
-        )
+        line, speed_exponent, load_exponent = POWER_LAWS[effect.kind]
+        couple = _log2([line(unit) for unit in units]) + math.log2(left.elastic)
+        power_law = PowerLawRollingParams(couple, speed_exponent, load_exponent, rigid)
     if effect.kind == "biboulet_houpert":
         biboulet_houpert = BibouletHoupertParams(rigid, elastic)
     if effect.kind != "hysteresis" and effect.thermal:
@@ -136,11 +149,33 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         biboulet_houpert=biboulet_houpert,
         thermal=thermal,
         hysteresis=hysteresis,
+        starved=_starved(supply, units),
         supply=effect.supply,
         regularisation=effect.regularisation_speed / radii,
         smallest_speed=effect.regularisation_speed,
         force=2.0 * math.cos(bearing.half_angle) / bearing.roller_diameter - 0.5 / radii,
         sense=np.array([-1.0, 1.0]),
+    )
+
+
+def oil_supply(film: LineFilm | None) -> OilSupply:
+    """Say how much oil the contacts find; enough where no film is modelled."""
+    if film is None:
+        return FLOODED
+    return OilSupply(film.formula, film.oil_layer, film.constant_share)
+
+
+def _starved(supply: OilSupply, units: list[laws.RollingContact]) -> StarvedRollingParams | None:
+    layer = layer_params(supply.layer, units[0].viscosity)
+    if layer is None:
+        return None
+    law = LINE_FORMULAS[supply.formula]
+    return StarvedRollingParams(
+        log2_elastic=_log2([flooded_film(unit, supply.formula) for unit in units]) - layer.log2_thickness,
+        elastic_speed=law.speed_exponent - layer.speed_exponent,
+        elastic_load=law.load_exponent,
+        log2_rigid=_log2([rigid_film(unit) for unit in units]) - layer.log2_thickness,
+        rigid_speed=1.0 - layer.speed_exponent,
     )
 
 

@@ -15,6 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize, minimize_scalar
 
+from beardyn_core.effects import LineFilm
+from beardyn_core.effects.film import LAYERS
+
 Float = NDArray[np.float64]
 
 
@@ -144,7 +147,19 @@ def film_thickness(load: float, speed: float, lamina: Any) -> float:
     u = lamina.viscosity * speed / (e_prime * radius)
     g = lamina.pressure_viscosity * e_prime
     w = load / lamina.length / (e_prime * radius)
-    return float(lamina.starvation * 2.65 * u**0.7 * g**0.54 / w**0.13 * radius)
+    return left_of_film(2.65 * u**0.7 * g**0.54 / w**0.13 * radius, lamina.viscosity * speed, lamina.options)
+
+
+def left_of_film(flooded: float, viscosity_times_speed: float, options: LineFilm) -> float:
+    """What lack of oil leaves of a film: a constant share, or by the layer of oil on the raceways."""
+    if options.starvation is not None:
+        return options.starvation * flooded
+    layer = options.layer if options.layer is not None else LAYERS[options.supply]
+    if layer is None:
+        return flooded
+    layer *= (viscosity_times_speed / 0.15) ** 0.3
+    r = layer / flooded
+    return float(flooded * r / (1.0 + r**4) ** 0.25)
 
 
 @dataclass(frozen=True)
@@ -156,7 +171,7 @@ class FilmLamina:
     contact_modulus: float
     viscosity: float
     pressure_viscosity: float
-    starvation: float
+    options: LineFilm
 
 
 def spall_sink(arc: float, half_width: float, depth: float, roller_radius: float) -> float:

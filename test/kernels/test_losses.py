@@ -11,14 +11,16 @@ import pytest
 from numpy.typing import NDArray
 
 from beardyn_core.bearing import rolling_resistance as laws
+from beardyn_core.bearing import starved_rolling
 from beardyn_core.bearing.film_thickness import thermal_loading
-from beardyn_core.effects import Drag, EffectSet, RollingResistance
+from beardyn_core.effects import Drag, EffectSet, LineFilm, RollingResistance
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import (
     AIR_DENSITY,
     CYLINDER_EXPONENT,
     CYLINDER_FRICTION,
     drag_params,
+    oil_supply,
     rolling_params,
 )
 from beardyn_core.scene.scene import Scene
@@ -30,11 +32,7 @@ Float = NDArray[np.float64]
 CASES = np.random.default_rng(7)
 LOAD = 10.0 ** CASES.uniform(0.0, 4.5, 200)
 SPEED = 10.0 ** CASES.uniform(-2.0, 1.3, 200)
-FORMS = {
-    "aihara": laws.within_rigid(laws.aihara_line),
-    "zhou_hoeprich": laws.within_rigid(laws.zhou_hoeprich_line),
-    "biboulet_houpert": laws.biboulet_houpert_line,
-}
+FORMS = starved_rolling.FORMS
 
 
 def scene_of(**options: Any) -> Scene:
@@ -76,8 +74,11 @@ def reduction(scene: Scene, speed: float) -> float:
 def test_couple_is_that_of_the_plain_formula(lanes: Any, kind: str, ring: int) -> None:
     """Logarithms of 1e-10, times ten in the tenth power of Biboulet and Houpert."""
     scene = scene_of(kind=kind, supply=0.6)
+    supply = oil_supply(scene.effects.film)
     exact = [
-        0.6 * FORMS[kind](contact(scene, ring, q, u + 1e-3)) * reduction(scene, u + 1e-3)
+        0.6
+        * starved_rolling.rolling_couple(kind, contact(scene, ring, q, u + 1e-3), supply)
+        * reduction(scene, u + 1e-3)
         for q, u in zip(LOAD, SPEED, strict=True)
     ]
     np.testing.assert_allclose(couples(scene, lanes, ring, LOAD, SPEED), exact, rtol=1e-8)
@@ -89,7 +90,10 @@ def test_isothermal_couple_and_hysteresis_add_up(lanes: Any) -> None:
     for q, u in zip(LOAD, SPEED, strict=True):
         line = contact(scene, 1, q, u + 1e-3)
         width = laws.hertz_half_width(q / line.length, line.radius, line.contact_modulus)
-        exact.append(FORMS["zhou_hoeprich"](line) + laws.hysteresis_line(q, width, 0.007))
+        exact.append(
+            starved_rolling.rolling_couple("zhou_hoeprich", line, oil_supply(scene.effects.film))
+            + laws.hysteresis_line(q, width, 0.007)
+        )
     np.testing.assert_allclose(couples(scene, lanes, 1, LOAD, SPEED), exact, rtol=1e-8)
 
 
@@ -102,8 +106,10 @@ def test_hysteresis_alone_does_not_ask_for_the_speed(lanes: Any) -> None:
 
 @pytest.mark.parametrize("kind", FORMS)
 def test_an_unloaded_contact_rolls_freely_and_a_light_one_nearly_so(lanes: Any, kind: str) -> None:
-    scene = scene_of(kind=kind, hysteresis=0.007)
-    found = couples(scene, lanes, 0, np.array([0.0, 1e-3, 1.0, 10.0]), 5.0)
+    """With enough oil: a starved light contact has little but its hysteresis."""
+    resistance = RollingResistance(kind=kind, hysteresis=0.007)
+    effects = replace(EffectSet(), film=LineFilm(supply="flooded"), rolling_resistance=resistance)
+    found = couples(scene_with(effects), lanes, 0, np.array([0.0, 1e-3, 1.0, 10.0]), 5.0)
     assert found[0] == 0.0
     assert found[1] == pytest.approx(1e-3 * found[2], rel=1e-3)
     assert np.all(np.diff(found) > 0.0)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.bearing.starved_rolling import rolling_couple
 from beardyn_core.effects import Drag, EffectSet, RollingResistance, Seal
 from beardyn_core.model.layout import (
     ANGULAR,
@@ -22,12 +23,12 @@ from beardyn_core.model.layout import (
     TILT,
     TURN,
 )
-from beardyn_core.model.losses import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION
+from beardyn_core.model.losses import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION, oil_supply
 from test.kernels import naive_step
 from test.kernels.naive import Motion, Wrench
 from test.kernels.naive_losses import drag_wrench, rolling_wrench
 from test.kernels.rig import Rig, scene_with
-from test.kernels.test_losses import FORMS, contact, reduction
+from test.kernels.test_losses import contact, reduction
 from test.kernels.test_raceway import lamina_friction
 from test.kernels.test_step import cartesian, ring_of, shaken
 
@@ -50,7 +51,11 @@ def laws_of(rig: Rig) -> tuple[tuple[int, Any], ...]:
 
     def rolling(ring: int) -> Any:
         def couple(load: float, speed: float) -> float:
-            full = FORMS["zhou_hoeprich"](contact(scene, ring, max(load, 1.0), speed + 1e-3))
+            full = rolling_couple(
+                "zhou_hoeprich",
+                contact(scene, ring, max(load, 1.0), speed + 1e-3),
+                oil_supply(scene.effects.film),
+            )
             return min(load, 1.0) * full * reduction(scene, speed + 1e-3)
 
         def law(motion: Motion, orbit_rate: float) -> Wrench:

@@ -128,7 +128,7 @@ def lamina_friction(
     oil = scene.lubricant
     lamina = naive.FilmLamina(
         length, radius, bearing.material.contact_modulus, oil.dynamic_viscosity(scene.temperature),
-        oil.pressure_viscosity_at(scene.temperature), scene.effects.film.starvation,
+        oil.pressure_viscosity_at(scene.temperature), scene.effects.film,
     )  # fmt: skip
     thickness = naive.film_thickness(max(load, 1e-3), speed + 1e-3, lamina)
     pressure = naive.mean_hertz_pressure(load, length, radius, bearing.material.contact_modulus)
