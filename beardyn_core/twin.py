@@ -13,6 +13,7 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
+from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.snapshot import Snapshot
 from beardyn_core.integrate.start import initial_state
 from beardyn_core.integrate.state import Output, State, work_space
@@ -85,6 +86,7 @@ class Twin:
         self.stages = StageClock()
         heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
         self._warmth = cold_start(scene) if heated else None
+        self._cages = CageWatch.of(scene)
         self._signals = np.zeros((self.blocks_at_once * self._steps, SIGNAL_CHANNELS))
         self._audited = scene.effects.audit is not None and "audit" not in scene.missing_effects
 
@@ -253,6 +255,10 @@ class Twin:
         status = assess(
             self._state, len(signals), self.scene.bearing.large_end_radius, self._parameters.effects.rib
         )
+        if self._cages is not None:
+            seconds = blocks * BLOCK_NS * 1e-9
+            self._cages = self._cages.after(self.scene.bearing, bodies, float(loads[:, 6].mean()), seconds)
+            status |= self._cages.status
         audit = self._energy_audit()
         temperature = None if self._warmth is None else self._warm_up(loads)
         block = self._observer.observe(
@@ -360,6 +366,7 @@ class Twin:
             deepcopy(self._observer),
             deepcopy(self._first_audit),
             self._warmth,
+            self._cages,
         )
 
     def restore(self, snapshot: Snapshot) -> None:
@@ -368,7 +375,7 @@ class Twin:
         self._state = snapshot.state.copy()
         self._parameters = snapshot.parameters
         self._kernel_parameters = self._tier.parameters(self.scene, self._parameters)
-        self._warmth = snapshot.warmth
+        self._warmth, self._cages = snapshot.warmth, snapshot.cages
         self.load = snapshot.load.copy()
         self._first_audit = deepcopy(snapshot.first_audit)
         self._observer = deepcopy(snapshot.observer)

@@ -19,6 +19,7 @@ quasistatic        explicit steps of the quasistatic tier
 lumped             explicit steps of the lumped tier, and its rollers at some instants
 tiers              what each tier computes with
 warming            slow warming beside the fast motion
+cage_watch         speeds of the cages over those of pure rolling
 status             status bits and the sentence of each
 snapshot           what a run is frozen in and goes on from
 ================== ==========================================

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.warming import Warmth
 from beardyn_core.model.parameters import Parameters
@@ -25,3 +26,4 @@ class Snapshot:
     observer: Any  # a copy, with the states of all filters
     first_audit: NDArray[np.float64] | None  # [ENERGY_TERMS], energies at the start of the run [J]
     warmth: Warmth | None = None
+    cages: CageWatch | None = None

@@ -52,10 +52,12 @@ class Status(IntFlag):
     OFF_RIB = 8
     FILM_RANGE = 16
     RIB_EDGE = 32
+    CAGE_FAST = 64
+    CAGE_BACKWARDS = 128
 
 
 # what compiled code can see of them
-_NOT_FINITE, _PENETRATION, _CHATTER, _OFF_RIB, _FILM_RANGE, _RIB_EDGE = map(int, Status)
+_NOT_FINITE, _PENETRATION, _CHATTER, _OFF_RIB, _FILM_RANGE, _RIB_EDGE = list(map(int, Status))[:6]
 
 SENTENCES = {
     Status.NOT_FINITE: "a number became NaN or infinite: use a smaller time step "
@@ -70,6 +72,10 @@ SENTENCES = {
     "elastohydrodynamic formula does not hold: raise the temperature or take a thinner lubricant",
     Status.RIB_EDGE: "a roller bears on an edge of its rib and not on the face: pressure there is far above "
     "the rib's Hertz pressure; lower the axial load or the tilt, or change rib_contact_height",
+    Status.CAGE_FAST: "a cage runs more than 1 % ahead of rolling rollers: a dry rib drives idle rollers, or "
+    "the shaft slows down faster than its cages; lubricate the rib (effects: rib: lubrication), or raise the "
+    "load",
+    Status.CAGE_BACKWARDS: "a cage runs against the shaft: the rollers hardly touch the cone; raise the load",
 }
 
 

@@ -103,8 +103,14 @@ def film_friction(
             load, slip, speed, thickness, lamina, replace(traction, inlet_shear=False), thickening
         )
     if traction.film_traction == "aihara":
-        ambient = lamina.oil.dynamic_viscosity(lamina.temperature)
-        return load * aihara(ambient, 4.0 / math.pi * pressure, slip, speed, traction.largest_slide)
+        ambient, largest = lamina.oil.dynamic_viscosity(lamina.temperature), 4.0 / math.pi * pressure
+        sheared = film_friction(
+            load, slip, speed, thickness, lamina, replace(traction, film_traction="bair_winer"), thickening
+        )
+        share = min(max(math.log2(largest / 0.25e9), 0.0), 1.0)  # of the fit: all from 0.5 GPa on
+        return (1.0 - share) * sheared + share * load * aihara(
+            ambient, largest, slip, speed, traction.largest_slide
+        )
     newton = viscosity_at(pressure, lamina, thickening) * slip / thickness
     if traction.film_traction == "eyring":
         return area * traction.eyring_stress * math.asinh(newton / traction.eyring_stress)

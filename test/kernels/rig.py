@@ -37,8 +37,8 @@ LOAD_80_KN = (0.0, 0.0, 8.0e4)
 
 @cache
 def standard_scene() -> Scene:
-    """The shipped 80 kN scene: cup held, no play, standard effects."""
-    return load_scene("static_80kN")
+    """The shipped 80 kN scene: cup held, no play, the effects of `EffectSet()`."""
+    return replace(load_scene("static_80kN"), effects=EffectSet())
 
 
 def scene_with(

@@ -107,9 +107,9 @@ def test_hysteresis_alone_does_not_ask_for_the_speed(lanes: Any) -> None:
 @pytest.mark.parametrize("kind", FORMS)
 def test_an_unloaded_contact_rolls_freely_and_a_light_one_nearly_so(lanes: Any, kind: str) -> None:
     """With enough oil: a starved light contact has little but its hysteresis."""
-    resistance = RollingResistance(kind=kind, hysteresis=0.007)
-    effects = replace(EffectSet(), film=LineFilm(supply="flooded"), rolling_resistance=resistance)
-    found = couples(scene_with(effects), lanes, 0, np.array([0.0, 1e-3, 1.0, 10.0]), 5.0)
+    scene = scene_of(kind=kind, hysteresis=0.007)
+    plenty = replace(scene.effects, film=LineFilm(supply="flooded"))
+    found = couples(scene_with(plenty), lanes, 0, np.array([0.0, 1e-3, 1.0, 10.0]), 5.0)
     assert found[0] == 0.0
     assert found[1] == pytest.approx(1e-3 * found[2], rel=1e-3)
     assert np.all(np.diff(found) > 0.0)
@@ -118,7 +118,7 @@ def test_an_unloaded_contact_rolls_freely_and_a_light_one_nearly_so(lanes: Any, 
 def test_speed_of_either_sign_and_standstill_are_finite(lanes: Any) -> None:
     found = couples(scene_of(), lanes, 1, 1e4, np.array([-5.0, 5.0, 0.0]))
     assert found[0] == found[1]
-    assert 0.0 < found[2] < 0.01 * found[1]
+    assert 0.0 < found[2] < 0.02 * found[1]  # slow contacts find enough oil
 
 
 @pytest.mark.parametrize("field", [0, 1])
