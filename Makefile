@@ -19,7 +19,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step light ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -55,6 +55,9 @@ soak: $(VENV)/.ready-test ## set up, then nodes killed, fed nonsense, on a full 
 step: $(VENV)/.ready-test ## set up, then time steps against an explicit reference of 0.1 us: tables, step.json, docs/step.md
 	@$(BIN)/python -m evidence.step $(ARGS)
 	@$(BIN)/python -m evidence.step.page step.json
+
+light: $(VENV)/.ready-test ## set up, then cages under light loads in every shipped set: docs/light.md
+	@$(BIN)/python -m evidence.light.page $(ARGS)
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)

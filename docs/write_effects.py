@@ -21,7 +21,7 @@ A scene names a preset (`effects: standard`) or switches effects itself:
 ```yaml
 effects:
   preset: standard
-  film: {starvation: 0.5}   # options of an effect
+  film: {supply: fresh}   # options of an effect
   rib: true                 # with its usual options
   cage: false               # absent: compiled away, costs nothing
 ```

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 from typing import ClassVar
 
-from beardyn_core.edge import At
+from beardyn_core.edge import SHARE, At
 from beardyn_core.effects.about import About
 
 
@@ -20,13 +20,16 @@ class Thermal:
         cost="medium",
         validity="Needs the audit, which tells what each source loses; one temperature for both rows; the "
         "film has the mean temperature of rollers and raceways.",
-        source="Lumped network; axlebox in moving air h = 0.03 (k/D)(uD/nu)^0.57, Harris, Rolling bearing "
-        "analysis; end play as in Timken's indirect mounting; conductances assumed",
+        source="Lumped network; axlebox as a cylinder across the air, Churchill and Bernstein (1977); end "
+        "play as in Timken's indirect mounting; conductances and shelter assumed",
     )
 
     ambient: A[float, At("C", ge=-60.0, le=80.0), "of the air"] = 293.15
     time_scale: A[float, At(gt=0.0, le=1e5), "heating goes on this many times as fast, 1 is real"] = 1.0
     wheel_diameter: A[float, At("mm", gt=0.0, le=2000.0), "for the speed of the air along the axlebox"] = 0.92
+    air_speed: A[
+        float, SHARE, "of the air at the axlebox over that of the train: bogie and wheel shelter it"
+    ] = 0.3
     box_area: A[float, At("m2", gt=0.0), "surface of the axlebox in the air"] = 0.6
     still_air: A[float, At("W_per_m2_K", ge=0.0), "axlebox at standstill: free convection and radiation"] = (
         6.0

@@ -37,6 +37,7 @@ _GREASE_HEAT = 1900.0
 _STEEL_CONDUCTIVITY = 46.0  # [W/(m K)]
 _AIR_CONDUCTIVITY = 0.026
 _AIR_VISCOSITY = 1.5e-5  # kinematic, [m^2/s]
+_AIR_PRANDTL = 0.71
 
 
 def heat_shares() -> Float:
@@ -52,13 +53,17 @@ def heat_shares() -> Float:
 
 
 def moving_air(speed: float, diameter: float) -> float:
-    """Work out the heat transfer of an axlebox in the air stream, [W/(m^2 K)].
+    """Work out the heat transfer of an axlebox in the air stream, a cylinder across it, [W/(m^2 K)].
 
     References
     ----------
-    Harris, Rolling bearing analysis, external air flow over the housing: h = 0.03 (k/D)(u D/nu)^0.57.
+    Churchill, S. W. and Bernstein, M. (1977), ASME J. Heat Transfer 99, 300.
     """
-    return 0.03 * _AIR_CONDUCTIVITY / diameter * (abs(speed) * diameter / _AIR_VISCOSITY) ** 0.57
+    reynolds = abs(speed) * diameter / _AIR_VISCOSITY
+    laminar = 0.62 * math.sqrt(reynolds) * _AIR_PRANDTL ** (1.0 / 3.0)
+    laminar /= (1.0 + (0.4 / _AIR_PRANDTL) ** (2.0 / 3.0)) ** 0.25
+    nusselt = laminar * (1.0 + (reynolds / 282000.0) ** 0.625) ** 0.8
+    return nusselt * _AIR_CONDUCTIVITY / diameter
 
 
 def axle_fin(bearing: Bearing, heat_transfer: float) -> float:
@@ -117,6 +122,8 @@ def thermal_network(
     to_ambient = np.zeros(6)
     to_ambient[CONE_NODE] = axle_fin(bearing, thermal.axle_heat_transfer)
     # a box of one and a half bearing diameters
-    air = moving_air(0.5 * shaft_speed * thermal.wheel_diameter, 1.5 * bearing.outer_diameter)
+    air = moving_air(
+        0.5 * thermal.air_speed * shaft_speed * thermal.wheel_diameter, 1.5 * bearing.outer_diameter
+    )
     to_ambient[BOX_NODE] = thermal.box_area * (thermal.still_air + air)
     return ThermalNetwork(capacity / thermal.time_scale, conductance + conductance.T, to_ambient)

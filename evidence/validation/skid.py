@@ -1,10 +1,10 @@
 """Slip of the cages under light loads.
 
 The bearing runs at 3000 rpm, half as fast again as in service, with play, with films that shear in raceways,
-ribs and pockets, and with what brakes rollers: flooded rolling resistance, drag and churning in grease. All
-options were chosen before the first run but the shear around the raceway contacts. Without it nothing drove
-the cages under light loads, as the Hertzian area vanishes where the oil still shears, and their slip depended
-on the start. Nothing is fitted.
+ribs and pockets, and with what brakes rollers: rolling resistance, drag and churning in grease. All options
+were chosen before the first run but the shear around the raceway contacts and the supply of oil. Without the
+shear nothing drove the cages under light loads, as the Hertzian area vanishes where the oil still shears, and
+their slip depended on the start. Nothing is fitted.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def scene_of(load: float, fill: float) -> Scene:
     effects = replace(
         scene.effects,
         traction=LoadSharingTraction(film_traction="bair_winer", inlet_shear=True),
-        film=LineFilm(isoviscous=True),
+        film=LineFilm(isoviscous=True, supply=NAMES[fill].split()[0]),
         rolling_resistance=RollingResistance(kind="biboulet_houpert"),
         drag=Drag(fill=fill),
         rib=Rib(drilling=True, lubrication=RibShearedFilm()),

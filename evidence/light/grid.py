@@ -1,0 +1,78 @@
+"""The grid of loads and speeds, and how fast the cages run over pure rolling."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Annotated as A
+
+import numpy as np
+
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.choice import load_scene
+from beardyn_core.integrate.status import Status, describe
+from beardyn_core.rail.build import load_history
+from beardyn_core.scene.operation import ConstantOperation
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+
+LOADS_KN = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 80.0, 150.0)
+SPEEDS_RPM = (20.0, 300.0, 1165.0, 2500.0)
+SETS = ("full", "standard", "dry")
+LARGEST_RATIO = 1.002
+SMALLEST_RATIO = 0.0
+DURATION = 1.2
+LISTENED = 0.5  # last part of it, of which the mean is taken
+CAGES = Status.CAGE_FAST | Status.CAGE_BACKWARDS
+
+
+@dataclass(frozen=True)
+class Point:
+    """How the cages ran at one load and speed."""
+
+    effects: A[str, "set of effects"]
+    load_kn: A[float, "radial, [kN]"]
+    speed_rpm: A[float, "of the shaft"]
+    ratio: A[float, "mean speed of both cages over pure rolling, [-]"]
+    status: A[int, "all bits that were set in the time listened to"]
+
+    @property
+    def told(self) -> str:
+        """Say what the status tells of the cages."""
+        return describe(self.status & CAGES) if self.status & CAGES else ""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the cages follow the rollers, or the status says why they do not."""
+        return SMALLEST_RATIO <= self.ratio <= LARGEST_RATIO
+
+
+def scene_of(effects: str, load_kn: float, speed_rpm: float) -> Scene:
+    """Put a radial load and a speed on the bearing without play."""
+    force = (0.0, 0.0, 1e3 * load_kn)
+    operation = ConstantOperation(force=force, speed=speed_rpm * math.pi / 30.0)
+    return replace(load_scene("static_5kN", effects=effects), operation=operation, duration=DURATION)
+
+
+def run_point(effects: str, load_kn: float, speed_rpm: float) -> Point:
+    """Run one point and average the cages."""
+    scene = scene_of(effects, load_kn, speed_rpm)
+    twin = Twin(scene)
+    twin.start(load_history(scene.operation, scene.mounting, DURATION, scene.seed))
+    nominal = cage_speed(scene.bearing, speed_rpm * math.pi / 30.0)
+    ratios, status = [], 0
+    while twin.next_end_ns <= DURATION * 1e9:
+        block = twin.advance()
+        if block.start_ns >= (DURATION - LISTENED) * 1e9:
+            status |= int(block.status)
+            ratios.append(float(block.cage_speed.mean()) / nominal)
+    return Point(effects, load_kn, speed_rpm, float(np.mean(ratios)), status)
+
+
+def run_grid(sets: tuple[str, ...] = SETS) -> Iterator[Point]:
+    """Run all points of some sets."""
+    for effects in sets:
+        for speed in SPEEDS_RPM:
+            for load in LOADS_KN:
+                yield run_point(effects, load, speed)

@@ -1,0 +1,110 @@
+"""Write docs/light.md and its picture: ``python -m evidence.light.page``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+from beardyn_core.bearing.life import dynamic_rating
+from beardyn_core.choice import load_scene
+from evidence.light.grid import LARGEST_RATIO, LOADS_KN, SETS, SPEEDS_RPM, Point, run_grid
+from evidence.pages import DOCS, PICTURES, save_small
+
+PAGE = DOCS / "light.md"
+PICTURE = PICTURES / "light.png"
+MINIMUM_SHARE = 0.02
+COLOURS = 32
+
+HEAD = """# Light loads
+
+Written by `python -m evidence.light.page`. Speed of the cages over that of pure rolling, mean of the last 0.5
+of 1.2 s: `{bearing}` without play, cup held, 70 °C, grease {supply}; {count} runs.
+
+![Slip of the cages against load]({picture})
+
+Catalogues ask for a load of at least {minimum_share:g} C on a roller bearing so that it does not skid (SKF,
+2018, Rolling bearings, "Minimum load"): {minimum:.0f} kN here. Above it no set slips by more than
+{above:.1%}; below it `full` does at high speed. {verdict}
+"""
+AHEAD = """
+Ahead of rolling by more than {limit:.1%}: {listed}. A dry rib drives rollers that hang on the cup between rib
+and cup, and they push the cage; with a rib without friction the ratio falls below 1. Above 1 % the status
+says so.
+"""
+
+
+def write(points: list[Point]) -> None:
+    """Write page and picture."""
+    scene = load_scene("static_5kN", effects="full")
+    rating = dynamic_rating(scene.bearing).radial
+    minimum = MINIMUM_SHARE * rating * 1e-3
+    draw(points, minimum, PICTURE)
+    ahead = [each for each in points if not each.holds]
+    above = max(abs(1.0 - each.ratio) for each in points if each.load_kn >= minimum)
+    film = scene.effects.film
+    head = HEAD.format(
+        bearing=scene.bearing.name,
+        supply="" if film is None else film.supply,
+        count=len(points),
+        picture=PICTURE.relative_to(DOCS),
+        minimum_share=MINIMUM_SHARE,
+        minimum=minimum,
+        above=above,
+        verdict=f"None runs back{'' if ahead else f', none ahead by more than {LARGEST_RATIO - 1.0:.1%}'}.",
+    )
+    listed = ", ".join(
+        f"`{each.effects}` at {each.load_kn:g} kN and {each.speed_rpm:g} rpm ({each.ratio:.4f}"
+        f"{', told' if each.told else ''})"
+        for each in ahead
+    )
+    text = head + (AHEAD.format(limit=LARGEST_RATIO - 1.0, listed=listed) if ahead else "")
+    PAGE.write_text(text + tables(points), encoding="utf-8")
+
+
+def tables(points: list[Point]) -> str:
+    """Write one table for each set, speeds against loads."""
+    found = {(each.effects, each.speed_rpm, each.load_kn): each for each in points}
+    lines = []
+    for effects in SETS:
+        lines += [f"\n## `{effects}`\n", "| rpm | " + " | ".join(f"{q:g} kN" for q in LOADS_KN) + " |"]
+        lines.append("|---" * (len(LOADS_KN) + 1) + "|")
+        for speed in SPEEDS_RPM:
+            row = [f"{found[effects, speed, load].ratio:.4f}" for load in LOADS_KN]
+            lines.append(f"| {speed:g} | " + " | ".join(row) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def draw(points: list[Point], minimum: float, target: Path) -> None:
+    """Draw the slip against the load."""
+    figure, axes = plt.subplots(1, len(SETS), figsize=(11.0, 3.6), sharey=True, layout="constrained")
+    for axis, effects in zip(axes, SETS, strict=True):
+        for speed in SPEEDS_RPM:
+            line = [each for each in points if (each.effects, each.speed_rpm) == (effects, speed)]
+            slip = [100.0 * (1.0 - each.ratio) for each in line]
+            axis.plot([each.load_kn for each in line], slip, "o-", ms=3, label=f"{speed:g} rpm")
+        axis.axvline(minimum, color="0.5", ls="--", lw=1)
+        axis.set(xscale="log", yscale="symlog", title=effects, xlabel="radial load [kN]")
+        axis.grid(alpha=0.3)
+    axes[0].set_ylabel("slip of the cages [%]")
+    axes[0].legend(fontsize=8)
+    axes[-1].text(minimum, axes[-1].get_ylim()[1], " 0.02 C", va="top", fontsize=8, color="0.4")
+    figure.savefig(target, dpi=110)
+    plt.close(figure)
+    save_small(target, target, COLOURS)
+
+
+def main() -> int:
+    """Run the grid and write the page."""
+    points = []
+    for point in run_grid():
+        points.append(point)
+        name = f"{point.effects:9} {point.load_kn:6g} kN {point.speed_rpm:6g} rpm"
+        print(f"{name} {point.ratio:.4f} {point.told}", flush=True)
+    write(points)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,42 @@
+"""The cages follow the rollers under light loads, in every shipped set of effects."""
+
+from __future__ import annotations
+
+import pytest
+
+from beardyn_core.integrate.cage_watch import CageWatch
+from beardyn_core.integrate.status import Status
+from evidence.light.grid import LOADS_KN, SETS, SPEEDS_RPM, run_point
+
+
+@pytest.mark.parametrize(
+    ("load_kn", "speed_rpm"), [(0.2, 1165.0), (1.0, 2500.0), (5.0, 2500.0), (80.0, 300.0)]
+)
+@pytest.mark.parametrize("effects", ["full", "standard"])
+def test_cages_neither_over_run_nor_turn_back(effects: str, load_kn: float, speed_rpm: float) -> None:
+    point = run_point(effects, load_kn, speed_rpm)
+    assert point.holds, point
+    assert not point.told
+
+
+def test_five_kilonewtons_slip_by_less_than_one_percent() -> None:
+    """`static_5kN` with `full` ran at 1.95 times the speed of rolling when its inlets were flooded."""
+    assert 0.99 <= run_point("full", 5.0, 1165.0).ratio <= 1.002
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed_rpm", SPEEDS_RPM)
+@pytest.mark.parametrize("effects", SETS)
+def test_whole_grid(effects: str, speed_rpm: float) -> None:
+    """Nothing runs back; what runs ahead is dry, and above 1 % the status tells."""
+    for load in LOADS_KN:
+        point = run_point(effects, load, speed_rpm)
+        assert point.holds or (effects == "dry" and point.ratio > 1.0), point
+        assert (point.ratio > 1.011) <= bool(point.told), point
+
+
+def test_a_status_tells_of_cages_that_run_ahead_or_back() -> None:
+    assert CageWatch((1.02, 1.0), 2.0).status == Status.CAGE_FAST
+    assert CageWatch((1.0, -0.1), 2.0).status == Status.CAGE_BACKWARDS
+    assert CageWatch((1.02, -0.1), 0.5).status == Status.FINE  # not a revolution yet
+    assert CageWatch((0.5, 1.005), 2.0).status == Status.FINE
