@@ -156,13 +156,16 @@ class LoadFeed:
             return 0.0
         begin = time.monotonic()
         while not twin.covered():
-            part = self.gate.take_through(twin.next_end_ns + self.begin_ns)
+            part = self.gate.take_through(twin.wanted_ns + self.begin_ns)
             if part is not None:
                 twin.feed(shifted(part, -self.begin_ns))
                 continue
             if self.gate.failure:
                 raise StoppedError(self.gate.failure, EXIT_LOAD_LOST)
             if self.gate.ended:
+                twin.end_load()
+                if twin.covered():
+                    break
                 return None
             timeout = self._options.load_timeout
             if not self._load_comes(
@@ -170,7 +173,7 @@ class LoadFeed:
             ):
                 raise StoppedError(
                     f"no usable load for {timeout:g} s (parameter load_timeout): load that covers "
-                    f"t = {(twin.next_end_ns + self.begin_ns) / 1e9:.3f} s is missing{self._last_refusal()}",
+                    f"t = {(twin.wanted_ns + self.begin_ns) / 1e9:.3f} s is missing{self._last_refusal()}",
                     EXIT_LOAD_LOST,
                 )
         return time.monotonic() - begin - self.slept_s
