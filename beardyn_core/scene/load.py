@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 WRENCH_AXES = ("fx", "fy", "fz", "mx", "my", "mz")
 
 # Samples on either side of a moment that its load depends on, where they are interpolated band-limited
-LOOK_AHEAD = 26
-LONGEST_SPACING_NS = 10_000_000
+LOOK_AHEAD = 30
+LONGEST_SPACING_NS = 11_000_000
 UNEVENNESS = 0.02  # of the spacing from one sample to the next
 
 
