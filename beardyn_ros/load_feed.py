@@ -7,10 +7,9 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.held_load import HeldLoad, LiveLoad
+from beardyn_ros.held_load import LiveLoad
+from beardyn_ros.live_line import LiveLine
 from beardyn_ros.load_gate import LoadGate, Refusals, shifted
 from beardyn_ros.run_state import PAUSED, RUNNING, WAITING_FOR_LOAD, SessionOptions
 from beardyn_ros.runtime import EXIT_LOAD_LOST
@@ -59,6 +58,7 @@ class LoadFeed:
         self.gate = LoadGate(options.queue_ns, options.queue_bytes, self.refusals, condition, options.join)
         self.live = LiveLoad(self.refusals, condition, options.live_bandwidth)
         self.begin_ns = 0
+        self._line: LiveLine  # of the live mode, since the first load
         self.paused = False
         self.slept_s = 0.0
         self._running = False
@@ -96,7 +96,8 @@ class LoadFeed:
         if self._options.mode == "live":
             held = self.live.held()
             if held is not None:
-                return _constant_load(held, 0)
+                self._line = LiveLine(held, block_ns)
+                return self._line.begin()
         else:
             begin_ns = self.gate.first_time_ns()
             if begin_ns is not None:
@@ -152,7 +153,8 @@ class LoadFeed:
                     f"{self._options.max_age:g} s: {cause}",
                     EXIT_LOAD_LOST,
                 )
-            twin.feed(_constant_load(held, twin.next_end_ns))
+            while not twin.covered():
+                twin.feed(self._line.go_on(held))
             return 0.0
         begin = time.monotonic()
         while not twin.covered():
@@ -194,11 +196,3 @@ class LoadFeed:
             if ready():
                 return True
 
-
-def _constant_load(held: HeldLoad, time_ns: int) -> LoadHistory:
-    return LoadHistory(
-        np.array([time_ns], np.int64),
-        np.asarray(held.wrench, float)[None, :],
-        np.array([held.shaft_speed]),
-        np.zeros((1, 3)),
-    )

@@ -32,22 +32,26 @@ _POWERS = 5
 _STRAIGHT = 1e-10
 
 
-def _correlation(lag: Float) -> Float:
-    """Integrate the weighted cosine over all bands, for a lag in samples."""
-    found, weights = np.zeros_like(lag), [weight for _, weight in _BANDS]
-    for (edge, weight), above in zip(_BANDS, [*weights[1:], 0.0], strict=True):
-        found += (weight - above) * edge * np.sinc(2.0 * edge * lag)
-    return found
+def fitted_polynomials(reach: int, bands: tuple[tuple[float, float], ...]) -> Float:
+    """Fit the polynomials C by which a signal leaves the chord between two samples.
 
+    Parameters
+    ----------
+    reach : int
+        Samples on either side.
+    bands : tuple of (edge, weight)
+        Upper edges, rising, over the sample rate, and the weight of the squared error from the edge before.
 
-def _polynomials(reach: int) -> Float:
-    """Fit the polynomials between two samples, shape [2 * reach, power], the chord taken out."""
+    Returns
+    -------
+    array, shape [2 * reach, power]
+    """
     place = np.arange(1.0 - reach, reach + 1.0)
     u = 0.5 - 0.5 * np.cos(np.pi * (np.arange(40) + 0.5) / 40)
     # constants and straight lines exactly, by Lagrange's multipliers
     lines = np.stack([np.ones_like(place), place / reach])
-    matrix = np.block([[_correlation(place[:, None] - place), lines.T], [lines, np.zeros((2, 2))]])
-    wanted = np.vstack([_correlation(place[:, None] - u), np.ones_like(u), u / reach])
+    matrix = np.block([[_correlation(place[:, None] - place, bands), lines.T], [lines, np.zeros((2, 2))]])
+    wanted = np.vstack([_correlation(place[:, None] - u, bands), np.ones_like(u), u / reach])
     weights = np.linalg.solve(matrix, wanted)[: len(place)]
     weights[reach - 1] -= 1.0 - u
     weights[reach] -= u
@@ -55,7 +59,37 @@ def _polynomials(reach: int) -> Float:
     return np.ascontiguousarray(np.linalg.lstsq(basis, weights.T)[0].T)
 
 
-POLYNOMIALS = _polynomials(LOOK_AHEAD)
+def _correlation(lag: Float, bands: tuple[tuple[float, float], ...]) -> Float:
+    """Integrate the weighted cosine over all bands, for a lag in samples."""
+    found, weights = np.zeros_like(lag), [weight for _, weight in bands]
+    for (edge, weight), above in zip(bands, [*weights[1:], 0.0], strict=True):
+        found += (weight - above) * edge * np.sinc(2.0 * edge * lag)
+    return found
+
+
+POLYNOMIALS = fitted_polynomials(LOOK_AHEAD, _BANDS)
+
+
+def between(samples: Float, polynomials: Float, u: Float) -> Float:
+    """Interpolate between the two middle ones of even samples, as the module says.
+
+    Parameters
+    ----------
+    samples : array, shape [2 * reach, column]
+    polynomials : array, shape [2 * reach, power]
+        Of `fitted_polynomials`.
+    u : array, shape [row]
+        0 at the one, 1 at the other.
+
+    Returns
+    -------
+    array, shape [row, column]
+    """
+    reach = len(samples) // 2
+    left, rise = samples[reach - 1], samples[reach] - samples[reach - 1]
+    off = samples - (left + np.arange(1 - reach, reach + 1)[:, None] * rise)
+    powers = np.vander(2.0 * u - 1.0, polynomials.shape[1], increasing=True)
+    return left + u[:, None] * rise + (u * (1.0 - u))[:, None] * (powers @ (polynomials.T @ off))
 
 
 def interpolated(time_ns: Int, values: Float, start_ns: int, at: Float) -> Float:
