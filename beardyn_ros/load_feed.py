@@ -195,4 +195,3 @@ class LoadFeed:
                 return False
             if ready():
                 return True
-

@@ -16,7 +16,8 @@ from beardyn_core.scene.excitation import Irregularity
 
 _SHORTEST_PERIOD = 4096.0
 _SHORT_WAVE_PERIOD = 512.0
-_SAMPLES_PER_WAVE = 8
+# of the shortest wave: images of the grid are 120 dB down; 70 dB where the contact patch swallows it
+_SAMPLES_PER_WAVE, _SAMPLES_PER_SHORT_WAVE = 32, 8
 _STREAM = 0x7261696C  # keeps the rail's random numbers apart from those of the sensors
 # numbers that further profiles of the same seed add to the stream
 _FURTHER = {"lateral": 1, "short_waves": 2}
@@ -114,7 +115,7 @@ def _drawn(
     while period < distance:
         period *= 2.0
     shortest, longest = irregularity.shortest_wavelength, irregularity.longest_wavelength
-    points = _points(period, shortest)
+    points = _points(period, shortest, _SAMPLES_PER_WAVE)
     if irregularity.kind == "none":
         return RailProfile(period / points, np.zeros(points), np.zeros(points))
     line, wavenumber = _lines(period, shortest, longest)
@@ -137,12 +138,12 @@ def _short_waves(irregularity: Irregularity, seed: int, patch: float) -> RailPro
         )
         density[there] -= target_density(irregularity, wavenumber[there])
     density = np.maximum(density, 0.0) * patch_gain(wavenumber, patch) ** 2
-    points = _points(period, SHORT_WAVE_BAND[0])
+    points = _points(period, SHORT_WAVE_BAND[0], _SAMPLES_PER_SHORT_WAVE)
     return _random_phases(period, points, line, wavenumber, density, [_STREAM, seed, _FURTHER["short_waves"]])
 
 
-def _points(period: float, shortest: float) -> int:
-    return int(2 ** int(np.ceil(np.log2(period * _SAMPLES_PER_WAVE / shortest))))
+def _points(period: float, shortest: float, samples_per_wave: int) -> int:
+    return int(2 ** int(np.ceil(np.log2(period * samples_per_wave / shortest))))
 
 
 def _lines(period: float, shortest: float, longest: float) -> tuple[NDArray[np.int64], Float]:

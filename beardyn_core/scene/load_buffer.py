@@ -19,7 +19,9 @@ class LoadBuffer:
 
     refused: A[int, "pieces that were refused"] = 0
     reason: A[str, "why the last one was"] = ""
-    ended: A[bool, "whether no more samples will come: what lies behind the last one is not waited for"] = False
+    ended: A[bool, "whether no more samples will come: what lies behind the last one is not waited for"] = (
+        False
+    )
     _parts: list[tuple[Int, Float]] = field(default_factory=list)
 
     @property
