@@ -205,7 +205,7 @@ def _resampled(measured: Measurement, count: int, rate: float) -> Float:
 
     signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
     factor = int(np.ceil(round(1.0 / (rate * float(np.median(np.diff(measured.time)))), 6)))
-    grid_ns = np.arange((count - 1) * factor + 1) * (1e9 / (rate * factor))
+    grid_ns = np.arange((count - 1) * factor + 1, dtype=np.float64) * (1e9 / (rate * factor))
     time_ns = np.round(measured.time * 1e9).astype(np.int64)
     signals = interpolated(time_ns, signals, 0, grid_ns)
     if factor <= 1:

@@ -21,9 +21,9 @@ class LoadHistory:
     """Samples of the load on the journal and the shaft speed.
 
     In between a column is band-limited (`scene.band_limited`) where the `LOOK_AHEAD` samples on either side
-    are evenly spaced, within `UNEVENNESS`, by at most `LONGEST_SPACING_NS`, and at least half of them lie off the
-    line between their neighbours. Elsewhere it is linear: tables of few points, uneven samples, and steps,
-    ramps and holds that were drawn by ruler.
+    are evenly spaced, within `UNEVENNESS`, by at most `LONGEST_SPACING_NS`, and at least half of them lie off
+    the line between their neighbours. Elsewhere it is linear: tables of few points, uneven samples, and
+    steps, ramps and holds that were drawn by ruler.
     """
 
     time_ns: A[NDArray[np.int64], "shape [sample], simulated time, strictly increasing, [ns]"]

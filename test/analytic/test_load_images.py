@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -75,7 +76,7 @@ def test_a_constant_stays_the_same_number(value: float) -> None:
     assert set(force_at_steps(history_of(np.full(401, value)), range(10))) == {value}
 
 
-def drawn_by_ruler() -> Iterator[tuple[str, Int, Float]]:
+def drawn_by_ruler() -> Iterator[tuple[str, Any, Any]]:
     """Loads as a person writes them down."""
     even = np.arange(801) * PERIOD_NS
     yield "step", even, np.where(even < 100_000_000, 2e4, 9e4)
@@ -160,7 +161,7 @@ def test_a_stream_is_waited_for_only_as_long_as_its_samples_may_matter() -> None
 
 
 def strongest_image(load: LoadHistory, sample_rate: float) -> float:
-    """Power around multiples of a sample rate over that below 100 Hz, [dB]; the spectrum has a floor of 1 mN."""
+    """Power around multiples of a sample rate over that below 100 Hz, [dB]."""
     force = force_at_steps(load, range(3, 48))
     window = np.blackman(len(force))
     power = np.abs(np.fft.rfft((force - force.mean()) * window)) ** 2 / window.sum() ** 2

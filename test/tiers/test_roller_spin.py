@@ -1,4 +1,4 @@
-"""A spalled roller strikes at twice its spin against the cage, which is that of pure rolling in every tier."""
+"""A spalled roller strikes at twice its spin against the cage: that of pure rolling, in every tier."""
 
 from __future__ import annotations
 
