@@ -199,18 +199,16 @@ def _fill_blocks(time_ns, values, start_ns, block_ns, at, blocks, polynomials, r
         if _is_constant(signal.reshape(-1, 1)):
             rows[:, i] = signal[0]
             continue
-        bends = _count_bends(signal)
-        known, bow = -1, (0.0, 0.0, 0.0, 0.0, 0.0)
+        bows = _bows(signal, seams, polynomials)
         for block in range(blocks):
             start, row = start_ns + block * block_ns, block * (len(at) - 1)
             for sample in range(LOOK_AHEAD, end):
                 begin, after = begins[block, sample], begins[block, sample + 1]
                 if begin < after:
-                    if sample != known:
-                        known, bow = sample, _bow(signal, sample, seams, bends, polynomials)
                     since = float(times[sample] - start)
                     span = float(times[sample + 1] - start) - since
                     chord = signal[sample], (signal[sample + 1] - signal[sample]) / span
+                    bow = bows[:, sample - LOOK_AHEAD]
                     _fill(at[begin:after], since, span, chord, bow, rows[row + begin : row + after, i])
             rows[row + begins[block, end] : row + len(at), i] = signal[end]
 
@@ -274,29 +272,33 @@ def _count_bends(signal):
 
 
 @partial(entry, flags=())
-def _bow(signal, sample, seams, bends, polynomials):
-    """Compute the polynomial by which the signal leaves the chord after a sample; zero where it is linear."""
-    reach = len(polynomials) // 2
-    begin, end = sample + 1 - reach, sample + reach
-    uneven = seams[end] != seams[begin + 1]
-    drawn_by_ruler = 2 * (bends[end] - bends[begin + 1]) < end - begin - 1
-    if uneven or drawn_by_ruler:
-        return 0.0, 0.0, 0.0, 0.0, 0.0
-    rise = signal[sample + 1] - signal[sample]
-    a = b = c = d = e = 0.0
-    for k in range(begin, end + 1):
-        off = signal[k] - (signal[sample] + (k - sample) * rise)
-        weights = polynomials[k - begin]
-        a, b, c = a + weights[0] * off, b + weights[1] * off, c + weights[2] * off
-        d, e = d + weights[3] * off, e + weights[4] * off
-    return a, b, c, d, e
+def _bows(signal, seams, polynomials):
+    """Compute the polynomials by which the signal leaves its chords, shape [power, chord]; 0 where linear."""
+    taps, powers = polynomials.shape
+    chords = len(signal) - 2 * LOOK_AHEAD - 1
+    bows = np.zeros((powers, chords))
+    # the chord itself adds nothing: the polynomials are 0 for straight lines
+    for k in range(taps):
+        shifted = signal[k + 1 : k + 1 + chords]
+        for p in range(powers):
+            weight, bow = polynomials[k, p], bows[p]
+            for chord in range(len(bow)):
+                bow[chord] += weight * shifted[chord]
+    bends = _count_bends(signal)
+    for chord in range(chords):
+        begin, end = chord + 1, chord + taps
+        uneven = seams[end] != seams[begin + 1]
+        drawn_by_ruler = 2 * (bends[end] - bends[begin + 1]) < end - begin - 1
+        if uneven or drawn_by_ruler:
+            bows[:, chord] = 0.0
+    return bows
 
 
 @partial(entry, flags=())
 def _fill(at, since, span, chord, bow, rows):
     """Fill the rows between two neighbouring samples; before the first one it is held."""
     left, slope = chord
-    a, b, c, d, e = bow
+    a, b, c, d, e = bow[0], bow[1], bow[2], bow[3], bow[4]
     for row in range(len(at)):
         after = max(at[row] - since, 0.0)
         u = after / span
