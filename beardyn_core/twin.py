@@ -221,9 +221,17 @@ class Twin:
         return 1 if changing else TIER_NOUNS[self.scene.tier].blocks_at_once
 
     def covered(self) -> bool:
-        """Whether a sample at or after the end of the next block has arrived."""
-        last = self.load.last_ns
-        return last is not None and last >= self.next_end_ns
+        """Whether the samples that the load of the next block depends on have arrived."""
+        return self.load.covers(self.next_end_ns)
+
+    @property
+    def wanted_ns(self) -> int:
+        """Time up to which the next block wants load samples, [ns]: beyond its end, see `LoadHistory`."""
+        return self.load.wanted_ns(self.next_end_ns)
+
+    def end_load(self) -> None:
+        """Take note that no more load will come: the last samples are used as they are."""
+        self.load.ended = True
 
     def advance(self, blocks: int = 1) -> Block:
         """Advance by a block.

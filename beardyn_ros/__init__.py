@@ -21,6 +21,7 @@ answers               services that answer when the work is done
 load_gate             what comes in as load: checked, counted, queued
 live_filter           low-pass filter of live load, its delay known
 held_load             live load: checked, filtered, its last value held
+live_line             from its value in each block to samples that leave no images of the block rate
 scenario              what the load node replays: load, events, and the truth that it tells
 replay                a scenario as an endless stream: loop, seek, cross-fade, passages
 replay_clock          pace and pause of a live replay

@@ -7,10 +7,9 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.held_load import HeldLoad, LiveLoad
+from beardyn_ros.held_load import LiveLoad
+from beardyn_ros.live_line import LiveLine
 from beardyn_ros.load_gate import LoadGate, Refusals, shifted
 from beardyn_ros.run_state import PAUSED, RUNNING, WAITING_FOR_LOAD, SessionOptions
 from beardyn_ros.runtime import EXIT_LOAD_LOST
@@ -59,6 +58,7 @@ class LoadFeed:
         self.gate = LoadGate(options.queue_ns, options.queue_bytes, self.refusals, condition, options.join)
         self.live = LiveLoad(self.refusals, condition, options.live_bandwidth)
         self.begin_ns = 0
+        self._line: LiveLine  # of the live mode, since the first load
         self.paused = False
         self.slept_s = 0.0
         self._running = False
@@ -96,7 +96,8 @@ class LoadFeed:
         if self._options.mode == "live":
             held = self.live.held()
             if held is not None:
-                return _constant_load(held, 0)
+                self._line = LiveLine(held, block_ns)
+                return self._line.begin()
         else:
             begin_ns = self.gate.first_time_ns()
             if begin_ns is not None:
@@ -152,17 +153,21 @@ class LoadFeed:
                     f"{self._options.max_age:g} s: {cause}",
                     EXIT_LOAD_LOST,
                 )
-            twin.feed(_constant_load(held, twin.next_end_ns))
+            while not twin.covered():
+                twin.feed(self._line.go_on(held))
             return 0.0
         begin = time.monotonic()
         while not twin.covered():
-            part = self.gate.take_through(twin.next_end_ns + self.begin_ns)
+            part = self.gate.take_through(twin.wanted_ns + self.begin_ns)
             if part is not None:
                 twin.feed(shifted(part, -self.begin_ns))
                 continue
             if self.gate.failure:
                 raise StoppedError(self.gate.failure, EXIT_LOAD_LOST)
             if self.gate.ended:
+                twin.end_load()
+                if twin.covered():
+                    break
                 return None
             timeout = self._options.load_timeout
             if not self._load_comes(
@@ -170,7 +175,7 @@ class LoadFeed:
             ):
                 raise StoppedError(
                     f"no usable load for {timeout:g} s (parameter load_timeout): load that covers "
-                    f"t = {(twin.next_end_ns + self.begin_ns) / 1e9:.3f} s is missing{self._last_refusal()}",
+                    f"t = {(twin.wanted_ns + self.begin_ns) / 1e9:.3f} s is missing{self._last_refusal()}",
                     EXIT_LOAD_LOST,
                 )
         return time.monotonic() - begin - self.slept_s
@@ -190,12 +195,3 @@ class LoadFeed:
                 return False
             if ready():
                 return True
-
-
-def _constant_load(held: HeldLoad, time_ns: int) -> LoadHistory:
-    return LoadHistory(
-        np.array([time_ns], np.int64),
-        np.asarray(held.wrench, float)[None, :],
-        np.array([held.shaft_speed]),
-        np.zeros((1, 3)),
-    )

@@ -26,7 +26,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import decode_string, encode_diagnostics, encode_string, header_stamp
 from beardyn_core.record.topics import topic
-from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, LoadHistory
 from beardyn_ros.answers import StepService
 from beardyn_ros.diagnostics import diagnostic_name, load_diagnostic
 from beardyn_ros.frames import frame_of
@@ -315,7 +315,9 @@ class LoadNode(Node):
     def _pump(self) -> None:
         if not (self._twin_listens() or self._ended):
             return
-        latest_ns = self._latest_credit() + round(self._values.horizon * 1e9)
+        # what the twin looks ahead comes on top, or a short horizon would leave both waiting
+        looked_ahead_ns = LOOK_AHEAD * min(self._replay.spacing_ns, LONGEST_SPACING_NS)
+        latest_ns = self._latest_credit() + round(self._values.horizon * 1e9) + looked_ahead_ns
         while not self._ended and (not self._paused or self._steps_left):
             if self._unsent is None:
                 first = self._replay.next_sample

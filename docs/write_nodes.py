@@ -190,19 +190,23 @@ PROTOCOL = """
 ## Load protocol
 
 `load/blocks` is reliable and keeps all. The load node stays within `horizon` of the simulated time that the
-twin repeats on `load/consumed` every 0.2 s; an empty block ends the stream. Samples are linear in between,
-and in lockstep a block is computed only when a sample at or after its end has arrived: the signals are the
-same to the last bit at any speed. Messages with NaN, out of order, with gaps or absurd numbers, from the
-far future or in another frame than `frame_id` (none is taken too) are counted and refused in
-`/diagnostics`. Every sample has a running number: a loss shows as a gap and never as a guess. A refused
-block may be sent again; when the stream ends with one of its blocks still missing the twin ends with exit
-code 4.
+twin repeats on `load/consumed` every 0.2 s; an empty block ends the stream. A twin looks ahead: samples that
+are evenly spaced by at most 11 ms are interpolated without images of their rate, which takes 30 of them on
+either side, 15 ms at 2 kHz; [rail.md](rail.md#between-the-samples) says what stays linear. In lockstep a
+block is computed only when the 30 samples after its end have arrived, or the end of the stream: the signals
+are the same to the last bit at any speed. Who sends in step with `load/consumed` must stay one block of 20
+ms and 30 samples ahead of it; the load node adds these to its horizon. Messages with NaN, out of order, with
+gaps or absurd numbers, from the far future or in another frame than `frame_id` (none is taken too) are
+counted and refused in `/diagnostics`. Every sample has a running number: a loss shows as a gap and never as
+a guess. A refused block may be sent again; when the stream ends with one of its blocks still missing the
+twin ends with exit code 4.
 
 In `live` mode force and speed pass a Bessel filter of order 4 before they are sampled every 20 ms: above
 `live_bandwidth` next to nothing is folded into the signal, below it everything is 0.336 / `live_bandwidth`
-late. Stamps may be of any clock that runs forward. A stamp that does not follow the one before it, or lies
-far in the future, is refused; after five in a row that follow each other the source has set its clock, and
-the load goes on.
+late. A smooth line through these values, whose images of 50 Hz are 85 dB down up to 10 Hz and 35 dB at 15
+Hz, takes another 60 ms, and the twin's look-ahead 20 ms: 114 ms in all at 10 Hz. Stamps may be of any clock
+that runs forward. A stamp that does not follow the one before it, or lies far in the future, is refused;
+after five in a row that follow each other the source has set its clock, and the load goes on.
 """
 
 

@@ -12,11 +12,14 @@ from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.rail.spectra import SHORT_WAVE_BAND, iso_3095_density, patch_gain, target_density
 from beardyn_core.rail.table import Column, Layout, read_table
+from beardyn_core.scene.band_limited import refined
 from beardyn_core.scene.excitation import Irregularity
+from beardyn_core.scene.load import LOOK_AHEAD, UNEVENNESS
 
 _SHORTEST_PERIOD = 4096.0
 _SHORT_WAVE_PERIOD = 512.0
-_SAMPLES_PER_WAVE = 8
+# of the shortest wave: images of the grid are 95 dB down; 70 dB where the contact patch swallows it
+_SAMPLES_PER_WAVE, _SAMPLES_PER_SHORT_WAVE = 16, 8
 _STREAM = 0x7261696C  # keeps the rail's random numbers apart from those of the sensors
 # numbers that further profiles of the same seed add to the stream
 _FURTHER = {"lateral": 1, "short_waves": 2}
@@ -32,6 +35,7 @@ RAIL_LAYOUT = Layout(
     gap=(5.0, 0.2),
 )
 _MOST_POINTS = 2**23
+_FINER = 16  # grid of an evenly measured rail: images of its own spacing are 80 dB down
 
 
 @dataclass(frozen=True)
@@ -114,7 +118,7 @@ def _drawn(
     while period < distance:
         period *= 2.0
     shortest, longest = irregularity.shortest_wavelength, irregularity.longest_wavelength
-    points = _points(period, shortest)
+    points = _points(period, shortest, _SAMPLES_PER_WAVE)
     if irregularity.kind == "none":
         return RailProfile(period / points, np.zeros(points), np.zeros(points))
     line, wavenumber = _lines(period, shortest, longest)
@@ -137,12 +141,12 @@ def _short_waves(irregularity: Irregularity, seed: int, patch: float) -> RailPro
         )
         density[there] -= target_density(irregularity, wavenumber[there])
     density = np.maximum(density, 0.0) * patch_gain(wavenumber, patch) ** 2
-    points = _points(period, SHORT_WAVE_BAND[0])
+    points = _points(period, SHORT_WAVE_BAND[0], _SAMPLES_PER_SHORT_WAVE)
     return _random_phases(period, points, line, wavenumber, density, [_STREAM, seed, _FURTHER["short_waves"]])
 
 
-def _points(period: float, shortest: float) -> int:
-    return int(2 ** int(np.ceil(np.log2(period * _SAMPLES_PER_WAVE / shortest))))
+def _points(period: float, shortest: float, samples_per_wave: int) -> int:
+    return int(2 ** int(np.ceil(np.log2(period * samples_per_wave / shortest))))
 
 
 def _lines(period: float, shortest: float, longest: float) -> tuple[NDArray[np.int64], Float]:
@@ -180,6 +184,9 @@ def _measured(irregularity: Irregularity, distance: float, direction: str, patch
     if column not in table:
         return RailProfile(spacing, np.zeros(len(grid)), np.zeros(len(grid)))
     height = 1e-3 * np.interp(grid, along, table[column])
+    even = np.ptp(np.diff(along)) < UNEVENNESS * spacing and len(height) > LOOK_AHEAD
+    if even and _FINER * len(height) <= _MOST_POINTS:
+        height, spacing = refined(height, _FINER), spacing / _FINER
     reach = int(0.5 * patch / spacing)
     if direction == "vertical" and reach > 0:
         weight = 1.0 - (np.arange(-reach, reach + 1) * spacing / (0.5 * patch)) ** 2

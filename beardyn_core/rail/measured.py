@@ -199,13 +199,16 @@ def replayed(operation: MeasuredOperation, count: int, rate: float) -> LoadHisto
 
 
 def _resampled(measured: Measurement, count: int, rate: float) -> Float:
+    # compiled: not for who reads files
+    from beardyn_core.rail.low_pass import decimated, thinning_kernel
+    from beardyn_core.scene.band_limited import interpolated
+
     signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
     factor = int(np.ceil(round(1.0 / (rate * float(np.median(np.diff(measured.time)))), 6)))
-    grid = np.arange((count - 1) * factor + 1) / (rate * factor)
-    signals = np.column_stack([np.interp(grid, measured.time, column) for column in signals.T])
+    grid_ns = np.arange((count - 1) * factor + 1, dtype=np.float64) * (1e9 / (rate * factor))
+    time_ns = np.round(measured.time * 1e9).astype(np.int64)
+    signals = interpolated(time_ns, signals, 0, grid_ns)
     if factor <= 1:
         return signals
-    from beardyn_core.rail.low_pass import decimated, thinning_kernel  # compiled: not for who reads files
-
     kernel = thinning_kernel(factor)
     return np.column_stack([decimated(column, factor, kernel) for column in signals.T])

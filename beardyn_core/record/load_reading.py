@@ -115,7 +115,9 @@ def _of_pair(found: dict[str, list[bytes]], force: str, speed: str, take: str) -
     time_ns, wrench = force_ns[inside], wrench[inside]
     turning = np.zeros(len(time_ns))
     if speed_ns is not None and shaft is not None:
-        turning = np.interp(time_ns - start, speed_ns - start, shaft[:, 0])
+        from beardyn_core.scene.band_limited import interpolated  # compiled: not for who reads files
+
+        turning = interpolated(speed_ns, shaft, int(start), (time_ns - start).astype(float))[:, 0]
     return Measurement((time_ns - start) * 1e-9, wrench, turning, np.zeros((len(time_ns), 3)))
 
 

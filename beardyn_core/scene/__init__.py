@@ -8,6 +8,7 @@ running      speed profiles, curves; brake and drive of an axle
 operation    where load and speed come from
 load         load on the journal as samples
 load_check   what samples of load must be to be used
+band_limited interpolation between its samples without images of their rate
 load_buffer  the load as a stream: accepted, refused, interpolated
 mounting     axlebox, journal, suspension and guidance of a vehicle
 defect       patches, roller diameter, worn pocket

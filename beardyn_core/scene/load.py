@@ -10,10 +10,21 @@ from numpy.typing import NDArray
 
 WRENCH_AXES = ("fx", "fy", "fz", "mx", "my", "mz")
 
+# Samples on either side of a moment that its load depends on, where they are interpolated band-limited
+LOOK_AHEAD = 30
+LONGEST_SPACING_NS = 11_000_000
+UNEVENNESS = 0.02  # of the spacing from one sample to the next
+
 
 @dataclass(frozen=True)
 class LoadHistory:
-    """Samples of the load on the journal and the shaft speed; linear in between."""
+    """Samples of the load on the journal and the shaft speed.
+
+    In between a column is band-limited (`scene.band_limited`) where the `LOOK_AHEAD` samples on either side
+    are evenly spaced, within `UNEVENNESS`, by at most `LONGEST_SPACING_NS`, and at least half of them lie off
+    the line between their neighbours. Elsewhere it is linear: tables of few points, uneven samples, and
+    steps, ramps and holds that were drawn by ruler.
+    """
 
     time_ns: A[NDArray[np.int64], "shape [sample], simulated time, strictly increasing, [ns]"]
     wrench: A[

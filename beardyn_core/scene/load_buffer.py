@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Annotated as A
 
 import numpy as np
-from numpy.typing import NDArray
 
-from beardyn_core.jit import entry
-from beardyn_core.scene.load import LoadHistory
+from beardyn_core.arrays import Float, Int
+from beardyn_core.scene.band_limited import at_steps, seam
+from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, LoadHistory
 from beardyn_core.scene.load_check import problem_with
 
 
@@ -20,7 +19,10 @@ class LoadBuffer:
 
     refused: A[int, "pieces that were refused"] = 0
     reason: A[str, "why the last one was"] = ""
-    _parts: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = field(default_factory=list)
+    ended: A[bool, "whether no more samples will come: what lies behind the last one is not waited for"] = (
+        False
+    )
+    _parts: list[tuple[Int, Float]] = field(default_factory=list)
 
     @property
     def last_ns(self) -> int | None:
@@ -38,60 +40,47 @@ class LoadBuffer:
             self._parts.append((load.time_ns.copy(), load.columns()))  # own: kernels take no read-only ones
         return True
 
-    def at_steps(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> NDArray[np.float64]:
-        """Compute the load at the step boundaries, linear between samples, constant outside them.
+    def covers(self, end_ns: int) -> bool:
+        """Whether no later sample changes the load up to a time [ns].
+
+        A sample at that time or after it has arrived; and, where samples are evenly spaced there,
+        `LOOK_AHEAD` of them, or the stream has ended.
+        """
+        if not self._parts or self._parts[-1][0][-1] < end_ns:
+            return False
+        time_ns, _ = self._joined()
+        after = int(np.searchsorted(time_ns, end_ns, side="left"))
+        known = self.ended or after == 0 or len(time_ns) >= after + LOOK_AHEAD
+        return known or any(seam(time_ns, k) for k in range(max(after - 1, 1), len(time_ns) - 1))
+
+    def wanted_ns(self, end_ns: int) -> int:
+        """Compute the time up to which samples are wanted for the load up to a time, [ns]."""
+        times = [int(time) for part, _ in self._parts[-2:] for time in part[-2:]]
+        spacing = times[-1] - times[-2] if len(times) > 1 else 0
+        return end_ns + LOOK_AHEAD * spacing if spacing <= LONGEST_SPACING_NS else end_ns
+
+    def at_steps(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> Float:
+        """Compute the load at the step boundaries, as `LoadHistory` says, constant outside the samples.
 
         From start to end of all blocks together, of so many steps each; as many blocks as wanted give the
         same bits as one at a time. Shape [steps * blocks + 1, 10]: wrench [N, N m], shaft speed [rad/s],
         bogie displacement [m].
         """
-        while len(self._parts) > 1 and self._parts[1][0][0] <= start_ns:
-            del self._parts[0]
-        parts = [_window(*part, start_ns, end_ns) for part in self._parts]
-        time_ns, values = parts[0] if len(parts) == 1 else map(np.concatenate, zip(*parts, strict=True))
-        rows = np.empty((steps * blocks + 1, 10))
-        _interpolate_blocks(time_ns, values, start_ns, (end_ns - start_ns) // blocks, steps, rows)
-        return rows
+        time_ns, values = self._joined(start_ns)
+        return at_steps(time_ns, values, start_ns, (end_ns - start_ns) // blocks, steps, blocks)
+
+    def _joined(self, start_ns: int | None = None) -> tuple[Int, Float]:
+        """Join what has arrived to one part, less what nothing after a start depends on."""
+        if len(self._parts) > 1:
+            times, values = map(np.concatenate, zip(*self._parts, strict=True))
+            self._parts = [(times, values)]
+        if start_ns is not None:
+            times, values = self._parts[0]
+            needed = int(np.searchsorted(times, start_ns, side="right")) - 1 - LOOK_AHEAD
+            if needed > 0:
+                self._parts = [(times[needed:], values[needed:])]
+        return self._parts[0]
 
     def copy(self) -> LoadBuffer:
         """Return a copy; it shares the arrays of samples, which never change."""
-        return LoadBuffer(self.refused, self.reason, list(self._parts))
-
-
-def _window(
-    time_ns: NDArray[np.int64], values: NDArray[np.float64], start_ns: int, end_ns: int
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return the samples between two times, and one more on either side."""
-    first = int(np.searchsorted(time_ns, start_ns, side="right")) - 1
-    wanted = slice(max(first, 0), int(np.searchsorted(time_ns, end_ns, side="left")) + 1)
-    return time_ns[wanted], values[wanted]
-
-
-@partial(entry, flags=())
-def _interpolate_blocks(time_ns, values, start_ns, span_ns, steps, rows):
-    for first in range(0, len(rows) - 1, steps):
-        start = start_ns + first // steps * span_ns
-        _interpolate(time_ns, values, start, span_ns / steps, rows[first : first + steps + 1])
-
-
-@partial(entry, flags=())
-def _interpolate(time_ns, values, start_ns, spacing, rows):
-    """Interpolate all columns at evenly spaced times, the same bits as `numpy.interp`."""
-    last, sample, known = len(time_ns) - 1, 0, -1
-    slope = np.empty(10)
-    for row in range(len(rows)):
-        at = row * spacing
-        while sample < last and float(time_ns[sample + 1] - start_ns) <= at:
-            sample += 1
-        since = at - float(time_ns[sample] - start_ns)
-        if sample == last or since <= 0.0:
-            for i in range(10):
-                rows[row, i] = values[sample, i]
-            continue
-        if sample != known:
-            known = sample
-            span = float(time_ns[sample + 1] - start_ns) - float(time_ns[sample] - start_ns)
-            for i in range(10):
-                slope[i] = (values[sample + 1, i] - values[sample, i]) / span
-        for i in range(10):
-            rows[row, i] = slope[i] * since + values[sample, i]
+        return LoadBuffer(self.refused, self.reason, self.ended, list(self._parts))

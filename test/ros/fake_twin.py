@@ -56,6 +56,13 @@ class FakeTwin:
     def next_end_ns(self) -> int:
         return self._begin_ns + (self._index + 1) * BLOCK_NS
 
+    @property
+    def wanted_ns(self) -> int:
+        return self.next_end_ns
+
+    def end_load(self) -> None:
+        """Take note of nothing: this twin does not look ahead."""
+
     def covered(self) -> bool:
         return bool(self._load.time_ns[-1] >= self.next_end_ns)
 
