@@ -284,7 +284,8 @@ def test_validity_error_publishes_the_last_block_and_exits_with_3(graph: Graph) 
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_signals_end_the_nodes_cleanly(graph: Graph, number: signal.Signals) -> None:
+def test_signals_end_the_nodes_cleanly(graph_of_new_processes: Graph, number: signal.Signals) -> None:
+    graph = graph_of_new_processes
     graph.fake_twin(speed_factor=1.0)
     graph.fake_load(duration=60.0)
     graph.node_process("recorder", output=str(graph.folder / "run.mcap"))
