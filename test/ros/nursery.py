@@ -1,8 +1,8 @@
 """Node processes that begin ready: forked off a process that has imported what they need and begun nothing.
 
-A node that starts by itself imports Python modules and loads libraries for most of a second of a core, and the
-tests start some two hundred. What ROS does at a start, from `rclpy.init` on, each process still does by itself,
-and tests of starting and ending (and `evidence`) start new ones. Run as a module it is that process::
+A node that starts by itself imports Python modules and loads libraries for most of a second of a core, and
+the tests start some two hundred. What ROS does at a start, from `rclpy.init` on, each process still does by
+itself, and tests of starting and ending (and `evidence`) start new ones. Run as a module it is that process::
 
     python -m test.ros.nursery FILE_DESCRIPTOR
 
@@ -74,6 +74,7 @@ class Nursery:
 
     def start(self, module: str, words: tuple[str, ...], environment: Mapping[str, str], log: Path) -> Forked:
         """Begin ``python -m module words``."""
+        log.write_bytes(b"")
         asked = {"module": module, "words": words, "environment": dict(environment), "log": str(log)}
         self._socket.send(json.dumps(asked).encode())
         while "began" not in (told := self._take()):
@@ -154,7 +155,7 @@ def _prepare() -> None:
 
 
 def serve(control: socket.socket) -> Callable[[], int] | None:
-    """Fork a process for each request; gives its program in the new one, ``None`` in the old one at the end."""
+    """For each request fork a process: gives its program in the new one, ``None`` in the old one."""
     running: dict[int, int] = {}  # process ids by the descriptors that tell their ends
     with selectors.DefaultSelector() as selector:
         selector.register(control, selectors.EVENT_READ)
@@ -189,7 +190,7 @@ def _become(asked: dict[str, Any], parent: int) -> Callable[[], int]:
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, int(signal.SIGTERM))
     if os.getppid() != parent:
         os._exit(0)
-    log = os.open(asked["log"], os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666)
+    log = os.open(asked["log"], os.O_WRONLY)
     for stream in (1, 2):
         os.dup2(log, stream)
     os.close(log)

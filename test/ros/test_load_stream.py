@@ -284,7 +284,7 @@ def test_a_source_that_sets_its_clock_goes_on(graph: Graph, live_source: Sources
 
 
 def test_live_load_that_is_all_refused_is_not_called_silent(graph: Graph) -> None:
-    graph.fake_twin(mode="live", max_age=1.0)
+    graph.fake_twin(mode="live", max_age=2.0)
     source = LiveSource(graph, 1.0)
     source.send(0)
     graph.until_state("running")
