@@ -103,16 +103,12 @@ class Graph:
             arguments.append("--ros-args")
         for key, value in parameters.items():
             arguments += ["-p", f"{key}:={_yaml(value)}"]
-        self._begin(name, *arguments)
-
-    def _begin(self, name: str, *arguments: str) -> None:
         environment = self.processes._environment
-        module, words = arguments[1], arguments[2:]
         if self._nursery is None or not self._nursery.can_start(module, environment):
             self.processes.start(name, *arguments)
             return
         log = self.processes.log_path(name)
-        self.processes._children[name] = self._nursery.start(module, words, environment, log)  # type: ignore[assignment]
+        self.processes._children[name] = self._nursery.start(module, tuple(arguments[2:]), environment, log)  # type: ignore[assignment]
 
     def exit_code(self, name: str) -> int:
         """Exit code of a process, waiting for its end while the graph goes on."""

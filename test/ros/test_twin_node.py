@@ -214,12 +214,12 @@ def test_twin_publishes_every_topic_of_the_table_with_increasing_clock(graph: Gr
 
 
 def test_two_twins_under_other_namespaces_do_not_hear_each_other(graph: Graph) -> None:
-    graph.processes.start(
-        "left", "-m", "test.ros.fake_twin", "twin", "--ros-args", "-r", "__ns:=/left", "-p", "scene:=fake",
+    graph.start(
+        "left", "test.ros.fake_twin", "twin", "--ros-args", "-r", "__ns:=/left", "-p", "scene:=fake",
         "-p", "publish_clock:=false",
     )  # fmt: skip
-    graph.processes.start(
-        "load", "-m", "test.ros.fake_twin", "load", "--ros-args", "-r", "__ns:=/left", "-p", "duration:=0.2"
+    graph.start(
+        "load", "test.ros.fake_twin", "load", "--ros-args", "-r", "__ns:=/left", "-p", "duration:=0.2"
     )
     graph.fake_twin("right", publish_clock=False)
     assert graph.exit_code("left") == 0
