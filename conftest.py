@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+# With a process a core, threads of linear algebra only wait for each other: a quarter of the time of rides.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from hypothesis import settings
 
 REPOSITORY = Path(__file__).resolve().parent
@@ -35,6 +41,27 @@ LONG_FILES = (
     "test/ros/test_real_twin.py",
     "test/analytic/test_dynamics_free_flight.py",
 )
+
+
+def keep_bytecode(folder: Path) -> None:
+    """Let the tests and the processes they start keep the bytecode of modules in a folder.
+
+    Containers often forbid bytecode beside the sources. Each of some hundred processes would then translate
+    every module that it imports again, a quarter of a second, and pytest every test, five seconds.
+
+    Parameters
+    ----------
+    folder : Path
+        Used only where the environment forbids bytecode.
+    """
+    if not sys.dont_write_bytecode:
+        return
+    sys.dont_write_bytecode = False
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    sys.pycache_prefix = os.environ["PYTHONPYCACHEPREFIX"] = str(folder)
+
+
+keep_bytecode(REPOSITORY / ".pytest_cache" / "bytecode")
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -36,15 +36,20 @@ def longest() -> float:
 BEGUN = ("compiling the", "once all kernels are compiled")  # what the commands say before they compile
 
 
-class Command:
-    """A command in a process group of its own, and what it says while it runs."""
+COMMAND_LINE = ("-m", "beardyn_core.cli.main")
 
-    def __init__(self, words: list[str], cwd: Path, cache: Path | None) -> None:
+
+class Command:
+    """A command or script in a process group of its own, and what it says while it runs."""
+
+    def __init__(
+        self, words: list[str], cwd: Path, cache: Path | None, program: tuple[str, ...] = COMMAND_LINE
+    ) -> None:
         environment = {**os.environ, "PYTHONPATH": str(ROOT)}
         if cache is not None:
             environment["BEARDYN_CACHE_DIR"] = str(cache)
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "beardyn_core.cli.main", *words],
+            [sys.executable, *program, *words],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             cwd=cwd,
@@ -85,8 +90,10 @@ class Command:
 
 
 @contextmanager
-def running(words: list[str], cwd: Path, cache: Path | None = None) -> Iterator[Command]:
-    started = Command(words, cwd, cache)
+def running(
+    words: list[str], cwd: Path, cache: Path | None = None, program: tuple[str, ...] = COMMAND_LINE
+) -> Iterator[Command]:
+    started = Command(words, cwd, cache, program)
     try:
         yield started
     finally:
@@ -121,6 +128,8 @@ COMMANDS = [
 ]
 # one command in its own process and one with others; the rest stop in the same place of the compiler
 WAITED_FOR = ("simulate", "trial")
+# what comes before they compile is dear: a choice of effects, the contacts of every level
+DEAR = ("ladder", "demo")
 
 
 @pytest.mark.parametrize(
@@ -131,7 +140,9 @@ WAITED_FOR = ("simulate", "trial")
             kept,
             later,
             id=f"{words[0]} {later:g} s later",
-            marks=[] if (later > 0.0) == (words[0] in WAITED_FOR) else [pytest.mark.slow],
+            marks=[]
+            if (later > 0.0) == (words[0] in WAITED_FOR) and words[0] not in DEAR
+            else [pytest.mark.slow],
         )
         for words, kept in COMMANDS
         for later in (0.0, 4.0)
@@ -243,3 +254,54 @@ def test_ctrl_c_at_any_moment_of_a_start_is_clean(moment: float, tmp_path: Path)
         time.sleep(moment)
         took = started.interrupt()
         check(started, took)
+
+
+SIMULATES = """
+import beardyn_core as bd
+
+bd.simulate("static_5kN", tier="lumped", duration=0.1)  # compiled extensions do not load through a Ctrl-C
+print("begun", flush=True)
+bd.simulate("static_5kN", tier="lumped", duration=6000.0)
+"""
+TRIES = """
+from beardyn_core.choice import load_trial
+from beardyn_core.study.trial import conduct, plan_of
+
+if __name__ == "__main__":
+    conduct(plan_of(load_trial("small.yaml"), "", None), None, 2, lambda run: print("begun", flush=True))
+"""
+CLIMBS = """
+from dataclasses import replace
+from beardyn_core.choice import load_scene
+from beardyn_core.study.ladder import climb, plan_of
+from beardyn_core.study.ladder_levels import levels_of
+
+scene = load_scene("static_5kN", tier="lumped")
+levels = levels_of(scene, quick=True)
+lumped = next(level for level in levels.levels if level.tier == "lumped")
+plan = plan_of(scene, 600.0, 1.0)
+climb(plan, replace(levels, reference=lumped), 0.05, progress=lambda name, wall: print("begun", flush=True))
+"""
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        pytest.param(SIMULATES, id="simulate"),
+        pytest.param(TRIES, id="trial", marks=pytest.mark.slow),
+        pytest.param(CLIMBS, id="ladder", marks=pytest.mark.slow),
+    ],
+)
+def test_a_script_gets_a_keyboard_interrupt_and_leaves_no_process_behind(
+    script: str, small_trial: list[str], tmp_path: Path
+) -> None:
+    """Its own Ctrl-C, unlike the command's: the process belongs to the user, who may catch it."""
+    (tmp_path / "script.py").write_text(script)
+    with running([], tmp_path, program=("script.py",)) as started:
+        started.wait_for(lambda: "begun" in started.said)
+        time.sleep(1.0)
+        took = started.interrupt()  # returns when every process of the group has closed its output
+        assert started.process.returncode == -signal.SIGINT, started.said
+        assert started.said.rstrip().endswith("KeyboardInterrupt"), started.said
+        assert started.said.count("Traceback") == 1, started.said
+        assert took < longest(), started.said

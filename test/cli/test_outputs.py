@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -127,6 +128,7 @@ def test_of_two_runs_to_one_file_the_second_is_refused_while_the_first_writes(tm
             assert first.poll() is None
             assert time.monotonic() < deadline
             time.sleep(0.05)
+        first.send_signal(signal.SIGSTOP)  # it has the file open, and leaves the processor to the others
         for force in ([], ["--force"]):
             second = start(*words, *SHORT, *force, cwd=tmp_path)
             _, told = second.communicate(timeout=60)

@@ -9,7 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
+from beardyn_core.bearing.lamina_coupling import (
+    LaminaRoot,
+    bearing_lamina_root,
+    coupled_law,
+    joint_depth,
+    part_exponent,
+)
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.model.faults import surface_radius
 from beardyn_core.scene.defect import Patch
@@ -48,6 +54,11 @@ def over(offset: float, length: float, depth: float = 1e-4) -> Patch:
 
 
 @cache
+def coupled_root(laminae: int) -> LaminaRoot:
+    return bearing_lamina_root(standard_scene().bearing, LaminaCoupling(), laminae)
+
+
+@cache
 def line_share(offset: float, length: float, gap: float, laminae: int) -> tuple[float, float]:
     """Force and moment of a line over a patch, of the sound line's force and of that by its length [-]."""
     edges = (np.arange(laminae + 1) / laminae - 0.5) * LENGTH
@@ -55,8 +66,7 @@ def line_share(offset: float, length: float, gap: float, laminae: int) -> tuple[
     cover = np.maximum(high - low, 0.0) * laminae / LENGTH
     depth = np.full(laminae, DEPTH)
     joint, share = joint_depth(depth, np.full(laminae, gap), cover, part_exponent(1.0))
-    matrices = bearing_lamina_root(standard_scene().bearing, LaminaCoupling(), laminae)
-    loads, _, _ = coupled_law(np.array([joint, depth]), 1.0, matrices)
+    loads, _, _ = coupled_law(np.array([joint, depth]), 1.0, coupled_root(laminae))
     pressing = loads[0] * share / loads[1].sum()
     return float(pressing.sum()), float(pressing @ (edges[:-1] + edges[1:])) / (2.0 * LENGTH)
 

@@ -9,22 +9,44 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_ros.environment import prepare_environment
 from test.ros.graph import Graph
+from test.ros.nursery import Nursery
 
 HERE = Path(__file__).parent
+GRAPHS = {"nursery", "graph_of_new_processes"}
 ROS_IS_MISSING = importlib.util.find_spec("rclpy") is None
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
-        if HERE in item.path.parents and "graph" in getattr(item, "fixturenames", ()):
+        if HERE in item.path.parents and GRAPHS & set(getattr(item, "fixturenames", ())):
             item.add_marker("ros")
             if ROS_IS_MISSING:
                 item.add_marker(pytest.mark.skip(reason="rclpy is not installed (pip install .[ros])"))
 
 
+@pytest.fixture(scope="session")
+def nursery(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Nursery | None]:
+    """Where the nodes of all tests of this process begin."""
+    if not sys.platform.startswith("linux"):
+        yield None
+        return
+    prepare_environment()
+    begun = Nursery(tmp_path_factory.mktemp("nursery"))
+    yield begun
+    begun.end()
+
+
 @pytest.fixture
-def graph(tmp_path: Path) -> Iterator[Graph]:
+def graph(tmp_path: Path, nursery: Nursery | None) -> Iterator[Graph]:
+    with Graph(tmp_path, nursery) as running:
+        yield running
+
+
+@pytest.fixture
+def graph_of_new_processes(tmp_path: Path) -> Iterator[Graph]:
+    """Where each node is a new Python that begins and ends as a user's does."""
     with Graph(tmp_path) as running:
         yield running
 

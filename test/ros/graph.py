@@ -7,10 +7,13 @@ from collections import defaultdict, deque
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment, this_machine_only
 from beardyn_ros.processes import Processes, free_domain_id, local_environment, release_domain_id
+
+if TYPE_CHECKING:
+    from test.ros.nursery import Nursery
 
 NAMESPACE = "/axlebox"
 PATIENCE_S = 60.0
@@ -23,11 +26,19 @@ class Graph:
 
     Nothing here sleeps for a guessed time: `until` spins until a condition holds, and fails with the
     processes' own words after a minute.
+
+    Parameters
+    ----------
+    folder : Path
+        The processes' own words go there.
+    nursery : Nursery, optional
+        Begins the nodes that it can begin; without one each is a new Python.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, nursery: Nursery | None = None) -> None:
         prepare_environment()
         self.folder = folder
+        self._nursery = nursery
         self.domain = free_domain_id(_left)
         self.processes = Processes(local_environment(self.domain), folder)
         self.messages: dict[str, list[bytes]] = defaultdict(list)
@@ -92,7 +103,12 @@ class Graph:
             arguments.append("--ros-args")
         for key, value in parameters.items():
             arguments += ["-p", f"{key}:={_yaml(value)}"]
-        self.processes.start(name, *arguments)
+        environment = self.processes._environment
+        if self._nursery is None or not self._nursery.can_start(module, environment):
+            self.processes.start(name, *arguments)
+            return
+        log = self.processes.log_path(name)
+        self.processes._children[name] = self._nursery.start(module, tuple(arguments[2:]), environment, log)  # type: ignore[assignment]
 
     def exit_code(self, name: str) -> int:
         """Exit code of a process, waiting for its end while the graph goes on."""

@@ -173,8 +173,8 @@ def latched(graph: Graph, name: str) -> list[str]:
 
 def test_a_late_reader_gets_the_description_of_every_box_with_meshes_that_exist(graph: Graph) -> None:
     graph.fake_twin(publish_clock=False)
-    graph.processes.start(
-        "left", "-m", "test.ros.fake_twin", "twin", "--ros-args", "-r", "__ns:=/car/left", "-p", "scene:=fake"
+    graph.start(
+        "left", "test.ros.fake_twin", "twin", "--ros-args", "-r", "__ns:=/car/left", "-p", "scene:=fake"
     )
     graph.until(
         lambda: all(

@@ -216,7 +216,7 @@ def test_live_load_is_filtered_before_it_is_sampled(
     graph.listen("force")
     graph.fake_twin(mode="live", max_age=5.0)
     live_source(frequency)
-    graph.until(lambda: len(graph.messages["force"]) > 3 * 400, "three seconds of force")
+    graph.until(lambda: len(graph.messages["force"]) > 2 * 400, "two seconds of force")
     forces = [decode(WRENCH, cdr) for cdr in graph.messages["force"]]
     times = np.array([header_stamp(cdr) for cdr in graph.messages["force"]]) * 1e-9
     vertical = np.array([message.wrench.force.z for message in forces])
@@ -267,7 +267,7 @@ def test_one_stamp_from_the_far_future_does_not_end_the_live_load(graph: Graph, 
     source = live_source(1.0)
     graph.until(lambda: len(graph.messages["vibration"]) > 10, "blocks under live load")
     source.send(int(2e18))
-    graph.until(lambda: len(graph.messages["vibration"]) > 150, "three seconds of the run going on")
+    graph.until(lambda: len(graph.messages["vibration"]) > 100, "more of the run than max_age")
     counts = dict(graph.statuses("twin")[-1].values)
     assert counts["refused: far future"] == "2"
     assert counts["refused_messages"] == "2"
@@ -279,12 +279,12 @@ def test_a_source_that_sets_its_clock_goes_on(graph: Graph, live_source: Sources
     source = live_source(1.0)
     for offset_s in (0, 10**9, -5):
         source.stamp_offset_ns = offset_s * 10**9
-        goal = len(graph.messages["vibration"]) + 100
-        graph.until(partial(has_come, graph, "vibration", goal), f"two seconds at {offset_s} s")
+        goal = len(graph.messages["vibration"]) + 75
+        graph.until(partial(has_come, graph, "vibration", goal), f"more than max_age at {offset_s} s")
 
 
 def test_live_load_that_is_all_refused_is_not_called_silent(graph: Graph) -> None:
-    graph.fake_twin(mode="live", max_age=1.0)
+    graph.fake_twin(mode="live", max_age=2.0)
     source = LiveSource(graph, 1.0)
     source.send(0)
     graph.until_state("running")

@@ -38,9 +38,7 @@ def test_all_bad_parameters_are_told_at_once(graph: Graph) -> None:
 def test_parameter_file_works_and_an_integer_is_taken_for_a_double(graph: Graph) -> None:
     file = graph.folder / "twin.yaml"
     file.write_text("/**:\n  ros__parameters:\n    scene: fake\n    speed_factor: 2\n    load_timeout: 1\n")
-    graph.processes.start(
-        "twin", "-m", "test.ros.fake_twin", "twin", "--ros-args", "--params-file", str(file)
-    )
+    graph.start("twin", "test.ros.fake_twin", "twin", "--ros-args", "--params-file", str(file))
     assert graph.until_state("waiting for load").value("speed_factor") == "2"
     described = graph.parameters_of("twin", "speed_factor")
     assert "simulated seconds per wall second" in described.description

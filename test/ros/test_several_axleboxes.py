@@ -18,7 +18,7 @@ def box(graph: Graph, namespace: str, kind: str, **parameters: object) -> None:
     words = ["--ros-args", "-r", f"__ns:=/{namespace}"]
     for key, value in parameters.items():
         words += ["-p", f"{key}:={str(value).lower() if isinstance(value, bool) else value}"]
-    graph.processes.start(f"{kind}_{namespace}", "-m", module, kind, *words)
+    graph.start(f"{kind}_{namespace}", module, kind, *words)
 
 
 def test_the_end_of_one_axlebox_leaves_recorder_and_monitor_of_another_at_work(graph: Graph) -> None:

@@ -21,15 +21,15 @@ SHARED = """
 
 def started(graph: Graph, name: str, *words: str) -> None:
     file = graph.folder / "shared.yaml"
-    graph.processes.start(name, *words, "--ros-args", "--params-file", str(file))
+    graph.start(name, *words, "--ros-args", "--params-file", str(file))
 
 
 def test_a_file_shared_by_all_nodes_starts_them_all(graph: Graph) -> None:
     (graph.folder / "shared.yaml").write_text(SHARED)
-    started(graph, "twin", "-m", "test.ros.fake_twin", "twin")
-    started(graph, "load", "-m", "test.ros.fake_twin", "load")
+    started(graph, "twin", "test.ros.fake_twin", "twin")
+    started(graph, "load", "test.ros.fake_twin", "load")
     for name in ("recorder", "monitor"):
-        started(graph, name, "-m", "beardyn_ros", name)
+        started(graph, name, "beardyn_ros", name)
     graph.until(
         lambda: all(graph.statuses(part) for part in ("twin", "load", "recorder", "monitor")),
         "a word of every node",
@@ -44,14 +44,14 @@ def test_a_file_shared_by_all_nodes_starts_them_all(graph: Graph) -> None:
 @pytest.mark.parametrize("section", ["/axlebox/twin", "axlebox/twin"])
 def test_an_unknown_name_under_the_node_itself_is_refused(graph: Graph, section: str) -> None:
     (graph.folder / "shared.yaml").write_text(f"{section}:\n  ros__parameters:\n    speeed_factor: 1.0\n")
-    started(graph, "twin", "-m", "test.ros.fake_twin", "twin")
+    started(graph, "twin", "test.ros.fake_twin", "twin")
     assert graph.exit_code("twin") == 2
     assert "unknown parameter 'speeed_factor'" in graph.processes.log("twin")
 
 
 def test_a_bad_value_of_a_known_name_is_refused_wherever_it_stands(graph: Graph) -> None:
     (graph.folder / "shared.yaml").write_text("/**:\n  ros__parameters:\n    start_timeout: -1.0\n")
-    started(graph, "twin", "-m", "test.ros.fake_twin", "twin")
+    started(graph, "twin", "test.ros.fake_twin", "twin")
     assert graph.exit_code("twin") == 2
     assert "start_timeout" in graph.processes.log("twin")
 

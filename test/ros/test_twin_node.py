@@ -214,12 +214,12 @@ def test_twin_publishes_every_topic_of_the_table_with_increasing_clock(graph: Gr
 
 
 def test_two_twins_under_other_namespaces_do_not_hear_each_other(graph: Graph) -> None:
-    graph.processes.start(
-        "left", "-m", "test.ros.fake_twin", "twin", "--ros-args", "-r", "__ns:=/left", "-p", "scene:=fake",
+    graph.start(
+        "left", "test.ros.fake_twin", "twin", "--ros-args", "-r", "__ns:=/left", "-p", "scene:=fake",
         "-p", "publish_clock:=false",
     )  # fmt: skip
-    graph.processes.start(
-        "load", "-m", "test.ros.fake_twin", "load", "--ros-args", "-r", "__ns:=/left", "-p", "duration:=0.2"
+    graph.start(
+        "load", "test.ros.fake_twin", "load", "--ros-args", "-r", "__ns:=/left", "-p", "duration:=0.2"
     )
     graph.fake_twin("right", publish_clock=False)
     assert graph.exit_code("left") == 0
@@ -284,7 +284,8 @@ def test_validity_error_publishes_the_last_block_and_exits_with_3(graph: Graph) 
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_signals_end_the_nodes_cleanly(graph: Graph, number: signal.Signals) -> None:
+def test_signals_end_the_nodes_cleanly(graph_of_new_processes: Graph, number: signal.Signals) -> None:
+    graph = graph_of_new_processes
     graph.fake_twin(speed_factor=1.0)
     graph.fake_load(duration=60.0)
     graph.node_process("recorder", output=str(graph.folder / "run.mcap"))
