@@ -67,14 +67,14 @@ def _window(
     return time_ns[wanted], values[wanted]
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _interpolate_blocks(time_ns, values, start_ns, span_ns, steps, rows):
     for first in range(0, len(rows) - 1, steps):
         start = start_ns + first // steps * span_ns
         _interpolate(time_ns, values, start, span_ns / steps, rows[first : first + steps + 1])
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _interpolate(time_ns, values, start_ns, spacing, rows):
     """Interpolate all columns at evenly spaced times, the same bits as `numpy.interp`."""
     last, sample, known = len(time_ns) - 1, 0, -1
