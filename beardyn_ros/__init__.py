@@ -25,6 +25,7 @@ live_line             from its value in each block to samples that leave no imag
 scenario              what the load node replays: load, events, and the truth that it tells
 replay                a scenario as an endless stream: loop, seek, cross-fade, passages
 replay_clock          pace and pause of a live replay
+credit                up to when a twin has used its load, and when to look again
 load_parameters       parameters of the load node
 live_load             load of one moment as the messages of the live mode
 load_node             replays an operation or a CSV as stamped load blocks, within the credit

@@ -20,7 +20,7 @@ from beardyn_ros.load_parameters import PARAMETERS as LOAD_PARAMETERS
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node
 
-PUMP_PERIOD_S = 0.02
+QUICK_S = 0.02
 
 CAR_PARAMETERS = (
     BOXES,
@@ -45,10 +45,10 @@ class BoxLoadNode(LoadNode):
     def __init__(self, scenario: CarScenario, box: Box, **of_node: Any) -> None:
         super().__init__(lambda _scene, _csv, _duration: scenario.of(box), **of_node)
         if not self._live:
-            self._busy_period_s = PUMP_PERIOD_S
+            self._quick_s = QUICK_S
 
     def _latest_credit(self) -> int:
-        return min((member._credit_ns for member in self.car), default=self._credit_ns)
+        return min((member._credit.time_ns for member in self.car), default=self._credit.time_ns)
 
 
 class CarLoadNode(NodeGroup):

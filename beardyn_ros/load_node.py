@@ -28,6 +28,7 @@ from beardyn_core.record.messages import decode_string, encode_diagnostics, enco
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, LoadHistory
 from beardyn_ros.answers import StepService
+from beardyn_ros.credit import QUICK_S, Credit
 from beardyn_ros.diagnostics import diagnostic_name, load_diagnostic
 from beardyn_ros.frames import frame_of
 from beardyn_ros.identity import run_instance
@@ -43,7 +44,6 @@ from beardyn_ros.wire import RawIntake, TopicPublishers
 
 ScenarioLoader = Callable[[str, str, float], Scenario]
 
-PUMP_PERIOD_S = 0.005
 LAST_WORDS_TIMEOUT_S = 0.5
 HUNG_READER_TIMEOUT_S = 2.0
 OTHERS_TIMEOUT_S = 3.0
@@ -86,7 +86,7 @@ class LoadNode(Node):
         self._paused = False
         self._steps_left = 0
         self._run_id = self._next_run_id = ""
-        self._heard_at = -TWIN_SILENT_AFTER_S
+        self._credit = Credit()
         self._out = TopicPublishers(
             self,
             "load/blocks",
@@ -95,9 +95,12 @@ class LoadNode(Node):
             *(("load/wrench", "load/shaft") if self._live else ()),
         )
         self._restart()
-        self._intake = RawIntake(self)
-        self._intake.add(topic("load/consumed"), self._on_consumed, keep_all=False)
-        self._intake.add(topic("truth"), self._on_truth)
+        self._intake = RawIntake(self, polled=True)
+        self._intake.add(
+            topic("load/consumed"), lambda cdr: self._credit.hear(header_stamp(cdr)), keep_all=False
+        )
+        self._runs = RawIntake(self)
+        self._runs.add(topic("truth"), self._on_truth)
         self._announced = False
         self._listeners: tuple[int, ...] = ()
         self._listeners_since = time.monotonic()
@@ -108,7 +111,7 @@ class LoadNode(Node):
             f"{len(self._scenario.history)} load samples over {self._replay.length_s:.2f} s, "
             "waiting for a twin"
         )
-        self._busy_period_s = 1.0 / values.live_rate if self._live else PUMP_PERIOD_S
+        self._quick_s = 1.0 / values.live_rate if self._live else QUICK_S
         self._timer = wall_timer(self, IDLE_PERIOD_S, self._on_timer)
         wall_timer(self, REPORT_PERIOD_S, self._report)
         self.create_service(SetBool, "load/pause", self._on_pause)
@@ -135,8 +138,7 @@ class LoadNode(Node):
         self._new_live_filter()
         self._unsent: tuple[LoadHistory, int] | None = None
         self._ended = False
-        self._credit_ns = self._replay.next_ns
-        self._credit_at = time.monotonic()
+        self._credit.begin(self._replay.next_ns)
         self._published_truth: tuple[object, ...] = ()
         self._publish_truth()
 
@@ -144,12 +146,6 @@ class LoadNode(Node):
         """Begin to filter what is sampled; the rate is one of wall time, the filter works in the load's."""
         self._live_filter = LowPass(self._values.live_rate / (LIVE_RATE_OVER_BANDWIDTH * self._pace))
         self._live_last_ns = -1
-
-    def _on_consumed(self, cdr: bytes) -> None:
-        credit_ns = header_stamp(cdr)
-        self._heard_at = time.monotonic()
-        if credit_ns != self._credit_ns:
-            self._credit_ns, self._credit_at = credit_ns, self._heard_at
 
     def _on_truth(self, cdr: bytes) -> None:
         try:
@@ -172,7 +168,7 @@ class LoadNode(Node):
 
     def _follow_the_next_twin(self) -> None:
         """Serve another twin as soon as the one served so far is silent: two cannot feed on one stream."""
-        silent = time.monotonic() - self._heard_at > TWIN_SILENT_AFTER_S
+        silent = time.monotonic() - self._credit.heard_at > TWIN_SILENT_AFTER_S
         if self._next_run_id != self._run_id and silent:
             self._follow_run()
 
@@ -195,8 +191,7 @@ class LoadNode(Node):
         if not self._paused:
             return "the load is playing: call load/pause with true first"
         self._steps_left += 1
-        self._timer.timer_period_ns = round(self._busy_period_s * 1e9)
-        self._timer.reset()
+        self._look_again_in(self._quick_s)
         return ""
 
     def _on_reset(self, _request: Any, response: Any) -> Any:
@@ -243,19 +238,30 @@ class LoadNode(Node):
 
     def _report(self) -> None:
         name = diagnostic_name(self.get_namespace(), "load")
-        lead = (self._replay.next_ns - self._credit_ns) * 1e-9
+        lead = (self._replay.next_ns - self._credit.time_ns) * 1e-9
         sent = {each: self._out.sent[each] for each in self._out.names if each != "/diagnostics"}
         status = load_diagnostic(name, self._state, self._replay, lead, self._out.lost_messages, sent)
         hardware = frame_of(self.get_namespace())
-        self._out.publish("/diagnostics", encode_diagnostics(self._credit_ns, hardware, [status]))
+        self._out.publish("/diagnostics", encode_diagnostics(self._credit.time_ns, hardware, [status]))
         self._steps.fail_late("the block is not sent yet: it waits for the twin to take what it has")
 
     def _on_timer(self) -> None:
+        self._intake.sweep()
         self._follow_the_next_twin()
         (self._pump_live if self._live else self._pump)()
         rests = self._paused and not self._steps_left
         idle = not self._announced or rests or (self._ended and not self._values.exit_when_done)
-        period_ns = round((IDLE_PERIOD_S if idle else self._busy_period_s) * 1e9)
+        self._look_again_in(IDLE_PERIOD_S if idle else self._busy_period())
+
+    def _busy_period(self) -> float:
+        """Choose when to send again: at the live rate, or in time for the twin, [s]."""
+        if self._live:
+            return self._quick_s
+        return self._credit.look_period(self._values.horizon - self._values.block, self._quick_s)
+
+    def _look_again_in(self, period: float) -> None:
+        """Let the timer tick with a period, [s]."""
+        period_ns = round(period * 1e9)
         if self._timer.timer_period_ns != period_ns:
             self._timer.timer_period_ns = period_ns
             self._timer.reset()
@@ -310,7 +316,7 @@ class LoadNode(Node):
 
     def _latest_credit(self) -> int:
         """Find the time up to which the load is used, from where the horizon counts, [ns]."""
-        return self._credit_ns
+        return self._credit.time_ns
 
     def _pump(self) -> None:
         if not (self._twin_listens() or self._ended):
@@ -368,7 +374,7 @@ class LoadNode(Node):
             self._ended = self._out.publish(
                 "load/blocks", encode_load(empty, self._replay.next_sample, self._frame)
             )
-            self._credit_at = time.monotonic()
+            self._credit.changed_at = time.monotonic()
             self._publish_truth()
             self._report()
             self._steps.fail("the stream has ended")
@@ -377,7 +383,7 @@ class LoadNode(Node):
             # The twin still reads: leaving before it has everything would lose the tail. When it has taken
             # nothing for a while, whoever has not confirmed yet hangs.
             listeners = self._out.publisher("load/blocks").get_subscription_count()
-            hung = time.monotonic() - self._credit_at > HUNG_READER_TIMEOUT_S
+            hung = time.monotonic() - self._credit.changed_at > HUNG_READER_TIMEOUT_S
             self.finished = listeners == 0 or hung or self._out.wait_until_received("load/blocks", 0.001)
 
     def close(self) -> bool:

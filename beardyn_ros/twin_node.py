@@ -97,7 +97,7 @@ class TwinNode(LifecycleNode):
         self._trends = Spreader(self._out.publish)
         self._load = LoadIntake(self, self._frame)
         self._reporter = TwinReporter(self, self._values, self._namesakes, self._load, self._out)
-        self._namesake_intake = RawIntake(self)
+        self._namesake_intake = RawIntake(self, polled=True)
         self._namesake_intake.add(topic("/diagnostics"), self._namesakes.hear, keep_all=False)
         self._guard = self.create_guard_condition(self._publish_waiting)
         wall_timer(self, REPORT_PERIOD_S, self._on_timer)
@@ -321,6 +321,7 @@ class TwinNode(LifecycleNode):
                 return
 
     def _on_timer(self) -> None:
+        self._namesake_intake.sweep()
         self._settle()
         self._report()
         if self._session is None:

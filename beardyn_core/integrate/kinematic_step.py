@@ -34,6 +34,14 @@ def begin_advance(rollers):
 
 
 @inline
+def copy_table(source, target):
+    """Copy an array of two axes; an array assignment would make a copy of its own first."""
+    for i in range(source.shape[0]):
+        for j in range(source.shape[1]):
+            target[i, j] = source[i, j]
+
+
+@inline
 def cage_direction(bodies):
     """Take the direction of the cages, as cosine and sine."""
     return math.cos(bodies[layout.CAGE_BODY, layout.TURN]), math.sin(bodies[layout.CAGE_BODY, layout.TURN])

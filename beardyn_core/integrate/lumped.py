@@ -16,6 +16,7 @@ from beardyn_core.integrate.kinematic_step import (
     begin_advance,
     begin_step,
     cage_direction,
+    copy_table,
     finish_step,
 )
 from beardyn_core.jit import entry
@@ -72,7 +73,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
         if shown:
             for i, value in enumerate((turns[0], speeds[0], speeds[1])):
                 trend[rollers.shape[0] + i] = value
-            body_trend[step // stride] = bodies
+            copy_table(bodies, body_trend[step // stride])
     show_springs(lanes, rollers, roller_trend[roller_trend.shape[0] - 1], p)
 
 

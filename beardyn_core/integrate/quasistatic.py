@@ -8,6 +8,7 @@ from beardyn_core.integrate.kinematic_step import (
     begin_advance,
     begin_step,
     cage_direction,
+    copy_table,
     finish_step,
 )
 from beardyn_core.jit import entry, inline
@@ -148,5 +149,6 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             energy, response, p,
         )  # fmt: skip
         if shown:
-            roller_trend[(step + 1) // stride - 1] = rollers
-            body_trend[(step + 1) // stride - 1] = bodies
+            for block in range(rollers.shape[0]):
+                copy_table(rollers[block], roller_trend[(step + 1) // stride - 1, block])
+            copy_table(bodies, body_trend[(step + 1) // stride - 1])

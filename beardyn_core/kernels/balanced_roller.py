@@ -8,7 +8,7 @@ slow change of the load. Forces are those of the balanced, linearised contacts.
 from __future__ import annotations
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import find_damage, spring_count, spring_table
+from beardyn_core.kernels.defect import find_damage, springs_of
 from beardyn_core.kernels.exchange import damper_time
 from beardyn_core.kernels.laminae import SMALLEST_APPROACH, add_moments, contact_spring
 from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, quick_ninth_root, sqrt, where_greater
@@ -372,8 +372,7 @@ def _damaged_moments(lanes, approach, bend, laminae, damage):
     zero = lanes.constant(0.0)
     forces, stiffness = (zero, zero), (zero, zero, zero)
     factors = _all_factors(approach, bend)
-    springs = spring_count(laminae, damage, None)
-    laminae = spring_table(laminae, damage)
+    laminae, springs = springs_of(laminae, damage, None)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
         share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)

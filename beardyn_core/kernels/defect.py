@@ -117,21 +117,16 @@ def _increase(lanes, springs, field, value):
 
 
 @inline
-def spring_table(laminae, damage):
-    """Take the lamina table with a column for every spring."""
-    if damage is None:
-        return laminae
-    return damage.laminae
+def springs_of(laminae, damage, coupling):
+    """Take the lamina table with a column for every spring, and how many springs a contact has.
 
-
-@inline
-def spring_count(laminae, damage, coupling):
-    """Count the springs of a contact, two of each lamina near a patch; coupled laminae are not divided."""
+    Near a patch two of each lamina; coupled laminae are not divided.
+    """
     if damage is None:
-        return laminae.shape[1]
+        return laminae, laminae.shape[1]
     if coupling is None:
-        return 2 * laminae.shape[1]
-    return laminae.shape[1]
+        return damage.laminae, 2 * laminae.shape[1]
+    return damage.laminae, laminae.shape[1]
 
 
 @inline

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import spring_count, spring_damage, spring_slopes, spring_table
+from beardyn_core.kernels.defect import spring_damage, spring_slopes, springs_of
 from beardyn_core.kernels.film import log2_film_thickness, log2_load
 from beardyn_core.kernels.lamina_coupling import (
     DEPTH,
@@ -106,8 +106,7 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
     deepest = approach[0] if damage is None else zero
     count = laminae.shape[1]
     _prepare_coupling(lanes, approach, laminae, damage, effects.coupling)
-    springs = spring_count(laminae, damage, effects.coupling)
-    laminae = spring_table(laminae, damage)
+    laminae, springs = springs_of(laminae, damage, effects.coupling)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
         share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated as A
 from typing import Any
 
@@ -174,7 +175,7 @@ def solve_pair(p: Any, q: Any, cut: Any, form: Any, count: Any, analytic: Any, x
     return -1
 
 
-@entry
+@partial(entry, allocates=True)
 def solve_pairs(
     p: Any,
     q: Any,

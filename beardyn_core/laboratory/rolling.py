@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated as A
 from typing import Any
 
@@ -167,7 +168,7 @@ def _rates(
     return elastic, deepest, failed
 
 
-@entry
+@partial(entry, allocates=True)
 def roll(
     state: Any,
     body: Any,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -157,7 +158,7 @@ class NoiseStream:
         return noise
 
 
-@entry
+@partial(entry, allocates=True)
 def _normal(raw, noise):
     # pieces that stay in the cache; within them one simple loop each, which the compiler turns into lanes
     uniform, normal = np.empty((4, _PIECE)), np.empty((3, _PIECE))

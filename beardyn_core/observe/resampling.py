@@ -270,7 +270,7 @@ def _forget(stream, kept, count):
         stream[i] = stream[count + i]
 
 
-@entry
+@partial(entry, allocates=True)
 def _twice(stream, kept, taps, block, out):
     channels = stream.shape[0]
     between, sharp = np.empty(_PIECE), _twelve(taps)
@@ -289,7 +289,7 @@ def _twice(stream, kept, taps, block, out):
         _write_rows(tile, 2 * count, out[2 * start :])
 
 
-@entry
+@partial(entry, allocates=True)
 def _four_times(first, second, first_kept, second_kept, first_taps, second_taps, block, out):
     channels = first.shape[0]
     between, finer = np.empty(_PIECE), np.empty(2 * _PIECE)

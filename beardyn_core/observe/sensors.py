@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from beardyn_core.arrays import Float
@@ -138,7 +140,7 @@ def box_force(position: tuple[float, float, float], signals: Float, motion: Floa
     return force
 
 
-@entry
+@partial(entry, allocates=True)
 def _box_force(px, py, pz, signals, motion, stride, delay, force):
     slope, first = np.empty(6), np.empty(6)
     at = stride - delay  # samples after the first row

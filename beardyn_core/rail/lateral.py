@@ -168,7 +168,7 @@ def _solve(matrix, vector):
         vector[row] /= matrix[row, row]
 
 
-@partial(entry, flags=("contract",))
+@partial(entry, allocates=True, flags=("contract",))
 def _run(mass, stiffness, damping, contact, speed, curvature, lean, alignment, step):
     count = len(speed)
     motion, rail_force, yaw_moment = np.empty((count, 4)), np.empty(count), np.empty(count)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 
@@ -44,7 +45,7 @@ def first_order(signal: Float, steps: float) -> Float:
     return np.asarray(_lag(np.ascontiguousarray(signal), math.exp(-1.0 / steps)))
 
 
-@entry
+@partial(entry, allocates=True)
 def _lag(signal, keep):
     lagged = np.empty_like(signal)
     last = signal[0]

@@ -227,7 +227,7 @@ def _hertz(compression, flexibility):
     return share * np.sqrt(share)
 
 
-@partial(entry, flags=("contract",))
+@partial(entry, allocates=True, flags=("contract",))
 def _run(
     flow, waves, height, push, step, inverse_mass, inverse_wave, residue, primary, static_force, flexibility
 ):

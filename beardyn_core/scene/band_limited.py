@@ -161,20 +161,20 @@ def at_steps(time_ns: Int, values: Float, start_ns: int, block_ns: int, steps: i
     return rows
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def seam(time_ns, sample):
     """Say whether the even spacing ends at a sample, which has one before it and one after it."""
     span, before = time_ns[sample + 1] - time_ns[sample], time_ns[sample] - time_ns[sample - 1]
     return span > LONGEST_SPACING_NS or abs(span - before) > UNEVENNESS * span
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _fill_steps(time_ns, values, start_ns, block_ns, steps, blocks, polynomials, rows):
     at = np.arange(steps + 1) * (block_ns / steps)
     _fill_blocks(time_ns, values, start_ns, block_ns, at, blocks, polynomials, rows)
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _fill_blocks(time_ns, values, start_ns, block_ns, at, blocks, polynomials, rows):
     """Fill the rows of all blocks; held before the first and after the last sample.
 
@@ -213,7 +213,7 @@ def _fill_blocks(time_ns, values, start_ns, block_ns, at, blocks, polynomials, r
             rows[row + begins[block, end] : row + len(at), i] = signal[end]
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _is_constant(values):
     for sample in range(1, len(values)):
         for i in range(values.shape[1]):
@@ -222,7 +222,7 @@ def _is_constant(values):
     return True
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _around(series, first, last):
     """Take all between two samples and `LOOK_AHEAD` more on either side, turned about the ends."""
     count, end = last - first + 1 + 2 * LOOK_AHEAD, len(series) - 1
@@ -238,7 +238,7 @@ def _around(series, first, last):
     return wide
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _count_seams(times, enough):
     """Count, before each sample, those where the even spacing ends: all, where there are not enough."""
     seams = np.zeros(len(times) + 1, np.int64)
@@ -248,7 +248,7 @@ def _count_seams(times, enough):
     return seams
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _sort_rows(times, start_ns, at, begins):
     """Find for each sample the first row that is not before it; what is before all belongs to the first."""
     row = 0
@@ -259,7 +259,7 @@ def _sort_rows(times, start_ns, at, begins):
         begins[sample] = row
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _count_bends(signal):
     """Count, before each sample, those that do not lie on the line between their neighbours."""
     bends = np.zeros(len(signal) + 1, np.int64)
@@ -271,7 +271,7 @@ def _count_bends(signal):
     return bends
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _bows(signal, seams, polynomials):
     """Compute the polynomials by which the signal leaves its chords, shape [power, chord]; 0 where linear."""
     taps, powers = polynomials.shape
@@ -294,7 +294,7 @@ def _bows(signal, seams, polynomials):
     return bows
 
 
-@partial(entry, flags=())
+@partial(entry, allocates=True, flags=())
 def _fill(at, since, span, chord, bow, rows):
     """Fill the rows between two neighbouring samples; before the first one it is held."""
     left, slope = chord

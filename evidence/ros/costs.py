@@ -11,6 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
+import yaml
+
+from beardyn_core.config.folders import find
 from test.ros.graph import Graph
 
 NODES = ("twin", "load", "recorder", "monitor")
@@ -47,13 +50,17 @@ def costs(
     Returns
     -------
     tuple
-        Simulated time, the cost of each node, and the last values of the twin's diagnostic.
+        Simulated time, the cost of each node, and the last values of the twin's diagnostic, of which
+        `late_blocks` are those since the start-up.
     """
     start_all(graph, scene, output, 1.0, duration=duration + 2.0 * START_S, loop=False)
     begin, before = _at(graph, START_S)
+    late = int(graph.statuses("twin")[-1].value("late_blocks"))
     end, after = _at(graph, START_S + duration)
     found = [Cost(n, (after[n][0] - before[n][0]) / (end - begin), before[n][1], after[n][1]) for n in NODES]
-    return end - begin, found, dict(graph.statuses("twin")[-1].values)
+    values = dict(graph.statuses("twin")[-1].values)
+    values["late_blocks"] = str(int(values["late_blocks"]) - late)
+    return end - begin, found, values
 
 
 def start_all(graph: Graph, scene: str, output: Path, speed: float, **replay: object) -> None:
@@ -103,6 +110,21 @@ def _at(graph: Graph, moment: float) -> tuple[float, dict[str, tuple[float, floa
     return simulated(), {node: usage(graph.processes.pid(node)) for node in NODES}
 
 
+def automatic(scene: str, folder: Path) -> str:
+    """Write a scene with `numerics: auto` in place of its own; its path.
+
+    Parameters
+    ----------
+    scene : str
+        By name or path.
+    folder : Path
+    """
+    content = yaml.safe_load(find("scenes", scene).read_text(encoding="utf-8"))
+    path = folder / f"{content['scene']}_auto.yaml"
+    path.write_text(yaml.safe_dump({**content, "numerics": "auto"}, sort_keys=False), encoding="utf-8")
+    return str(path)
+
+
 def usage(pid: int) -> tuple[float, float]:
     """Read processor time [s] and resident memory [MB] of a process."""
     words = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
@@ -115,11 +137,14 @@ def main(words: Sequence[str] | None = None) -> int:
     """Measure and print a table."""
     parser = argparse.ArgumentParser(prog="python -m evidence.ros.costs", description=__doc__)
     parser.add_argument("--scene", default=FAKE, help=f"scene by name or path; default {FAKE}: no physics")
+    parser.add_argument("--auto", action="store_true", help="with `numerics: auto` in the scene")
     parser.add_argument("--seconds", type=float, default=60.0, help="simulated time (default 60)")
     args = parser.parse_args(words)
     with tempfile.TemporaryDirectory(prefix="costs-") as name, Graph(Path(name)) as graph:
-        span, found, values = costs(graph, args.scene, args.seconds, Path(name) / "run.mcap")
-    print(f"{args.scene}: {span:.1f} s simulated, pace {values.get('pace')}")
+        scene = automatic(args.scene, Path(name)) if args.auto else args.scene
+        span, found, values = costs(graph, scene, args.seconds, Path(name) / "run.mcap")
+    told = ", ".join(f"{key} {values.get(key)}" for key in ("pace", "late_blocks", "worst_lag"))
+    print(f"{args.scene}{' with numerics: auto' if args.auto else ''}: {span:.1f} s simulated, {told}")
     for each in found:
         print(
             f"{each.node:10}{each.cpu:7.3f} CPU-s/s {each.memory_before:8.1f} ->{each.memory_after:7.1f} MB"

@@ -20,6 +20,7 @@ SAMPLE_PERIOD_S = 2.0
 WARM_UP = 0.4  # of the time: buffers and pools fill, every branch has run
 LARGEST_GROWTH = 20.0  # MB in an hour: what a day may add is then less than half a gigabyte
 LOOP_S = 600.0
+CURVE_MIN = (1, 2, 5, 10, 20, 30, 40, 50, 60)  # when the memory of every node is told
 
 
 @dataclass(frozen=True)
@@ -58,11 +59,15 @@ def memory(
     start_all(graph, scene, output, speed, duration=LOOP_S, loop=True)
     times: list[float] = []
     found: list[list[float]] = []
+    moments = [60.0 * minutes for minutes in CURVE_MIN]
     begin = time.monotonic()
     while time.monotonic() - begin < seconds:
         graph.until(lambda: time.monotonic() >= begin + len(times) * SAMPLE_PERIOD_S, "the next look")
         times.append(time.monotonic() - begin)
         found.append([resident(graph.processes.pid(node)) for node in NODES])
+        if moments and times[-1] >= moments[0]:
+            each = ", ".join(f"{node} {mb:.1f}" for node, mb in zip(NODES, found[-1], strict=True))
+            print(f"after {moments.pop(0) / 60.0:g} min: {each} MB", flush=True)
         del graph.messages["/diagnostics"][:-50]
     simulated = float(graph.statuses("twin")[-1].value("simulated_time"))
     late = np.array(times) > WARM_UP * seconds

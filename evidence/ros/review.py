@@ -22,8 +22,8 @@ HEAD = """# The ROS graph: twelve faults, then and now
 
 Outside clients (ros2cli, launch, rosbags, mcap) found these faults in the nodes. `python -m
 evidence.ros.review --page` plays each again with real processes and writes this page. Real time and memory
-beside recorder and monitor are measured by `python -m evidence.ros.costs --scene cup_spall` and `python -m
-evidence.ros.memory`; nodes that are killed, starved and fed nonsense by `make soak`.
+beside recorder and monitor are measured by `python -m evidence.ros.costs --scene cup_spall --auto` and
+`python -m evidence.ros.memory`; nodes that are killed, starved and fed nonsense by `make soak`.
 
 | | fault | then | now | holds |
 |---|---|---|---|---|

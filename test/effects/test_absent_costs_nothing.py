@@ -62,8 +62,7 @@ CUT = {
     # coupled laminae, faults and waviness
     "_prepare_coupling": ("lanes, approach, laminae, damage, coupling", "None"),
     "find_damage": ("lanes, block, azimuths, count, surfaces, damage", "False"),
-    "spring_table": ("laminae, damage", "laminae"),
-    "spring_count": ("laminae, damage, coupling", "laminae.shape[1]"),
+    "springs_of": ("laminae, damage, coupling", "(laminae, laminae.shape[1])"),
     "spring_damage": ("lanes, spring, damage", "(1.0, 0.0)"),
     "_add_lean": ("lanes, lean, elastic, k, count, damage, coupling", "lean"),
     "_deepest_so_far": ("deepest, share, depth, damage", "deepest"),
