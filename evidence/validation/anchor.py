@@ -11,7 +11,8 @@ class Anchor:
     """A published number, its source, and how we come to ours.
 
     `topic` begins the row on the validation page; `tolerance` is relative, `absolute` adds to it; `misses`
-    says why ours is known to lie outside; `slow` rows are dynamic runs.
+    says why ours is known to lie outside; `slow` rows are dynamic runs. `beside`: ours is a formula of the
+    literature that stands in `evidence` alone; nothing in the simulator calls it, so it does not count.
     """
 
     topic: str
@@ -24,6 +25,7 @@ class Anchor:
     absolute: float = 0.0
     misses: str = ""
     slow: bool = False
+    beside: bool = False
 
     @property
     def allowed(self) -> float:

@@ -247,6 +247,7 @@ ANCHORS = (
         D_BRAIN,
         lambda: 1e6 * ball_on_inner_ring()[0],
         tolerance=1e-5,
+        beside=True,
     ),
     Anchor(
         "film thickness",
@@ -256,6 +257,7 @@ ANCHORS = (
         D_BRAIN,
         starvation_of_the_ball,
         tolerance=1e-5,
+        beside=True,
     ),
     Anchor(
         "film thickness",
@@ -265,6 +267,7 @@ ANCHORS = (
         D_BRAIN,
         lambda: 1e6 * ball_on_inner_ring()[0] * starvation_of_the_ball(),
         tolerance=1e-5,
+        beside=True,
     ),
     Anchor(
         "film thickness",
@@ -274,6 +277,7 @@ ANCHORS = (
         D_BRAIN,
         lambda: 1e6 * point_film_minimum(100.0, 10.0, 20e-3, 30e-3, 200e9, 40e-3, 2e-8),
         tolerance=1e-5,
+        beside=True,
     ),
     Anchor(
         "film thickness",
@@ -283,6 +287,7 @@ ANCHORS = (
         D_BRAIN,
         lambda: starvation_minimum(6e-4 * 2e-3, 2e-3, 6e-5, 6e-5),
         tolerance=1e-6,
+        beside=True,
     ),
     Anchor(
         "inlet heating",

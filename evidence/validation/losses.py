@@ -135,6 +135,7 @@ ANCHORS = (
         D_BRAIN,
         aihara_couple,
         1e-3,
+        beside=True,
     ),
     Anchor(
         "rolling couple",
@@ -144,6 +145,7 @@ ANCHORS = (
         D_BRAIN,
         lambda: 1e3 * houpert_point(ball_contact(), SEMI_MINOR),
         tolerance=1e-3,
+        beside=True,
     ),
     Anchor(
         "rolling couple",
@@ -153,6 +155,7 @@ ANCHORS = (
         D_BRAIN,
         lambda: 1e3 * fujiwara_point(ball_contact(), SEMI_MINOR / SEMI_MAJOR),
         tolerance=1e-3,
+        beside=True,
     ),
     *(
         Anchor(

@@ -145,6 +145,7 @@ ANCHORS = (
             "derived, numerical",
             partial(integral, extent),
             absolute=1e-3,
+            beside=True,
         )
         for name, integral, values in (
             ("J_r", radial_integral, (0.2050, 0.2448, 0.2525)),
@@ -160,6 +161,7 @@ ANCHORS = (
         HARRIS,
         lambda: radial_integral(0.5, 1.1),
         absolute=1e-3,
+        beside=True,
     ),
     Anchor(
         "load zone",
@@ -169,6 +171,7 @@ ANCHORS = (
         HARRIS,
         lambda: axial_integral(0.5, 1.1),
         absolute=1e-3,
+        beside=True,
     ),
     Anchor(
         "largest roller load",
@@ -196,6 +199,7 @@ ANCHORS = (
         ZHANG,
         lambda: published_model(1500.0, 5000.0),
         tolerance=1e-3,
+        beside=True,
     ),
     Anchor(
         "Zhang 2023",
@@ -205,6 +209,7 @@ ANCHORS = (
         ZHANG,
         lambda: solved_model(1500.0, 5000.0).largest_roller_load,
         tolerance=5e-3,
+        beside=True,
     ),
     Anchor("Zhang 2023", "its cone load", 1119.3, "N", ZHANG, lambda: zhang_triangle(0), tolerance=1e-3),
     Anchor("Zhang 2023", "its rib load", 198.9, "N", ZHANG, lambda: zhang_triangle(1), tolerance=1e-3),
@@ -277,6 +282,7 @@ ANCHORS = (
         HARRIS,
         lambda: curvature_sum(ball_curvature(False)),
         absolute=5e-4,
+        beside=True,
     ),
     Anchor(
         "curvature",
@@ -286,6 +292,7 @@ ANCHORS = (
         HARRIS,
         lambda: curvature_difference(ball_curvature(False)),
         tolerance=1e-3,
+        beside=True,
     ),
     Anchor(
         "curvature",
@@ -295,6 +302,7 @@ ANCHORS = (
         HARRIS,
         lambda: curvature_difference(ball_curvature(True)),
         tolerance=1e-3,
+        beside=True,
     ),
     *(
         Anchor(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import FunctionType
+from typing import Any
 
 import pytest
 
@@ -14,6 +16,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
 LINES = PAGE.splitlines()
 LARGEST_PICTURE = 60_000
+BESIDE = {f"evidence.validation.{name}" for name in ("ball_contact", "load_zone", "zhang")}
 
 
 @pytest.mark.parametrize("anchor", ANCHORS, ids=lambda anchor: f"{anchor.topic}-{anchor.quantity}")
@@ -39,7 +42,28 @@ def test_page_has_a_paragraph_for_the_trend_with_its_verdict_and_picture(trend: 
 
 def test_page_lists_nothing_else() -> None:
     rows = [line for line in LINES if line.startswith("| ")]
-    assert len(rows) == len(ANCHORS) + 1
+    assert len(rows) == len(ANCHORS) + 2
+    beside = LINES.index("## Formulas that the simulator does not use")
+    assert sum(line.startswith("| ") for line in LINES[beside:]) == 1 + sum(each.beside for each in ANCHORS)
     assert sum(line.startswith("### ") for line in LINES) == len(TRENDS)
     shown = LINES[LINES.index("## Not compared") + 2 :]
     assert shown == [unreached_line(label, why) for label, why in UNREACHED]
+
+
+@pytest.mark.parametrize("anchor", ANCHORS, ids=lambda anchor: f"{anchor.topic}-{anchor.quantity}")
+def test_a_row_counts_only_where_the_simulator_makes_the_number(anchor: Anchor) -> None:
+    assert anchor.beside == reaches_beside(anchor.ours, set())
+
+
+def reaches_beside(function: Any, seen: set[Any]) -> bool:
+    """Whether a function calls, itself or through others, a model that stands beside the simulator."""
+    function = getattr(function, "__wrapped__", getattr(function, "func", function))
+    if not isinstance(function, FunctionType) or function in seen:
+        return False
+    seen.add(function)
+    if function.__module__ in BESIDE:
+        return True
+    names = set(function.__code__.co_names) | set(function.__code__.co_freevars)
+    called = [function.__globals__[name] for name in names if name in function.__globals__]
+    called += [cell.cell_contents for cell in function.__closure__ or ()]
+    return any(reaches_beside(each, seen) for each in called)
