@@ -38,12 +38,11 @@ strikes in three of four revolutions: flats and polygons. A score adds five harm
 chance is stronger than all of its own and belongs to none of them.
 
 The formula of BSF is that of the mean diameters, with the common apex of a tapered bearing exactly the
-speed of pure rolling. The rollers of the twin spin so: in `roller_spall` spin against cage over BSF is
-1.0000 in the fast tiers and 0.9998 in the full one (0.999 to 1.001 above 2 kN of load, 0.997 to 1.002
-below, in means over 30 degrees), and over 1.7 s the line of the squared envelope lies 0.00 to 0.03 %
-below 2 BSF. One analysis knows a line only to its resolution, one over the revolutions: 0.064 orders or
-0.95 % of 2 BSF in the first one, of 15.5 revolutions, and 0.25 % over 60. The pattern as a whole was 0.06
-% off at most, in the first one too.
+speed of pure rolling. In `roller_spall` spin against cage over BSF is 1.000 in the fast tiers. In the
+full one it is 1.000 on average above 2 kN of load, and 0.997 over whole turns of the cage, because drag
+slows unloaded rollers. The line of the squared envelope lies within 0.1 % of twice the mean spin. One
+analysis knows a line only to its resolution, one over the revolutions: 0.064 orders or 0.95 % of 2 BSF in
+the first one, of 15.5 revolutions, and 0.25 % over 60.
 
 **The threshold is not tuned on this matrix.** In stationary noise the lines of a squared-envelope spectrum
 are independent and exponentially distributed over their local mean; the sum of L of them less the largest has

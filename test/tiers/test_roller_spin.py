@@ -29,7 +29,10 @@ def strongest_order(vertical: Float, rate: float, shaft_speed: float, low: float
 
 @pytest.mark.parametrize("tier", ["lumped", "quasistatic", pytest.param("full", marks=pytest.mark.slow)])
 def test_a_spalled_roller_strikes_at_twice_the_spin_of_pure_rolling(tier: str) -> None:
-    """And in the truth it spins so wherever it is loaded; unloaded it may drift by its friction."""
+    """It spins so wherever it is loaded; of the full tier, drag slows it where it is not.
+
+    The line lies at twice the spin of the truth over whole turns of the cage.
+    """
     scene = load_scene("roller_spall", tier=tier, duration=1.5)
     silent = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
     run = start(replace(scene, sensors=silent))
@@ -49,11 +52,11 @@ def test_a_spalled_roller_strikes_at_twice_the_spin_of_pure_rolling(tier: str) -
     spin, load = np.concatenate(spins) / shaft_speed / orders.bsf, np.concatenate(loads)
     assert np.allclose(spin[load > 2e3], 1.0, rtol=0.0, atol=5e-3)
     assert spin[load > 2e3].mean() == pytest.approx(1.0, abs=1e-3)
-    assert spin.mean() == pytest.approx(1.0, abs=1e-3)
+    assert spin.mean() == pytest.approx(1.0, abs=5e-3 if tier == "full" else 1e-9)
     vertical = np.concatenate([each.acceleration[:, 2] for each in readings])
     settled = vertical[round(SETTLED_S * readings[0].rate) :]
     found = strongest_order(settled, readings[0].rate, shaft_speed, 6.5, 7.1)
-    assert found == pytest.approx(2.0 * orders.bsf, rel=1e-3)
+    assert found == pytest.approx(2.0 * orders.bsf * spin.mean(), rel=1e-3)
 
 
 def first_axis(quaternion: Float) -> Float:
