@@ -25,8 +25,8 @@ TABLE = (
     "|---|---|---|---|---|---|---|---|",
 )
 BESIDE = (
-    "Published formulas and cases for other bearings, worked out beside the simulator, as references of its own\n"
-    "laws. They are not counted above."
+    "Published formulas and cases for other bearings, worked out beside the simulator, as references of its "
+    "own\nlaws. They are not counted above."
 )
 
 
