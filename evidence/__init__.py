@@ -8,6 +8,7 @@ santos2017  docs/santos2017.md: the runs of Santos (2017) again
 contacts    docs/contacts.md: the contact laboratory
 hard        docs/hard.md: situations in which codes of this kind break
 step        docs/step.md: chosen time steps beside an explicit one of 0.1 us
+light       docs/light.md: cages under light loads
 ladder      docs/ladder.md: what accuracy costs
 automatic   docs/automatic.md: what `effects: auto` chooses, on trial
 trial       docs/trial.md: the monitor on trial
