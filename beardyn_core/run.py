@@ -9,7 +9,7 @@ from typing import Annotated as A
 
 from beardyn_core.interrupts import sealed
 from beardyn_core.observe.block import Block
-from beardyn_core.rail.build import load_history
+from beardyn_core.rail.build import load_of_run
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
@@ -61,10 +61,10 @@ def start(scene: Scene, duration: float | None = None) -> Simulation:
         twin = Twin(scene)
         seconds = scene.duration if duration is None else duration
         count = max(1, math.ceil(seconds * 1e9 / twin.block_ns - 1e-6))
-        load = load_history(scene.operation, scene.mounting, count * twin.block_ns * 1e-9, scene.seed)
+        load = load_of_run(scene.operation, scene.mounting, count * twin.block_ns * 1e-9, scene.seed)
         twin.warm()
         twin.start(load)
-        return Simulation(twin, load, count)
+        return Simulation(twin, load.until(count * twin.block_ns), count)
 
 
 def blocks(scene: Scene, duration: float | None = None, at_once: int = 1) -> Iterator[Block]:

@@ -36,6 +36,8 @@ _SPIN_SHARE = 0.18
 _STANDARD_GRAVITY = 9.80665
 _DEEP_SLIP = 1.0
 _NEARLY_ALL = 0.5
+_THICKEST = 30.0 * math.log(2.0)
+_NO_LONGER_FITTED = 0.25e9  # largest Hertz pressure, [Pa]; all of Aihara's fit from twice that on
 
 
 @dataclass(frozen=True)
@@ -202,6 +204,10 @@ class Losses:
         load = float(self.static.cone_load.max())
         if film is None or self.speed == 0.0 or load <= 0.0:
             return 0.0
+        return self._film(film, load) / self.scene.bearing.raceway_roughness
+
+    def _film(self, film: LineFilm, load: float) -> float:
+        """Compute the film at the cone under a roller load, [m]."""
         scene, oil = self.scene, self.scene.lubricant
         viscosity = oil.dynamic_viscosity(scene.temperature)
         thickness = line_film(
@@ -222,7 +228,7 @@ class Losses:
         found = film.constant_share * factor * thickness
         if film.oil_layer is not None:
             found = starved_film(found, layer_thickness(film.oil_layer, viscosity, self._entrainment[1]))
-        return found / scene.bearing.raceway_roughness
+        return found
 
     def drive(
         self, traction: Traction | None, film: LineFilm | None, *, rolling: bool = True, drag: bool = True
@@ -292,30 +298,37 @@ class Losses:
         dry = law.boundary_friction * 2.0 / math.pi * np.arctan(law.boundary_slope * slips)
         force = np.zeros_like(slips)
         for load in loads:
-            wet = np.minimum(self._film_friction(law, float(load), slips), dry) if film is not None else dry
+            wet = dry if film is None else np.minimum(self._film_friction(law, film, float(load), slips), dry)
             force += load * (wet + (dry - wet) * asperities)
         return force
 
-    def _film_friction(self, law: LoadSharingTraction, load: float, slips: Float) -> Float:
+    def _film_friction(self, law: LoadSharingTraction, film: LineFilm, load: float, slips: Float) -> Float:
         """Compute the traction coefficient of the film over the slip.
 
         References
         ----------
-        Aihara (1987), as in `kernels.traction`; the other laws end near the limiting shear.
+        Aihara (1987), below the pressures of his tests Bair and Winer (1979), as in the kernels. Eyring's
+        ends near three times its stress.
         """
         scene, speed = self.scene, self._entrainment[1]
         radius = float(equivalent_radius(scene.bearing, np.zeros(1), "cone")[0])
         modulus = scene.bearing.material.contact_modulus
         pressure = math.sqrt(load / scene.bearing.effective_length * modulus / (2.0 * math.pi * radius))
-        if law.film_traction != "aihara":
-            largest = (
-                law.limiting_shear
-                if law.film_traction == "bair_winer"
-                else 3.0 * law.eyring_stress / pressure
-            )
-            return largest * (1.0 - np.exp(-slips / 1.0e-3))
+        if law.film_traction == "eyring":
+            return 3.0 * law.eyring_stress / pressure * (1.0 - np.exp(-slips / 1.0e-3))
+        mean = 0.25 * math.pi * pressure
+        oil, temperature = scene.lubricant, scene.temperature
+        thickening = min(oil.pressure_viscosity_at(temperature) * mean, _THICKEST)
+        viscous = (
+            oil.dynamic_viscosity(temperature) * math.exp(thickening) * speed / self._film(film, load) / mean
+        )
+        sheared: Float = law.limiting_shear * (1.0 - np.exp(-viscous / law.limiting_shear * slips))
+        if law.film_traction == "bair_winer":
+            return sheared
         cp, mm_s = 1e3 * scene.lubricant.dynamic_viscosity(scene.temperature), 1e3 * speed
         kgf = pressure / (1.0e6 * _STANDARD_GRAVITY)
         slide = min(1.2448e7 * cp**-1.5 * mm_s**-0.75 * kgf**-1.5, law.largest_slide)
         highest = 4.078e-2 * kgf**0.18 if kgf > 94.404 else 1.008e-4 * kgf**1.5
-        return highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
+        fitted = highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
+        share = min(max(math.log2(pressure / _NO_LONGER_FITTED), 0.0), 1.0)
+        return sheared + share * (fitted - sheared)

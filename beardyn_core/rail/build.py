@@ -12,7 +12,7 @@ from beardyn_core.rail.low_pass import decimated, thinning_kernel
 from beardyn_core.rail.measured import replayed
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift
 from beardyn_core.rail.vehicle import Ride, equivalent_displacement, quarter_vehicle, ride
-from beardyn_core.scene.load import LoadHistory, sampled_load
+from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory, sampled_load
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
     ConstantOperation,
@@ -67,6 +67,16 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
     if isinstance(operation, QuarterVehicleOperation):
         return _quarter_vehicle(operation, mounting, count, rate, seed)
     return replayed(operation, count, rate)
+
+
+def load_of_run(operation: Operation, mounting: Mounting, duration: float, seed: int) -> LoadHistory:
+    """Compute the load of a run, and what its last samples are interpolated from.
+
+    A computed load goes on for `LOOK_AHEAD` samples, so that a run does not depend on where it ends; a
+    measured one has nothing to go on with. Arguments as of `load_history`.
+    """
+    computed = isinstance(operation, ConstantOperation | SteppedOperation | QuarterVehicleOperation)
+    return load_history(operation, mounting, duration + computed * LOOK_AHEAD * SAMPLE_NS * 1e-9, seed)
 
 
 def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistory:

@@ -12,7 +12,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.rail.spectra import SHORT_WAVE_BAND, iso_3095_density, patch_gain, target_density
 from beardyn_core.rail.table import Column, Layout, read_table
-from beardyn_core.scene.band_limited import refined
+from beardyn_core.scene.chord_polynomials import refined
 from beardyn_core.scene.excitation import Irregularity
 from beardyn_core.scene.load import LOOK_AHEAD, UNEVENNESS
 

@@ -1,21 +1,22 @@
 """The scene: one bearing under one operation, with all that is asked of the run.
 
-============ ===============================================================================
-module       responsibility, in the order of the data
-============ =====================================================================
-excitation   irregularity of the rail; flats and waves of the wheel; joints, welds, crossings, corrugation
-running      speed profiles, curves; brake and drive of an axle
-operation    where load and speed come from
-load         load on the journal as samples
-load_check   what samples of load must be to be used
-band_limited interpolation between its samples without images of their rate
-load_buffer  the load as a stream: accepted, refused, interpolated
-mounting     axlebox, journal, suspension and guidance of a vehicle
-defect       patches, roller diameter, worn pocket
-waviness     harmonics of raceways and rollers
-sensor       accelerometers
-tier         which bodies move by their own equations of motion, how the full tier takes a time step
-scene        all of it, and what of it may be chosen
-trial        the matrix of scenes that a monitor is put to
-============ =====================================================================
+================= ================================================================================
+module            responsibility, in the order of the data
+================= ================================================================================
+excitation        irregularity of the rail; flats and waves of the wheel; joints, crossings, corrugation
+running           speed profiles, curves; brake and drive of an axle
+operation         where load and speed come from
+load              load on the journal as samples
+load_check        what samples of load must be to be used
+chord_polynomials from one even sample to the next without images of their rate
+band_limited      interpolation between samples, by these polynomials where they are even
+load_buffer       the load as a stream: accepted, refused, interpolated
+mounting          axlebox, journal, suspension and guidance of a vehicle
+defect            patches, roller diameter, worn pocket
+waviness          harmonics of raceways and rollers
+sensor            accelerometers
+tier              which bodies move by their own equations of motion, how the full tier takes a time step
+scene             all of it, and what of it may be chosen
+trial             the matrix of scenes that a monitor is put to
+================= ================================================================================
 """

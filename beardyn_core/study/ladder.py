@@ -20,7 +20,7 @@ from beardyn_core.bearing.kinematics import cage_speed_ratio
 from beardyn_core.effects import KinematicCage
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import describe
-from beardyn_core.rail.build import load_history
+from beardyn_core.rail.build import load_history, load_of_run
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Scene
 from beardyn_core.study.ladder_levels import Level, LevelList, expected_cost
@@ -86,7 +86,7 @@ def plan_of(scene: Scene, duration: float | None = None, settling: float | None 
         duration = _usual_duration(scene, max(scene.duration - settling - _DELAY, 0.5 * scene.duration))
     block = Twin.block_ns * 1e-9
     block_count = math.ceil(round((settling + duration + _DELAY) / block, 6))
-    load = load_history(scene.operation, scene.mounting, block_count * block, scene.seed)
+    load = load_of_run(scene.operation, scene.mounting, block_count * block, scene.seed)
     edges, revolutions = window_edges(
         load.time_ns.astype(np.float64) * 1e-9,
         cage_speed_ratio(scene.bearing) * np.abs(load.shaft_speed),

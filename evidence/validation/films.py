@@ -97,7 +97,7 @@ def dry() -> Parameters:
 
 def mixed_coefficient(film_parameter: float) -> float:
     """Compute Eq. 8 at full slip (20 m/s) and the entrainment speed that gives this film parameter."""
-    p = parameters(MixedTraction(), LineFilm())
+    p = parameters(MixedTraction(), LineFilm(supply="flooded"))
     load = 1000.0
     # the film grows with speed^0.7
     speed = 5.0 * (film_parameter * ROUGHNESS / film_and_friction(p, load, 20.0, 5.0)[0]) ** (1.0 / 0.7)
@@ -106,7 +106,7 @@ def mixed_coefficient(film_parameter: float) -> float:
 
 def aihara_coefficient(pressure: float, slip: float, speed: float) -> float:
     """Return the traction of a film without asperities under a largest pressure in kgf/mm2, speeds in m/s."""
-    p = parameters(LoadSharingTraction(), LineFilm())
+    p = parameters(LoadSharingTraction(inlet_shear=False), LineFilm(supply="flooded"))
     oil = load_lubricant("L055")
     oil = replace(oil, density=oil.density * 72.9029224284153e-3 / oil.dynamic_viscosity(343.15))
     aihara = aihara_params(oil, 343.15, LoadSharingTraction().largest_slide, p.laminae)
@@ -124,7 +124,7 @@ AIHARA = (
 
 def film_share(film_parameter: float) -> float:
     """Return the part of the load on the film: here it shears without stress, the asperities with 0.1."""
-    p = parameters(LoadSharingTraction(film_traction="bair_winer"), LineFilm())
+    p = parameters(LoadSharingTraction(film_traction="bair_winer", inlet_shear=False), LineFilm())
     sharing = sharing_of(p)
     assert sharing.bair_winer is not None
     film = film_and_friction(p, 500.0, 1.0, 5.0)[0]

@@ -15,7 +15,8 @@ from beardyn_core.rail.build import load_history
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.topics import NAMESPACE
-from beardyn_core.scene.band_limited import PASSED, interpolated
+from beardyn_core.scene.band_limited import interpolated
+from beardyn_core.scene.chord_polynomials import PASSED
 from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.mounting import Mounting

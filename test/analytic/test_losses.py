@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from beardyn_core.effects import Drag, EffectSet, RollingResistance, Seal
+from beardyn_core.effects import Drag, EffectSet, LineFilm, RollingResistance, Seal
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.torque import running_torque
 from beardyn_core.model.layout import (
@@ -36,7 +36,13 @@ from test.kernels.rig import LOAD_80_KN, SPEED, Rig, scene_with
 from test.kernels.test_step import cartesian, shaken
 
 Float = NDArray[np.float64]
-LOSSY = replace(EffectSet(), rolling_resistance=RollingResistance(), drag=Drag(), seal=Seal())
+LOSSY = replace(
+    EffectSet(),
+    film=LineFilm(supply="flooded"),
+    rolling_resistance=RollingResistance(),
+    drag=Drag(),
+    seal=Seal(),
+)
 SOURCES = (LOSS_ROLLING, LOSS_DRAG, LOSS_SEAL)
 
 

@@ -102,7 +102,7 @@ def test_a_narrow_patch_needs_more_laminae_than_a_sound_bearing() -> None:
 
 
 def test_rollers_that_skid_keep_the_law_of_friction_that_decides() -> None:
-    scene = variant(operation=constant([0, 0, 5]), quantities=["cage_speed"], mounting=HELD)
+    scene = variant(operation=constant([0, 0, 1]), quantities=["cage_speed"], mounting=HELD)
     assert scene.tier == "full"
     assert isinstance(scene.effects.traction, LoadSharingTraction)
     assert scene.effects.film is not None
@@ -145,8 +145,8 @@ def test_hot_oil_brings_the_asperities_together_so_that_a_light_load_does_not_sk
     )
     assert warm.tier == "full"
     assert hot.tier == "lumped"
-    assert "at a film of 1.61 times the roughness" in reasons(warm)["traction"]
-    assert "at a film of 0.51 times the roughness" in reasons(hot)["traction"]
+    assert "at a film of 1.78 times the roughness" in reasons(warm)["traction"]
+    assert "at a film of 0.71 times the roughness" in reasons(hot)["traction"]
 
 
 def test_a_crowned_roller_that_no_spring_follows_leads_to_the_quasistatic_tier() -> None:

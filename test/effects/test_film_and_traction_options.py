@@ -89,7 +89,7 @@ def test_option_not_taken_leaves_no_code(more: Any, less: Any) -> None:
 
 @pytest.mark.parametrize(
     "film",
-    [LineFilm(formula="pan_hamrock"), LineFilm(formula="dowson_toyoda"), LineFilm(starvation=0.3)],
+    [LineFilm(formula="pan_hamrock"), LineFilm(formula="dowson_toyoda"), LineFilm(layer=0.3e-6)],
 )
 def test_choice_of_formula_compiles_nothing_new(film: LineFilm) -> None:
     found(parameters(MixedTraction(), LineFilm()))

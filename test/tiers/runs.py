@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.choice import load_scene
-from beardyn_core.effects import Gravity
+from beardyn_core.effects import EffectSet, Gravity, LineFilm
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
@@ -22,8 +22,9 @@ FAST = ("lumped", "quasistatic")
 
 @cache
 def scene_of(name: str, tier: str) -> Scene:
-    """A shipped scene in a tier."""
-    return load_scene(name, tier=tier)
+    """A shipped scene in a tier, with enough oil, a dry rib and no drag."""
+    effects = replace(EffectSet(), film=LineFilm(supply="flooded"))
+    return replace(load_scene(name, tier=tier), effects=effects)
 
 
 @dataclass(frozen=True)
