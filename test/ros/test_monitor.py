@@ -18,7 +18,11 @@ def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_
         lambda: any(status.value("connected") == "true" for status in graph.statuses("monitor")),
         "the monitor's connection",
     )
-    heard = graph.node.get_subscriber_names_and_types_by_node("monitor", "/axlebox")
+    monitor = ("monitor", "/axlebox")
+    graph.until(
+        lambda: monitor in graph.node.get_node_names_and_namespaces(), "the monitor's name in the graph"
+    )
+    heard = graph.node.get_subscriber_names_and_types_by_node(*monitor)
     assert {name for name, _ in heard} - HOUSEKEEPING == ALLOWED
     graph.fake_load(duration=3.0)
     assert graph.exit_code("monitor") == 0
