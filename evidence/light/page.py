@@ -29,9 +29,10 @@ Catalogues ask for a load of at least {minimum_share:g} C on a roller bearing so
 {above:.1%}; below it `full` does at high speed. {verdict}
 """
 AHEAD = """
-Ahead of rolling by more than {limit:.1%}: {listed}. A dry rib drives rollers that hang on the cup between rib
-and cup, and they push the cage; with a rib without friction the ratio falls below 1. Above 1 % the status
-says so.
+Ahead of rolling by more than {limit:.1%}:
+{listed}.
+A dry rib drives rollers that hang on the cup between rib and cup, and they push the cage; `standard`, whose
+rib is lubricated, shows none of it. Above 1 % the status says so.
 """
 
 
@@ -54,7 +55,7 @@ def write(points: list[Point]) -> None:
         above=above,
         verdict=f"None runs back{'' if ahead else f', none ahead by more than {LARGEST_RATIO - 1.0:.1%}'}.",
     )
-    listed = ", ".join(
+    listed = ",\n".join(
         f"`{each.effects}` at {each.load_kn:g} kN and {each.speed_rpm:g} rpm ({each.ratio:.4f}"
         f"{', told' if each.told else ''})"
         for each in ahead
