@@ -27,7 +27,6 @@ pytestmark = pytest.mark.slow
 CUT = {
     # rolling resistance
     "prepare_rolling": ("contact, ring, view, body, rolling", "0.0"),
-    "stiffen_rolling": ("matrix, contact, step, rolling", "matrix"),
     "push_rolling": ("moment, contact, rolling", "moment"),
     "settle_rolling": ("ring, contact, change, total, here, rolling, p", "total"),
     # drag
