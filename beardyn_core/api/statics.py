@@ -20,12 +20,16 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies as frequencies_per_rev
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.effects import LineFilm, RollingResistance
+from beardyn_core.effects.film import SUPPLIES
 from beardyn_core.errors import InputError
 from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.torque import entrainment_speeds, running_torque
 from beardyn_core.model.laminae import equivalent_radius
+from beardyn_core.model.losses import oil_supply
 
 Load = float | Sequence[float]
 
@@ -122,6 +126,7 @@ def torque(
     lubricant: Lubricant | str = "L055",
     temperature_C: float = 70.0,
     rib_friction: float = _RIB_FRICTION,
+    supply: str = "settled",
     end_play_mm: float | None = None,
 ) -> Any:
     """Give the running torque of raceways and ribs against speed, in pure rolling.
@@ -137,6 +142,8 @@ def torque(
         At the inlets of the contacts.
     rib_friction : float
         Coefficient of friction on the ribs; 0.05 is assumed, of a rib that is well lubricated.
+    supply : str
+        Oil on the raceways, as in a scene: ``flooded``, or grease ``fresh``, ``settled``, ``channelled``.
 
     Returns
     -------
@@ -148,10 +155,20 @@ def torque(
     See `beardyn_core.integrate.torque.running_torque`.
     """
     chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
+    found = oil_supply(_film(supply))
 
     def one(rpm: float) -> float:
         static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=rpm)
-        return running_torque(chosen, oil, kelvin, static, rpm * _RPM, rib_friction=rib_friction).total
+        return running_torque(
+            chosen,
+            oil,
+            kelvin,
+            static,
+            rpm * _RPM,
+            form=RollingResistance().kind,
+            supply=found,
+            rib_friction=rib_friction,
+        ).total
 
     return _each("speed_rpm", speed_rpm, one)
 
@@ -217,6 +234,7 @@ def film(
     *,
     lubricant: Lubricant | str = "L055",
     temperature_C: float = 70.0,
+    supply: str = "settled",
     end_play_mm: float | None = None,
 ) -> dict[str, Float]:
     """Give the smallest film of every roller on both raceways in pure rolling.
@@ -230,12 +248,14 @@ def film(
     lubricant : Lubricant or str
     temperature_C : float
         At the inlets of the contacts.
+    supply : str
+        As in `torque`.
 
     Returns
     -------
     dict of str to float64 array, shape [row, roller]
-        ``cup`` and ``cone``, [m]; NaN where a roller carries nothing. Flooded, with the heat of the inlet;
-        divide by ``bearing.raceway_roughness`` for the film parameter lambda.
+        ``cup`` and ``cone``, [m]; NaN where a roller carries nothing. With the heat of the inlet; by
+        ``bearing.raceway_roughness`` for the film parameter lambda.
 
     References
     ----------
@@ -244,6 +264,7 @@ def film(
     chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
     static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm)
     viscosity, found = oil.dynamic_viscosity(kelvin), {}
+    oil_layer = _film(supply).oil_layer
     speeds = entrainment_speeds(chosen, speed_rpm * _RPM)
     for ring, loads, speed in zip(("cup", "cone"), (static.cup_load, static.cone_load), speeds, strict=True):
         loading = thermal_loading(viscosity, oil.temperature_coefficient, speed, oil.thermal_conductivity)
@@ -254,6 +275,8 @@ def film(
                 float(loads[place]) / chosen.effective_length, speed, radius,
                 chosen.material.contact_modulus, viscosity, oil.pressure_viscosity_at(kelvin),
             )  # fmt: skip
+        if oil_layer is not None and speed > 0.0:
+            films = starved_film(films, layer_thickness(oil_layer, viscosity, speed))
         found[ring] = films
     return found
 
@@ -314,3 +337,9 @@ def _kelvin(temperature_C: float) -> float:
     if not -60.0 <= temperature_C <= 200.0:
         raise InputError(f"temperature_C is {temperature_C:g}; it must be from -60 to 200")
     return temperature_C + _ZERO_CELSIUS
+
+
+def _film(supply: str) -> LineFilm:
+    if supply not in SUPPLIES:
+        raise InputError(f"supply is {supply!r}; allowed are {', '.join(SUPPLIES)}")
+    return LineFilm(supply=supply)

@@ -8,7 +8,11 @@ faster than their film: `starvation`.
 from __future__ import annotations
 
 from typing import Annotated as A
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
+
+from beardyn_core.arrays import Float
+
+Thickness = TypeVar("Thickness", float, Float)
 
 # Of the film over the layer, (1 + ratio^4)^(-1/4) times the flooded film.
 TRANSITION = 4.0
@@ -49,7 +53,7 @@ def layer_thickness(layer: float, viscosity: float, speed: float) -> float:
     return float(layer * (viscosity * speed / LAYER_LOAD) ** LAYER_EXPONENT)
 
 
-def starved_film(flooded: float, layer: float) -> float:
+def starved_film(flooded: Thickness, layer: float) -> Thickness:
     """Compute the film that a layer of oil leaves of the flooded one, [m].
 
     References
@@ -57,7 +61,7 @@ def starved_film(flooded: float, layer: float) -> float:
     Chevalier et al. (1998), ASME J. Tribol. 120, 126: r / (1 + r^g)^(1/g) of the flooded film, r the layer
     over it, g from 2 to 5 for point contacts, higher the less oil flows aside.
     """
-    return float(flooded / (1.0 + (flooded / layer) ** TRANSITION) ** (1.0 / TRANSITION))
+    return flooded / (1.0 + (flooded / layer) ** TRANSITION) ** (1.0 / TRANSITION)
 
 
 def layer_couple_shares(ratio: float) -> CoupleShares:

@@ -32,6 +32,8 @@ class OilSupply:
         """Compute the couple over that of a flooded inlet."""
         if self.layer is None:
             return couple_shares(self.film_share)
+        if contact.entrainment_speed == 0.0:
+            return CoupleShares(1.0, 1.0)  # of no couple
         layer = layer_thickness(self.layer, contact.viscosity, contact.entrainment_speed)
         return layer_couple_shares(max(flooded_film(contact, self.formula), rigid_film(contact)) / layer)
 

@@ -80,7 +80,7 @@ def starved_film(flooded, log2_rolling, layer):
 
     References
     ----------
-    Chevalier et al. (1998), see `bearing.starvation`.
+    Chevalier et al. (1998), see `bearing.oil_layer`.
     """
     if layer is None:
         return flooded

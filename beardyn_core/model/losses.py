@@ -67,7 +67,6 @@ class RollingParams(NamedTuple):
     hysteresis: HysteresisParams | None
     starved: StarvedRollingParams | None
     supply: float
-    regularisation: Any  # [ring] [rad/s]
     smallest_speed: float  # of entrainment, below which the couple falls to zero [m/s]
     force: Any  # [ring], around the ring on the roller, over the couple [1/m]
     sense: Any  # [ring], of the couple on the roller about the generator, +1 or -1
@@ -151,7 +150,6 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         hysteresis=hysteresis,
         starved=_starved(supply, units),
         supply=effect.supply,
-        regularisation=effect.regularisation_speed / radii,
         smallest_speed=effect.regularisation_speed,
         force=2.0 * math.cos(bearing.half_angle) / bearing.roller_diameter - 0.5 / radii,
         sense=np.array([-1.0, 1.0]),

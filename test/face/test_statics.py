@@ -45,6 +45,19 @@ def test_torque_rises_with_speed_and_load() -> None:
     assert bd.torque(BEARING, 600, rib_friction=0.0) < found[1]
 
 
+def test_less_oil_is_less_torque_and_less_film() -> None:
+    supplies = ("channelled", "settled", "fresh", "flooded")
+    assert (np.diff([bd.torque(BEARING, 1165, supply=supply) for supply in supplies]) > 0.0).all()
+    assert (
+        np.diff([np.nanmin(bd.film(BEARING, 1165, supply=supply)["cup"]) for supply in supplies]) > 0.0
+    ).all()
+    assert np.isfinite(bd.torque(BEARING, 0.0))
+    with pytest.raises(
+        bd.InputError, match="supply is 'wet'; allowed are flooded, fresh, settled, channelled"
+    ):
+        bd.torque(BEARING, 1165, supply="wet")
+
+
 def test_life_falls_with_load_by_the_exponent_of_the_standard() -> None:
     light, heavy = bd.life(BEARING, 40), bd.life(BEARING, 80)
     assert light.basic / heavy.basic == pytest.approx(2.0 ** (10 / 3))
