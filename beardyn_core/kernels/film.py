@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from beardyn_core.bearing.oil_layer import TRANSITION
 from beardyn_core.jit import inline
-from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude
+from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, log2_one_plus_exp2, magnitude
 from beardyn_core.model.layout import LAMINA_FILM
 
 _LOG2_LIGHTEST = -9.965784284662087  # 1 mN
@@ -76,7 +76,7 @@ def thicker_film(elastic, load_log2, log2_rolling, lamina, ring, rigid):
 
 @inline
 def starved_film(flooded, log2_rolling, layer):
-    """Thin a flooded film to what a layer of oil leaves of it, [log2 m].
+    """Thin a flooded film to what a layer of oil leaves of it, [log2 m], within 4e-5 of the formula.
 
     References
     ----------
@@ -85,7 +85,7 @@ def starved_film(flooded, log2_rolling, layer):
     if layer is None:
         return flooded
     ratio = flooded - layer.log2_thickness - layer.speed_exponent * log2_rolling
-    return flooded - log2(1.0 + exp2(TRANSITION * ratio)) / TRANSITION
+    return flooded - (1.0 / TRANSITION) * log2_one_plus_exp2(TRANSITION * ratio)
 
 
 @inline

@@ -168,6 +168,19 @@ def exp2(a):
 
 
 @inline
+def log2_one_plus_exp2(a):
+    """Take the binary logarithm of ``1 + 2 ** a``; absolute error below 2e-4, at a third of the cost of both.
+
+    The positive part of ``a`` plus an even rest, which has half the slope at zero: fitted for the least error.
+    """
+    t = magnitude(a)
+    t2 = t * t
+    root = (1.0 + 0.125 * t) + t2 * (0.017720076058528458 + t * 0.0007708004379662252 + t2 * 2.54198850e-05)
+    root2 = root * root
+    return at_least(a, 0.0) + 1.0 / (root2 * root2)
+
+
+@inline
 def wrap(angle):
     """Turn an angle by whole turns into [-pi, pi), [rad]."""
     return angle - 6.283185307179586 * floor(angle * 0.15915494309189535 + 0.5)

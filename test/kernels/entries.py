@@ -23,6 +23,7 @@ from beardyn_core.kernels.lane_math import (
     exp2,
     floor,
     log2,
+    log2_one_plus_exp2,
     magnitude,
     ninth_root,
     quick_ninth_root,
@@ -47,7 +48,7 @@ from beardyn_core.kernels.vectors import Wrench, subtract
 
 MATH_NAMES = (
     "ninth_root", "log2", "exp2", "wrap", "cos", "sin", "sqrt", "magnitude", "floor", "at_least", "at_most",
-    "where_greater", "negated", "quotient", "quick_ninth_root",
+    "where_greater", "negated", "quotient", "quick_ninth_root", "log2_one_plus_exp2",
 )  # fmt: skip
 
 
@@ -73,6 +74,7 @@ def lane_math(lanes: Any, values: Any, out: Any, bound: Any) -> None:
         lanes.store(out, case, 12, -a)
         lanes.store(out, case, 13, 1.0 / a)
         lanes.store(out, case, 14, quick_ninth_root(a))
+        lanes.store(out, case, 15, log2_one_plus_exp2(a))
 
 
 RACEWAY_INPUTS = 22  # centre, axis, ring axis, velocity, omega, ring velocity, ring omega, oversize

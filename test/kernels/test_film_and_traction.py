@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -10,11 +11,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from beardyn_core.effects import LineFilm
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.traction import CoulombParams, ShearedFilmParams
+from beardyn_core.scene.scene import Scene
 from test.kernels import naive
 from test.kernels.casting import through
 from test.kernels.entries import frictions
@@ -29,9 +32,15 @@ SLIP = 10.0 ** CASES.uniform(-6.0, 1.3, 200)
 ENTRAINMENT = 10.0 ** CASES.uniform(-2.0, 1.3, 200)
 
 
+def flooded_scene() -> Scene:
+    """The standard scene with enough oil: with little `test_traction_laws` compares the film."""
+    scene = standard_scene()
+    return replace(scene, effects=replace(scene.effects, film=LineFilm(supply="flooded")))
+
+
 @cache
 def parameters(sheared: bool = False) -> Parameters:
-    p = build_parameters(standard_scene(), Arrangement(17, 8), np.zeros(6))
+    p = build_parameters(flooded_scene(), Arrangement(17, 8), np.zeros(6))
     assert p.effects.mixed is not None
     if not sheared:
         return p
@@ -48,7 +57,7 @@ def results(p: Parameters, lanes: Any, lamina: int, ring: int, load: Any, slip: 
 @pytest.mark.parametrize("ring", [0, 1])
 def test_film_thickness_is_that_of_dowson_and_higginson(lanes: Any, ring: int) -> None:
     """Table and logarithms against the formula with every group spelled out; log2 errors of 1e-10 each."""
-    p, scene = parameters(), standard_scene()
+    p, scene = parameters(), flooded_scene()
     bearing, oil = scene.bearing, scene.lubricant
     assert scene.effects.film is not None
     for lamina in (0, 3, 5):
@@ -70,7 +79,7 @@ def test_mixed_friction_is_the_plain_blend(lanes: Any, ring: int, sheared: bool)
     p = parameters(sheared)
     found = results(p, lanes, 2, ring, LOAD, SLIP, ENTRAINMENT)[:, 1] * SLIP
     exact = [
-        lamina_friction(standard_scene(), p, ring, 2, q, s, u)
+        lamina_friction(flooded_scene(), p, ring, 2, q, s, u)
         for q, s, u in zip(LOAD, SLIP, ENTRAINMENT, strict=True)
     ]
     np.testing.assert_allclose(found, exact, rtol=1e-7)

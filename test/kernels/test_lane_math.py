@@ -51,6 +51,15 @@ def test_power_of_two_is_good_to_1e_10(lanes: Any) -> None:
     assert np.abs(results(exponents, lanes)["exp2"] / np.exp2(exponents) - 1.0).max() < 1e-10
 
 
+def test_soft_positive_part_is_good_to_2e_4_and_smooth_at_zero(lanes: Any) -> None:
+    values = np.concatenate([np.linspace(-60.0, 60.0, 24_001), [-900.0, 900.0]])
+    found = results(values, lanes)["log2_one_plus_exp2"]
+    assert np.abs(found - np.logaddexp2(0.0, values)).max() < 2e-4
+    assert (np.diff(found[:-2]) >= 0.0).all()
+    below, above = (results([sign * 1e-6], lanes)["log2_one_plus_exp2"][0] - 1.0 for sign in (-1.0, 1.0))
+    assert below / -1e-6 == pytest.approx(above / 1e-6, rel=1e-5)
+
+
 def test_cosine_and_sine_are_good_to_2e_15_within_a_few_turns(lanes: Any) -> None:
     angle = np.random.default_rng(4).uniform(-8.0 * np.pi, 8.0 * np.pi, 100_000)
     got = results(angle, lanes)

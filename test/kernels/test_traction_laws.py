@@ -29,17 +29,21 @@ from test.kernels.rig import standard_scene
 from test.kernels.test_raceway import SIDES, equivalent_radius
 
 LANES8 = Lanes(8)
+LAYER_ERROR = 4e-5  # of a film with little oil: a fit replaces one logarithm and one power
 CASES = np.random.default_rng(5)
 LOAD = 10.0 ** CASES.uniform(-3.0, 4.3, 200)
 SLIP = 10.0 ** CASES.uniform(-9.0, 1.3, 200)
 SPEED = 10.0 ** CASES.uniform(-3.0, 1.5, 200)
 
+ENOUGH = LineFilm(supply="flooded")
 FILMS = (
-    LineFilm(formula="pan_hamrock"),
-    LineFilm(formula="pan_hamrock_central", thermal="murch_wilson"),
+    replace(ENOUGH, formula="pan_hamrock"),
+    replace(ENOUGH, formula="pan_hamrock_central", thermal="murch_wilson"),
     LineFilm(formula="dowson_toyoda", thermal="wilson", starvation=1.0),
-    LineFilm(thermal="gupta_cheng"),
-    LineFilm(isoviscous=True),
+    replace(ENOUGH, thermal="gupta_cheng"),
+    replace(ENOUGH, isoviscous=True),
+    LineFilm(),
+    LineFilm(formula="pan_hamrock", layer=2e-6, isoviscous=True),
     LineFilm(formula="pan_hamrock", thermal="wilson", isoviscous=True, starvation=0.5),
 )
 LAWS = (
@@ -51,14 +55,14 @@ LAWS = (
 )
 SHARED = (
     (LoadSharingTraction(), LineFilm()),
-    (LoadSharingTraction(film_traction="eyring"), LineFilm()),
-    (LoadSharingTraction(film_traction="bair_winer"), LineFilm()),
-    (LoadSharingTraction(film_traction="eyring", eyring_stress=8e6), LineFilm(thickening="roelands")),
+    (LoadSharingTraction(film_traction="eyring"), ENOUGH),
+    (LoadSharingTraction(film_traction="bair_winer"), ENOUGH),
+    (LoadSharingTraction(film_traction="eyring", eyring_stress=8e6), replace(ENOUGH, thickening="roelands")),
     (
         LoadSharingTraction(film_traction="bair_winer", limiting_shear=0.08),
-        LineFilm(thickening="roelands", isoviscous=True, thermal="wilson"),
+        replace(ENOUGH, thickening="roelands", isoviscous=True, thermal="wilson"),
     ),
-    (LoadSharingTraction(film_traction="bair_winer", inlet_shear=True), LineFilm(isoviscous=True)),
+    (LoadSharingTraction(film_traction="bair_winer", inlet_shear=True), replace(ENOUGH, isoviscous=True)),
     (LoadSharingTraction(boundary_slope=200.0), None),
 )
 ALL = (
@@ -103,7 +107,7 @@ def test_film_with_each_option_is_the_plain_formula(film: LineFilm, ring: int) -
             naive_traction.film(q, u + 1e-3, lamina(number, ring), film)
             for q, u in zip(LOAD, SPEED, strict=True)
         ]
-        np.testing.assert_allclose(found, exact, rtol=3e-9)
+        np.testing.assert_allclose(found, exact, rtol=3e-9 if film.oil_layer is None else LAYER_ERROR)
 
 
 def test_rigid_film_rules_light_contacts_only() -> None:
@@ -131,7 +135,10 @@ def test_dry_friction_follows_its_named_law(lanes: Any, law: CoulombTraction) ->
 def test_shared_load_has_the_friction_of_the_plain_formulas(
     traction: LoadSharingTraction, film: LineFilm | None, ring: int
 ) -> None:
-    """Errors of exp2 and log2, 1e-9, times the exponents 1.2 and 1.8 and the series' 1e-7."""
+    """Errors of exp2 and log2, 1e-9, times the exponents 1.2 and 1.8 and the series' 1e-7.
+
+    That of a film of little oil, with up to the fifth power of the film in the blend.
+    """
     p = parameters(traction, film)
     for number in (0, 3):
         found = results(p, LANES8, number, ring, LOAD, SLIP, SPEED)[1] * SLIP
@@ -139,7 +146,8 @@ def test_shared_load_has_the_friction_of_the_plain_formulas(
             naive_traction.shared_friction(q, s, u + 1e-3, lamina(number, ring), traction, film)
             for q, s, u in zip(LOAD, SLIP, SPEED, strict=True)
         ]
-        np.testing.assert_allclose(found, exact, rtol=3e-7)
+        layered = film is not None and film.oil_layer is not None
+        np.testing.assert_allclose(found, exact, rtol=5.0 * LAYER_ERROR if layered else 3e-7)
 
 
 @pytest.mark.parametrize(("traction", "film"), SHARED[:6])
