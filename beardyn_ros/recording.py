@@ -26,6 +26,7 @@ STAMP_STEPS_NS = {"force": 2_500_000, "imu": 2_500_000, "shaft": 2_500_000, "joi
 UNSTAMPED = (STRING,)
 LIVE_LOAD = ("load/wrench", "load/shaft")  # stamped by the clock of their source, whichever that is
 SIMULATED = ("force", "force_waveform", "vibration", "imu", "shaft", "joint_states")
+DRAWN = ("bodies", "contacts")
 
 
 class LossWatch:
@@ -167,8 +168,9 @@ class Recording:
 
     Notes
     -----
-    Topics are not ordered among each other. After a new truth a topic still belongs to the old run
-    until its stamps jump back, which is when its part of the new run begins.
+    Topics are not ordered among each other: where the stamps of a topic jump back its part of the new run
+    begins. What comes before the truth of that run waits for it; what comes of the old run after that truth
+    still belongs to the old one.
     """
 
     def __init__(
@@ -184,6 +186,7 @@ class Recording:
         self._replace = replace
         self._namespace = namespace
         self._early: list[tuple[Topic, bytes]] = []
+        self._ahead: set[str] = set()
         self._old: RunFile | None = None
         self._switched: set[str] = set()
         self._old_since = 0.0
@@ -196,23 +199,43 @@ class Recording:
         if entry.name == "truth":
             self._on_truth(entry, cdr)
             return
-        if self.current is None:
+        if self.current is None or self._is_ahead(entry, cdr):
             self._early.append((entry, cdr))
             if len(self._early) > MESSAGES_BEFORE_TRUTH:
+                self._leave_current()
                 self._open(None)
             return
         self._file_for(entry, cdr).add(entry, cdr)
+
+    def _is_ahead(self, entry: Topic, cdr: bytes) -> bool:
+        """Tell whether a message is of a run whose truth has not come: its stamp has jumped back."""
+        assert self.current is not None
+        name = entry.name
+        if name in self._ahead:
+            return True
+        if not (name in SIMULATED or name in DRAWN or name.startswith("vibration/")):
+            return False
+        last = self.current.last_ns.get(name)
+        if last is None or header_stamp(cdr) > last:
+            return False
+        self._ahead.add(name)
+        return True
 
     def _on_truth(self, entry: Topic, cdr: bytes) -> None:
         text = decode_string(cdr)
         if self.current is not None and self.current.run_id == run_id_of(text):
             return
-        self._close_old()
-        if self.current is not None:
-            self._old, self._switched, self._old_since = self.current, set(), time.monotonic()
+        self._leave_current()
         self._open(text)
         assert self.current is not None
         self.current.add(entry, cdr)
+
+    def _leave_current(self) -> None:
+        """Keep the present run, if there is one, for its stragglers."""
+        self._close_old()
+        if self.current is not None:
+            self._old, self._switched, self._old_since = self.current, self._ahead, time.monotonic()
+        self._ahead = set()
 
     def _open(self, truth: str | None) -> None:
         scene = "run"

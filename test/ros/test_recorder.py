@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
-from beardyn_core.record.clouds import cloud_to_arrays
+from beardyn_core.record.clouds import cloud_to_arrays, encode_points
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import encode_string, header_stamp
 from beardyn_core.record.reading import read_run
@@ -22,6 +23,7 @@ from beardyn_ros.recording import Recording, free_name
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 
+NO_BODIES = np.zeros(0, dtype=[("sample", "<u4")])
 LIVE_ONLY = ("load/wrench", "load/shaft")
 ABSENT = (*LIVE_ONLY, "temperature")  # the scene has no thermal effect
 
@@ -225,3 +227,27 @@ def test_a_reset_never_writes_over_an_earlier_recording(tmp_path: Path) -> None:
     recording.close("")
     assert [path.name for path in recording.paths] == names
     assert (tmp_path / "run_2.mcap").read_text() == "of last week"
+
+
+@pytest.mark.parametrize("truth_after", range(4))
+def test_blocks_of_a_new_run_that_overtake_its_truth_are_in_its_file(
+    tmp_path: Path, truth_after: int
+) -> None:
+    """Topics are not ordered among each other; the truth of a run may come after its first blocks."""
+    recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
+
+    def truth(run_id: str) -> None:
+        recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": run_id})))
+
+    truth("one")
+    for block in range(5):
+        recording.add(topic("bodies"), encode_points(NO_BODIES, 20_000_000 * block, "axlebox"))
+    first = recording.current
+    for block in range(8):
+        if block == truth_after:
+            truth("two")
+        recording.add(topic("bodies"), encode_points(NO_BODIES, 20_000_000 * block, "axlebox"))
+    second = recording.current
+    assert first is not None and second is not None
+    recording.close("")
+    assert (first.counts["bodies"], second.counts["bodies"]) == (5, 8)
