@@ -230,9 +230,7 @@ def test_a_reset_never_writes_over_an_earlier_recording(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("truth_after", range(4))
-def test_blocks_of_a_new_run_that_overtake_its_truth_are_in_its_file(
-    tmp_path: Path, truth_after: int
-) -> None:
+def test_blocks_of_a_new_run_that_overtake_its_truth_stay_with_it(tmp_path: Path, truth_after: int) -> None:
     """Topics are not ordered among each other; the truth of a run may come after its first blocks."""
     recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
 
@@ -248,6 +246,7 @@ def test_blocks_of_a_new_run_that_overtake_its_truth_are_in_its_file(
             truth("two")
         recording.add(topic("bodies"), encode_points(NO_BODIES, 20_000_000 * block, "axlebox"))
     second = recording.current
-    assert first is not None and second is not None
+    assert first is not None
+    assert second is not None
     recording.close("")
     assert (first.counts["bodies"], second.counts["bodies"]) == (5, 8)
