@@ -107,6 +107,8 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
         def _reschedule(self, node: Any) -> None:
             """Give a process two tests, or tell it that there are no more: else it does not begin one."""
+            if node not in self.registered_collections:
+                return  # it has taken the place of one that died, and is still collecting
             super()._reschedule(node)
             while not node.shutting_down and self._pending_of(self.assigned_work[node]) < 2:
                 super()._reschedule(node)

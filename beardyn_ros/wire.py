@@ -21,6 +21,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 from beardyn_core.record.clouds import CLOUD
+from beardyn_core.record.messages import DIAGNOSTICS
 from beardyn_core.record.topics import Topic, topic
 
 # Our publishers keep more than the table promises: a reader that gets no processor for a second or two
@@ -29,6 +30,8 @@ HISTORY_FACTOR = 20
 PUBLISH_TRIES = 20
 PUBLISH_RETRY_S = 0.005
 DEEPEST_HISTORY = 4000
+# Diagnostics are large and come a few times a second by the wall clock: 20 s of them.
+DIAGNOSTICS_HISTORY_FACTOR = 2
 RECENT_S = 5.0
 LONGEST_SWEEP = 1000  # of one topic, then it is the turn of the next
 
@@ -60,7 +63,8 @@ def quality_of_service(
     depth = entry.depth or DEEPEST_HISTORY
     if offered and entry.durability == "volatile" and entry.depth > 0:
         # what is small and frequent is kept for as long as the blocks: ten seconds and more
-        depth = entry.depth * HISTORY_FACTOR if entry.type == CLOUD else DEEPEST_HISTORY
+        factors = {CLOUD: HISTORY_FACTOR, DIAGNOSTICS: DIAGNOSTICS_HISTORY_FACTOR}
+        depth = entry.depth * factors[entry.type] if entry.type in factors else DEEPEST_HISTORY
     return QoSProfile(
         depth=depth,
         # a publisher that kept all would wait for a reader that hangs, and with it everybody else

@@ -43,6 +43,23 @@ def test_after():
     pass
 """
 
+DIES = """
+import os, time
+
+if os.environ["PYTEST_XDIST_WORKER"] == "gw2":
+    time.sleep(1.0)  # of the two new processes one collects its tests later
+
+def test_before():
+    pass
+
+def test_dies():
+    time.sleep(1.0)  # until the other process is there too
+    os._exit(1)
+
+def test_after():
+    pass
+"""
+
 
 def test_a_file_has_one_process_and_the_longest_files_begin(
     repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -80,6 +97,17 @@ def test_a_test_that_hangs_in_c_ends_its_process_and_every_other_test_is_run(
     assert "1 failed, 3 passed" in done.stdout
     assert "FAILED test_a.py::test_hangs - worker" in done.stdout
     assert "in test_hangs" in done.stderr + done.stdout  # the traceback says where
+
+
+def test_when_all_processes_die_at_once_every_other_test_is_run(repository: Path, tmp_path: Path) -> None:
+    """As when memory is short: the new processes collect their tests one after the other."""
+    shutil.copy(repository / "conftest.py", tmp_path)
+    (tmp_path / "pytest.ini").write_text("[pytest]\n")
+    for name in "ab":
+        (tmp_path / f"test_{name}.py").write_text(DIES)
+    words = [sys.executable, "-m", "pytest", "-rA", "-n", "2", "-p", "no:cacheprovider", str(tmp_path)]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert "2 failed, 4 passed" in done.stdout
 
 
 def test_files_that_begin_exist(repository: Path) -> None:
