@@ -93,7 +93,8 @@ class Graph:
         profile = Path(environment[PROFILE_VARIABLES[0]]).read_text()
         assert USUAL_LEASE in profile
         short = self.folder / "short_lease.xml"
-        short.write_text(profile.replace(USUAL_LEASE, SHORT_LEASE))
+        announced = "<leaseAnnouncement><sec>"
+        short.write_text(profile.replace(USUAL_LEASE, SHORT_LEASE).replace(f"{announced}3", f"{announced}1"))
         environment[PROFILE_VARIABLES[0]] = str(short)
 
     def start(self, name: str, module: str, *words: str, **parameters: object) -> None:
