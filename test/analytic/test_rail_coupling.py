@@ -37,8 +37,8 @@ def test_journal_accelerates_as_in_the_rail_model_below_50_hz() -> None:
     ours = below_50_hz(np.gradient(speed, 1.0 / SNAPSHOT_RATE))
 
     ride, step = ride_of(scene.operation, scene.mounting, DURATION, scene.seed)
-    rail_time = np.arange(len(ride.wheel)) * step
-    rail_speed = np.interp(time, rail_time, np.gradient(ride.wheel, step))
+    rail_time = np.arange(len(ride.journal)) * step
+    rail_speed = np.interp(time, rail_time, np.gradient(ride.journal, step))
     theirs = below_50_hz(np.gradient(rail_speed, 1.0 / SNAPSHOT_RATE))
 
     judged = (time > SETTLED) & (time < DURATION - 0.1)
