@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Annotated as A
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from beardyn_core.arrays import Float
@@ -58,9 +59,14 @@ class Modes:
 
     def first(self, count: int) -> Modes:
         """Keep the lowest modes."""
-        shapes = (self.wheel, self.wheel_slope, self.journal, self.journal_slope)
-        kept = (shape[:count] for shape in (self.frequency, *shapes))
-        return Modes(*kept, self.mass, self.rigid, self.damping_ratio)
+        return replace(
+            self,
+            frequency=self.frequency[:count],
+            wheel=self.wheel[:count],
+            wheel_slope=self.wheel_slope[:count],
+            journal=self.journal[:count],
+            journal_slope=self.journal_slope[:count],
+        )
 
     def below(self, highest: float) -> Modes:
         """Keep the modes below a frequency [Hz]."""
@@ -88,9 +94,14 @@ class Modes:
         def with_two(shape: Float) -> Float:
             return np.concatenate([shape[:count], shape[count:] @ yielding @ mixed])
 
-        shapes = (self.wheel, self.wheel_slope, self.journal, self.journal_slope)
-        frequency = np.concatenate([self.frequency[:count], np.sqrt(left) / (2.0 * np.pi)])
-        return Modes(frequency, *map(with_two, shapes), self.mass, self.rigid, self.damping_ratio)
+        return replace(
+            self,
+            frequency=np.concatenate([self.frequency[:count], np.sqrt(left) / (2.0 * np.pi)]),
+            wheel=with_two(self.wheel),
+            wheel_slope=with_two(self.wheel_slope),
+            journal=with_two(self.journal),
+            journal_slope=with_two(self.journal_slope),
+        )
 
 
 def bending_modes(operation: QuarterVehicleOperation, mounting: Mounting) -> Modes | None:
@@ -119,7 +130,7 @@ class Shaft:
     outer: A[Float, "shape [element], diameter, [m]"]
     bore: A[float, "[m]"]
     damping_ratio: A[float, "of each mode"]
-    place: A[Float, "shape [body], nodes of the rigid bodies"]
+    place: A[NDArray[np.int64], "shape [body], nodes of the rigid bodies"]
     mass: A[Float, "shape [body], what belongs to this half, [kg]"]
     polar: A[Float, "shape [body], inertia about the axle, [kg m^2]"]
     wheel: A[int, "node of the wheel"]
@@ -172,7 +183,7 @@ def shaft(wheelset: Wheelset, half_mass: float, radius: float, arm: float, box_m
     at = np.array([*discs, HALF_GAUGE, arm])
     mass = np.array([*(shares * wheelset.disc_mass), wheel, box_mass])
     gyration = np.array([wheelset.disc_gyration] * len(discs) + [wheelset.wheel_gyration * radius, 0.0])
-    place = np.searchsorted(node, at - 1e-9)
+    place = np.searchsorted(node, at - 1e-9).astype(np.int64)
     return Shaft(
         node,
         outer,

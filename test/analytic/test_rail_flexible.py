@@ -19,7 +19,7 @@ from beardyn_core.rail.flexible import (
     with_modes,
 )
 from beardyn_core.rail.lateral import lateral_motion, lateral_vehicle
-from beardyn_core.rail.wheelset import HALF_GAUGE, bending, half_shaft, torsion
+from beardyn_core.rail.wheelset import HALF_GAUGE, Shaft, bending, half_shaft, torsion
 from beardyn_core.scene.mounting import Guidance, Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation
 from beardyn_core.scene.running import Curve
@@ -31,9 +31,21 @@ CURVE = (Curve(250.0, 0.05, 5.0, 60.0, 15.0, "right"),)
 RADIUS = 0.46
 
 
+def half_axle() -> Shaft:
+    half = half_shaft(OPERATION, MOUNTING, MOUNTING.box_mass)
+    assert half is not None
+    return half
+
+
+def elastic(operation: QuarterVehicleOperation) -> FlexibleVehicle:
+    vehicle = flexible_vehicle(operation, MOUNTING)
+    assert vehicle is not None
+    return vehicle
+
+
 def few(operation: QuarterVehicleOperation) -> FlexibleVehicle:
     """Two bending modes a plane and one of torsion: slow enough for a plain integration."""
-    half = half_shaft(operation, MOUNTING, MOUNTING.box_mass)
+    half = half_axle()
     return with_modes(
         operation, MOUNTING, half, bending(half, 900.0, symmetric=False).first(2), torsion(half).first(1)
     )
@@ -42,7 +54,7 @@ def few(operation: QuarterVehicleOperation) -> FlexibleVehicle:
 def plain_motion(operation, vehicle, speed, plan, times, every):
     """Forces of each wheel and flange one by one, at contacts that go where the wheelset lets them."""
     guidance, share = operation.vehicle.guidance, vehicle.rigid
-    half = half_shaft(operation, MOUNTING, MOUNTING.box_mass)
+    half = half_axle()
     bent, twisted = bending(half, 900.0, symmetric=False).first(2), torsion(half).first(1)
     size = len(vehicle.mass)
 
@@ -102,13 +114,14 @@ def test_a_flexible_sway_is_that_of_a_plain_integration():
     step = 2.5e-4
     time = np.arange(12_000) * step
     vehicle, speed = few(OPERATION), np.full(len(time), 25.0)
-    plan = course(CURVE, 25.0 * time, speed)
+    plan = course(CURVE, np.asarray(25.0 * time, dtype=np.float64), speed)
     swayed = flexible_motion(vehicle, speed, plan, np.zeros(len(time)), step)
     plain = plain_motion(OPERATION, vehicle, 25.0, plan, time, 40)
     assert np.abs(plain[:, 0]).max() > 5e-3
     for axis in range(4):
         assert np.abs(swayed.motion[::40, axis] - plain[:, axis]).max() < 0.02 * np.abs(plain[:, axis]).max()
     tilt = plain @ vehicle.tilt
+    assert swayed.flexing is not None
     assert np.abs(tilt).max() > 1e-5
     assert np.abs(swayed.flexing.tilt[::40] - tilt).max() < 0.03 * np.abs(tilt).max()
 
@@ -117,8 +130,8 @@ def test_a_stiff_wheelset_on_a_stiff_track_is_the_rigid_one():
     step = 2.5e-4
     time = np.arange(12_000) * step
     speed = np.full(len(time), 25.0)
-    plan = course(CURVE, 25.0 * time, speed)
-    half = half_shaft(OPERATION, MOUNTING, MOUNTING.box_mass)
+    plan = course(CURVE, np.asarray(25.0 * time, dtype=np.float64), speed)
+    half = half_axle()
     bent, twisted = bending(half, 900.0, symmetric=False), torsion(half)
     vehicle = with_modes(OPERATION, MOUNTING, half, bent.first(0), twisted.first(0))
     hard = vehicle.stiffness.copy()
@@ -151,20 +164,21 @@ def rates(vehicle: FlexibleVehicle, speed: float) -> np.ndarray:
 @pytest.mark.parametrize("name", VEHICLES)
 def test_no_hunting_up_to_400_kmh(name, conicity):
     loaded = dataclasses.replace(load_vehicle(name), guidance=Guidance(conicity=conicity))
-    vehicle = flexible_vehicle(dataclasses.replace(OPERATION, vehicle=loaded), MOUNTING)
+    vehicle = elastic(dataclasses.replace(OPERATION, vehicle=loaded))
     for speed in np.geomspace(1.0, 400 / 3.6, 12):
         assert np.linalg.eigvals(rates(vehicle, speed)).real.max() < 0.0
 
 
 def test_a_push_at_the_flange_tilts_the_journal_and_dies_away():
     """Energy of roll, bending and torsion only leaves: damping and creep take it."""
-    vehicle = flexible_vehicle(OPERATION, MOUNTING)
+    vehicle = elastic(OPERATION)
     steps = 20_000
     speed = np.full(steps, 55.0)
-    plan = course((), 55.0 * np.arange(steps) / RIDE_RATE, speed)
+    plan = course((), np.asarray(55.0 / RIDE_RATE * np.arange(steps), dtype=np.float64), speed)
     kink = np.zeros(steps)
     kink[2000:3000] = 8e-3  # the track jumps aside, onto the flange, for 25 ms
     swayed = flexible_motion(vehicle, speed, plan, kink, 1.0 / RIDE_RATE)
+    assert swayed.flexing is not None
     swing = [np.abs(swayed.flexing.tilt[n : n + 2000]).max() for n in range(2000, steps, 2000)]
     assert swing[0] > 1e-4
     assert swing[-1] < 0.02 * swing[0]

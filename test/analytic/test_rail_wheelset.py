@@ -27,6 +27,14 @@ SMOOTH = QuarterVehicleOperation(load_vehicle("emu_300"), Irregularity("none"), 
 RIGID = dataclasses.replace(SMOOTH, wheelset="rigid")
 
 
+def half_of(
+    operation: QuarterVehicleOperation = SMOOTH, mounting: Mounting = MOUNTING, box: float = 0.0
+) -> Shaft:
+    half = half_shaft(operation, mounting, box)
+    assert half is not None
+    return half
+
+
 def bare(length: float, diameter: float) -> Shaft:
     """Half of a uniform bar."""
     node = np.linspace(0.0, 0.5 * length, 61)
@@ -80,8 +88,7 @@ def end_forces(half: Shaft, frequency: float, symmetric: bool) -> float:
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_modes_of_a_wheelset_are_those_of_its_transfer_matrix(symmetric):
     """The same beam and bodies by another method, without interpolation within elements."""
-    half = half_shaft(SMOOTH, MOUNTING, 0.0 if symmetric else 100.0)
-    assert half is not None
+    half = half_of(box=0.0 if symmetric else 100.0)
     modes = bending(half, 900.0, symmetric)
     for frequency in modes.frequency[:5]:
         root = brentq(lambda f: end_forces(half, f, symmetric), 0.995 * frequency, 1.005 * frequency)
@@ -89,9 +96,9 @@ def test_modes_of_a_wheelset_are_those_of_its_transfer_matrix(symmetric):
 
 
 def test_another_mesh_gives_the_same_modes(monkeypatch):
-    coarse = bending(half_shaft(SMOOTH, MOUNTING, 0.0), 900.0, symmetric=True).frequency[:6]
+    coarse = bending(half_of(), 900.0, symmetric=True).frequency[:6]
     monkeypatch.setattr(subject, "_LONGEST_ELEMENT", 0.005)
-    fine = bending(half_shaft(SMOOTH, MOUNTING, 0.0), 900.0, symmetric=True).frequency[:6]
+    fine = bending(half_of(), 900.0, symmetric=True).frequency[:6]
     assert coarse == pytest.approx(fine, rel=2e-3)
 
 
@@ -101,7 +108,7 @@ def test_another_mesh_gives_the_same_modes(monkeypatch):
 def test_the_half_wheelset_has_the_mass_of_the_mounting(name, total):
     """The wheel has what axle and discs leave, and that is what a wheel may weigh."""
     operation = dataclasses.replace(SMOOTH, vehicle=load_vehicle(name))
-    half = half_shaft(operation, dataclasses.replace(MOUNTING, journal_mass=total), 0.0)
+    half = half_of(operation, dataclasses.replace(MOUNTING, journal_mass=total))
     _, mass = subject.beam_matrices(half)
     rigid = np.zeros(len(mass))
     rigid[0::2] = 1.0
@@ -114,11 +121,11 @@ class DenseBeam:
 
     def __init__(self, operation: QuarterVehicleOperation) -> None:
         self.vehicle: QuarterVehicle = quarter_vehicle(operation, MOUNTING)
-        self.half = half_shaft(operation, MOUNTING, 0.0)
+        self.half = half_of(operation)
         beam_stiffness, beam_mass = subject.beam_matrices(self.half)
-        keep = np.delete(np.arange(len(beam_mass)), 1)
-        self.wheel = 3 + list(keep).index(2 * self.half.wheel)
-        self.journal = 3 + list(keep).index(2 * self.half.journal)
+        keep = [n for n in range(len(beam_mass)) if n != 1]
+        self.wheel = 3 + keep.index(2 * self.half.wheel)
+        self.journal = 3 + keep.index(2 * self.half.journal)
         self.tilt = self.journal + 1
         count = 3 + len(keep)
         # body, bogie, box, then the axle
@@ -156,6 +163,7 @@ def measured(vehicle: QuarterVehicle, frequency: float) -> tuple[complex, comple
 
 
 def undamped(operation: QuarterVehicleOperation) -> QuarterVehicleOperation:
+    assert operation.vehicle.wheelset is not None
     wheelset = dataclasses.replace(operation.vehicle.wheelset, damping_ratio=0.0)
     return dataclasses.replace(operation, vehicle=dataclasses.replace(operation.vehicle, wheelset=wheelset))
 
@@ -295,7 +303,6 @@ def test_a_half_wheelset_lighter_than_its_axle_is_refused():
     ],
 )
 def test_a_wheelset_that_cannot_be_is_refused(change, words):
-    good = {"axle_diameter": 0.17, "seat_diameter": 0.19, "collar_diameter": 0.16, "journal_diameter": 0.13}
-    Wheelset(**good)
+    good = Wheelset(axle_diameter=0.17, seat_diameter=0.19, collar_diameter=0.16, journal_diameter=0.13)
     with pytest.raises(InputError, match=words):
-        Wheelset(**good, **change)
+        dataclasses.replace(good, **change)
