@@ -9,9 +9,11 @@ low_pass     symmetric low-pass filters
 irregularity random-phase or measured profile over the distance
 excitation   defects of wheel and rail over the distance
 track        the rail as standing waves of a long beam on two layers of seats
+wheelset     free modes of a wheelset from its dimensions
 vehicle      vertical share of one axlebox on its springs and its rail, contact that can open
 course       curvature and cant over the run, load transfer to the outer side
 lateral      wheelset, bogie and body sideways: creep, conicity, flanges
+flexible     the same with a wheelset that rolls on its rails, bends and twists
 running      what curves, alignment, braking and starting add to load and bogie motion
 measured     load and speed from a CSV file or a recording
 build        any `scene.operation.Operation` to a `scene.load.LoadHistory`

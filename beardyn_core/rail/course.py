@@ -9,12 +9,10 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, GRAVITY, WHEEL
+from beardyn_core.rail.wheelset import HALF_GAUGE
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.running import Curve
-
-# half the distance of the rolling circles; cant is measured over twice of it
-HALF_GAUGE = 0.75
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,9 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
-from beardyn_core.rail.course import HALF_GAUGE, Course
+from beardyn_core.rail.course import Course
 from beardyn_core.rail.vehicle import GRAVITY, linked
+from beardyn_core.rail.wheelset import HALF_GAUGE
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 
@@ -45,6 +46,15 @@ class LateralVehicle:
 
 
 @dataclass(frozen=True)
+class Flexing:
+    """What roll and bending of a wheelset add to the motion of the left journal."""
+
+    rise: A[Float, "shape [step], upwards, beyond the vertical model, [m]"]
+    tilt: A[Float, "shape [step], its end upwards, [rad]"]
+    back: A[Float, "shape [step], backwards, beyond yaw, [m]"]
+
+
+@dataclass(frozen=True)
 class LateralMotion:
     """Lateral response on a uniform time grid; positive to the left."""
 
@@ -58,6 +68,7 @@ class LateralMotion:
         "shape [step], about z, that would yaw the half wheelset likewise if its mass were at the bearing, "
         "[N m]",
     ]
+    flexing: A[Flexing | None, "``None``: a rigid wheelset that does not roll"] = None
 
 
 def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> LateralVehicle:
@@ -143,7 +154,7 @@ def lateral_motion(
 
 
 @inline
-def _wheel(contact, speed, curvature, aside, aside_speed, yaw, yaw_speed):
+def wheel_grip(contact, speed, curvature, aside, aside_speed, yaw, yaw_speed):
     """Find the share of linear creep that friction allows, and the regularised sign and speed of rolling."""
     rolling = np.sqrt(speed * speed + _WALK * _WALK)
     sign = speed / rolling
@@ -180,7 +191,7 @@ def _run(mass, stiffness, damping, contact, speed, curvature, lean, alignment, s
         motion[n] = place
         shift = (alignment[n] - alignment[max(n - 1, 0)]) / step
         aside = place[SIDEWAYS] - alignment[n]
-        rolling, sign, share = _wheel(
+        rolling, sign, share = wheel_grip(
             contact, speed[n], curvature[n], aside, rate[SIDEWAYS], place[YAW], rate[YAW]
         )
         for i in range(4):

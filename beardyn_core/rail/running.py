@@ -9,8 +9,9 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.rail.course import Course, course, load_transfer
+from beardyn_core.rail.flexible import flexible_motion, flexible_vehicle
 from beardyn_core.rail.irregularity import rail_profile
-from beardyn_core.rail.lateral import FRAME, LateralMotion, lateral_motion, lateral_vehicle
+from beardyn_core.rail.lateral import FRAME, Flexing, LateralMotion, lateral_motion, lateral_vehicle
 from beardyn_core.rail.vehicle import BOGIE, WHEEL, equivalent_displacement
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
@@ -64,13 +65,16 @@ def running(
         profile = rail_profile(operation.irregularity, float(np.ptp(position)), seed, "lateral")
         alignment = profile.height_at(position)
         step = float(time[1] - time[0])
-        swayed = lateral_motion(
-            lateral_vehicle(operation, mounting), speed, plan, (alignment - alignment[0]) * fade, step
-        )
+        profiled = (alignment - alignment[0]) * fade
+        flexible = flexible_vehicle(operation, mounting)
+        if flexible is None:
+            swayed = lateral_motion(lateral_vehicle(operation, mounting), speed, plan, profiled, step)
+        else:
+            swayed = flexible_motion(flexible, speed, plan, profiled, step)
     return Running(plan, pulled, swayed, push)
 
 
-def journal_force(run: Running, operation: QuarterVehicleOperation, mounting: Mounting) -> Float:
+def journal_force(run: Running, operation: QuarterVehicleOperation, mounting: Mounting, step: float) -> Float:
     """Compute the load on the journal besides the vertical wheel-rail force, shape [step, 3], [N].
 
     What acts on the half wheelset beyond its own inertia in the twin, which knows no curve and no
@@ -85,7 +89,31 @@ def journal_force(run: Running, operation: QuarterVehicleOperation, mounting: Mo
         arm = 0.5 * operation.vehicle.guidance.axlebox_spacing
         force[:, 1] = run.sway.rail_force + mounting.journal_mass * run.plan.lean
         force[:, 0] -= run.sway.yaw_moment / arm
+        if run.sway.flexing is not None:
+            force += _by_bending(run.sway.flexing, mounting, step)
     return force
+
+
+def _by_bending(flexing: Flexing, mounting: Mounting, step: float) -> Float:
+    """Compute what moves journal and axlebox of the twin as roll and bending of the wheelset do, [N]."""
+    mass = mounting.journal_mass + mounting.box_mass
+    speed = np.gradient(flexing.back, step)
+    force = np.zeros((len(speed), 3))
+    force[:, 0] = -mass * np.gradient(speed, step)
+    force[:, 0] -= mounting.stiffness[0] * flexing.back + mounting.damping[0] * speed
+    force[:, 2] = mass * np.gradient(np.gradient(flexing.rise, step), step)
+    return force
+
+
+def tilting_moment(tilt: Float, mounting: Mounting, step: float) -> Float:
+    """Compute the moment about x that tilts the journal of the twin, with its axlebox, as given [rad], [N m].
+
+    The twin's journal is held by the axlebox alone. Steps in [s].
+    """
+    speed = np.gradient(tilt, step)
+    inertia = mounting.journal_inertia + mounting.box_inertia[0]
+    held = mounting.rotational_stiffness[0] * tilt + mounting.rotational_damping[0] * speed
+    return np.asarray(inertia * np.gradient(speed, step) + held)
 
 
 def suspension_shift(run: Running, mounting: Mounting, step: float) -> Float:

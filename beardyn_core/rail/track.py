@@ -48,6 +48,13 @@ class RailWaves:
         waves = np.sum(1.0 / (self.share * (self.stiffness + below)))
         return 1.0 / float(waves + self.residual_flexibility)
 
+    def receptance(self, frequency: float) -> complex:
+        """Compute how far the rail under the wheel goes with an oscillating force, [m/N], at [Hz]."""
+        turn = 2j * np.pi * frequency
+        give = self.residual_flexibility / (1.0 + turn * self.residual_time)
+        waves = np.linalg.inv(turn * np.eye(6) - self.rates())[:, 0, 3]
+        return complex(give + np.sum(self.inverse_mass * waves))
+
     def rates(self) -> Float:
         """Build the state matrices of the waves, displacements before speeds, shape [wave, 6, 6]."""
         stiffness = _chain(self.seats)[None] + np.zeros((len(self.share), 3, 3))

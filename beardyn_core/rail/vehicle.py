@@ -14,6 +14,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.jit import entry, inline
 from beardyn_core.rail.low_pass import first_order
 from beardyn_core.rail.track import RailWaves, rail_waves
+from beardyn_core.rail.wheelset import Modes, bending_modes
 from beardyn_core.scene.mounting import Mounting, ProgressiveSuspension
 from beardyn_core.scene.operation import QuarterVehicleOperation
 
@@ -86,11 +87,15 @@ _CONTACT_FIT = {"worn": (3.86e-8, -0.115), "cone": (4.57e-8, -0.149)}
 
 @dataclass(frozen=True)
 class QuarterVehicle:
-    """Body and bogie share, half wheelset, axlebox and the rail: displacements from static."""
+    """Body and bogie share, half wheelset, axlebox and the rail: displacements from static.
 
-    mass: A[Float, "shape [4], in the order `BODY`, `BOGIE`, `WHEEL`, `BOX`, [kg]"]
-    stiffness: A[Float, "shape [4, 4], without the wheel-rail contact, [N/m]"]
-    damping: A[Float, "shape [4, 4], the same, [N s/m]"]
+    Where the wheelset bends, `WHEEL` is its motion as a rigid body.
+    """
+
+    mass: A[Float, "shape [4 + mode], `BODY`, `BOGIE`, `WHEEL`, `BOX` and bending modes, [kg]"]
+    stiffness: A[Float, "shape [4 + mode, 4 + mode], without the wheel-rail contact, [N/m]"]
+    damping: A[Float, "shape [4 + mode, 4 + mode], the same, [N s/m]"]
+    bending: A[Modes | None, "of the wheelset, both wheels alike; ``None``: rigid"]
     rail: A[RailWaves, "track under the wheel"]
     primary: A[Float, "shape [9] or [0], row of `law`; empty while the primary suspension is linear"]
     static_force: A[float, "wheel-rail force at rest, [N]"]
@@ -104,44 +109,69 @@ class Ride:
 
     contact_force: A[Float, "shape [step], wheel-rail force, upwards on the wheel, never negative, [N]"]
     bogie: A[Float, "shape [step], displacement of the bogie from its static place, upwards, [m]"]
-    wheel: A[Float, "shape [step], displacement of wheel and journal from their static place, upwards, [m]"]
+    wheel: A[Float, "shape [step], displacement of the wheel from its static place, upwards, [m]"]
+    journal: A[Float, "shape [step], the same of the journal at the bearing's centre, [m]"]
     box: A[Float, "shape [step], the same of the axlebox, [m]"]
     excess: A[
         Float,
         "shape [step], upward force of the primary suspension on the bogie beyond its static load and the "
         "linear law of the mounting, [N]",
     ]
+    flexing: A[
+        Float,
+        "shape [step], upward force that lets a rigid half wheelset move its journal as the bending one "
+        "does, [N]",
+    ]
+    tilt: A[Float, "shape [step], of the journal by bending, the end upwards, [rad]"]
 
 
 def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> QuarterVehicle:
     """Build one axlebox's share: an eighth of the body, a quarter of a bogie, half a wheelset, one rail.
 
     The mounting gives wheelset, axlebox and, unless the vehicle has a progressive one, the primary
-    suspension; the bearing is a spring here.
+    suspension; the bearing is a spring here. A wheelset that bends adds the coordinates of its free modes.
     """
     vehicle = operation.vehicle
     journal, box = mounting.journal_mass, mounting.box_mass
     mass = np.array([operation.body_mass / 8.0, vehicle.bogie_mass / 4.0, journal, box])
     rattling = 2.0 * np.sqrt(_BEARING_STIFFNESS * journal * box / (journal + box))
     # one side of a bogie has two axleboxes
+    bearing = _BEARING_STIFFNESS, _BEARING_DAMPING_RATIO * rattling
     links = (
         (BODY, BOGIE, 0.5 * vehicle.secondary_stiffness, 0.5 * vehicle.secondary_damping),
         (BOGIE, BOX, mounting.stiffness[2], mounting.damping[2]),
-        (BOX, WHEEL, _BEARING_STIFFNESS, _BEARING_DAMPING_RATIO * rattling),
+        (BOX, WHEEL, *bearing),
     )
     stiffness = linked((upper, lower, spring) for upper, lower, spring, _ in links)
     damping = linked((upper, lower, damper) for upper, lower, _, damper in links)
+    static_force = float(mass.sum()) * GRAVITY
+    modes = bending_modes(operation, mounting)
+    if modes is not None:
+        mass = np.concatenate([mass, np.full(len(modes), modes.mass)])
+        stiffness = _bent(stiffness, modes, modes.stiffness, bearing[0])
+        damping = _bent(damping, modes, modes.damping, bearing[1])
     factor, exponent = _CONTACT_FIT[vehicle.wheel_profile]
     return QuarterVehicle(
         mass=mass,
         stiffness=stiffness,
         damping=damping,
+        bending=modes,
         rail=rail_waves(operation.track),
         primary=law(vehicle.primary_suspension, mounting, float(mass[[BODY, BOGIE]].sum()) * GRAVITY),
-        static_force=float(mass.sum()) * GRAVITY,
+        static_force=static_force,
         journal_weight=journal * GRAVITY,
         contact_flexibility=factor * (0.5 * operation.wheel_diameter) ** exponent,
     )
+
+
+def _bent(matrix: Float, modes: Modes, own: Float, bearing: float) -> Float:
+    """Add the modes of the wheelset to a matrix: their own terms, and the bearing that they stretch."""
+    whole = np.zeros((4 + len(modes),) * 2)
+    whole[:4, :4] = matrix
+    whole[4:, 4:] = np.diag(own) + bearing * np.outer(modes.journal, modes.journal)
+    for body, side in ((WHEEL, 1.0), (BOX, -1.0)):
+        whole[body, 4:] = whole[4:, body] = side * bearing * modes.journal
+    return whole
 
 
 def linked(links: Iterable[tuple[int, int, float]]) -> Float:
@@ -176,10 +206,11 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
     Vehicle-Track Coupled Dynamics, chapter 2. Impulse method: Hairer, Lubich, Wanner (2006),
     Geometric Numerical Integration, section VIII.4.
     """
-    rates = np.zeros((8, 8))
-    rates[:4, 4:] = np.eye(4)
-    rates[4:, :4] = -vehicle.stiffness / vehicle.mass[:, None]
-    rates[4:, 4:] = -vehicle.damping / vehicle.mass[:, None]
+    count = len(vehicle.mass)
+    rates = np.zeros((2 * count, 2 * count))
+    rates[:count, count:] = np.eye(count)
+    rates[count:, :count] = -vehicle.stiffness / vehicle.mass[:, None]
+    rates[count:, count:] = -vehicle.damping / vehicle.mass[:, None]
     from scipy.linalg import expm  # takes a while, and only a ride needs it
 
     rail = vehicle.rail
@@ -190,21 +221,33 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
     residue = np.array(
         [keep, rail.residual_flexibility * (mean - keep), rail.residual_flexibility * (1.0 - mean)]
     )
+    modes = vehicle.bending
+    shapes = (
+        np.zeros((3, 0)) if modes is None else np.stack([modes.wheel, modes.journal, modes.journal_slope])
+    )
+    contact_force, bogie, wheel, box, excess, bent = _run(
+        expm(rates * step),
+        # waves side by side: the compiler moves several at once
+        np.ascontiguousarray(np.moveaxis(expm(rail.rates() * step), 0, -1)),
+        np.ascontiguousarray(height, dtype=np.float64),
+        np.zeros((1, 4)) if push is None else np.ascontiguousarray(push, dtype=np.float64),
+        float(step),
+        1.0 / vehicle.mass,
+        shapes,
+        rail.inverse_mass,
+        residue,
+        vehicle.primary,
+        float(vehicle.static_force),
+        float(vehicle.contact_flexibility),
+    )
+    if modes is None:
+        none = np.zeros(len(wheel))
+        return Ride(contact_force, bogie, wheel, wheel, box, excess, none, none)
+    # between impulses the motion is exact: second differences are the mean acceleration of two steps
+    flexing = np.zeros(len(wheel))
+    flexing[1:-1] = modes.mass * np.diff(bent[:, 1], 2) / step**2
     return Ride(
-        *_run(
-            expm(rates * step),
-            # waves side by side: the compiler moves several at once
-            np.ascontiguousarray(np.moveaxis(expm(rail.rates() * step), 0, -1)),
-            np.ascontiguousarray(height, dtype=np.float64),
-            np.zeros((1, 4)) if push is None else np.ascontiguousarray(push, dtype=np.float64),
-            float(step),
-            1.0 / vehicle.mass,
-            rail.inverse_mass,
-            residue,
-            vehicle.primary,
-            float(vehicle.static_force),
-            float(vehicle.contact_flexibility),
-        )
+        contact_force, bogie, wheel + bent[:, 0], wheel + bent[:, 1], box, excess, flexing, bent[:, 2]
     )
 
 
@@ -229,12 +272,24 @@ def _hertz(compression, flexibility):
 
 @partial(entry, allocates=True, flags=("contract",))
 def _run(
-    flow, waves, height, push, step, inverse_mass, inverse_wave, residue, primary, static_force, flexibility
+    flow,
+    waves,
+    height,
+    push,
+    step,
+    inverse_mass,
+    shapes,
+    inverse_wave,
+    residue,
+    primary,
+    static_force,
+    flexibility,
 ):
-    count = len(height)
+    count, half, modes = len(height), len(inverse_mass), shapes.shape[1]
     contact_force, beyond = np.empty(count), np.zeros(count)
     bogie, wheel, box = np.empty(count), np.empty(count), np.empty(count)
-    state, moved = np.zeros(8), np.zeros(8)
+    bent = np.empty((count if modes > 0 else 0, 3))
+    state, moved = np.zeros(2 * half), np.zeros(2 * half)
     rail, rail_moved = np.zeros((6, waves.shape[2])), np.zeros((6, waves.shape[2]))
     shortest = contact = 0.0
     static_compression = flexibility * static_force ** (2.0 / 3.0)
@@ -243,20 +298,30 @@ def _run(
         room = static_compression + height[n] + shortest - state[WHEEL] + residue[2] * static_force
         for wave in range(waves.shape[2]):
             room += rail[0, wave]
+        if modes > 0:
+            for part in range(3):
+                bent[n, part] = 0.0
+                for mode in range(modes):
+                    bent[n, part] += shapes[part, mode] * state[4 + mode]
+            room -= bent[n, 0]
         force = _pressed(room, flexibility, residue[2])
         contact = force - static_force
         shortest -= residue[2] * contact
         if len(primary) > 0:
-            beyond[n] = excess_force(primary, state[BOX] - state[BOGIE], state[4 + BOX] - state[4 + BOGIE])
+            beyond[n] = excess_force(
+                primary, state[BOX] - state[BOGIE], state[half + BOX] - state[half + BOGIE]
+            )
         contact_force[n], bogie[n], wheel[n], box[n] = force, state[BOGIE], state[WHEEL], state[BOX]
         last = min(n, len(push) - 1)
-        state[4 + BODY] += step * inverse_mass[BODY] * push[last, BODY]
-        state[4 + BOGIE] += step * inverse_mass[BOGIE] * (push[last, BOGIE] + beyond[n])
-        state[4 + WHEEL] += step * inverse_mass[WHEEL] * (push[last, WHEEL] + contact)
-        state[4 + BOX] += step * inverse_mass[BOX] * (push[last, BOX] - beyond[n])
-        for i in range(8):
+        state[half + BODY] += step * inverse_mass[BODY] * push[last, BODY]
+        state[half + BOGIE] += step * inverse_mass[BOGIE] * (push[last, BOGIE] + beyond[n])
+        state[half + WHEEL] += step * inverse_mass[WHEEL] * (push[last, WHEEL] + contact)
+        state[half + BOX] += step * inverse_mass[BOX] * (push[last, BOX] - beyond[n])
+        for mode in range(modes):
+            state[half + 4 + mode] += step * inverse_mass[4 + mode] * shapes[0, mode] * contact
+        for i in range(2 * half):
             total = 0.0
-            for j in range(8):
+            for j in range(2 * half):
                 total += flow[i, j] * state[j]
             moved[i] = total
         state, moved = moved, state
@@ -273,4 +338,4 @@ def _run(
                     + waves[i, 5, wave] * rail[5, wave]
                 )
         rail, rail_moved = rail_moved, rail
-    return contact_force, bogie, wheel, box, beyond
+    return contact_force, bogie, wheel, box, beyond, bent

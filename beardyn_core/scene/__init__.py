@@ -5,6 +5,7 @@ module            responsibility, in the order of the data
 ================= ================================================================================
 excitation        irregularity of the rail; flats and waves of the wheel; joints, crossings, corrugation
 running           speed profiles, curves; brake and drive of an axle
+wheelset          an axle that bends and twists, with wheels and brake discs
 operation         where load and speed come from
 load              load on the journal as samples
 load_check        what samples of load must be to be used

@@ -13,8 +13,10 @@ from beardyn_core.edge import At, Problem, Vector, refuse, written
 from beardyn_core.scene.excitation import Irregularity, RailDefect, WheelDefect
 from beardyn_core.scene.mounting import Guidance, ProgressiveSuspension
 from beardyn_core.scene.running import POINTS, Braking, Curve, Profile, Starting, not_ascending
+from beardyn_core.scene.wheelset import Wheelset
 
 WHEEL_PROFILES = ("worn", "cone")
+WHEELSETS = ("elastic", "rigid")
 TAKES = ("both", "force", "speed")
 SHAFT_SPEED = At("rpm", ge=-6000.0, le=6000.0)
 
@@ -93,6 +95,7 @@ class Vehicle:
         ProgressiveSuspension | None, "of freight bogies; the vertical springs of the mounting when left out"
     ] = None
     guidance: A[Guidance, "what the sideways motion depends on"] = Guidance()
+    wheelset: A[Wheelset | None, "what bends and twists of a wheelset; rigid when left out"] = None
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
@@ -167,6 +170,11 @@ class QuarterVehicleOperation:
     curves: A[tuple[Curve, ...], At(key="curve"), "one curve or a list in order of place"] = ()
     braking: A[Braking | None, "the brake of this axle, where it brakes"] = None
     starting: A[Starting | None, "the drive of this axle, where it is driven"] = None
+    wheelset: A[
+        str,
+        At(one_of=WHEELSETS),
+        "elastic: it bends and twists as the vehicle's wheelset says, where there is one; rigid: it does not",
+    ] = "elastic"
 
     @property
     def body_mass(self) -> float:

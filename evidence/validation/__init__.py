@@ -20,6 +20,7 @@ cage_whirl       the path of a cage's centre
 whirl            how cage whirl changes with speed and load
 skid             cage slip at light load
 rail             standard deviation of track irregularities
+wheelset         modes of a wheelset, levels of axlebox vibration
 every            all of them, in the order of the page
 pictures         small plots of the page
 page             writes docs/validation.md and its pictures

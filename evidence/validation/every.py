@@ -13,6 +13,7 @@ from evidence.validation import (
     skid,
     statics,
     trends,
+    wheelset,
     whirl,
 )
 from evidence.validation.anchor import Anchor, Trend
@@ -26,9 +27,10 @@ ANCHORS: tuple[Anchor, ...] = (
     *life.ANCHORS,
     *dynamics.ANCHORS,
     *rail.ANCHORS,
+    *wheelset.ANCHORS,
 )
 
-TRENDS: tuple[Trend, ...] = (*dynamics.TRENDS, *trends.TRENDS, *whirl.TRENDS, *skid.TRENDS)
+TRENDS: tuple[Trend, ...] = (*dynamics.TRENDS, *trends.TRENDS, *whirl.TRENDS, *skid.TRENDS, *wheelset.TRENDS)
 
 UNREACHED: tuple[tuple[str, str], ...] = (
     (

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
 from beardyn_core.choice import load_scene
-from beardyn_core.rail.build import FADE_IN
+from beardyn_core.rail.build import FADE_IN, RIDE_RATE, ride_steps
 from beardyn_core.rail.running import running
 from beardyn_core.run import blocks
 from beardyn_core.scene.operation import QuarterVehicleOperation
@@ -37,8 +37,8 @@ def test_journal_accelerates_as_in_the_rail_model_below_50_hz() -> None:
     ours = below_50_hz(np.gradient(speed, 1.0 / SNAPSHOT_RATE))
 
     ride, step = ride_of(scene.operation, scene.mounting, DURATION, scene.seed)
-    rail_time = np.arange(len(ride.wheel)) * step
-    rail_speed = np.interp(time, rail_time, np.gradient(ride.wheel, step))
+    rail_time = np.arange(len(ride.journal)) * step
+    rail_speed = np.interp(time, rail_time, np.gradient(ride.journal, step))
     theirs = below_50_hz(np.gradient(rail_speed, 1.0 / SNAPSHOT_RATE))
 
     judged = (time > SETTLED) & (time < DURATION - 0.1)
@@ -68,3 +68,59 @@ def test_journal_sways_as_in_the_rail_model_below_20_hz() -> None:
     judged = (time > SETTLED) & (time < DURATION - 0.1)
     assert np.std(theirs[judged]) > 1e-3
     assert np.std((ours - theirs)[judged]) < 0.10 * np.std(theirs[judged])
+
+
+def both(sideways: bool) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """Acceleration at the sensor, [m/s^2]: in the twin, in the rail model; and its rate, [Hz]."""
+    scene = load_scene("smooth_run", tier="quasistatic")
+    operation = scene.operation
+    assert isinstance(operation, QuarterVehicleOperation)
+    rough = dataclasses.replace(operation.irregularity, short_waves="iso_3095")
+    operation = dataclasses.replace(operation, irregularity=rough, lateral=sideways)
+    mounting = dataclasses.replace(scene.mounting, journal_tilt="free" if sideways else "locked")
+    sensor = dataclasses.replace(scene.sensors[0], noise_density=0.0)
+    scene = dataclasses.replace(scene, operation=operation, mounting=mounting, sensors=(sensor,))
+    found = [block.vibration[0] for block in blocks(scene, DURATION)]
+    ours = np.concatenate([each.acceleration for each in found])[:, 1 if sideways else 2]
+    rate = len(ours) / DURATION
+
+    ride, besides = ride_steps(operation, mounting, round(DURATION * RIDE_RATE) + 1, scene.seed)
+    place = ride.box
+    if sideways:
+        assert besides is not None
+        assert besides.sway is not None
+        assert besides.sway.flexing is not None
+        tilt = ride.tilt + besides.sway.flexing.tilt
+        place = besides.sway.motion[:, 0] - sensor.position[2] * tilt
+    theirs = np.gradient(np.gradient(place, 1.0 / RIDE_RATE), 1.0 / RIDE_RATE)
+    time = np.arange(len(ours)) / rate
+    return ours, np.interp(time, np.arange(len(theirs)) / RIDE_RATE, theirs), rate
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "apart"),
+    [(10.0, 50.0, 0.05), (50.0, 200.0, 0.05), (200.0, 500.0, 0.06), (500.0, 800.0, 0.12)],
+)
+def test_the_box_shakes_as_on_the_bending_wheelset_of_the_rail_model(low, high, apart) -> None:
+    """To 800 Hz: what crosses moves a rigid half wheelset as the bending one moves its journal."""
+    ours, theirs, rate = both(sideways=False)
+    ours, theirs = within(ours, theirs, (low, high), rate)
+    assert np.std(theirs) > 3.0
+    assert np.std(ours - theirs) < apart * np.std(theirs)
+
+
+def test_a_free_journal_tilts_as_the_axle_bends() -> None:
+    """What a sensor above the bearing feels sideways, as far as tilt is passed on."""
+    ours, theirs, rate = both(sideways=True)
+    ours, theirs = within(ours, theirs, (20.0, 200.0), rate)
+    assert np.std(theirs) > 2.0
+    assert np.std(ours - theirs) < 0.2 * np.std(theirs)
+
+
+def within(
+    ours: NDArray[np.float64], theirs: NDArray[np.float64], band: tuple[float, float], rate: float
+) -> NDArray[np.float64]:
+    """Both signals in a band, once settled."""
+    sections = butter(4, band, "band", fs=rate, output="sos")
+    judged = slice(int(SETTLED * rate), int((DURATION - 0.1) * rate))
+    return np.asarray(sosfiltfilt(sections, np.stack([ours, theirs])))[:, judged]

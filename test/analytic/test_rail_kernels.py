@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from beardyn_core.config import load_vehicle
-from beardyn_core.rail.course import HALF_GAUGE, course
+from beardyn_core.rail.course import course
 from beardyn_core.rail.lateral import lateral_motion, lateral_vehicle
 from beardyn_core.rail.vehicle import (
     BODY,
@@ -21,13 +21,14 @@ from beardyn_core.rail.vehicle import (
     quarter_vehicle,
     ride,
 )
+from beardyn_core.rail.wheelset import HALF_GAUGE
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
 from beardyn_core.scene.running import Curve
 
 VEHICLE = Vehicle("emu", "ICE3-like", 47.8e3, 3.5e3, 350e3, 20e3)
 SMOOTH = QuarterVehicleOperation(VEHICLE, Irregularity("none"), ((0.0, 120 / 3.6),))
-FREIGHT = dataclasses.replace(SMOOTH, vehicle=load_vehicle("freight_y25"))
+FREIGHT = dataclasses.replace(SMOOTH, vehicle=load_vehicle("freight_y25"), wheelset="rigid")
 STEP = 2.5e-5
 
 

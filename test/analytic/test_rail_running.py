@@ -11,8 +11,8 @@ import pytest
 from beardyn_core.config import load_vehicle
 from beardyn_core.errors import InputError
 from beardyn_core.rail.build import load_history
-from beardyn_core.rail.course import HALF_GAUGE
 from beardyn_core.rail.vehicle import GRAVITY, quarter_vehicle
+from beardyn_core.rail.wheelset import HALF_GAUGE
 from beardyn_core.scene.excitation import WheelFlat
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation, Vehicle
