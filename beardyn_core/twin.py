@@ -15,9 +15,9 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.snapshot import Snapshot
-from beardyn_core.integrate.start import initial_state
+from beardyn_core.integrate.start import at_rest, initial_state
 from beardyn_core.integrate.state import Output, State, work_space
-from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.integrate.warming import cold_start, scene_at, warmed
@@ -28,6 +28,7 @@ from beardyn_core.model.build import BLOCK_NS, build_parameters
 from beardyn_core.model.faults import grow, roller_oversize
 from beardyn_core.model.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
 from beardyn_core.model.mounting import tilt_restraint
+from beardyn_core.model.scatter import crown_errors
 from beardyn_core.model.stages import stage_cycles
 from beardyn_core.observe.absence import absence_of
 from beardyn_core.observe.block import Block, EnergyAudit, body_names
@@ -128,7 +129,7 @@ class Twin:
 
     def _rehearse(self) -> None:
         """Compute a block at rest and discard it, so that all its kernels are compiled."""
-        static = _at_rest(self.scene.rows, self.roller_count, len(self._bending_stiffness))
+        static = at_rest(self.scene.rows, self.roller_count, len(self._bending_stiffness))
         state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
         steps = self._steps
         buffer = LoadBuffer()
@@ -174,6 +175,7 @@ class Twin:
             speed=first[6],
             coupling=scene.effects.lamina_coupling,
             oversize=roller_oversize(scene),
+            crown=crown_errors(scene),
             bending_stiffness=self._bending_stiffness,
             tilt_stiffness=restraint,
             axial_stiffness=scene.mounting.axial_prop_stiffness,
@@ -352,6 +354,7 @@ class Twin:
             "rows": scene.rows,
             "faults": [truth_of(defect, self._index * BLOCK_NS * 1e-9) for defect in scene.faults],
             "waviness": [asdict(wave) for wave in scene.waviness],
+            "scatter": scene.scattered.truth(scene.bearing) if scene.scattered else None,
             "excitation": events_of(scene),
             "fault_frequencies_per_rev": fault_frequencies(scene.bearing).by_name,
             **scene_labels(scene),
@@ -387,14 +390,3 @@ class Twin:
         self.load = snapshot.load.copy()
         self._first_audit = deepcopy(snapshot.first_audit)
         self._observer = deepcopy(snapshot.observer)
-
-
-def _at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
-    """Make a bearing without load, for compiling only."""
-    none = np.zeros((rows, roller_count))
-    return StaticSolution(
-        displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,
-        cup_lamina_load=none[..., None], cone_lamina_load=none[..., None],
-        roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
-        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0, bending=np.zeros((modes, 2)),
-    )  # fmt: skip

@@ -45,6 +45,10 @@ something that looks like one (*similar disturbance*), some both, and the health
 excitation of a run is part of its truth (topic `truth`, key `excitation`): the irregularity with its seed,
 strikes of a flat, joints passed, each with time and distance.
 
+Bearings of the railway scenes are as made, grade G1 of
+[manufacturing scatter](model.md#manufacturing-scatter), but for that of `smooth_run`, a reference for other
+runs; those under a constant load are as drawn.
+
 ## Railway scenes
 """
 

@@ -91,6 +91,8 @@ def _sudden(scene: Scene) -> str:
     operation = scene.operation
     if scene.defects or scene.waviness:
         return "faults"
+    if scene.scattered is not None:
+        return "rollers and raceways as made"
     if isinstance(operation, QuarterVehicleOperation):
         if operation.wheel_defects or operation.rail_defects:
             return "strikes of wheel or rail"

@@ -15,6 +15,7 @@ from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.faults import roller_oversize
 from beardyn_core.model.mounting import flexibility_params, moved
+from beardyn_core.model.scatter import crown_errors
 from beardyn_core.scene.scene import Scene
 
 USUAL_LAMINAE = 6
@@ -68,6 +69,7 @@ class Statics:
                 speed=case.speed,
                 coupling=coupling,
                 oversize=roller_oversize(scene),
+                crown=crown_errors(scene),
                 bending_stiffness=self._bending if bending else (),
                 tilt_stiffness=self._restraint(),
                 axial_stiffness=scene.mounting.axial_prop_stiffness,

@@ -27,6 +27,7 @@ POSSIBLE = {
     "effects": "effects: full   # one of `beardyn scenes effects` (standard by default)",
     "defects": 'defects:\n  - {kind: spall, "on": cup, row: 0, azimuth_deg: 0, width_mm: 6, depth_um: 100}',
     "waviness": 'waviness:\n  - {"on": cup, row: 0, orders: [20], amplitude_um: 1}',
+    "scatter": "scatter: {grade: G2, seed: 1}   # rollers, pockets, raceways as made: none, G1, G2, G3, G5",
     "sensors": "sensors:\n  - {name: axlebox_top, position_mm: [0, 0, 170], range_m_per_s2: 5000}",
     "numerics": "numerics: {laminae: 6}   # slices of each roller contact",
     "seed": "seed: 2   # of irregularity and sensor noise",

@@ -32,6 +32,7 @@ from beardyn_core.rail.table import read_table
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.excitation import MEASURED, WheelDefect
 from beardyn_core.scene.operation import QuarterVehicleOperation, Vehicle
+from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Free, Numerics, Scene
 from beardyn_core.scene.tier import TIER_NAMES, contradictions, integrator_problems
 from beardyn_core.scene.trial import Trial
@@ -282,6 +283,9 @@ class _Reading:
                 if fault := valid(hint, given):
                     for problem in with_length(fault, bearing.effective_length).contradictions(bearing):
                         self.problems.append(f"{self.origins[0].label}: {key_path(place)}.{problem}")
+        scatter = None if problems else valid(Scatter, self.data.get("scatter"))
+        if scatter is not None:
+            self._complain(("scatter",), list(scatter.contradictions(bearing)))
         for place, problem in missing_problems(self.data, bearing):
             self._complain(place, [problem])
 

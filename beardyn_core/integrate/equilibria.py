@@ -24,6 +24,7 @@ def equilibrium(
     moment: tuple[float, float, float] = (0.0, 0.0, 0.0),
     *,
     oversize: Float | None = None,
+    crown: Float | None = None,
     **conditions: Any,
 ) -> StaticSolution:
     """Find the static equilibrium under a load, from memory where it was solved before.
@@ -32,7 +33,7 @@ def equilibrium(
     ----------
     force, moment : tuple of float
         On the cone at the bearing centre, axlebox frame, [N], [N m].
-    oversize : float64 array, optional
+    oversize, crown : float64 array, optional
         See `beardyn_core.integrate.static.solve`.
     **conditions
         The other arguments of `solve`, lists among them as tuples.
@@ -47,7 +48,7 @@ def equilibrium(
     InputError, ValidityError
         As `solve`; errors are not remembered.
     """
-    bumps = None if oversize is None else (oversize.shape, oversize.tobytes())
+    bumps = tuple(None if each is None else (each.shape, each.tobytes()) for each in (oversize, crown))
     return _solved(bearing, force, moment, bumps, **conditions)
 
 
@@ -56,11 +57,11 @@ def _solved(
     bearing: Bearing,
     force: tuple[float, float, float],
     moment: tuple[float, float, float],
-    bumps: tuple[tuple[int, ...], bytes] | None,
+    bumps: tuple[tuple[tuple[int, ...], bytes] | None, ...],
     **conditions: Any,
 ) -> StaticSolution:
-    oversize = None if bumps is None else np.frombuffer(bumps[1]).reshape(bumps[0])
-    found = solve(bearing, force, moment, oversize=oversize, **conditions)
+    oversize, crown = (None if each is None else np.frombuffer(each[1]).reshape(each[0]) for each in bumps)
+    found = solve(bearing, force, moment, oversize=oversize, crown=crown, **conditions)
     for value in vars(found).values():
         if isinstance(value, np.ndarray):
             value.flags.writeable = False

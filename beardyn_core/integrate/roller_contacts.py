@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.contact_law import (
@@ -44,7 +44,7 @@ class ContactModel:
     abscissa: Float  # [lamina], from mid-length [m]
     radius: Float  # [row, roller, lamina], roller radius at the laminae with the roller's error [m]
     oversize: Float  # [row, roller, 1], radius error [m]
-    drop: Float  # [lamina], of the profile [m]
+    drop: Float  # [lamina], or with errors of the profiles [row, roller, lamina]: of the profile [m]
     clearance: float  # normal gap at the cup raceway with the cone centred [m]
     lamina_factor: float  # stiffness factor of one lamina contact [N/m^(10/9)]
     rib_factor: float  # [N/m^1.5]
@@ -92,6 +92,7 @@ def contact_model(
     modes: int = 0,
     rows: int = ROW_COUNT,
     missing: Sequence[tuple[int, int]] = (),
+    crown: ArrayLike | None = None,
 ) -> ContactModel:
     """Gather the constants of the contacts; arguments as of `static.solve`.
 
@@ -107,6 +108,11 @@ def contact_model(
     for row, roller in missing:
         not_there[row, roller] = True
     abscissa = ((np.arange(laminae) + 0.5) / laminae - 0.5) * bearing.effective_length
+    drop = bearing.profile.lamina_drop(
+        laminae, bearing.effective_length, bearing.roller_diameter, bearing.material.contact_modulus
+    )
+    if crown is not None:
+        drop = drop + np.asarray(crown)[:rows, :, None] * abscissa**2
     return ContactModel(
         bearing=bearing,
         radial=radial,
@@ -116,9 +122,7 @@ def contact_model(
         abscissa=abscissa,
         radius=(bearing.apex_distance + abscissa) * math.tan(bearing.half_angle) + error[:, :, None],
         oversize=error[:, :, None],
-        drop=bearing.profile.lamina_drop(
-            laminae, bearing.effective_length, bearing.roller_diameter, bearing.material.contact_modulus
-        ),
+        drop=drop,
         clearance=0.5 * end_play * math.sin(bearing.cup_angle),
         lamina_factor=line_contact_factor(bearing.material, bearing.effective_length) / laminae,
         rib_factor=rib_contact_factor(bearing),

@@ -81,6 +81,7 @@ def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
         rib_share=rib_share,
         rib_centrifugal=roller_forces(0.0, *angles, centrifugal=1.0)[1],
         idle=centrifugal_cup_load(1.0, bearing.cup_angle, bearing.rib_angle),
+        give=float((approach / load).min()),
     )
 
 

@@ -61,6 +61,17 @@ def initial_state(
     return State(rollers, bodies, np.zeros(layout.ENERGY_TERMS), flex)
 
 
+def at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
+    """Make a bearing without load, for compiling only."""
+    none = np.zeros((rows, roller_count))
+    return StaticSolution(
+        displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,
+        cup_lamina_load=none[..., None], cone_lamina_load=none[..., None],
+        roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
+        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0, bending=np.zeros((modes, 2)),
+    )  # fmt: skip
+
+
 def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: float) -> Float:
     """Find the pose of the cone in the static equilibrium of the lumped tier.
 
@@ -78,21 +89,28 @@ def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: floa
     springs = np.zeros(len(load))
     springs[1] = p.base.mounting.prop_stiffness
     idle = spring.idle * p.kinematic.centrifugal * cage_rate**2
-    rows = []
+    rows, gaps = [], []
     for side in np.unique(sides):
-        azimuth = np.sort(p.base.rollers[:, layout.POCKET_ANGLE][counted & (sides == side)])
+        there = counted & (sides == side)
+        azimuth, thicker = (
+            p.base.rollers[:, layout.POCKET_ANGLE][there],
+            p.base.rollers[:, layout.OVERSIZE][there],
+        )
+        order = np.argsort(azimuth)
+        azimuth = azimuth[order]
+        gaps.append(cup.gap - 2.0 * thicker[order])  # a thicker roller is pressed on both sides
         outward = np.stack([np.sin(azimuth), np.cos(azimuth)])
         lean = np.full(azimuth.size, -side * cup.sine)
         tilt_x, tilt_z = spring.lever * side * outward[1], -spring.lever * side * outward[0]
         rows.append(
             np.stack([cup.cosine * outward[0], lean, cup.cosine * outward[1], tilt_x, tilt_z], axis=1)
         )
-    normal = np.concatenate(rows)[:, : len(load)]
+    normal, gap = np.concatenate(rows)[:, : len(load)], np.concatenate(gaps)
     found = np.array(pose[: len(load)], dtype=float)
     scale = np.array([1.0, 1.0, 1.0, spring.lever, spring.lever])[: len(load)]
     terms = np.arange(len(spring.series))
     for _ in range(_ITERATIONS):
-        approach = normal @ found - cup.gap
+        approach = normal @ found - gap
         root = np.maximum(approach, 1e-12) ** (1.0 / 9.0)
         pressing = approach > 0.0
         pressed = pressing * approach * root * (root[:, None] ** terms @ spring.series)

@@ -122,6 +122,7 @@ def solve(
     axial_stiffness: float = 0.0,
     rows: int = ROW_COUNT,
     missing: Sequence[tuple[int, int]] = (),
+    crown: ArrayLike | None = None,
 ) -> StaticSolution:
     """Find the static equilibrium under a load on the cone.
 
@@ -155,6 +156,8 @@ def solve(
         2, or 1 for row 0 alone; the cone leans on it towards +y only.
     missing : sequence of pairs of int
         Row and roller of those that are not there; their loads are 0.
+    crown : array_like, shape [row, roller], optional
+        Error of each roller's profile: drop over the squared distance from mid-length, [1/m].
 
     Raises
     ------
@@ -176,8 +179,9 @@ def solve(
         [[0.0, axial_stiffness, 0.0], np.asarray(tilt_stiffness, dtype=np.float64), modal]
     )
     model = contact_model(
-        bearing, end_play, laminae, speed, roller_phase, coupling, oversize, modal.size // 2, rows, missing
-    )
+        bearing, end_play, laminae, speed, roller_phase, coupling, oversize, modal.size // 2, rows, missing,
+        crown,
+    )  # fmt: skip
     cone = _Cone(model, load, 5 if tilt == "free" else 3, springs)
     state, unknowns, iterations = _equilibrium(cone)
     residual = cone.residual(unknowns, state)

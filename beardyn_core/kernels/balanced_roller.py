@@ -14,7 +14,7 @@ from beardyn_core.kernels.laminae import SMALLEST_APPROACH, add_moments, contact
 from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, quick_ninth_root, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
-from beardyn_core.kernels.waviness import wave_gap
+from beardyn_core.kernels.waviness import crown_bend, wave_gap
 from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
 # A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
@@ -213,10 +213,11 @@ def balance(lanes, block, place, axis, views, azimuths, loads, p):
     cup_wave = wave_gap(lanes, block, azimuths[0], faults.cup_waves)[0]
     cup_wave = cup_wave + wave_gap(lanes, block, -azimuths[2], faults.roller_waves)[0]
     cup_approach = (cup_approach[0] - cup_wave, cup_approach[1])
-    cup = lamina_springs(
-        lanes, block, cup_approach, None, (azimuths[0], -azimuths[2]), base.laminae, roller.half_length,
-        (faults.cup, faults.roller, faults.cup_damage),
-    )  # fmt: skip
+    crown = crown_bend(lanes, block, faults.crowns)
+    azimuths_on_cup = (azimuths[0], -azimuths[2])
+    cup = cup_springs(
+        lanes, block, cup_approach, crown, azimuths_on_cup, base.laminae, roller.half_length, faults
+    )
     motion = (views[2], views[3])
     centre = subtract((place[0], zero, place[1]), views[0])
     full_axis = (axis[0], zero, axis[1])
@@ -224,7 +225,7 @@ def balance(lanes, block, place, axis, views, azimuths, loads, p):
     cone_wave = wave_gap(lanes, block, azimuths[1], faults.cone_waves)[0]
     cone_wave = cone_wave + wave_gap(lanes, block, _PI - azimuths[2], faults.roller_waves)[0]
     cone = lamina_springs(
-        lanes, block, (line[3][0] - cone_wave, line[3][1]), (line[3][2], line[3][3]),
+        lanes, block, (line[3][0] - cone_wave, line[3][1]), (line[3][2] + crown, line[3][3]),
         (azimuths[1], _PI - azimuths[2]), base.laminae, roller.half_length,
         (faults.cone, faults.roller, faults.cone_damage),
     )  # fmt: skip
@@ -314,6 +315,16 @@ def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patch
     surface, roller_surface, damage = patches
     near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
     return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
+
+
+@inline
+def cup_springs(lanes, block, approach, crown, azimuths, laminae, reach, faults):
+    """Sum the springs on the cup, where only the error of a roller's profile bends the line; see above."""
+    patches = (faults.cup, faults.roller, faults.cup_damage)
+    if faults.crowns is None:
+        return lamina_springs(lanes, block, approach, None, azimuths, laminae, reach, patches)
+    bend = (crown, 0.0 * crown)
+    return lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches)
 
 
 @inline

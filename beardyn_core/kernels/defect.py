@@ -167,7 +167,15 @@ def spring_slopes(lanes, spring, damage):
 
 @inline
 def pocket_wear(lanes, block, pockets):
-    """Work out the half of the added clearance of each roller's pocket, [m]."""
+    """Work out the half of the clearance added to each roller's pocket along the pitch circle, [m]."""
     if pockets is None:
         return 0.0
     return lanes.load(pockets, block, 0)
+
+
+@inline
+def pocket_length(lanes, block, pockets):
+    """Work out the half of the clearance added to each roller's pocket at its ends, [m]."""
+    if pockets is None:
+        return 0.0
+    return lanes.load(pockets, block, 1)

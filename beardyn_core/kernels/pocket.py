@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import pocket_wear
+from beardyn_core.kernels.defect import pocket_length, pocket_wear
 from beardyn_core.kernels.exchange import ContactOutput, account, account_loss, output_contact, react
 from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, magnitude, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
@@ -70,7 +70,8 @@ class Pocket(NamedTuple):
     motion: Motion
     advance: Any  # azimuth of the roller less that of its pocket [rad]
     tilt: Vector  # small rotation of the cage without its spin [rad]
-    wear: Any  # half of the clearance that wear has added [m]
+    wear: Any  # half of the clearance added by wear and scatter [m]
+    length: Any  # half of that added at the ends [m]
 
 
 class Wall(NamedTuple):
@@ -86,7 +87,8 @@ class Wall(NamedTuple):
 def prepare_pocket(lanes, rings, block, body, orbit, pockets, p, cage):
     """Work out the pocket contact of one block before the solve, a `PocketContact`; zeros without a cage.
 
-    ``pockets`` [block, 1, lane] (or ``None``): half of the added clearance of worn pockets [m].
+    ``pockets`` [block, 2, lane] (or ``None``): half of the clearance added to pockets, along the pitch circle
+    and at the ends [m].
     """
     if cage is None:
         zero = lanes.constant(0.0)
@@ -94,10 +96,10 @@ def prepare_pocket(lanes, rings, block, body, orbit, pockets, p, cage):
         return PocketContact(nothing, _untouched(zero), zero, nothing)
     view = ring_view(lanes, rings, CAGE_BODY, orbit.cosine, orbit.sine)
     place = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(p.rollers, block, POCKET_ANGLE)
-    wear = pocket_wear(lanes, block, pockets)
+    wear, length = pocket_wear(lanes, block, pockets), pocket_length(lanes, block, pockets)
     centre = subtract(body.place, view.origin)
     motion = Motion(body.velocity, body.omega, view.velocity, view.omega)
-    pocket = Pocket(centre, body.axis, motion, orbit.azimuth - place, view.axis, wear)
+    pocket = Pocket(centre, body.axis, motion, orbit.azimuth - place, view.axis, wear, length)
     return _touch(pocket, p.roller, cage, cage.rotating, cage.kinematic)
 
 
@@ -198,7 +200,7 @@ def free_pocket(pocket, roller, cage):
     side = where_greater(slide, 0.0, 1.0 + still, -1.0 + still)
     shorter = roller.half_length * (1.0 - dot(pocket_axis, axis))
     arm, direction = scale(side * roller.half_length, axis), scale(side, pocket_axis)
-    end = Wall(centre, arm, direction, magnitude(slide) - shorter - cage.half_end_clearance)
+    end = Wall(centre, arm, direction, magnitude(slide) - shorter - cage.half_end_clearance - pocket.length)
     walls = _touch_wall(walls, end, motion, cage, (axis, roller.radius), None)
     bar = scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)
     return PocketContact(centre, walls, slip_squared, bar)

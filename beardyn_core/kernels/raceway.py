@@ -24,7 +24,14 @@ from beardyn_core.kernels.orbit import entrainment_speed
 from beardyn_core.kernels.solve import add_line, add_line_everywhere
 from beardyn_core.kernels.traction import traction_capacity
 from beardyn_core.kernels.vectors import Vector, Wrench, add_scaled, scale, subtract
-from beardyn_core.kernels.waviness import add_leaning, lean_wrench, shift_line, wave_gap
+from beardyn_core.kernels.waviness import (
+    add_leaning,
+    bend_line,
+    crown_bend,
+    lean_wrench,
+    shift_line,
+    wave_gap,
+)
 from beardyn_core.model.layout import LOSS_DAMPING, LOSS_SLIDING, PENETRATION
 
 
@@ -78,6 +85,8 @@ def prepare_raceway(lanes, block, ring, body, oversize, azimuths, p):
     roller_wave, roller_climb = wave_gap(lanes, block, azimuths[1], faults.roller_waves)
     line = generator_line(centre, body.axis, view.axis, oversize, ring.raceway, p.roller)
     line = shift_line(line, ring_wave + roller_wave)
+    crowns = p.effects.faults.crowns
+    line = bend_line(line, crown_bend(lanes, block, crowns), crowns)
     slip = line_slip(line, centre, body, view)
     log2_speed = log2_entrainment(entrainment_speed(line, centre, body, view), p.effects.film)
     surfaces = (faults.surface, faults.roller_surface)

@@ -180,12 +180,21 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         sliding = sliding + counted * sliding_torque(loads[2], speeds, p, effects.rib)
         approach = wave[0] * cosine + (wave[1] * sine + wave[2])
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
+        approach = _spring_depth(approach, load - 0.5 * idle, p.spring, p.faults)
         tangent = 10.0 / 9.0 * (load - 0.5 * idle) / at_least(approach, _SMALLEST_APPROACH)
         tangent = counted * where_greater(load, idle, tangent, zero)
         stiff = add_stiffness(stiff, tangent, cosine, sine)
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     store_stiffness(lanes, sums, stiff)
+
+
+@inline
+def _spring_depth(approach, load, spring, faults):
+    """Work out a depth of a spring that goes with its load: gaps of faults are not in the approach, [m]."""
+    if faults is None:
+        return approach
+    return at_least(approach, spring.give * load)
 
 
 @inline

@@ -40,6 +40,27 @@ def shift_line(line, gap):
 
 
 @inline
+def crown_bend(lanes, block, crowns):
+    """Work out the factor of x^2 that the error of each roller's profile adds to the approach, [1/m]."""
+    if crowns is None:
+        return 0.0
+    return -lanes.load(crowns, block, 0)
+
+
+@inline
+def bend_line(line, bend, crowns):
+    """Add to the approach of a contact line what `crown_bend` found.
+
+    Neglects how far the centre of mass, from where the abscissa counts, is off mid-length.
+    """
+    if crowns is None:
+        return line
+    a = line.approach
+    approach = (a[0], a[1], a[2] + bend, a[3])
+    return Line(line.arm, line.arm_slope, line.normal, line.around, line.along, approach, line.bend)
+
+
+@inline
 def lean_wrench(lanes, body, sums, climbs, damage, waves, roller_waves):
     """Work out the `Wrench` on the roller where the normal leans with a sloping gap.
 

@@ -13,6 +13,7 @@ traction         friction of the raceway contacts
 losses           rolling resistance, drag and seals
 ribs             ribs at both roller ends
 cage             pockets, lands and cheaper cages
+scatter          scatter as numbers of each roller
 faults           patches and the path of a roller over one, waviness, wear and size errors
 mounting         rings, their bending, suspension
 heat             nodes of the thermal network and where losses go

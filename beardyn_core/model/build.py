@@ -28,6 +28,7 @@ from beardyn_core.model.parameters import (
     RollerParams,
 )
 from beardyn_core.model.ribs import rib_params, small_rib_params
+from beardyn_core.model.scatter import pocket_offsets
 from beardyn_core.model.stages import new_timers
 from beardyn_core.model.traction import traction_params
 from beardyn_core.scene.scene import Scene
@@ -88,11 +89,17 @@ BLOCK_NS = 20_000_000
 SAMPLES_PER_BLOCK = 512
 
 
-def roller_constants(arrangement: Arrangement, oversize: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Collect constants of each roller, [block, ROLLER_CONSTANTS, lane]; `oversize` [row, roller]."""
+def roller_constants(
+    arrangement: Arrangement, oversize: NDArray[np.float64], ahead: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Collect constants of each roller, [block, ROLLER_CONSTANTS, lane].
+
+    ``oversize``: radius error [m]; ``ahead``: of the pocket [rad]; both [row, roller].
+    """
     constants = aligned_zeros(arrangement.block_count, ROLLER_CONSTANTS, arrangement.width)
     constants[:, MASK] = arrangement.mask
     constants[:, POCKET_ANGLE] = 2.0 * math.pi * arrangement.roller / arrangement.roller_count
+    constants[:, POCKET_ANGLE] += arrangement.to_lanes(ahead)
     constants[:, OVERSIZE] = arrangement.to_lanes(oversize)
     return constants
 
@@ -131,7 +138,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         cone=RacewayParams(math.sin(cone_angle), math.cos(cone_angle), -1.0, 0.0),
         laminae=laminae,
         lamina_loads=aligned_zeros(1, 2 * laminae.shape[1], arrangement.width),
-        rollers=roller_constants(arrangement, roller_oversize(scene)),
+        rollers=roller_constants(arrangement, roller_oversize(scene), pocket_offsets(scene)),
         mounting=mounting_params(bearing, scene.mounting, preload),
         effects=EffectParams(
             damping=DampingParams(effects.contact_damping.time_constant) if effects.contact_damping else None,

@@ -12,6 +12,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model import layout
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.laminae import for_springs, lamina_places
+from beardyn_core.model.scatter import added_clearance, crown_errors, scattered_oversize
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
 
@@ -51,7 +52,8 @@ class FaultParams(NamedTuple):
     cup_waves: WaveParams | None
     cone_waves: WaveParams | None
     roller_waves: WaveParams | None
-    pockets: Any  # half of the added clearance [block, 1, lane], [m]
+    pockets: Any  # half of the clearance added along the pitch circle, and at the ends [block, 2, lane], [m]
+    crowns: Any = None  # drop of the profile's error over the squared abscissa [block, 1, lane], [1/m]
 
 
 SURFACES = ("cup", "cone", "roller")
@@ -70,7 +72,7 @@ def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> Faul
     )
     return FaultParams(
         cup, cone, roller, cup_damage, cone_damage, cup_waves, cone_waves, roller_waves,
-        pocket_wear(scene, arrangement),
+        pocket_wear(scene, arrangement), crown_params(scene, arrangement),
     )  # fmt: skip
 
 
@@ -157,19 +159,29 @@ def damage_params(laminae: Float, width: int) -> DamageParams:
 
 
 def pocket_wear(scene: Scene, arrangement: Arrangement) -> Float | None:
-    """Take half of the clearance added to each pocket, [block, 1, lane], [m]; ``None`` without wear."""
-    worn = [defect for defect in scene.defects if isinstance(defect, WornPocket)]
-    if not worn:
+    """Take half of the clearance added to each pocket, [block, 2, lane], [m]; ``None`` without any.
+
+    The first is along the pitch circle, from wear and scatter, the second at the ends, where a longer roller
+    takes it.
+    """
+    if scene.scattered is None and not any(isinstance(defect, WornPocket) for defect in scene.defects):
         return None
-    added = np.zeros((2, arrangement.roller_count))
-    for defect in worn:
-        added[defect.row, defect.pocket] += 0.5 * defect.clearance
-    return np.ascontiguousarray(arrangement.to_lanes(added)[:, None, :])
+    longer = np.zeros((2, arrangement.roller_count))
+    if scene.scattered is not None:
+        longer = scene.scattered.deviations(scene.bearing).roller_length
+    halves = (0.5 * added_clearance(scene), -0.5 * longer)
+    return np.stack([arrangement.to_lanes(half) for half in halves], axis=1)
+
+
+def crown_params(scene: Scene, arrangement: Arrangement) -> Float | None:
+    """Spread the errors of the rollers' profiles over the lanes, [block, 1, lane], [1/m]; or ``None``."""
+    crowns = crown_errors(scene)
+    return None if crowns is None else np.ascontiguousarray(arrangement.to_lanes(crowns)[:, None, :])
 
 
 def roller_oversize(scene: Scene) -> Float:
-    """Work out the radius error of each roller, shape [row, roller], [m]."""
-    error = np.zeros((2, scene.bearing.roller_count))
+    """Work out the radius error of each roller from scatter and defects, shape [row, roller], [m]."""
+    error = scattered_oversize(scene)
     for defect in scene.defects:
         if isinstance(defect, RollerError):
             error[defect.row, defect.roller] += 0.5 * defect.diameter
@@ -177,14 +189,20 @@ def roller_oversize(scene: Scene) -> Float:
 
 
 POINTS_PER_WAVE = 64  # linear interpolation is then good to 0.12 % of the amplitude of the shortest wave
+# ... and to 2 % where scatter makes it: there it is a thirtieth of the longest or less
+POINTS_PER_SCATTERED_WAVE = 16
 
 
 def wave_params(scene: Scene, on: str, arrangement: Arrangement) -> WaveParams | None:
     """Tabulate the waviness of one surface over a period per row or roller; ``None`` without any."""
-    waves = [wave for wave in scene.waviness if wave.on == on]
+    waves = [wave for wave in scene.waves if wave.on == on]
     if not waves:
         return None
-    points = max(1024, POINTS_PER_WAVE * max(max(wave.orders) for wave in waves))
+    shortest = [
+        max(wave.orders) * (POINTS_PER_WAVE if wave in scene.waviness else POINTS_PER_SCATTERED_WAVE)
+        for wave in waves
+    ]
+    points = max(1024, *shortest)
     azimuth = np.arange(points + 2, dtype=np.float64) * (2.0 * math.pi / points)
     count = arrangement.roller_count if on == "roller" else 1
     tables = np.zeros((2, count, points + 2))

@@ -10,9 +10,11 @@ import numpy as np
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
+from beardyn_core.model.arrangement import Arrangement, aligned_copy
 from beardyn_core.model.faults import FaultParams
-from beardyn_core.model.layout import MASK, POCKET_ANGLE
+from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.scatter import mean_crown
 from beardyn_core.scene.scene import Scene
 
 
@@ -68,6 +70,7 @@ class SpringParams(NamedTuple):
     rib_share: float  # rib load over cup load
     rib_centrifugal: float  # rib load over centrifugal force, at a given cup load
     idle: float  # cup load of a roller that the cone does not press, over centrifugal force
+    give: float  # least approach over cup load: that of the stiffest spring [m/N]
 
 
 class LumpedParameters(NamedTuple):
@@ -104,6 +107,18 @@ def without_roller_dynamics(base: Parameters) -> Parameters:
         ring_flexibility=None,
     )  # fmt: skip
     return base._replace(effects=effects, explicit=None)
+
+
+def flattened(base: Parameters, scene: Scene) -> Parameters:
+    """Take the errors of the rollers' profiles as their mean along the contact, for rollers without tilt."""
+    faults = base.effects.faults
+    if faults.crowns is None:
+        return base
+    rollers = aligned_copy(base.rollers)
+    width, count = rollers.shape[2], scene.bearing.roller_count
+    arrangement = Arrangement(count, width, scene.rows, scene.missing_places)
+    rollers[:, OVERSIZE] -= arrangement.to_lanes(mean_crown(scene))
+    return base._replace(rollers=rollers, effects=base.effects._replace(faults=faults._replace(crowns=None)))
 
 
 def kinematic_params(scene: Scene) -> KinematicParams:

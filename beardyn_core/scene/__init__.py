@@ -15,6 +15,7 @@ load_buffer       the load as a stream: accepted, refused, interpolated
 mounting          axlebox, journal, suspension and guidance of a vehicle
 defect            patches, roller diameter, worn pocket
 waviness          harmonics of raceways and rollers
+scatter           manufacturing scatter from a grade and a seed
 sensor            accelerometers
 tier              which bodies move by their own equations of motion, how the full tier takes a time step
 scene             all of it, and what of it may be chosen

@@ -14,6 +14,7 @@ from beardyn_core.effects import EffectSet
 from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, Operation, SteppedOperation
+from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.scene.tier import LARGEST_STEPS, TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
@@ -85,6 +86,7 @@ class Scene:
     missing_rollers: A[tuple[MissingRoller, ...], "rollers that are not there"] = ()
     defects: A[tuple[Defect, ...], "patches, a roller of another diameter, worn pockets"] = ()
     waviness: A[tuple[Waviness, ...], "harmonics of raceways and rollers"] = ()
+    scatter: A[Scatter | None, "what this bearing of a lot differs by from its drawing"] = None
     sensors: A[tuple[Accelerometer, ...], At(size=(1, None)), "on the axlebox"] = (Accelerometer(),)
     numerics: A[Numerics, "discretisation of the run, or auto"] = Numerics()
     duration: A[float, At("s", gt=0.0, le=86400.0), "simulated time"] = 2.0
@@ -115,7 +117,18 @@ class Scene:
             *self.effects.names(),
             *(("faults",) if self.faults else ()),
             *(("waviness",) if self.waviness else ()),
+            *(("scatter",) if self.scattered is not None else ()),
         )
+
+    @property
+    def scattered(self) -> Scatter | None:
+        """The scatter, ``None`` when nothing scatters."""
+        return None if self.scatter is None or self.scatter.absent else self.scatter
+
+    @property
+    def waves(self) -> tuple[Waviness, ...]:
+        """All waves of raceways and rollers: those that are given and those of the scatter."""
+        return (*self.waviness, *(self.scattered.waves if self.scattered else ()))
 
     @property
     def fault_sentences(self) -> tuple[str, ...]:

@@ -28,7 +28,10 @@ class TierLimits:
 
 
 _FAST = frozenset(
-    {"contact_damping", "film", "rib", "rolling_resistance", "drag", "seal", "gravity", "faults", "waviness"}
+    {
+        *("contact_damping", "film", "rib", "rolling_resistance", "drag", "seal", "gravity"),
+        *("faults", "waviness", "scatter"),
+    }
 )
 _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
 

@@ -70,6 +70,10 @@ CUT = {
     "wave_gap": ("lanes, block, azimuth, waves", "(0.0, 0.0)"),
     "shift_line": ("line, gap", "line"),
     "pocket_wear": ("lanes, block, pockets", "0.0"),
+    # scatter
+    "pocket_length": ("lanes, block, pockets", "0.0"),
+    "crown_bend": ("lanes, block, crowns", "0.0"),
+    "bend_line": ("line, bend, crowns", "line"),
     # timers
     "time_step": ("timers, step", "None"),
     "mark": ("timers, stage", "None"),

@@ -14,7 +14,7 @@ from test.kernels.entries import pocket_of, store_walls
 def rotating_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
     """As `entries.pockets`, of a rotating cage."""
     for case in range(states.shape[0]):
-        contact = rotating_pocket(pocket_of(lanes, states, case, 0.0), roller, cage)
+        contact = rotating_pocket(pocket_of(lanes, states, case, 0.0, 0.0), roller, cage)
         store_walls(lanes, out, case, contact.walls)
 
 
@@ -22,7 +22,7 @@ def rotating_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) 
 def kinematic_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
     """As `entries.pockets`, of a kinematic cage."""
     for case in range(states.shape[0]):
-        contact = kinematic_pocket(pocket_of(lanes, states, case, 0.0), cage, cage.kinematic)
+        contact = kinematic_pocket(pocket_of(lanes, states, case, 0.0, 0.0), cage, cage.kinematic)
         store_walls(lanes, out, case, contact.walls)
 
 

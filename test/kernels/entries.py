@@ -102,11 +102,11 @@ def body_and_view(lanes: Any, states: Any, case: Any, orbit_rate: Any) -> Any:
 
 
 @inline
-def pocket_of(lanes: Any, states: Any, case: Any, wear: Any) -> Any:
+def pocket_of(lanes: Any, states: Any, case: Any, wear: Any, length: Any) -> Any:
     """Roller in its pocket of a case, inputs as of `raceways`, advance in the place of the oversize."""
     body, view = body_and_view(lanes, states, case, lanes.constant(0.0))
     motion = Motion(body.velocity, body.omega, view.velocity, view.omega)
-    return Pocket(body.place, body.axis, motion, lanes.load(states, case, 21), view.axis, wear)
+    return Pocket(body.place, body.axis, motion, lanes.load(states, case, 21), view.axis, wear, length)
 
 
 @inline
@@ -201,7 +201,7 @@ def small_ribs(lanes: Any, states: Any, out: Any, rib: Any) -> None:
 def pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any) -> None:
     """Pocket contact of each case (inputs as `raceways`, advance in the place of the oversize)."""
     for case in range(states.shape[0]):
-        pocket = pocket_of(lanes, states, case, lanes.constant(0.0))
+        pocket = pocket_of(lanes, states, case, lanes.constant(0.0), lanes.constant(0.0))
         store_walls(lanes, out, case, free_pocket(pocket, roller, cage).walls)
 
 

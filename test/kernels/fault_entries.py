@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import entry, inline
-from beardyn_core.kernels.defect import find_damage, pocket_wear, spring_damage, spring_slopes
+from beardyn_core.kernels.defect import find_damage, pocket_length, pocket_wear, spring_damage, spring_slopes
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.pocket import free_pocket
@@ -48,7 +48,8 @@ def worn_pockets(lanes: Any, states: Any, out: Any, block: Any, worn: Any, rolle
     """Pocket force of each case, inputs as `entries.pockets`, all cases in the pockets of one block."""
     for case in range(states.shape[0]):
         wear = pocket_wear(lanes, block, worn) + lanes.constant(0.0)
-        contact = free_pocket(pocket_of(lanes, states, case, wear), roller, cage)
+        length = pocket_length(lanes, block, worn) + lanes.constant(0.0)
+        contact = free_pocket(pocket_of(lanes, states, case, wear, length), roller, cage)
         store_vector(lanes, out, case, 0, contact.walls.force)
         store_vector(lanes, out, case, 3, contact.walls.moment)
 

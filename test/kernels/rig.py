@@ -23,6 +23,7 @@ from beardyn_core.model.build import build_parameters
 from beardyn_core.model.faults import roller_oversize
 from beardyn_core.model.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
 from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.scatter import crown_errors
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
@@ -112,6 +113,7 @@ class Rig:
             speed=speed,
             coupling=scene.effects.lamina_coupling,
             oversize=roller_oversize(scene),
+            crown=crown_errors(scene),
             bending_stiffness=bending,
             axial_stiffness=scene.mounting.axial_prop_stiffness,
             rows=scene.rows,

@@ -1,0 +1,155 @@
+"""Manufacturing scatter: what one bearing of a lot differs by from its drawing, from a grade and a seed."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from typing import Annotated as A
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.edge import SEED, At, written
+from beardyn_core.scene.waviness import Waviness, band_amplitudes
+
+_ROWS = 2
+# A deviation is normal with a quarter of the lot's variation, cut at half of it: sorting takes the rest out.
+CUT = 2.0
+_TRIES = 24  # draws for each number; 0.0455^24 is no chance
+RACEWAY_ORDERS, ROLLER_ORDERS = (2, 300), (2, 60)
+_SHAPES = {"cup": RACEWAY_ORDERS, "cone": RACEWAY_ORDERS, "roller": ROLLER_ORDERS}
+_MICRON = 1e-6
+
+# Rollers of the lot Gn vary by n um in diameter, as in the grades of ISO 12297-1 (cylindrical rollers), ISO
+# 3096 (needle rollers: of G2 SKF states 2 um of gauge and 1 um of circularity). The waviness of a roller is
+# two fifths of that circularity, peak to valley being about four rms. All other numbers are assumed, in
+# proportion.
+_OF_G1 = {
+    "roller_diameter": 1.0,
+    "roller_length": 5.0,
+    "profile": 1.0,
+    "pocket_place": 30.0,
+    "pocket_clearance": 30.0,
+    "row_clearance": 5.0,
+    "raceway_waviness": 0.15,
+    "roller_waviness": 0.05,
+}
+GRADES = {
+    "none": dict.fromkeys(_OF_G1, 0.0),
+    **{f"G{n}": {name: n * each for name, each in _OF_G1.items()} for n in (1, 2, 3, 5)},
+}
+
+
+def _variation(most: float) -> At:
+    return At("um", ge=0.0, le=most)
+
+
+@dataclass(frozen=True)
+class Deviations:
+    """What one bearing differs by from its drawing."""
+
+    roller_diameter: A[Float, "[row, roller], mean diameter of each roller [m]"]
+    roller_length: A[Float, "[row, roller], at the small end [m]"]
+    profile: A[Float, "[row, roller], drop of the crown at both ends [m]"]
+    pocket_place: A[Float, "[row, roller], of each pocket along the pitch circle [m]"]
+    pocket_clearance: A[Float, "[row, roller], of each pocket along the pitch circle [m]"]
+    row_clearance: A[Float, "[row], diametral clearance of the row [m]"]
+
+    def by_name(self) -> dict[str, list[Any]]:
+        """List every deviation, [m]."""
+        return {field.name: getattr(self, field.name).tolist() for field in fields(self)}
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Manufacturing scatter of one bearing of a lot.
+
+    A grade gives every variation; a key beside it takes the place of one of them. A variation is largest less
+    smallest of what sorting lets through: deviations are normal, four standard deviations wide, and cut
+    there. Each quantity and row draws from the seed by itself, so that one more key changes no other number.
+    """
+
+    grade: A[str, At(one_of=tuple(GRADES)), "of every variation that has no key of its own"] = "none"
+    seed: A[int, SEED, "which bearing of the lot"] = 1
+    roller_diameter: A[float | None, _variation(50.0), "variation over the rollers"] = None
+    roller_length: A[float | None, _variation(200.0), "variation over the rollers, at the small end"] = None
+    profile: A[float | None, _variation(50.0), "variation of the crown's drop at the ends"] = None
+    pocket_place: A[float | None, _variation(500.0), "variation along the pitch circle"] = None
+    pocket_clearance: A[float | None, _variation(500.0), "variation along the pitch circle"] = None
+    row_clearance: A[float | None, _variation(100.0), "variation of the rows' diametral clearance"] = None
+    raceway_waviness: A[
+        float | None,
+        _variation(20.0),
+        "rms of cup and cone, orders 2 to 300, amplitudes falling with 1/order",
+    ] = None
+    roller_waviness: A[
+        float | None, _variation(20.0), "rms of every roller, orders 2 to 60, amplitudes falling with 1/order"
+    ] = None
+
+    def variation(self, name: str) -> float:
+        """Take the variation of a quantity (rms of a waviness): its own key, or that of the grade, [m]."""
+        own: float | None = getattr(self, name)
+        return GRADES[self.grade][name] * _MICRON if own is None else own
+
+    @property
+    def absent(self) -> bool:
+        """Tell whether nothing scatters."""
+        return not any(self.variation(name) for name in _OF_G1)
+
+    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+        """Check that pockets keep room for their rollers."""
+        room = bearing.cage.circumferential_clearance
+        taken = self.variation("pocket_clearance") + self.variation("pocket_place")
+        if taken >= 2.0 * room:
+            yield (
+                f"pocket_place_um and pocket_clearance_um together are {taken / _MICRON:g}; they must be "
+                f"below {2.0 * room / _MICRON:g}, twice the clearance of a pocket"
+            )
+
+    def _drawn(self, name: str, row: int, count: int) -> Float:
+        """Draw the deviations of a quantity in one row, shape [count], [m]."""
+        draw = np.random.default_rng(np.random.SeedSequence([self.seed, zlib.crc32(name.encode()), row]))
+        tries = draw.standard_normal((count, _TRIES))
+        first = np.argmax(np.abs(tries) <= CUT, axis=1)
+        return 0.5 / CUT * self.variation(name) * tries[np.arange(count), first]
+
+    def deviations(self, bearing: Bearing) -> Deviations:
+        """Draw what a bearing differs by from its drawing."""
+        each = {
+            field.name: np.stack([self._drawn(field.name, row, bearing.roller_count) for row in range(_ROWS)])
+            for field in fields(Deviations)
+            if field.name != "row_clearance"
+        }
+        rows = np.concatenate([self._drawn("row_clearance", row, 1) for row in range(_ROWS)])
+        return Deviations(**each, row_clearance=rows)
+
+    @property
+    def waves(self) -> tuple[Waviness, ...]:
+        """Waviness of all surfaces, with phases from the seed."""
+        found = []
+        for on, (first, last) in _SHAPES.items():
+            rms = self.variation("roller_waviness" if on == "roller" else "raceway_waviness")
+            if rms:
+                orders, amplitudes = tuple(range(first, last + 1)), band_amplitudes(first, last, rms)
+                found += [Waviness(on, row, orders, amplitudes, None, self._wave_seed(on)) for row in (0, 1)]
+        return tuple(found)
+
+    def _wave_seed(self, on: str) -> int:
+        """Make the seed of the phases of a surface, apart from those that a scene gives its own waves."""
+        words = np.random.SeedSequence([self.seed, zlib.crc32(f"{on}_waviness".encode())])
+        return int(words.generate_state(1)[0])
+
+    def described(self) -> str:
+        """Describe the scatter in a few words."""
+        own = [name.replace("_", " ") for name in _OF_G1 if getattr(self, name) is not None]
+        what = ("" if self.grade == "none" else f"grade {self.grade}", f"own {', '.join(own)}" if own else "")
+        return f"scatter: {', '.join(each for each in what if each) or 'none'}, seed {self.seed}"
+
+    def truth(self, bearing: Bearing) -> dict[str, Any]:
+        """Write grade, seed and all deviations, [m]."""
+        own: dict[str, Any] = {name: self.variation(name) for name in _OF_G1}
+        full = replace(self, **own)
+        return {**written(full), "deviations_m": self.deviations(bearing).by_name()}
