@@ -12,7 +12,14 @@ from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import pocket_wear
-from beardyn_core.kernels.exchange import ContactOutput, account, account_loss, output_contact, react
+from beardyn_core.kernels.exchange import (
+    ContactOutput,
+    account,
+    account_loss,
+    accumulate_vector,
+    output_contact,
+    react,
+)
 from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, magnitude, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.orbit import ring_view
@@ -26,8 +33,16 @@ from beardyn_core.kernels.vectors import (
     dot,
     scale,
     subtract,
+    turn_out,
 )
-from beardyn_core.model.layout import CAGE_BODY, LOSS_POCKET, POCKET, POCKET_ANGLE, RING_TURN
+from beardyn_core.model.layout import (
+    CAGE_BODY,
+    LOSS_POCKET,
+    LOST_ON_CAGE,
+    POCKET,
+    POCKET_ANGLE,
+    RING_TURN,
+)
 
 
 class Walls(NamedTuple):
@@ -122,7 +137,10 @@ def push_pocket(total, contact, cage):
 def settle_pocket(contact, change, here, cage, p):
     """Write reaction, output and audit of the pocket contact, which is explicit.
 
-    The loss is taken at the middle of a step that changes the roller's velocities.
+    The loss is taken at the middle of the step. It changes the roller's velocity here; what it changes in
+    the cage's is known when all pockets have pushed, see `cage_bodies.settle_cages`. Kinetic energy is the
+    mean of what the velocities before and after the step have, which lies above that of the instant by a
+    quarter of what the springs give in the step: the elastic energy is booked without it.
     """
     if cage is None:
         return
@@ -132,7 +150,25 @@ def settle_pocket(contact, change, here, cage, p):
     output_contact(here.lanes, here.rollers, here.block, POCKET, output)
     lost = walls.power + 0.5 * (dot(walls.lost_force, change.velocity) + dot(walls.lost_moment, change.omega))
     account_loss(here, LOSS_POCKET, p.step * lost, p.effects.audit)
-    account(here, zero, walls.energy, p.effects.audit)
+    spring = add(walls.force, walls.lost_force)
+    turning = add(walls.moment, walls.lost_moment)
+    kinetic = 0.25 * p.step * (dot(spring, change.velocity) + dot(turning, change.omega))
+    account(here, zero, walls.energy - kinetic, p.effects.audit)
+    _keep_lost(contact, here, p.effects.audit)
+
+
+@inline
+def _keep_lost(contact, here, audit):
+    """Add the lost part of the pocket's force, negated, and its moment about the cage's origin to the sums."""
+    if audit is None:
+        return
+    walls = contact.walls
+    if any_positive(walls.power):
+        moment = add(walls.lost_moment, cross(contact.centre, walls.lost_force))
+        force = turn_out(scale(here.mask, walls.lost_force), here.cosine, here.sine)
+        turn = turn_out(scale(here.mask, moment), here.cosine, here.sine)
+        accumulate_vector(here, LOST_ON_CAGE, force)
+        accumulate_vector(here, LOST_ON_CAGE + 3, turn)
 
 
 # --- the three kinds of pockets

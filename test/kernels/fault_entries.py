@@ -89,7 +89,7 @@ def moving_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
     for case in range(cases.shape[0]):
         contact = cup_contact(lanes, cases, case, load_vector(lanes, cases, case, 8), p)
         lanes.store(out, case, 0, contact.sums.energy)
-        lanes.store(out, case, 1, contact.sums.released)
+        lanes.store(out, case, 1, released_power(contact.sums.released, contact.slip.rate))
         lanes.store(out, case, 2, contact.sums.stiffness[0])
         lanes.store(out, case, 3, contact.sums.deepest)
         lanes.store(out, case, 4, contact.sums.force[0])
