@@ -161,9 +161,7 @@ def _at_rest():
 def _motion(bodies, body):
     if body >= bodies.shape[0]:  # the cage of a row that is not there
         return _at_rest()
-    return body_vector(bodies, body, layout.LINEAR), full_rotation(
-        bodies, body, ring_direction(bodies, body)
-    )
+    return body_vector(bodies, body, layout.LINEAR), full_rotation(bodies, body, ring_direction(bodies, body))
 
 
 @inline

@@ -7,6 +7,7 @@ from typing import Any
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.defect import find_damage, pocket_wear, spring_damage, spring_slopes
 from beardyn_core.kernels.exchange import load_vector, store_vector
+from beardyn_core.kernels.laminae import released_power
 from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.pocket import free_pocket
 from beardyn_core.kernels.raceway import Ring, faults_of_cup, prepare_raceway
