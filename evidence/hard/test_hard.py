@@ -35,7 +35,7 @@ def in_short(case: HardCase) -> HardCase:
 
 @pytest.mark.parametrize("case", [case for case in CASES if case.fast], ids=lambda case: case.name)
 def test_fast_case_passes(case: HardCase) -> None:
-    outcome = run_case(in_short(case))
+    outcome = run_case(in_short(case), starts=1)
     assert outcome.verdict in (*GOOD, KNOWN), outcome.reasons
 
 
@@ -62,7 +62,7 @@ def test_interrupted_long_case_goes_on_from_its_checkpoint(
         "endless", "endurance", "", "", changes={"tier": "lumped"}, load=steady((0.0, 0.0, 8e4), 122.0),
         duration=0.16, refined=False, long=True,
     )  # fmt: skip
-    straight = run_case(case).measures
+    straight = run_case(case, starts=1).measures
     monkeypatch.setattr(run, "CHECKPOINT_EVERY_S", 0.0)
     advance, advanced = Twin.advance, 0
 
@@ -75,8 +75,8 @@ def test_interrupted_long_case_goes_on_from_its_checkpoint(
 
     monkeypatch.setattr(Twin, "advance", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        run_case(case, tmp_path / "endless.checkpoint")
-    assert run_case(case, tmp_path / "endless.checkpoint").measures == straight
+        run_case(case, tmp_path / "endless.checkpoint", starts=1)
+    assert run_case(case, tmp_path / "endless.checkpoint", starts=1).measures == straight
     assert advanced == 6 + 3
 
 
