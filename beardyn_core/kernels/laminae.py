@@ -131,17 +131,18 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         slopes = _slopes_of(lanes, k, count, damage, effects.coupling)
         gap_rate = _gap_rate(slopes, raceway.turning, damage)
         rate = _less_gap_rate(slip.rate[0] + x * slip.rate[1], gap_rate, damage)
-        touching = _within_the_step(touching, depth, rate, raceway.times, raceway.damages)
-        push = _spring_push(touching, rate, effects.damping)
+        pressing = _within_the_step(touching, depth, rate, raceway.times, raceway.damages)
+        push = _spring_push(pressing, rate, effects.damping)
         whole = share * (0.9 * tangent * touching)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
-        elastic = 0.9 * tangent * touching
+        lost = whole - share * (0.9 * tangent * touching)
+        elastic = 0.9 * tangent * pressing
         load = tangent * push
         lanes.store(work, _LOADS, k, load)
         lean = _add_lean(lean, share * load, slopes, damage)
         elastic, tangent = share * elastic, share * tangent
         gap = _add_gap(gap, tangent, x, slopes, gap_rate, damage)
-        released = _release(released, whole - elastic, x, gap_rate, effects.damping, effects.audit)
+        released = _release(released, lost, x, gap_rate, effects.damping, effects.audit)
         deepest = _deepest_so_far(deepest, share, depth, damage)
         force, stiffness = add_moments(force, elastic, x), add_moments(stiffness, tangent, x)
     for k in range(springs):
