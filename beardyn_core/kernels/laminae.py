@@ -142,7 +142,8 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         lean = _add_lean(lean, share * load, slopes, damage)
         elastic, tangent = share * elastic, share * tangent
         gap = _add_gap(gap, tangent, x, slopes, gap_rate, damage)
-        released = _release(released, lost, x, gap_rate, effects.damping, effects.audit)
+        released = _release(released, lost, x, effects.damping, effects.audit)
+        released = _release_gap(released, lost * gap_rate, damage)
         deepest = _deepest_so_far(deepest, share, depth, damage)
         force, stiffness = add_moments(force, elastic, x), add_moments(stiffness, tangent, x)
     for k in range(springs):
@@ -177,18 +178,25 @@ def _spring_push(approach, rate, damping):
 
 
 @inline
-def _release(released, lost, x, gap_rate, damping, audit):
+def _release(released, lost, x, damping, audit):
     """Add what the damper of one spring takes where the contact opens faster than the spring follows.
 
     A contact does not pull: the spring then expands against its own damper, and its energy ends there. What
-    is lost of its force belongs to the stored energy and presses no more, [N]: summed with x^0 and x^1, and
-    times the rate of the gap, [W].
+    is lost of its force belongs to the stored energy and presses no more, [N]: summed with x^0 and x^1.
     """
     if damping is None:
         return released
     if audit is None:
         return released
-    return released[0] + lost, released[1] + lost * x, released[2] + lost * gap_rate
+    return released[0] + lost, released[1] + lost * x, released[2]
+
+
+@inline
+def _release_gap(released, power, damage):
+    """Add what a gap that moves takes from a spring that presses no more, [W]."""
+    if damage is None:
+        return released
+    return released[0], released[1], released[2] + power
 
 
 @inline

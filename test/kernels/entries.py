@@ -33,9 +33,9 @@ from beardyn_core.kernels.lane_math import (
 from beardyn_core.kernels.large_end import rib_gap
 from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.pocket import Motion, Pocket, free_pocket
-from beardyn_core.kernels.point_contact import push_point, push_small_rib, small_rib_contact
+from beardyn_core.kernels.point_contact import push_small_rib, small_rib_contact
 from beardyn_core.kernels.raceway import RacewayContact, push_raceway
-from beardyn_core.kernels.rib import rib_contact
+from beardyn_core.kernels.rib import push_rib, rib_contact
 from beardyn_core.kernels.solve import (
     add_line,
     add_line_everywhere,
@@ -161,12 +161,14 @@ def ribs(lanes: Any, states: Any, out: Any, rib: Any, damping: Any) -> None:
     """Rib contact of each case (inputs as `raceways`, last the orbit rate): force, moment, energy, film."""
     for case in range(states.shape[0]):
         body, view = body_and_view(lanes, states, case, lanes.load(states, case, 21))
-        contact = rib_contact(body.place, body, view, rib, damping).first
-        wrench = push_point(contact, rib.drilling)
+        zero = lanes.constant(0.0)
+        nothing = (zero, zero, zero)
+        contact = rib_contact(body.place, body, view, rib, damping)
+        wrench = push_rib(Wrench(nothing, nothing), contact, rib)
         store_vector(lanes, out, case, 0, wrench.force)
         store_vector(lanes, out, case, 3, wrench.moment)
-        lanes.store(out, case, 6, contact.energy)
-        lanes.store(out, case, 7, contact.film)
+        lanes.store(out, case, 6, contact.first.energy + contact.second.energy)
+        lanes.store(out, case, 7, contact.first.film)
 
 
 @entry
