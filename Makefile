@@ -19,7 +19,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step light ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step light damping ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -58,6 +58,9 @@ step: $(VENV)/.ready-test ## set up, then time steps against an explicit referen
 
 light: $(VENV)/.ready-test ## set up, then cages under light loads in every shipped set: docs/light.md
 	@$(BIN)/python -m evidence.light.page $(ARGS)
+
+damping: $(VENV)/.ready-test ## set up, then damping times over their quoted range: docs/damping.md
+	@$(BIN)/python -m evidence.damping.page $(ARGS)
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)

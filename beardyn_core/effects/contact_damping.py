@@ -12,14 +12,15 @@ from beardyn_core.effects.about import About
 
 @dataclass(frozen=True)
 class ContactDamping:
-    """Velocity-proportional loss of raceway and rib contacts."""
+    """Velocity-proportional loss of raceway and rib contacts, against gaps that move under a roller too."""
 
     about: ClassVar[About] = About(
         adds="Velocity-proportional normal loss in raceway and rib contacts.",
         states="none",
         cost="low",
         validity="Persistent, lubricated contacts; impacts lose less than a restitution law would say.",
-        source="Kraemer (1992), damping time 2.5e-6 to 2.5e-5 s; clipped so that a contact never pulls",
+        source="Kraemer (1992), damping time 2.5e-6 to 2.5e-5 s of whole bearings; what it changes: "
+        "docs/damping.md; clipped so that a contact never pulls",
     )
 
     time_constant: A[

@@ -68,6 +68,6 @@ class Rib:
     stiffness: A[str, At(one_of=("fitted", "exact")), "elliptic integrals of the contact"] = "fitted"
     window: A[bool, "the face ends at the undercut and at the rib's corner"] = True
     edge_radius: A[float, At("mm", gt=0.0, le=2.0), "rounding of both edges of the face"] = 0.3e-3
-    roller_end: A[bool, "the sphere ends at the rim of the roller end"] = False
+    roller_end: A[bool, "the sphere ends at the rim of the roller end, which carries beyond it"] = True
     drilling: A[bool, "friction of the spin inside the contact ellipse"] = False
     lubrication: A[RibLubrication | None, "nothing: dry friction"] = None

@@ -13,7 +13,14 @@ from beardyn_core.kernels.bodies import (
     sum_lanes,
 )
 from beardyn_core.kernels.box import box_energy, kick_box
-from beardyn_core.kernels.cage_bodies import cage_energy, move_cages, pass_on, place_cages
+from beardyn_core.kernels.cage_bodies import (
+    cage_energy,
+    cage_motions,
+    move_cages,
+    pass_on,
+    place_cages,
+    settle_cages,
+)
 from beardyn_core.kernels.land import land_of, push_lands, settle_lands
 from beardyn_core.kernels.lanes import align_stack
 from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
@@ -147,7 +154,9 @@ def advance(lanes, state, work, loads, output, p):
         )
         stored += propped
         mark(timers, RINGS)
+        before = cage_motions(bodies, cage, effects.audit)
         move_cages(bodies, wrenches, energy, p.step, cage, effects.gravity)
+        stored -= settle_cages(bodies, before, sums, energy, p.step, cage, effects.audit)
         stored += settle_lands(bodies, lands, energy, p.step, cage, land)
         mark(timers, CAGE)
         stored += kick_flex(flex, sums, energy, p.step, flexibility)

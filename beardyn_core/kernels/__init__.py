@@ -45,7 +45,9 @@ ring_flexibility  bending of the cup
 rolling           couple against rolling
 drag              medium around the rollers
 point_contact     contact with the cone at a point, and the small rib
+large_end         where the large end is nearest to the rib
 rib               large end on the cone rib
+pocket_film       lubricant between roller and bar
 pocket            roller in its cage pocket
 roller            one step of a block of rollers
 bodies            cup, cone and cages as scalar rigid bodies, and the seals between them

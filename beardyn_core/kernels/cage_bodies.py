@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.bodies import fall, kick_cages, ring_direction
+from beardyn_core.kernels.bodies import (
+    body_vector,
+    fall,
+    full_rotation,
+    kick_cages,
+    ring_direction,
+    row_of,
+)
+from beardyn_core.kernels.vectors import subtract
 from beardyn_core.model import layout
 
 X, Y, Z = 0, 1, 2
+_ON_CAGE = layout.REACTION + 6 * layout.CAGE_BODY
 
 
 @inline
@@ -131,3 +140,58 @@ def _turn(bodies, body, about, energy, step, cage, kinematic):
     before = bodies[body, layout.RATE]
     bodies[body, layout.RATE] = kinematic.speed_ratio * bodies[layout.CONE_BODY, layout.RATE]
     energy[layout.ENERGY_EXTERNAL] -= step * about * 0.5 * (before + bodies[body, layout.RATE])
+
+
+@inline
+def cage_motions(bodies, cage, audit):
+    """Take the velocity and angular velocity of both cages; zeros where nothing needs them."""
+    if cage is None:
+        return _at_rest(), _at_rest()
+    if audit is None:
+        return _at_rest(), _at_rest()
+    return _motion(bodies, layout.CAGE_BODY), _motion(bodies, layout.CAGE_BODY + 1)
+
+
+@inline
+def _at_rest():
+    return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+
+
+@inline
+def _motion(bodies, body):
+    if body >= bodies.shape[0]:  # the cage of a row that is not there
+        return _at_rest()
+    return body_vector(bodies, body, layout.LINEAR), full_rotation(bodies, body, ring_direction(bodies, body))
+
+
+@inline
+def settle_cages(bodies, before, sums, energy, step, cage, audit):
+    """Take the pockets' loss at the middle of the step that has changed the motion of the cages.
+
+    ``before``: from `cage_motions`, before the cages were moved. Returns what the springs of the pockets gave
+    the cages in the step, a quarter of it, [J]: see `pocket.settle_pocket`.
+    """
+    if cage is None:
+        return 0.0
+    if audit is None:
+        return 0.0
+    return _settle(bodies, before, sums, energy, step)
+
+
+@inline
+def _settle(bodies, before, sums, energy, step):
+    width, rows = sums.shape[3], bodies.shape[0] - layout.CAGE_BODY
+    lost, whole = 0.0, 0.0
+    for row in range(rows):
+        after, side = _motion(bodies, layout.CAGE_BODY + row), 2.0 * row - 1.0
+        faster, turning = subtract(after[0], before[row][0]), subtract(after[1], before[row][1])
+        # in the frame of the row, see `bodies.show_rings`
+        change = (faster[Z], faster[X], side * faster[Y], side * turning[Z], side * turning[X], turning[Y])
+        for group in range(sums.shape[0]):
+            for lane in range(width):
+                if row_of(group, lane, width, rows) == row:
+                    for i in range(6):
+                        lost += sums[group, 0, layout.LOST_ON_CAGE + i, lane] * change[i]
+                        whole += sums[group, 0, _ON_CAGE + i, lane] * change[i]
+    energy[layout.ENERGY_LOST + layout.LOSS_POCKET] -= 0.5 * step * lost
+    return 0.25 * step * (whole - lost)

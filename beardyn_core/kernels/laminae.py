@@ -33,6 +33,15 @@ SMALLEST_SHARE = 1e-6
 _LOADS = 0  # the work space has one page
 
 
+class GapSums(NamedTuple):
+    """What gaps that move under the springs of a contact add to its sums; twos are with x^0, x^1."""
+
+    ring: Any  # 2, tangent stiffness times slope of the gap over the azimuth in the ring [N/rad m^k]
+    roller: Any  # 2, over the azimuth in the roller
+    rate: Any  # 2, tangent stiffness times rate of the gap [N/s m^k]
+    squares: Any  # tangent stiffness times the squared rate of the gap [N m/s^2]
+
+
 class LaminaSums(NamedTuple):
     """Sums over the laminae of one raceway contact; threes are with x^0, x^1, x^2."""
 
@@ -40,10 +49,11 @@ class LaminaSums(NamedTuple):
     stiffness: Any  # 3, tangent [N/m m^k]
     friction: Any  # 3, force over slip [N s/m m^k]
     energy: Any  # elastic [J]
-    lean: Any  # 2, elastic force times slope of the gap over the azimuth in ring and roller [N m/rad]
+    lean: Any  # 2, force times slope of the gap over the azimuth in ring and roller [N m/rad]
     touches: bool  # whether any roller of the block may touch; else all sums are exactly zero
-    released: Any  # power that dampers take where a contact opens faster than its springs follow [W]
+    released: Any  # 3, what dampers take where a contact opens faster than its springs follow, see `_release`
     deepest: Any  # largest penetration [m]
+    gap: Any  # GapSums, zeros where no spring is near a patch
 
 
 class Raceway(NamedTuple):
@@ -55,6 +65,9 @@ class Raceway(NamedTuple):
     work: Any  # [1, 2 x lamina, lane], for the loads of the springs [N]
     reach: float  # no lamina is farther from the centre of mass [m]
     effects: Any
+    turning: Any  # 2, rates of the contact's azimuth in ring and roller [rad/s], used near a patch
+    times: Any  # 2, the step, and the time over which springs are implicit [s]
+    damages: Any  # 2, of this ring and the other one; None where no roller can meet a patch
 
 
 @inline
@@ -82,7 +95,9 @@ def _sound_sums(raceway, line, slip, log2_speed):
         return _spring_sums(raceway, line, slip, log2_speed, None)
     zero = raceway.lanes.constant(0.0)
     nothing = (zero, zero, zero)
-    return LaminaSums(nothing, nothing, nothing, zero, (zero, zero), False, zero, line.approach[0])
+    level = (zero, zero)
+    gap = GapSums(level, level, level, zero)
+    return LaminaSums(nothing, nothing, nothing, zero, level, False, nothing, line.approach[0], gap)
 
 
 @inline
@@ -102,7 +117,8 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
     force, stiffness, friction = (zero, zero, zero), (zero, zero, zero), (zero, zero, zero)
     energy = zero
     lean = (zero, zero)
-    released = zero
+    released = (zero, zero, zero)
+    gap = GapSums(lean, lean, lean, zero)
     deepest = approach[0] if damage is None else zero
     count = laminae.shape[1]
     _prepare_coupling(lanes, approach, laminae, damage, effects.coupling)
@@ -112,15 +128,22 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)
         touching = at_least(depth, SMALLEST_APPROACH)
         energy = energy + stored
-        opening = slip.rate[0] + x * slip.rate[1]
-        push = _spring_push(touching, opening, effects.damping)
+        slopes = _slopes_of(lanes, k, count, damage, effects.coupling)
+        gap_rate = _gap_rate(slopes, raceway.turning, damage)
+        rate = _less_gap_rate(slip.rate[0] + x * slip.rate[1], gap_rate, damage)
+        pressing = _within_the_step(touching, depth, rate, raceway.times, raceway.damages)
+        push = _spring_push(pressing, rate, effects.damping)
         whole = share * (0.9 * tangent * touching)
-        lean = _add_lean(lanes, lean, whole, k, count, damage, effects.coupling)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
-        elastic = 0.9 * tangent * touching
-        lanes.store(work, _LOADS, k, tangent * push)
+        lost = whole - share * (0.9 * tangent * touching)
+        elastic = 0.9 * tangent * pressing
+        load = tangent * push
+        lanes.store(work, _LOADS, k, load)
+        lean = _add_lean(lean, share * load, slopes, damage)
         elastic, tangent = share * elastic, share * tangent
-        released = _release(released, whole - elastic, opening, effects.damping, effects.audit)
+        gap = _add_gap(gap, tangent, x, slopes, gap_rate, damage)
+        released = _release(released, lost, x, effects.damping, effects.audit)
+        released = _release_gap(released, lost * gap_rate, damage)
         deepest = _deepest_so_far(deepest, share, depth, damage)
         force, stiffness = add_moments(force, elastic, x), add_moments(stiffness, tangent, x)
     for k in range(springs):
@@ -137,7 +160,7 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         rate = friction_rate(contact, effects)
         mark_result(effects.timers, TRACTION, rate)
         friction = add_moments(friction, _share_of(lanes, k, damage, effects.coupling) * rate, x)
-    return LaminaSums(force, stiffness, friction, energy, lean, True, released, deepest)
+    return LaminaSums(force, stiffness, friction, energy, lean, True, released, deepest, gap)
 
 
 @inline
@@ -155,17 +178,35 @@ def _spring_push(approach, rate, damping):
 
 
 @inline
-def _release(power, lost, rate, damping, audit):
-    """Add what the damper of one spring takes where the contact opens faster than the spring follows, [W].
+def _release(released, lost, x, damping, audit):
+    """Add what the damper of one spring takes where the contact opens faster than the spring follows.
 
     A contact does not pull: the spring then expands against its own damper, and its energy ends there. What
-    is lost of its force belongs to the stored energy and presses no more, [N].
+    is lost of its force belongs to the stored energy and presses no more, [N]: summed with x^0 and x^1.
     """
     if damping is None:
-        return power
+        return released
     if audit is None:
-        return power
-    return power - lost * rate
+        return released
+    return released[0] + lost, released[1] + lost * x, released[2]
+
+
+@inline
+def _release_gap(released, power, damage):
+    """Add what a gap that moves takes from a spring that presses no more, [W]."""
+    if damage is None:
+        return released
+    return released[0], released[1], released[2] + power
+
+
+@inline
+def released_power(released, rate):
+    """Work out the power that dampers take where a contact opens faster than its springs follow, [W].
+
+    ``released`` (3 numbers): of `LaminaSums`; ``rate`` (2 numbers): of approach, affine in the abscissa
+    [m/s].
+    """
+    return released[2] - (released[0] * rate[0] + released[1] * rate[1])
 
 
 @inline
@@ -226,17 +267,68 @@ def _share_of(lanes, k, damage, coupling):
 
 
 @inline
-def _add_lean(lanes, lean, elastic, k, count, damage, coupling):
-    """Add elastic force times slope of a spring's gap over the azimuth in ring and roller, [N m/rad]."""
+def _add_lean(lean, load, slopes, damage):
+    """Add the force of a spring times the slope of its gap over the azimuth in ring and roller, [N m/rad]."""
     if damage is None:
         return lean
-    ring_slope, roller_slope = _slopes_of(lanes, k, count, damage, coupling)
-    return lean[0] + elastic * ring_slope, lean[1] + elastic * roller_slope
+    return lean[0] + load * slopes[0], lean[1] + load * slopes[1]
+
+
+@inline
+def _within_the_step(touching, depth, rate, times, damages):
+    """Take what a spring presses with where its contact begins or ends within a step, [m].
+
+    A roller that falls through a patch strikes with up to 1 m/s and moves several micrometres in a step.
+    With all of the force at its first instant of contact the spring takes in k u^2 h^2 / 12 more than it
+    stores, u being the speed and h the step, and gives that much more at the last one: what is missing is
+    that of the speed that the strike has cost. The implicit part of the spring, b h, gives back k u^2 b h^2
+    / 2 of it; the rest comes off the force of these instants. That is exact in the mean over their places in
+    the step; for a linear spring it is so at each place with b = 0.
+    """
+    if damages[0] is None and damages[1] is None:
+        return touching
+    step, spring_time = times
+    way = at_least(magnitude(rate) * step, SMALLEST_APPROACH)
+    part = (0.5 - 3.0 * spring_time / step) * at_least(1.0 - depth / way, 0.0)
+    return touching * (1.0 - part)
+
+
+@inline
+def _gap_rate(slopes, turning, damage):
+    """Work out the rate at which the gap under a spring grows, [m/s]."""
+    if damage is None:
+        return 0.0
+    return slopes[0] * turning[0] + slopes[1] * turning[1]
+
+
+@inline
+def _less_gap_rate(rate, gap_rate, damage):
+    """Take the rate at which the gap under a spring grows off the rate of approach, [m/s]."""
+    if damage is None:
+        return rate
+    return rate - gap_rate
+
+
+@inline
+def _add_gap(gap, tangent, x, slopes, gap_rate, damage):
+    """Add one spring to the sums of moving gaps."""
+    if damage is None:
+        return gap
+    ring, roller = tangent * slopes[0], tangent * slopes[1]
+    moving = tangent * gap_rate
+    return GapSums(
+        (gap.ring[0] + ring, gap.ring[1] + ring * x),
+        (gap.roller[0] + roller, gap.roller[1] + roller * x),
+        (gap.rate[0] + moving, gap.rate[1] + moving * x),
+        gap.squares + moving * gap_rate,
+    )
 
 
 @inline
 def _slopes_of(lanes, k, count, damage, coupling):
     """Take by how much a spring gives way with the azimuth in ring and in roller, [m/rad]."""
+    if damage is None:
+        return 0.0, 0.0
     if coupling is None:
         return spring_slopes(lanes, k, damage)
     return joint_slopes(lanes, k, count, damage)

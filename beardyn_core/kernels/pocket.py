@@ -12,10 +12,18 @@ from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import pocket_length, pocket_wear
-from beardyn_core.kernels.exchange import ContactOutput, account, account_loss, output_contact, react
-from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, magnitude, sqrt, where_greater
+from beardyn_core.kernels.exchange import (
+    ContactOutput,
+    account,
+    account_loss,
+    accumulate_vector,
+    output_contact,
+    react,
+)
+from beardyn_core.kernels.lane_math import at_least, cos_sin, magnitude, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.orbit import ring_view
+from beardyn_core.kernels.pocket_film import is_reached, pocket_loads
 from beardyn_core.kernels.vectors import (
     Vector,
     Wrench,
@@ -26,8 +34,16 @@ from beardyn_core.kernels.vectors import (
     dot,
     scale,
     subtract,
+    turn_out,
 )
-from beardyn_core.model.layout import CAGE_BODY, LOSS_POCKET, POCKET, POCKET_ANGLE, RING_TURN
+from beardyn_core.model.layout import (
+    CAGE_BODY,
+    LOSS_POCKET,
+    LOST_ON_CAGE,
+    POCKET,
+    POCKET_ANGLE,
+    RING_TURN,
+)
 
 
 class Walls(NamedTuple):
@@ -124,7 +140,10 @@ def push_pocket(total, contact, cage):
 def settle_pocket(contact, change, here, cage, p):
     """Write reaction, output and audit of the pocket contact, which is explicit.
 
-    The loss is taken at the middle of a step that changes the roller's velocities.
+    The loss is taken at the middle of the step. It changes the roller's velocity here; what it changes in
+    the cage's is known when all pockets have pushed, see `cage_bodies.settle_cages`. Kinetic energy is the
+    mean of what the velocities before and after the step have, which lies above that of the instant by a
+    quarter of what the springs give in the step: the elastic energy is booked without it.
     """
     if cage is None:
         return
@@ -134,7 +153,25 @@ def settle_pocket(contact, change, here, cage, p):
     output_contact(here.lanes, here.rollers, here.block, POCKET, output)
     lost = walls.power + 0.5 * (dot(walls.lost_force, change.velocity) + dot(walls.lost_moment, change.omega))
     account_loss(here, LOSS_POCKET, p.step * lost, p.effects.audit)
-    account(here, zero, walls.energy, p.effects.audit)
+    spring = add(walls.force, walls.lost_force)
+    turning = add(walls.moment, walls.lost_moment)
+    kinetic = 0.25 * p.step * (dot(spring, change.velocity) + dot(turning, change.omega))
+    account(here, zero, walls.energy - kinetic, p.effects.audit)
+    _keep_lost(contact, here, p.effects.audit)
+
+
+@inline
+def _keep_lost(contact, here, audit):
+    """Sum the lost part of the pocket's force, negated, and its moment about the cage's origin."""
+    if audit is None:
+        return
+    walls = contact.walls
+    if any_positive(walls.power):
+        moment = add(walls.lost_moment, cross(contact.centre, walls.lost_force))
+        force = turn_out(scale(here.mask, walls.lost_force), here.cosine, here.sine)
+        turn = turn_out(scale(here.mask, moment), here.cosine, here.sine)
+        accumulate_vector(here, LOST_ON_CAGE, force)
+        accumulate_vector(here, LOST_ON_CAGE + 3, turn)
 
 
 # --- the three kinds of pockets
@@ -320,20 +357,12 @@ def _touch_wall(walls, wall, motion, cage, shape, film):
 
     ``shape`` is the roller's axis and its radius at the wall, for the film if there is one.
     """
-    if _is_reached(wall.depth, film):
+    if is_reached(wall.depth, film):
         slip = _wall_slip(wall.centre, wall.arm, motion)
         return _press_wall(walls, wall.arm, slip, wall.direction, wall.depth, cage, shape, film)
     force = walls.force
     force = (force[0] + 0.0 * wall.depth, force[1], force[2])  # a NaN stays one
     return Walls(force, walls.moment, walls.energy, walls.power, walls.lost_force, walls.lost_moment)
-
-
-@inline
-def _is_reached(depth, film):
-    """Tell whether the wall acts on any lane; a film acts within the thickness of its layer."""
-    if film is None:
-        return any_positive(depth)
-    return any_positive(1.0 + film.inverse_layer * depth)
 
 
 @inline
@@ -349,45 +378,6 @@ def _press_wall(walls, arm, slip, direction, depth, cage, shape, film):
     force = add_scaled(scale(-load, direction), -friction, tangential)
     lost = add_scaled(scale(load - spring, direction), friction, tangential)
     return _add_touch(walls, arm, slip, force, lost, 0.5 * spring * inside)
-
-
-@inline
-def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
-    """Split the load of a wall into that of its film, that which rubs solid on solid, and viscous friction.
-
-    An isoviscous film between rigid faces carries the bar until the gap has closed to `film.thinnest`, where
-    roughness keeps it; what is pressed further is carried by spring and damper on top of the film. Squeezing
-    adds to the load and opening takes from it, down to zero: the film cavitates instead of pulling. A gap
-    wider than the lubricant's layer is not bridged. Neglects side leakage and the heating of the film.
-
-    ``depth``: approach beyond touching, negative for a gap [m]; ``pressed``: spring and damper of the dry
-    wall [N]; ``rate``: speed of approach [m/s]; ``slip``: of the roller's surface against the bar [m/s];
-    ``direction``: normal of the wall, towards it; ``shape``: axis of the
-    roller, and its radius here [m]. Returns ``load``, ``solid`` [N]; ``shear``: friction force of the film
-    over slip [N s/m].
-
-    References
-    ----------
-    Martin, H. M. (1916): w = 4.9 eta u R l / h with the mean surface speed u, half of the roller's here.
-    Squeezing from Reynolds' equation with h + x^2 / 2R: h^3 p' = 12 eta h' x gives p = -6 eta R h' / h^2 and
-    w = -3 sqrt(2) pi eta l h' (R / h)^1.5; shearing: eta u l times the integral of dx / h over all x, which
-    is sqrt(2) pi eta u l (R / h)^0.5.
-    """
-    if film is None:
-        load = at_least(pressed, 0.0)
-        return load, load, 0.0
-    axis, radius = shape
-    gap = at_least(-depth, film.thinnest)
-    bridged = at_least(1.0 - film.inverse_layer * gap, 0.0)
-    ratio = radius / gap
-    root = sqrt(ratio)
-    rolling = magnitude(dot(slip, cross(axis, direction)))
-    squeeze = film.squeeze * bridged * ratio * root
-    # the cage is explicit: a pocket may not resist more than its share of the cage can follow within a step
-    squeeze = squeeze / (1.0 + film.share * squeeze)
-    load = at_least(pressed + film.wedge * bridged * ratio * rolling + squeeze * rate, 0.0)
-    solid = at_most(at_least(pressed, 0.0), load)
-    return load, solid, film.shear * bridged * root
 
 
 @inline

@@ -18,14 +18,15 @@ from beardyn_core.kernels.generator_line import (
     shifted,
     weighted,
 )
-from beardyn_core.kernels.laminae import LaminaSums, Raceway, lamina_sums
+from beardyn_core.kernels.laminae import LaminaSums, Raceway, lamina_sums, released_power
 from beardyn_core.kernels.lane_math import at_least, at_most, sqrt
-from beardyn_core.kernels.orbit import entrainment_speed
+from beardyn_core.kernels.orbit import Body, entrainment_speed
 from beardyn_core.kernels.solve import add_line, add_line_everywhere
 from beardyn_core.kernels.traction import traction_capacity
-from beardyn_core.kernels.vectors import Vector, Wrench, add_scaled, scale, subtract
+from beardyn_core.kernels.vectors import Vector, Wrench, add_scaled, dot, scale, subtract
 from beardyn_core.kernels.waviness import (
     add_leaning,
+    add_leaning_change,
     bend_line,
     crown_bend,
     lean_wrench,
@@ -41,6 +42,7 @@ class RingFaults(NamedTuple):
     surface: Any
     roller_surface: Any
     damage: Any
+    other_damage: Any  # of the other ring
     waves: Any
     roller_waves: Any
 
@@ -63,6 +65,8 @@ class RacewayContact(NamedTuple):
     lean: Wrench  # of sloping gaps
     log2_speed: Any  # from `log2_entrainment`
     centre: Vector  # of mass of the roller from the origin about which reactions are summed [m]
+    body: Body
+    damage: Any  # DamageParams, None on a surface without patches
 
 
 class Settled(NamedTuple):
@@ -92,12 +96,26 @@ def prepare_raceway(lanes, block, ring, body, oversize, azimuths, p):
     surfaces = (faults.surface, faults.roller_surface)
     near = find_damage(lanes, block, azimuths, p.laminae.shape[1], surfaces, faults.damage)
     reach = p.roller.half_length + abs(p.roller.mass_offset)
-    shared = Raceway(lanes, ring.number, p.laminae, p.lamina_loads, reach, p.effects)
+    times, damages = (p.step, p.spring_time), (faults.damage, faults.other_damage)
+    turning = contact_turning(body, view, faults.damage)
+    shared = Raceway(lanes, ring.number, p.laminae, p.lamina_loads, reach, p.effects, turning, times, damages)
     sums = lamina_sums(shared, line, slip, log2_speed, near, faults.damage)
     lean = lean_wrench(
         lanes, body, sums, (ring_climb, roller_climb), faults.damage, faults.waves, faults.roller_waves
     )
-    return RacewayContact(line, slip, sums, lean, log2_speed, centre)
+    return RacewayContact(line, slip, sums, lean, log2_speed, centre, body, faults.damage)
+
+
+@inline
+def contact_turning(body, view, damage):
+    """Work out how fast the azimuths of a contact in its ring and in the roller grow, [rad/s].
+
+    Zeros that nothing uses where no patch can be.
+    """
+    if damage is None:
+        return 0.0 * body.orbit_rate, 0.0 * body.orbit_rate
+    spin = dot(body.omega, body.axis) - body.orbit_rate * body.axis[2]
+    return body.orbit_rate - dot(view.omega, view.axis), -spin
 
 
 @inline
@@ -118,22 +136,33 @@ def stiffen_raceway(matrix, contact, p):
 def push_raceway(contact, damping):
     """Work out the wrench on the roller from the velocities at the beginning of the step."""
     slip, sums = contact.slip, contact.sums
-    normal = _normal_sums(sums.force, sums.stiffness, slip.rate, damping)
+    normal = _normal_sums(sums.force, sums.stiffness, slip.rate, (sums.gap, contact.damage), damping)
     around, along = weighted(sums.friction, slip.around), weighted(sums.friction, slip.along)
     return add_leaning(line_wrench(contact.line, normal, around, along), contact.lean)
 
 
 @inline
-def _normal_sums(elastic, stiffness, rate, damping):
-    """Add the damping to the elastic normal force with x^0, x^1, x^2, [N m^k]."""
+def _normal_sums(elastic, stiffness, rate, gap, damping):
+    """Add the damping to the elastic normal force with x^0, x^1, x^2, [N m^k].
+
+    ``gap``: `GapSums`, and the damage or ``None``.
+    """
     if damping is None:
         return elastic
-    damped = weighted(stiffness, rate)
+    damped = _less_gap(weighted(stiffness, rate), gap[0], gap[1])
     return (
         elastic[0] + damping.time_constant * damped[0],
         elastic[1] + damping.time_constant * damped[1],
         elastic[2],
     )
+
+
+@inline
+def _less_gap(damped, gap, damage):
+    """Take what moving gaps give way off the rates of approach, weighted by the stiffness, [N/s m^k]."""
+    if damage is None:
+        return damped
+    return damped[0] - gap.rate[0], damped[1] - gap.rate[1]
 
 
 @inline
@@ -193,33 +222,50 @@ def settled_contact(contact, change, step, spring_time, damping):
         sums.force[1] + spring_time * spring[1],
         sums.force[2],
     )
-    normal = _normal_sums(elastic, sums.stiffness, middle_rate, damping)
+    normal = _normal_sums(elastic, sums.stiffness, middle_rate, (sums.gap, contact.damage), damping)
     around, along = shifted(slip.around, d_around, 1.0), shifted(slip.along, d_along, 1.0)
     friction_around = weighted(sums.friction, around)
     wrench = line_wrench(line, normal, friction_around, weighted(sums.friction, along))
     wrench = add_leaning(wrench, contact.lean)
+    further = spring_time + 0.5 * exchange.damper_time(damping)
+    wrench = add_leaning_change(wrench, sums.gap, d_rate, further, contact.body, contact.damage)
     around, along = shifted(slip.around, d_around, 0.5), shifted(slip.along, d_along, 0.5)
     slid = power(sums.friction, around, around) + power(sums.friction, along, along)
     numerical = 0.5 * (power(sums.friction, d_around, around) + power(sums.friction, d_along, along))
-    damped = _damping_loss(sums, middle_rate, damping) + sums.released
+    damped = _damping_loss(sums, middle_rate, damping, contact.damage)
+    damped = damped + released_power(sums.released, middle_rate)
     return Settled(wrench, normal, friction_around[0], step * slid, step * damped, step * numerical)
 
 
 @inline
-def _damping_loss(sums, rate, damping):
+def _damping_loss(sums, rate, damping, damage):
     """Work out the power of the contact damping at a rate of approach, [W]."""
     if damping is None:
         return 0.0
-    return damping.time_constant * power(sums.stiffness, rate, rate)
+    return damping.time_constant * _gap_power(power(sums.stiffness, rate, rate), rate, sums.gap, damage)
+
+
+@inline
+def _gap_power(weighted_squares, rate, gap, damage):
+    """Turn the weighted squares of rates of approach into those of the rates against a moving gap."""
+    if damage is None:
+        return weighted_squares
+    return weighted_squares - 2.0 * (gap.rate[0] * rate[0] + gap.rate[1] * rate[1]) + gap.squares
 
 
 @inline
 def faults_of_cup(faults):
     """Take the faults that a contact with the cup meets: `RingFaults`."""
-    return RingFaults(faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves)
+    return RingFaults(
+        faults.cup, faults.roller, faults.cup_damage, faults.cone_damage, faults.cup_waves,
+        faults.roller_waves,
+    )  # fmt: skip
 
 
 @inline
 def faults_of_cone(faults):
     """Take the faults that a contact with the cone meets: `RingFaults`."""
-    return RingFaults(faults.cone, faults.roller, faults.cone_damage, faults.cone_waves, faults.roller_waves)
+    return RingFaults(
+        faults.cone, faults.roller, faults.cone_damage, faults.cup_damage, faults.cone_waves,
+        faults.roller_waves,
+    )  # fmt: skip

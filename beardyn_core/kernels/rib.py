@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 from beardyn_core.jit import inline
 from beardyn_core.kernels import point_contact
-from beardyn_core.kernels.exchange import ContactOutput, damper_time, output_contact
+from beardyn_core.kernels.exchange import ContactOutput, damper_time, load_vector, output_contact
 from beardyn_core.kernels.lane_math import (
     LOG2_E,
     at_least,
@@ -16,37 +18,45 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
 )
 from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.large_end import rim_points, sphere_point
 from beardyn_core.kernels.vectors import (
     add,
     add_scaled,
     add_wrenches,
-    choose_vector,
     cross,
     dot,
     scale,
     subtract,
 )
-from beardyn_core.model.layout import LOSS_RIB, RIB
+from beardyn_core.model.layout import CONTACT_OUTPUT, LOSS_RIB, OUTPUT_FIELDS, OUTPUT_FORCE, RIB
 
-_LARGEST_TURN = 0.4
-# Keeps the direction of a sphere centred on the ring axis finite; far below any distance that occurs.
-_AXIS_FLOOR = 1e-30
+_RIB_FORCE = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_FORCE
+_SMALLEST_LOAD = 1e-30
+
 _SHARE_FACTOR = -1.8 * LOG2_E
 _SHARE_EXPONENT = 1.2
 _LARGEST_LOG2_THICKENING = 30.0
 
 
+class RibContact(NamedTuple):
+    """Contact of the large end with the rib: its face, or its rim at up to two points."""
+
+    first: Any  # `PointContact`
+    second: Any
+
+
 @inline
 def prepare_rib(body, view, zero, rib, damping):
-    """Work out the rib contact before the solve, a `PointContact`; without a rib zeros that nothing uses."""
+    """Work out the rib contact before the solve, a `RibContact`; without a rib zeros that nothing uses."""
     if rib is None:
-        return point_contact.absent_point(zero)
+        nothing = point_contact.absent_point(zero)
+        return RibContact(nothing, nothing)
     return rib_contact(subtract(body.place, view.origin), body, view, rib, damping)
 
 
 @inline
 def rib_contact(centre, body, view, rib, damping):
-    """Work out the force of the rib on the roller as a `PointContact`: sphere on cone, closed form.
+    """Work out the force of the rib on the roller as a `RibContact`: sphere on cone, closed form.
 
     Adds the axial guidance of the rollers. The stiffness is that of the face, also on an edge of the rib or
     on the rim of the roller end, where a Hertz contact is up to a third softer.
@@ -56,7 +66,32 @@ def rib_contact(centre, body, view, rib, damping):
     Hertz (1881) with the stiffness of Hamrock and Brewe (1983); the gap is exact (a sphere's distance
     to a cone is its centre's).
     """
-    depth, normal, arm = rib_gap(centre, body.axis, view.axis, rib, rib.window, rib.end)
+    sphere = sphere_point(centre, body.axis, view.axis, rib, rib.window)
+    return _pressed_points(sphere, centre, body, view, (rib, damping), rib.end)
+
+
+@inline
+def _pressed_points(sphere, centre, body, view, law, end):
+    """Load the sphere where it is inside the rim, and else the rim, which is nowhere deeper in the rib."""
+    along = dot(sphere.normal, body.axis)
+    first = _load_point(sphere, centre, body, view, law)
+    if end is None:
+        return RibContact(first, point_contact.absent_point(0.0 * along))
+    if any_positive(where_greater(sphere.depth, 0.0, end.cosine - along, 0.0 * along)):
+        deeper, other = rim_points(sphere, centre, body.axis, view.axis, law[0], end)
+        first, second = (
+            _load_point(deeper, centre, body, view, law),
+            _load_point(other, centre, body, view, law),
+        )
+        return RibContact(first, second)
+    return RibContact(first, point_contact.absent_point(0.0 * along))
+
+
+@inline
+def _load_point(point, centre, body, view, law):
+    """Work out the force at one point as a `PointContact`; ``law``: `RibParams` and damping."""
+    depth, normal, arm = point
+    rib, damping = law
     at_arm = add(body.velocity, cross(body.omega, arm))
     slip = subtract(subtract(at_arm, view.velocity), cross(view.omega, add(centre, arm)))
     touching = at_least(depth, 0.0)
@@ -100,9 +135,17 @@ def stiffen_rib(matrix, contact, rib, p):
     """Add the implicit part of the rib contact to the roller's matrix."""
     if rib is None:
         return matrix
-    if not point_contact.is_pressed(contact):
+    matrix = _stiffen(matrix, contact.first, rib, p)
+    if rib.end is None:
         return matrix
-    return point_contact.stiffen_point(matrix, contact, p.effects.damping, rib.drilling, p)
+    return _stiffen(matrix, contact.second, rib, p)
+
+
+@inline
+def _stiffen(matrix, point, rib, p):
+    if not point_contact.is_pressed(point):
+        return matrix
+    return point_contact.stiffen_point(matrix, point, p.effects.damping, rib.drilling, p)
 
 
 @inline
@@ -110,9 +153,17 @@ def push_rib(total, contact, rib):
     """Add the rib's wrench at the beginning of the step to that of the roller."""
     if rib is None:
         return total
-    if not point_contact.is_pressed(contact):
+    total = _push_on(total, contact.first, rib)
+    if rib.end is None:
         return total
-    return add_wrenches(total, point_contact.push_point(contact, rib.drilling))
+    return _push_on(total, contact.second, rib)
+
+
+@inline
+def _push_on(total, point, rib):
+    if not point_contact.is_pressed(point):
+        return total
+    return add_wrenches(total, point_contact.push_point(point, rib.drilling))
 
 
 @inline
@@ -120,116 +171,33 @@ def settle_rib(contact, change, total, here, rib, p):
     """Settle the rib contact after the solve and add its wrench to the roller's."""
     if rib is None:
         return total
-    time_constant = damper_time(p.effects.damping)
-    wrench = point_contact.settle_point(contact, change, here, LOSS_RIB, time_constant, rib.drilling, p)
-    sliding = add_scaled(contact.slip, -dot(contact.slip, contact.normal), contact.normal)
-    output = ContactOutput(wrench.force, contact.arm, sqrt(dot(sliding, sliding)), contact.film)
+    first, time_constant = contact.first, damper_time(p.effects.damping)
+    wrench = point_contact.settle_point(first, change, here, LOSS_RIB, time_constant, rib.drilling, p)
+    sliding = add_scaled(first.slip, -dot(first.slip, first.normal), first.normal)
+    output = ContactOutput(wrench.force, first.arm, sqrt(dot(sliding, sliding)), first.film)
     output_contact(here.lanes, here.rollers, here.block, RIB, output)
-    return add_wrenches(total, wrench)
-
-
-# --- where the large end meets the rib: sphere, rib face with its edges, rim of the roller end
-
-
-@inline
-def rib_gap(centre, axis, ring_axis, rib, window, end):
-    """Work out penetration, normal and place of the rib contact.
-
-    The rib face is a cone between two circles: the undercut below and the rib's outer corner above. The
-    nearest point of that face from the sphere's centre has its coordinate along the generator clamped to the
-    face, so the distance is exact and its gradient continuous from the face over the edge: the force is
-    conservative. The roller end is a sphere only inside its rim; beyond it the deepest point of the rim
-    circle carries.
-
-    Parameters
-    ----------
-    window : RibWindowParams or None
-        Edges of the rib face; without it the face is an unlimited cone.
-    end : RibEndParams or None
-        Rim of the roller end; without it the end is a whole sphere.
-
-    Returns
-    -------
-    depth : lane value
-        [m].
-    normal, arm : vector
-        Unit normal into the rib; contact from the roller's centre of mass, [m].
-    """
-    sphere = scale(rib.sphere_place, axis)
-    place = add(centre, sphere)
-    along = dot(place, ring_axis)
-    across = add_scaled(place, -along, ring_axis)
-    distance = sqrt(dot(across, across) + _AXIS_FLOOR)
-    outward = scale(1.0 / distance, across)
-    depth = along * rib.normal_axial + distance * rib.normal_radial + rib.sphere_radius - rib.distance
-    depth, normal_axial, normal_radial = _on_the_face(depth, along, distance, rib, window)
-    normal = add_scaled(scale(normal_axial, ring_axis), normal_radial, outward)
-    arm = add_scaled(sphere, rib.sphere_radius, normal)
-    return _within_the_rim(depth, normal, arm, centre, axis, ring_axis, rib, end)
+    total = add_wrenches(total, wrench)
+    if rib.end is None:
+        return total
+    return _settle_second(contact, change, total, here, rib, p)
 
 
 @inline
-def _on_the_face(depth, along, distance, rib, window):
-    """Keep the nearest point on the face: depth and normal; a rounded edge is a torus."""
-    if window is None:
-        return depth, rib.normal_axial, rib.normal_radial
-    height = distance * rib.normal_axial - along * rib.normal_radial
-    beyond = height - at_most(at_least(height, window.low), window.high)
-    if not any_positive(magnitude(beyond)):
-        still = 0.0 * depth  # a NaN stays one
-        return depth, rib.normal_axial + still, rib.normal_radial + still
-    ahead = rib.sphere_radius + window.rounding - depth
-    reach = sqrt(ahead * ahead + beyond * beyond)
-    # reach - ahead, without the difference of two nearly equal lengths
-    depth = depth - beyond * beyond / (reach + ahead)
-    cosine, sine = ahead / reach, beyond / reach
-    normal_axial = cosine * rib.normal_axial + sine * rib.normal_radial
-    normal_radial = cosine * rib.normal_radial - sine * rib.normal_axial
-    return depth, normal_axial, normal_radial
-
-
-@inline
-def _within_the_rim(depth, normal, arm, centre, axis, ring_axis, rib, end):
-    """Take the contact of the rim circle where the sphere's lies beyond the rim of the roller end."""
-    if end is None:
-        return depth, normal, arm
-    along = dot(normal, axis)
-    if not any_positive(end.cosine - along):
-        return depth, normal, arm
-    radial = add_scaled(normal, -along, axis)
-    radial = scale(1.0 / sqrt(dot(radial, radial) + _AXIS_FLOOR), radial)
-    middle = add_scaled(centre, end.place, axis)
-    for _ in range(3):
-        radial = _deeper(radial, middle, axis, ring_axis, rib, end)
-    rim = scale(end.radius, radial)
-    point = add(middle, rim)
-    height = dot(point, ring_axis)
-    across = add_scaled(point, -height, ring_axis)
-    distance = sqrt(dot(across, across))
-    rim_depth = height * rib.normal_axial + distance * rib.normal_radial - rib.distance
-    rim_normal = add_scaled(scale(rib.normal_axial, ring_axis), rib.normal_radial / distance, across)
-    rim_arm = subtract(point, centre)
-    return (
-        where_greater(end.cosine, along, rim_depth, depth),
-        choose_vector(end.cosine, along, rim_normal, normal),
-        choose_vector(end.cosine, along, rim_arm, arm),
-    )
-
-
-@inline
-def _deeper(radial, middle, axis, ring_axis, rib, end):
-    """Take one safeguarded Newton step along the rim towards its deepest point behind the cone."""
-    ahead = cross(axis, radial)
-    point = add_scaled(middle, end.radius, radial)
-    across = add_scaled(point, -dot(point, ring_axis), ring_axis)
-    curvature = 1.0 / sqrt(dot(across, across))
-    outward = scale(curvature, across)
-    slope = rib.normal_axial * dot(ahead, ring_axis) + rib.normal_radial * dot(ahead, outward)
-    lean = rib.normal_axial * dot(radial, ring_axis) + rib.normal_radial * dot(radial, outward)
-    sideways = 1.0 - dot(ahead, ring_axis) * dot(ahead, ring_axis) - dot(ahead, outward) * dot(ahead, outward)
-    bend = lean - rib.normal_radial * end.radius * curvature * sideways
-    turn = at_most(at_least(slope / at_least(bend, end.smallest_bend), -_LARGEST_TURN), _LARGEST_TURN)
-    return scale(1.0 / sqrt(1.0 + turn * turn), add_scaled(radial, turn, ahead))
+def _settle_second(contact, change, total, here, rib, p):
+    """Settle the second point of the rim; the output has the sum of both forces, at their mean place."""
+    first, second = contact
+    if not point_contact.is_pressed(second):
+        return total
+    time_constant = damper_time(p.effects.damping)
+    wrench = point_contact.settle_point(second, change, here, LOSS_RIB, time_constant, rib.drilling, p)
+    both = add_wrenches(total, wrench)
+    share = second.elastic / (first.elastic + second.elastic + _SMALLEST_LOAD)
+    arm = add_scaled(first.arm, share, subtract(second.arm, first.arm))
+    sliding = add_scaled(first.slip, -dot(first.slip, first.normal), first.normal)
+    force = load_vector(here.lanes, here.rollers, here.block, _RIB_FORCE)
+    output = ContactOutput(add(force, wrench.force), arm, sqrt(dot(sliding, sliding)), first.film)
+    output_contact(here.lanes, here.rollers, here.block, RIB, output)
+    return both
 
 
 # --- film and friction

@@ -59,8 +59,8 @@ def about_rigid_cup(contact, shift, flexibility):
     """Place a contact from the origin of the rigid cup, about which reactions are summed."""
     if flexibility is None:
         return contact
-    c = contact
-    return RacewayContact(c.line, c.slip, c.sums, c.lean, c.log2_speed, add(c.centre, shift))
+    c, centre = contact, add(contact.centre, shift)
+    return RacewayContact(c.line, c.slip, c.sums, c.lean, c.log2_speed, centre, c.body, c.damage)
 
 
 @inline

@@ -64,9 +64,9 @@ def bend_line(line, bend, crowns):
 def lean_wrench(lanes, body, sums, climbs, damage, waves, roller_waves):
     """Work out the `Wrench` on the roller where the normal leans with a sloping gap.
 
-    The elastic energy depends on the gap and the gap on the azimuths of the roller's orbit and spin: the
-    force normal to the sloping surface has a part along the orbit when the slope is the ring's, and a
-    moment about the roller axis when it is the roller's. A smooth ring feels no torque from the latter.
+    The gap depends on the azimuths of the roller's orbit and spin: the force normal to the sloping surface
+    has a part along the orbit when the slope is the ring's, and a moment about the roller axis when it is the
+    roller's. A smooth ring feels no torque from the latter. Of waviness only the elastic force leans.
 
     ``climbs`` (2 numbers): slope of the waviness of ring and roller over the azimuth [m/rad]; ``damage``,
     ``waves``, ``roller_waves``: without any of them the normal cannot lean.
@@ -76,14 +76,34 @@ def lean_wrench(lanes, body, sums, climbs, damage, waves, roller_waves):
     if damage is None and waves is None and roller_waves is None:
         return Wrench(level, level)
     along, moment = level, level
-    force, lean, axis = sums.force[0], sums.lean, body.axis
+    force, lean = sums.force[0], sums.lean
     ring_lean = lean[0] + force * climbs[0]
     roller_lean = lean[1] + force * climbs[1]
     if any_positive(magnitude(ring_lean) + magnitude(roller_lean)):
-        # the contact's azimuth in the roller falls with the spin
-        moment = scale(-roller_lean, axis)
-        along = (zero, (ring_lean + roller_lean * axis[2]) / body.place[0], zero)
+        leaning = _leaning(ring_lean, roller_lean, body)
+        along, moment = leaning.force, leaning.moment
     return Wrench(along, moment)
+
+
+@inline
+def _leaning(ring_lean, roller_lean, body):
+    """Turn force times slope into a `Wrench`; the contact's azimuth in the roller falls with the spin."""
+    around = (ring_lean + roller_lean * body.axis[2]) / body.place[0]
+    return Wrench((0.0 * around, around, 0.0 * around), scale(-roller_lean, body.axis))
+
+
+@inline
+def add_leaning_change(wrench, gap, d_rate, time, body, damage):
+    """Add what the leaning normal of springs near a patch gains over the step with their implicit force.
+
+    ``gap``: `GapSums`; ``d_rate`` (2 numbers): change of the approach rate, affine in the
+    abscissa [m/s]; ``time``: over which springs and dampers are implicit [s].
+    """
+    if damage is None:
+        return wrench
+    ring = time * (gap.ring[0] * d_rate[0] + gap.ring[1] * d_rate[1])
+    roller = time * (gap.roller[0] * d_rate[0] + gap.roller[1] * d_rate[1])
+    return add_wrenches(wrench, _leaning(ring, roller, body))
 
 
 @inline

@@ -1,8 +1,8 @@
 """Closed forms of the nine contacts and of simple shapes, in plain NumPy and compiled.
 
 Compiled are the raceways by `kernels.generator_line.generator_line`, one evaluation for all discs of a
-roller, and both ribs by `kernels.rib.rib_gap`. The pocket lines of the text are no walls of the twin, and
-are worked out here.
+roller, and both ribs by `kernels.large_end.rib_gap`. The pocket lines of the text are no walls of the
+twin, and are worked out here.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.generator_line import generator_line
-from beardyn_core.kernels.rib import rib_gap
+from beardyn_core.kernels.large_end import rib_gap
 from beardyn_core.kernels.vectors import add_scaled, dot, subtract
 from beardyn_core.laboratory import nine_contacts
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Shape, Straight, unit

@@ -19,7 +19,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.jit import entry
-from beardyn_core.kernels.rib import rib_gap
+from beardyn_core.kernels.large_end import rib_gap
 from beardyn_core.laboratory.closed_forms import rib_face_params
 from beardyn_core.laboratory.nine_contacts import RibFace, RollerPose, end_sphere, large_rib, nominal_pose
 from beardyn_core.laboratory.search import SURFACES, Pair, condition_number, search

@@ -13,7 +13,7 @@ from beardyn_core.scene.scene import Scene
 
 
 class PocketFilmParams(NamedTuple):
-    """Lubricant between roller and bar at one of the two abscissae; see `kernels.pocket.pocket_loads`."""
+    """Lubricant between roller and bar at one of two abscissae; see `kernels.pocket_film.pocket_loads`."""
 
     wedge: float  # load over rolling speed and radius over gap [N s/m]
     squeeze: float  # load over speed of approach and (radius over gap)^1.5 [N s/m]

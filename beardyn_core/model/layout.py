@@ -77,7 +77,8 @@ WORK_LOST = 18  # dissipated energy of the step by source, LOSSES fields [J]
 WORK_NUMERICAL = WORK_LOST + LOSSES
 WORK_GRAVITY = WORK_NUMERICAL + 1
 ELASTIC = WORK_NUMERICAL + 2  # elastic energy at the beginning of the step [J]
-SUM_FIELDS = WORK_NUMERICAL + 3  # then, with flexible rings, 2 modal forces for each mode
+LOST_ON_CAGE = WORK_NUMERICAL + 3  # 6: lost part of the pockets' wrench on the cage [N, N m]
+SUM_FIELDS = LOST_ON_CAGE + 6  # then, with flexible rings, 2 modal forces for each mode
 
 # --- signals of every step [step, channel]
 SIGNAL_FORCE = 0  # 6: rollers on the cup, about the bearing centre [N, N m]

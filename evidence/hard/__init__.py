@@ -18,7 +18,7 @@ refinement          statistics of two steps against each other
 explicit_contact    one roller stepped explicitly: finite and not stable
 coarse_step         the twin's own step made far too large
 run                 a case from start to verdict, by how it is run
-verdict             from measures and limits to a verdict
+verdict             from measures and limits to a verdict, over all starts
 battery             all cases side by side, resumable
 report              table and JSON
 page                writes docs/hard.md

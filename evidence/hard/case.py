@@ -23,6 +23,9 @@ RUN_AS = {
     "explicit": "one roller between two raceways with explicit steps, judged by the twin's chatter monitor",
 }
 
+# Ways without a run that a nanometre could change.
+WITHOUT_STARTS = ("refused scene", "explicit")
+
 TOPICS = ("load", "speed", "lubricant", "geometry", "faults", "numerics", "endurance")
 
 
@@ -116,6 +119,8 @@ class HardCase:
         ``coarse step``: of the production step; ``explicit``: the step, [s].
     known_failure : str
         Why it is known to fail; empty when it must pass.
+    start : int
+        End play that it begins apart from the scene's, [nm].
     """
 
     name: str
@@ -137,6 +142,7 @@ class HardCase:
     long: bool = False
     factor: float = 1.0
     known_failure: str = ""
+    start: int = 0
 
     def __post_init__(self) -> None:
         if self.run_as not in RUN_AS or self.topic not in TOPICS:

@@ -15,6 +15,7 @@ from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from evidence.hard.case import HardCase, Point
+from evidence.hard.refinement import APART
 
 _BLOCK_S = 0.02
 
@@ -25,6 +26,7 @@ def scene_of(case: HardCase) -> Scene:
     if "bearing" in case.changes:
         data["bearing"] = read_file(find("bearings", str(data["bearing"])))
     scene = scene_from_text(write_mapping(merged(data, case.changes)), case.name)
+    scene = replace(scene, end_play=scene.end_play + case.start * APART)
     return replace(scene, name=case.name, duration=case.duration) if not case.forced else _forced(scene, case)
 
 

@@ -51,11 +51,6 @@ CASES = (
         duration=0.3,
         limits=CARRIED,
         may_report=Status.RIB_EDGE,
-        known_failure=(
-            "Rollers strike the edge of a floor 200 um down within too few of the usual steps: torque is 5 % "
-            "too large. All losses in 0.3 s are 172.3, 165.4 and 164.9 J with 4, 8 and 16 steps a sample, "
-            "contact damping of them 32.4, 29.8 and 28.8 J, the residual 1.2, 0.3 and 0.06 %. Take 8."
-        ),
     ),
     HardCase(
         "spall_within_a_lamina",

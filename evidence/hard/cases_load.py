@@ -143,11 +143,6 @@ CASES = (
         load=steady((0.0, 1.76e4, 0.0), 0.14),
         duration=0.2,
         limits=(Limit("peak_force", high=1.05 * 1.76e4), Limit("stored", high=1.0)),
-        known_failure=(
-            "Pockets that are pressed at the start fling the light cages: 0.16 J. The explicit pockets book "
-            "their loss with the cage's speed of the beginning of the step: 1.3 % too much with the usual "
-            "step, 0.1 % with 16 steps a sample."
-        ),
     ),
     HardCase(
         "impacts_200_g",

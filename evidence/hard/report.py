@@ -17,7 +17,7 @@ from evidence.hard.watch import Measures
 
 COLUMNS = (
     "case", "verdict", "energy residual", "penetration um", "chatter index", "frame error",
-    "momentum residual", "status", "half the step", "wall s",
+    "momentum residual", "status", "starts", "half the step", "wall s",
 )  # fmt: skip
 
 
@@ -35,6 +35,7 @@ def cells(outcome: Outcome) -> tuple[str, ...]:
         _number(frame),
         _number(m.momentum_residual),
         str(m.status),
+        f"{outcome.held} of {outcome.starts}",
         worst_change(outcome.changes),
         f"{outcome.wall:.1f}",
     )
@@ -59,16 +60,16 @@ def worst_change(changes: Sequence[Change]) -> str:
 def line(outcome: Outcome) -> str:
     """Write a row for the terminal."""
     name, verdict, *numbers = cells(outcome)
-    energy, depth, chatter, frame, momentum, status, change, wall = numbers
+    energy, depth, chatter, frame, momentum, status, starts, change, wall = numbers
     return (
         f"{name:28} {verdict:13} {energy:>8} {depth:>7} {chatter:>8} {frame:>8} {momentum:>8} {status:>3} "
-        f"{wall:>7}  {change}"
+        f"{starts:>6} {wall:>7}  {change}"
     )
 
 
 HEAD = (
     f"{'case':28} {'verdict':13} {'energy':>8} {'um':>7} {'chatter':>8} {'frame':>8} {'momentum':>8} "
-    f"{'st':>3} {'wall s':>7}  half the step (worst of {5} statistics)"
+    f"{'st':>3} {'starts':>6} {'wall s':>7}  half the step (worst of {5} statistics)"
 )
 
 
@@ -131,6 +132,7 @@ def outcome_from(stored: Mapping[str, Any]) -> Outcome:
     return Outcome(
         stored["name"], stored["verdict"], tuple(stored["reasons"]), Measures(**measures),
         tuple(Change(**change) for change in stored["changes"]), stored["sentence"], stored["wall"],
+        stored["starts"], stored["held"],
     )  # fmt: skip
 
 

@@ -18,12 +18,12 @@ from beardyn_core.observe.block import Block
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
-from evidence.hard.case import HardCase
+from evidence.hard.case import WITHOUT_STARTS, HardCase
 from evidence.hard.case_scene import history, load_of, scene_of
 from evidence.hard.coarse_step import coarse_run
 from evidence.hard.explicit_contact import step_roller
 from evidence.hard.refinement import APART, REPEATS, Change, Float, changes, changes_of_runs
-from evidence.hard.verdict import SKIPPED, Finding, Outcome, judged
+from evidence.hard.verdict import SKIPPED, Finding, Outcome, judged, over_starts
 from evidence.hard.watch import Measures, Watch
 
 CHECKPOINT_EVERY_S = 30.0
@@ -31,14 +31,20 @@ CHECKPOINT_EVERY_S = 30.0
 _COMING = ("missing_rollers", "rows")
 
 
-def run_case(case: HardCase, checkpoint: Path | None = None) -> Outcome:
-    """Run a case and judge it.
+# A nanometre of end play apart. The bearing is chaotic: a verdict that one start gives may be chance.
+STARTS = 5
+
+
+def run_case(case: HardCase, checkpoint: Path | None = None, starts: int = STARTS) -> Outcome:
+    """Run a case from several starts and judge it; half the step is tried from the first one.
 
     Parameters
     ----------
     case : HardCase
     checkpoint : Path, optional
-        Where a long case keeps how far it is.
+        Where a long case keeps how far its first start is.
+    starts : int
+        A nanometre of end play apart each.
     """
     began = time.perf_counter()
     runs: dict[str, Callable[[HardCase, Path | None], Finding]] = {
@@ -53,8 +59,11 @@ def run_case(case: HardCase, checkpoint: Path | None = None) -> Outcome:
     coming = [key for key in _COMING if key in case.changes and not _known_key(case)]
     if coming:
         return Outcome(case.name, SKIPPED, (f"the scene key {coming[0]!r} is not there yet",))
-    finding = runs[case.run_as](case, checkpoint)
-    return judged(case, finding, time.perf_counter() - began)
+    found = [judged(case, runs[case.run_as](case, checkpoint), 0.0)]
+    for start in range(1, 1 if case.run_as in WITHOUT_STARTS else starts):
+        other = replace(case, start=start, refined=False, long=False)
+        found.append(judged(other, runs[case.run_as](other, None), 0.0))
+    return over_starts(case, found, time.perf_counter() - began)
 
 
 def _known_key(case: HardCase) -> bool:

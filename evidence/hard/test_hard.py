@@ -22,7 +22,7 @@ from evidence.hard.explicit_contact import hidden_chatter, largest_explicit_step
 from evidence.hard.refinement import changes, changes_of_runs
 from evidence.hard.report import outcome_from, write_json
 from evidence.hard.run import run_case
-from evidence.hard.verdict import FAILED, GOOD, HOLDS, KNOWN, REPORTS, Finding, Outcome, judged
+from evidence.hard.verdict import FAILED, GOOD, HOLDS, KNOWN, REPORTS, Finding, Outcome, judged, over_starts
 from evidence.hard.watch import STATISTICS, Measures
 
 # Transients need their whole time; what is steady shows itself in a few blocks.
@@ -35,7 +35,7 @@ def in_short(case: HardCase) -> HardCase:
 
 @pytest.mark.parametrize("case", [case for case in CASES if case.fast], ids=lambda case: case.name)
 def test_fast_case_passes(case: HardCase) -> None:
-    outcome = run_case(in_short(case))
+    outcome = run_case(in_short(case), starts=1)
     assert outcome.verdict in (*GOOD, KNOWN), outcome.reasons
 
 
@@ -62,7 +62,7 @@ def test_interrupted_long_case_goes_on_from_its_checkpoint(
         "endless", "endurance", "", "", changes={"tier": "lumped"}, load=steady((0.0, 0.0, 8e4), 122.0),
         duration=0.16, refined=False, long=True,
     )  # fmt: skip
-    straight = run_case(case).measures
+    straight = run_case(case, starts=1).measures
     monkeypatch.setattr(run, "CHECKPOINT_EVERY_S", 0.0)
     advance, advanced = Twin.advance, 0
 
@@ -75,8 +75,8 @@ def test_interrupted_long_case_goes_on_from_its_checkpoint(
 
     monkeypatch.setattr(Twin, "advance", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        run_case(case, tmp_path / "endless.checkpoint")
-    assert run_case(case, tmp_path / "endless.checkpoint").measures == straight
+        run_case(case, tmp_path / "endless.checkpoint", starts=1)
+    assert run_case(case, tmp_path / "endless.checkpoint", starts=1).measures == straight
     assert advanced == 6 + 3
 
 
@@ -166,6 +166,37 @@ def test_known_failure_is_not_called_a_pass() -> None:
     case = replace(CASE, known_failure="for a reason")
     assert verdict_of(case, energy_residual=0.5) == KNOWN
     assert verdict_of(case) == HOLDS
+
+
+def started(*verdicts: str) -> Outcome:
+    found = [
+        Outcome("steady", verdict, ("a reason",) if verdict == FAILED else (), GOOD_MEASURES)
+        for verdict in verdicts
+    ]
+    return over_starts(CASE, found, 1.0)
+
+
+def test_a_verdict_that_a_nanometre_changes_is_a_failure() -> None:
+    assert started(HOLDS, HOLDS, HOLDS).verdict == HOLDS
+    one = started(HOLDS, HOLDS, FAILED, HOLDS)
+    assert (one.verdict, one.starts, one.held) == (FAILED, 4, 3)
+    assert one.reasons == ("begun 2 nm apart: a reason",)
+    other = started(HOLDS, REPORTS)
+    assert (other.verdict, other.reasons) == (FAILED, ("begun 1 nm apart: reports",))
+
+
+def test_the_largest_measure_of_all_starts_is_shown() -> None:
+    worse = replace(GOOD_MEASURES, energy_residual=2e-3)
+    found = [Outcome("steady", HOLDS, (), GOOD_MEASURES), Outcome("steady", HOLDS, (), worse)]
+    assert over_starts(CASE, found, 1.0).measures.energy_residual == 2e-3
+
+
+@pytest.mark.parametrize("name", ["pocket_clearance_2_mm", "axial_load_through_0.8_mm"])
+def test_what_held_by_chance_holds_from_every_start(name: str) -> None:
+    case = next(case for case in CASES if case.name == name)
+    outcome = run_case(in_short(case))
+    assert outcome.verdict == HOLDS, outcome.reasons
+    assert outcome.held == outcome.starts == 5
 
 
 def test_own_limit_replaces_the_usual_one() -> None:

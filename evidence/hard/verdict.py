@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 from beardyn_core.integrate.status import SENTENCES, Status
 from evidence.hard.case import HardCase
@@ -34,6 +35,8 @@ class Outcome:
         With which it ended, was refused or reports.
     wall : float
         [s].
+    starts, held : int
+        How many starts a nanometre apart were run, and how many of them came to a good verdict, the same one.
     """
 
     name: str
@@ -43,6 +46,8 @@ class Outcome:
     changes: tuple[Change, ...] = ()
     sentence: str = ""
     wall: float = 0.0
+    starts: int = 1
+    held: int = 1
 
 
 @dataclass(frozen=True)
@@ -68,6 +73,41 @@ def judged(case: HardCase, finding: Finding, wall: float) -> Outcome:
     else:
         verdict = REPORTS if status else HOLDS
     return Outcome(case.name, verdict, reasons, finding.measures, finding.changes, sentence, wall)
+
+
+# Of several starts the page shows the largest.
+_WORST = ("energy_residual", "penetration", "chatter_index", "axis_error", "quaternion_error",
+          "momentum_residual", "roller_load")  # fmt: skip
+
+
+def over_starts(case: HardCase, found: Sequence[Outcome], wall: float) -> Outcome:
+    """Sum up the outcomes of several starts; a verdict that a nanometre changes is a failure.
+
+    Parameters
+    ----------
+    case : HardCase
+    found : sequence of Outcome
+        The first one is that of the scene itself.
+    wall : float
+        [s].
+    """
+    first, reasons = found[0], list(found[0].reasons)
+    for start, outcome in enumerate(found[1:], start=1):
+        reasons += [f"begun {start} nm apart: {reason}" for reason in outcome.reasons]
+        if not outcome.reasons and outcome.verdict != first.verdict:
+            reasons.append(f"begun {start} nm apart: {outcome.verdict}")
+    held = sum(outcome.verdict in GOOD and outcome.verdict == first.verdict for outcome in found)
+    verdict = first.verdict if not reasons else KNOWN if case.known_failure else FAILED
+    worst = {}
+    for name in _WORST:
+        values = [value for outcome in found if (value := getattr(outcome.measures, name)) is not None]
+        if values:
+            worst[name] = max(values, key=lambda value: (math.isnan(value), value))
+    measures = replace(first.measures, **worst)
+    return replace(
+        first, verdict=verdict, reasons=tuple(reasons), measures=measures, wall=wall, starts=len(found),
+        held=held,
+    )  # fmt: skip
 
 
 def _complaints(case: HardCase, finding: Finding) -> list[str]:

@@ -31,11 +31,12 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
     wrap,
 )
+from beardyn_core.kernels.large_end import rib_gap
 from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.pocket import Motion, Pocket, free_pocket
-from beardyn_core.kernels.point_contact import push_point, push_small_rib, small_rib_contact
+from beardyn_core.kernels.point_contact import push_small_rib, small_rib_contact
 from beardyn_core.kernels.raceway import RacewayContact, push_raceway
-from beardyn_core.kernels.rib import rib_contact, rib_gap
+from beardyn_core.kernels.rib import push_rib, rib_contact
 from beardyn_core.kernels.solve import (
     add_line,
     add_line_everywhere,
@@ -127,10 +128,13 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         line = generator_line(centre, body.axis, view.axis, oversize, raceway, p.roller)
         slip = line_slip(line, centre, body, view)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
-        shared = Raceway(lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects)
+        shared = Raceway(
+            lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), (1.0, 0.0), (None, None)
+        )
         sums = lamina_sums(shared, line, slip, log2_speed, False, None)
         level = Wrench((zero, zero, zero), (zero, zero, zero))
-        wrench = push_raceway(RacewayContact(line, slip, sums, level, log2_speed, centre), p.effects.damping)
+        contact = RacewayContact(line, slip, sums, level, log2_speed, centre, body, None)
+        wrench = push_raceway(contact, p.effects.damping)
         store_vector(lanes, out, case, 0, wrench.force)
         store_vector(lanes, out, case, 3, wrench.moment)
         lanes.store(out, case, 6, sums.energy)
@@ -159,12 +163,14 @@ def ribs(lanes: Any, states: Any, out: Any, rib: Any, damping: Any) -> None:
     """Rib contact of each case (inputs as `raceways`, last the orbit rate): force, moment, energy, film."""
     for case in range(states.shape[0]):
         body, view = body_and_view(lanes, states, case, lanes.load(states, case, 21))
+        zero = lanes.constant(0.0)
+        nothing = (zero, zero, zero)
         contact = rib_contact(body.place, body, view, rib, damping)
-        wrench = push_point(contact, rib.drilling)
+        wrench = push_rib(Wrench(nothing, nothing), contact, rib)
         store_vector(lanes, out, case, 0, wrench.force)
         store_vector(lanes, out, case, 3, wrench.moment)
-        lanes.store(out, case, 6, contact.energy)
-        lanes.store(out, case, 7, contact.film)
+        lanes.store(out, case, 6, contact.first.energy + contact.second.energy)
+        lanes.store(out, case, 7, contact.first.film)
 
 
 @entry

@@ -7,9 +7,11 @@ from typing import Any
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.defect import find_damage, pocket_length, pocket_wear, spring_damage, spring_slopes
 from beardyn_core.kernels.exchange import load_vector, store_vector
+from beardyn_core.kernels.laminae import released_power
 from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.pocket import free_pocket
-from beardyn_core.kernels.raceway import Ring, faults_of_cup, prepare_raceway
+from beardyn_core.kernels.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
+from beardyn_core.kernels.vectors import Twist, dot, scale
 from beardyn_core.kernels.waviness import wave_gap
 from test.kernels.entries import pocket_of
 
@@ -55,13 +57,13 @@ def worn_pockets(lanes: Any, states: Any, out: Any, block: Any, worn: Any, rolle
 
 
 @inline
-def cup_contact(lanes: Any, cases: Any, case: Any, velocity: Any, p: Any) -> Any:
+def cup_contact(lanes: Any, cases: Any, case: Any, velocity: Any, rates: Any, p: Any) -> Any:
     """Cup contact of a case: inputs azimuth in ring and roller, place and axis of the roller."""
     zero = lanes.constant(0.0)
     nothing = (zero, zero, zero)
     view = View(nothing, (zero, zero, zero + 1.0), nothing, nothing)
     place, axis = load_vector(lanes, cases, case, 2), load_vector(lanes, cases, case, 5)
-    body = Body(place, axis, velocity, nothing, zero)
+    body = Body(place, axis, velocity, scale(rates[1], axis), rates[0])
     azimuths = (lanes.load(cases, case, 0), lanes.load(cases, case, 1))
     ring = Ring(0, p.cup, faults_of_cup(p.effects.faults), view)
     return prepare_raceway(lanes, 0, ring, body, zero, azimuths, p)
@@ -75,7 +77,7 @@ def damaged_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
     """
     for case in range(cases.shape[0]):
         zero = lanes.constant(0.0)
-        contact = cup_contact(lanes, cases, case, (zero, zero, zero), p)
+        contact = cup_contact(lanes, cases, case, (zero, zero, zero), (zero, zero), p)
         lanes.store(out, case, 0, contact.sums.energy)
         store_vector(lanes, out, case, 1, contact.lean.force)
         store_vector(lanes, out, case, 4, contact.lean.moment)
@@ -88,10 +90,31 @@ def moving_contacts(lanes: Any, cases: Any, out: Any, p: Any) -> None:
     Outputs: energy, power released, stiffness, largest penetration, elastic force, its moment along the line.
     """
     for case in range(cases.shape[0]):
-        contact = cup_contact(lanes, cases, case, load_vector(lanes, cases, case, 8), p)
+        zero = lanes.constant(0.0)
+        contact = cup_contact(lanes, cases, case, load_vector(lanes, cases, case, 8), (zero, zero), p)
         lanes.store(out, case, 0, contact.sums.energy)
-        lanes.store(out, case, 1, contact.sums.released)
+        lanes.store(out, case, 1, released_power(contact.sums.released, contact.slip.rate))
         lanes.store(out, case, 2, contact.sums.stiffness[0])
         lanes.store(out, case, 3, contact.sums.deepest)
         lanes.store(out, case, 4, contact.sums.force[0])
         lanes.store(out, case, 5, contact.sums.force[1])
+
+
+@entry
+def powers(lanes: Any, cases: Any, out: Any, p: Any) -> None:
+    """Inputs of `moving_contacts`, orbit rate and rate of rotation about the axis.
+
+    Outputs: energy; power of the contact on the roller; powers of its damping and of its friction.
+    """
+    for case in range(cases.shape[0]):
+        zero = lanes.constant(0.0)
+        velocity = load_vector(lanes, cases, case, 8)
+        rates = (lanes.load(cases, case, 11), lanes.load(cases, case, 12))
+        contact = cup_contact(lanes, cases, case, velocity, rates, p)
+        still = (zero, zero, zero)
+        settled = settled_contact(contact, Twist(still, still), 1.0, 0.0, p.effects.damping)
+        work = dot(settled.wrench.force, velocity) + dot(settled.wrench.moment, contact.body.omega)
+        lanes.store(out, case, 0, contact.sums.energy)
+        lanes.store(out, case, 1, work)
+        lanes.store(out, case, 2, settled.damped)
+        lanes.store(out, case, 3, settled.slid)

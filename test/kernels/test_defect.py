@@ -22,6 +22,7 @@ from test.kernels.casting import Float, through
 from test.kernels.fault_entries import (
     damaged_contacts,
     patch_springs,
+    powers,
     wave_gaps,
     worn_pockets,
 )
@@ -257,6 +258,52 @@ def test_work_of_the_leaning_normal_is_what_the_elastic_energy_loses(
     assert scale > 10.0
     np.testing.assert_allclose(spin_moment, by_roller / (2.0 * step), atol=tolerance * scale)
     np.testing.assert_allclose(orbit_torque, -by_ring / (2.0 * step), atol=tolerance * scale)
+
+
+def crossing(lanes: Any, rate: float, orbit: float, depth: float = 3e-5, steps: float = 1e-9) -> Float:
+    """Roll over the edges of a dent on the cup and of one on the roller: outputs of `powers`, and dE/dt.
+
+    ``rate``: of approach [m/s]; ``orbit``: [rad/s]. The roller turns backwards as if it rolled on the cup.
+    """
+    dents = (
+        Patch("cup", 0, 0.3, 6e-3, 1e-5, 0.03, 3e-3, kind="dent"),
+        Patch("roller", 0, 0.2, 5e-3, 8e-6, 0.03, 3e-3, kind="dent"),
+    )
+    scene = scene_with(EffectSet(), defects=dents)
+    # an instant: no contact begins or ends within it
+    p = build_parameters(scene, Arrangement(17, lanes.width), np.zeros(6))._replace(step=1e-15)
+    bearing = scene.bearing
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    axis = np.array([sine, 0.0, cosine])
+    outer = bearing.contact_angle + bearing.half_angle
+    normal = np.array([math.cos(outer), 0.0, -math.sin(outer)])
+    middle = np.array([0.5 * bearing.pitch_diameter, 0.0, 0.5 * bearing.row_spacing])
+    place = middle + bearing.roller_mass_offset * axis + depth * normal
+    spin = -8.0 * orbit
+    turning = spin - orbit * axis[2]  # of the roller against its orbit frame
+
+    def at(time: float) -> Float:
+        here = place + time * rate * normal
+        velocity = rate * normal + np.array([0.0, orbit * place[0], 0.0])
+        cases = np.array(
+            [[a + orbit * time, 0.19 - turning * time, *here, *axis, *velocity, orbit, spin]
+             for a in np.linspace(0.28, 0.32, 20)]
+        )  # fmt: skip
+        return through(lanes, powers, np.repeat(cases, lanes.width, axis=0), 4, p)[:: lanes.width]
+
+    change = (at(steps) - at(-steps))[:, 0] / (2.0 * steps)
+    return np.column_stack([at(0.0), change])
+
+
+@pytest.mark.parametrize("rate", [-0.02, 0.0, 0.1])
+def test_power_of_a_contact_over_a_patch_is_stored_damped_or_rubbed_away(lanes: Any, rate: float) -> None:
+    """The gap moves under the roller: 5 m/s along slopes of 1 in 100 are as much as the rate of approach."""
+    energy, work, damped, slid, change = crossing(lanes, rate, 52.0).T
+    assert energy.min() > 1e-3
+    assert damped.min() >= 0.0
+    still = crossing(lanes, rate, 0.0)[:, 2]
+    assert np.abs(damped - still).max() > 0.2 * np.abs(damped).max()
+    np.testing.assert_allclose(work, -(change + damped + slid), atol=1e-5 * np.abs(work).max())
 
 
 @pytest.mark.parametrize(("rate", "gone"), [(-0.5, 1.0), (-1e-3, 0.0), (0.5, 0.0)])

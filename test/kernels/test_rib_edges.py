@@ -27,6 +27,7 @@ from test.kernels.states import packed, random_motion
 
 Float = NDArray[np.float64]
 LANES8 = Lanes(8)
+SPHERE = Rib(roller_end=False)
 BEARING = standard_scene().bearing
 
 
@@ -34,6 +35,16 @@ BEARING = standard_scene().bearing
 def rib_of(rib: Rib) -> RibParams:
     scene = scene_with(replace(EffectSet(), rib=rib))
     found = build_parameters(scene, Arrangement(17, 8), np.zeros(6)).effects.rib
+    assert found is not None
+    return found
+
+
+@cache
+def rib_beyond_the_apex() -> RibParams:
+    """Take a sphere flatter than the rib around the ring: its rim touches on both sides."""
+    scene = scene_with(replace(EffectSet(), rib=Rib(friction=0.0)))
+    bearing = replace(scene.bearing, forced=True, sphere_ratio=1.02)
+    found = build_parameters(replace(scene, bearing=bearing), Arrangement(17, 8), np.zeros(6)).effects.rib
     assert found is not None
     return found
 
@@ -88,7 +99,7 @@ def test_depth_in_the_rounded_face_is_that_of_a_search(
     tilt: float, skew: float, shift: float, azimuth: float
 ) -> None:
     """Distance to a truncated cone with rounded edges by minimisation over its face; 1e-9 m."""
-    rib = rib_of(Rib())
+    rib = rib_of(SPHERE)
     motion = placed(tilt, skew, shift, azimuth)
     found = gaps([motion], rib)[0]
     depth, point = naive_rib.depth_by_search(motion.centre, motion.axis, motion.ring_axis, rib)
@@ -100,7 +111,7 @@ def test_depth_in_the_rounded_face_is_that_of_a_search(
 
 def test_face_edge_and_undercut_are_all_met() -> None:
     """The placements of the search reach both edges: tilt moves the contact 0.48 mm a mrad."""
-    rib = rib_of(Rib())
+    rib = rib_of(SPHERE)
     lean = np.array([rib.normal_axial, rib.normal_radial])
     slopes = []
     for tilt in (-0.012, 0.0, 0.012):
@@ -119,19 +130,24 @@ def test_inside_the_window_the_edges_change_nothing(lanes: Any) -> None:
         placed(rng.uniform(-2e-3, 2e-3), rng.uniform(-2e-3, 2e-3), 2e-5, rng.uniform(-3, 3))
         for _ in range(40)
     ]
-    with_, without = gaps(cases, rib_of(Rib()), lanes), gaps(cases, rib_of(Rib(window=False)), lanes)
+    with_ = gaps(cases, rib_of(SPHERE), lanes)
+    without = gaps(cases, rib_of(replace(SPHERE, window=False)), lanes)
     np.testing.assert_allclose(with_[:, 0], without[:, 0], rtol=0.0, atol=1e-17)
     np.testing.assert_allclose(with_[:, 1:], without[:, 1:], rtol=1e-12, atol=1e-15)
 
 
-@pytest.mark.parametrize("roller_end", [False, True], ids=["sphere", "rim"])
-def test_elastic_force_and_moment_are_the_gradient_of_the_energy(roller_end: bool) -> None:
+@pytest.mark.parametrize(
+    ("rib", "reach"),
+    [(rib_of(Rib(roller_end=False, friction=0.0)), 6e-3), (rib_of(Rib(friction=0.0)), 6e-3),
+     (rib_beyond_the_apex(), 4e-4)],
+    ids=["sphere", "rim", "two points of the rim"],
+)  # fmt: skip
+def test_elastic_force_and_moment_are_the_gradient_of_the_energy(rib: RibParams, reach: float) -> None:
     """On the face, over both edges and on the rim, also across the borders: nothing is gained by moving."""
-    rib = rib_of(Rib(roller_end=roller_end, friction=0.0))
     rng = np.random.default_rng(5)
     cases = []
     for _ in range(60):
-        motion = placed(rng.uniform(-6e-3, 6e-3), rng.uniform(-3e-3, 3e-3), 0.0, 0.0)
+        motion = placed(rng.uniform(-reach, reach), 0.5 * rng.uniform(-reach, reach), 0.0, 0.0)
         depth = gaps([motion], rib)[0, 0]
         cases.append(replace(motion, centre=motion.centre + (2e-5 - depth) * motion.axis))
     found = results(cases, rib)
@@ -148,11 +164,8 @@ def test_elastic_force_and_moment_are_the_gradient_of_the_energy(roller_end: boo
         ahead = results(turned, rib)[:, 6]
         turned = [replace(m, axis=m.axis - small * np.cross(unit, m.axis)) for m in cases]
         behind = results(turned, rib)[:, 6]
-        # lever of the contact 30 mm; three Newton steps along the rim leave 1e-11 m at 6 mrad of tilt
-        assert np.all(
-            np.abs(-(ahead - behind) / (2 * small) - found[:, 3 + i])
-            <= (3e-4 if roller_end else 1e-4) * load * 0.03
-        )
+        # lever of the contact 30 mm
+        assert np.all(np.abs(-(ahead - behind) / (2 * small) - found[:, 3 + i]) <= 1e-4 * load * 0.03)
 
 
 # --- rim of the roller end
@@ -175,9 +188,25 @@ def test_beyond_the_rim_the_deepest_point_of_the_rim_carries(lanes: Any) -> None
         assert from_axis == pytest.approx(rib.end.radius, rel=1e-9)  # type: ignore[union-attr]
 
 
+def test_a_sphere_beyond_the_apex_bears_on_both_sides_of_its_rim(lanes: Any) -> None:
+    """Upright both points are pressed alike, and what turns the roller about its radius cancels."""
+    rib = rib_beyond_the_apex()
+    motion = replace(placed(0.0, 0.0, 0.0, 0.0), ring_axis=np.array([0.0, 0.0, 1.0]))
+    depth, point = naive_rib.rim_depth_by_search(motion.centre, motion.axis, motion.ring_axis, rib)
+    upright = replace(motion, centre=motion.centre + (5e-6 - depth) * motion.axis)
+    depth, point = naive_rib.rim_depth_by_search(upright.centre, upright.axis, upright.ring_axis, rib)
+    assert abs(point[1]) > 5e-3
+    found = results([upright], rib, lanes=lanes)[0]
+    assert found[6] == pytest.approx(2.0 * 0.4 * rib.stiffness * depth**2.5, rel=1e-6)
+    load = np.linalg.norm(found[:3])
+    assert load == pytest.approx(2.0 * rib.stiffness * depth**1.5, rel=1e-3)
+    assert abs(found[1]) < 1e-9 * load
+    assert abs(found[3]) < 1e-9 * load * abs(point[1])
+
+
 def test_inside_the_rim_the_rim_changes_nothing() -> None:
     cases = [placed(tilt, 5e-4, 2e-5) for tilt in np.linspace(-1e-3, 1e-3, 9)]
-    np.testing.assert_array_equal(gaps(cases, rib_of(Rib(roller_end=True))), gaps(cases, rib_of(Rib())))
+    np.testing.assert_array_equal(gaps(cases, rib_of(Rib(roller_end=True))), gaps(cases, rib_of(SPHERE)))
 
 
 def test_depth_is_continuous_where_the_sphere_hands_over_to_the_rim() -> None:
@@ -261,7 +290,7 @@ def test_entrainment_of_a_rolling_roller_is_that_of_the_contact_fixed_frame() ->
         omega=np.array([0.0, 0.0, orbit]) - spin * motion.axis,
         ring_omega=np.array([0.0, 0.0, 122.0]),
     )
-    rib = rib_of(Rib())
+    rib = rib_of(SPHERE)
     arm = gaps([motion], rib)[0, 4:7]
     slip = np.linalg.norm(motion.slip(motion.centre + arm))
     assert slip == pytest.approx(roller_cone_spin(BEARING, 122.0) * BEARING.rib_contact_height, rel=0.01)

@@ -69,6 +69,6 @@ def test_sphere_as_large_as_the_apex_distance_is_survived_when_forced(ratio: flo
 
 
 def test_too_large_a_sphere_without_a_rim_ends_with_a_sentence() -> None:
-    blocks, ended = blocks_of(forced(Rib(), sphere_ratio=1.02), (0.0, 0.0, 8e4), 3)
+    blocks, ended = blocks_of(forced(Rib(roller_end=False), sphere_ratio=1.02), (0.0, 0.0, 8e4), 3)
     finite(blocks)
     assert "beyond the edge of its large end" in ended or "pressed more than" in ended
