@@ -68,6 +68,7 @@ class RollingParams(NamedTuple):
     starved: StarvedRollingParams | None
     supply: float
     smallest_speed: float  # of entrainment, below which the couple falls to zero [m/s]
+    regularisation: Any  # [ring], the same as a rotation against the ring, for rollers that only roll [rad/s]
     force: Any  # [ring], around the ring on the roller, over the couple [1/m]
     sense: Any  # [ring], of the couple on the roller about the generator, +1 or -1
 
@@ -151,6 +152,7 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         starved=_starved(supply, units),
         supply=effect.supply,
         smallest_speed=effect.regularisation_speed,
+        regularisation=effect.regularisation_speed / radii,
         force=2.0 * math.cos(bearing.half_angle) / bearing.roller_diameter - 0.5 / radii,
         sense=np.array([-1.0, 1.0]),
     )
