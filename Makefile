@@ -59,6 +59,9 @@ step: $(VENV)/.ready-test ## set up, then time steps against an explicit referen
 light: $(VENV)/.ready-test ## set up, then cages under light loads in every shipped set: docs/light.md
 	@$(BIN)/python -m evidence.light.page $(ARGS)
 
+heat: $(VENV)/.ready-test ## set up, then torque and steady temperatures beside published ones: docs/heat.md
+	@$(BIN)/python -m evidence.heat.page $(ARGS)
+
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)
 
