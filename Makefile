@@ -19,7 +19,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step light damping ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step light damping heat ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -61,6 +61,9 @@ light: $(VENV)/.ready-test ## set up, then cages under light loads in every ship
 
 damping: $(VENV)/.ready-test ## set up, then damping times over their quoted range: docs/damping.md
 	@$(BIN)/python -m evidence.damping.page $(ARGS)
+
+heat: $(VENV)/.ready-test ## set up, then torque and steady temperatures beside published ones: docs/heat.md
+	@$(BIN)/python -m evidence.heat.page $(ARGS)
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)

@@ -23,7 +23,7 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import LineFilm, RollingResistance
-from beardyn_core.effects.film import SUPPLIES
+from beardyn_core.effects.grease import LAYERS
 from beardyn_core.errors import InputError
 from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
 from beardyn_core.integrate.static import StaticSolution, solve
@@ -340,6 +340,6 @@ def _kelvin(temperature_C: float) -> float:
 
 
 def _film(supply: str) -> LineFilm:
-    if supply not in SUPPLIES:
-        raise InputError(f"supply is {supply!r}; allowed are {', '.join(SUPPLIES)}")
+    if supply not in LAYERS:
+        raise InputError(f"supply is {supply!r}; allowed are {', '.join(LAYERS)}")
     return LineFilm(supply=supply)

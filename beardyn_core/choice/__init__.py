@@ -6,6 +6,7 @@ module        responsibility, in the order of the data
 circumstances load cases of the operation
 statics       equilibria of the load cases
 losses        torque by source, slip of the raceways
+steady_heat   steady temperatures, where losses and heat carried off agree
 costs         measured cost of tiers, effects, laminae (`costs.json`)
 evidence      all of these for one scene, each worked out once
 rule          alternatives with influence and cost, decisions, the choice with reasons and errors

@@ -30,6 +30,7 @@ from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.integrate.torque import entrainment_speeds, running_torque
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import SEALS, drag_params, oil_supply
+from beardyn_core.model.traction import NO_LONGER_FITTED
 from beardyn_core.scene.scene import Scene
 
 _SPIN_SHARE = 0.18
@@ -37,7 +38,6 @@ _STANDARD_GRAVITY = 9.80665
 _DEEP_SLIP = 1.0
 _NEARLY_ALL = 0.5
 _THICKEST = 30.0 * math.log(2.0)
-_NO_LONGER_FITTED = 0.25e9  # largest Hertz pressure, [Pa]; all of Aihara's fit from twice that on
 
 
 @dataclass(frozen=True)
@@ -330,5 +330,5 @@ class Losses:
         slide = min(1.2448e7 * cp**-1.5 * mm_s**-0.75 * kgf**-1.5, law.largest_slide)
         highest = 4.078e-2 * kgf**0.18 if kgf > 94.404 else 1.008e-4 * kgf**1.5
         fitted = highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
-        share = min(max(math.log2(pressure / _NO_LONGER_FITTED), 0.0), 1.0)
+        share = min(max(math.log2(pressure / NO_LONGER_FITTED), 0.0), 1.0)
         return sheared + share * (fitted - sheared)

@@ -16,6 +16,7 @@ drag               drag and churning of the rollers
 seal               seals between cup and shaft
 gravity            weight
 ring_flexibility   bending of the cup in its housing
+grease             what running leaves of a fill of grease
 thermal            slow warming of bearing, grease and axlebox
 audit              energy balance
 effect_set         sets of effects, each present or absent

@@ -55,6 +55,8 @@ class EffectSet:
         """Check the effects against each other."""
         if self.thermal and self.audit is None:
             yield "thermal needs the audit, which tells what each source loses: set audit to true"
+        if self.film and self.drag and self.film.million_revolutions != self.drag.million_revolutions:
+            yield "million_revolutions of film and drag differ; it is one grease, give both the same"
 
     def __repr__(self) -> str:
         """Give the names of the effects that are present."""

@@ -9,18 +9,12 @@ from typing import ClassVar
 
 from beardyn_core.edge import At
 from beardyn_core.effects.about import About
+from beardyn_core.effects.grease import LAYERS, aged_layer
 
 FORMULAS = ("dowson_higginson", "pan_hamrock", "pan_hamrock_central", "dowson_toyoda")
 INLET_HEATING = ("none", "murch_wilson", "wilson", "gupta_cheng")
 THICKENING = ("barus", "roelands")
-# Oil on both surfaces before a contact, [m], None for more than any contact takes in.
-LAYERS: dict[str, float | None] = {
-    "flooded": None,
-    "fresh": 2.0e-6,
-    "settled": 0.6e-6,
-    "channelled": 0.3e-6,
-}
-SUPPLIES = tuple(LAYERS)
+SUPPLIES = (*LAYERS, "ageing")
 
 
 @dataclass(frozen=True)
@@ -39,9 +33,14 @@ class LineFilm:
         source="Dowson and Higginson (1966); Pan and Hamrock (1989); Dowson and Toyoda (1978); Martin (1916)",
     )
 
-    supply: A[str, At(one_of=SUPPLIES), "oil bath, or a grease just filled in, run in, or pushed aside"] = (
-        "settled"
-    )
+    supply: A[
+        str,
+        At(one_of=SUPPLIES),
+        "oil bath; grease just filled in, run in, or pushed aside; or what million_revolutions make of it",
+    ] = "settled"
+    million_revolutions: A[
+        float | None, At(ge=0.0, le=1e4), "of the shaft since the grease was filled in, for ageing"
+    ] = None
     layer: A[
         float | None,
         At("um", gt=0.0, le=1000.0),
@@ -64,13 +63,19 @@ class LineFilm:
         """Check the options against each other."""
         if self.layer is not None and self.starvation is not None:
             yield "layer_um and starvation both say how much oil there is; give one of them"
+        if (self.supply == "ageing") != (self.million_revolutions is not None):
+            yield "supply ageing and million_revolutions go together; give both or neither"
 
     @property
     def oil_layer(self) -> float | None:
         """Layer of oil that starves the contacts, [m]; None where nothing or `starvation` does."""
         if self.starvation is not None:
             return None
-        return LAYERS[self.supply] if self.layer is None else self.layer
+        if self.layer is not None:
+            return self.layer
+        if self.million_revolutions is not None:
+            return aged_layer(self.million_revolutions)
+        return LAYERS[self.supply]
 
     @property
     def constant_share(self) -> float:

@@ -27,6 +27,7 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
 )
 from beardyn_core.model.layout import LAMINA_PRESSURE
+from beardyn_core.model.traction import NO_LONGER_FITTED
 
 _TWO_OVER_PI = 0.6366197723675814
 _SLOWEST = 1e-12
@@ -35,7 +36,7 @@ _LARGEST_LOG2_THICKENING = 30.0
 # Aihara's units: largest Hertz pressure in kgf/mm^2, speed in mm/s from m/s
 _LOG2_SPEED_UNIT = math.log2(1000.0)
 _LOG2_PRESSURE_BEND = math.log2(94.404)
-_LOG2_NO_LONGER_FITTED = math.log2(0.25e9 / 9.80665e6)
+_LOG2_NO_LONGER_FITTED = math.log2(NO_LONGER_FITTED / 9.80665e6)
 _LOG2_AT_HIGH_PRESSURE = math.log2(4.078e-2)
 _LOG2_STEEPNESS = math.log2(2.6)
 _LOG2_AT_LOW_PRESSURE = math.log2(1.008e-4)

@@ -200,7 +200,8 @@ def drag_params(scene: Scene) -> DragParams | None:
     if effect is None:
         return None
     bearing, lubricant = scene.bearing, scene.lubricant
-    density = effect.fill * lubricant.density + (1.0 - effect.fill) * AIR_DENSITY
+    fill = effect.present_fill
+    density = fill * lubricant.density + (1.0 - fill) * AIR_DENSITY
     reynolds = _radius(bearing) ** 2 / lubricant.kinematic_viscosity(scene.temperature)
     side = 2.0 * math.pi * _radius(bearing) * bearing.roller_length
     cylinder = 0.5 * density * side * _radius(bearing) ** 3

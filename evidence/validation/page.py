@@ -1,9 +1,13 @@
 """Write docs/validation.md and its pictures: ``python -m evidence.validation.page`` (`make validation`).
 
-Runs every anchor and every trend, the dynamic ones too: a few minutes, the first time also compiling.
+Runs every anchor and every trend, the dynamic ones too: a few minutes, the first time also compiling. With
+topics as arguments it works out the numbers of these alone and leaves the rest of the page as it is.
 """
 
 from __future__ import annotations
+
+import re
+import sys
 
 from evidence.pages import DOCS, PICTURES
 from evidence.validation.anchor import Anchor, Finding, Trend
@@ -84,8 +88,31 @@ def trend_lines(trend: Trend, finding: Finding) -> list[str]:
     return lines
 
 
+def rewrite(topics: list[str]) -> None:
+    """Write the rows of some topics anew; all other rows, and the trends, stay as they are."""
+    lines = PAGE.read_text(encoding="utf-8").splitlines()
+    begin, end = lines.index(TABLE[1]) + 1, lines.index("## Trends") - 1
+    known = lines[begin:end]
+    rows = []
+    for anchor in ANCHORS:
+        if anchor.beside:
+            continue
+        start = "| " + " | ".join(reference_cells(anchor)) + " | "
+        kept = [line for line in known if line.startswith(start)]
+        rows.append(row(anchor)[0] if anchor.topic in topics or not kept else kept[0])
+        if anchor.topic in topics:
+            print(rows[-1], flush=True)
+    good = sum("**misses**" not in each for each in rows)
+    text = "\n".join([*lines[:begin], *rows, *lines[end:]]) + "\n"
+    counted = r"^\d+ of \d+ numbers"
+    PAGE.write_text(re.sub(counted, f"{good} of {len(rows)} numbers", text, flags=re.M), encoding="utf-8")
+
+
 def main() -> None:
     """Run everything and write the page."""
+    if len(sys.argv) > 1:
+        rewrite(sys.argv[1:])
+        return
     rows = {anchor: row(anchor) for anchor in ANCHORS}
     for text, _ in rows.values():
         print(text, flush=True)

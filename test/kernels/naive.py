@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize, minimize_scalar
 
 from beardyn_core.effects import LineFilm
-from beardyn_core.effects.film import LAYERS
+from beardyn_core.effects.grease import LAYERS
 
 Float = NDArray[np.float64]
 
