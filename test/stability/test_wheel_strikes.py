@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -16,9 +18,17 @@ GRAVITY = 9.80665
 
 
 @pytest.mark.slow
-def test_a_healthy_bearing_under_a_wheel_flat_shakes_once_a_revolution_and_gives_no_alarm() -> None:
-    """Field figures for axleboxes over flats and joints are 50 to 200 g; a 35 mm flat is a small one."""
+@pytest.mark.parametrize(("wheelset", "least"), [("rigid", 25.0), ("elastic", 15.0)])
+def test_a_healthy_bearing_under_a_wheel_flat_shakes_once_a_revolution_and_gives_no_alarm(
+    wheelset: str, least: float
+) -> None:
+    """Field figures for axleboxes over flats and joints are 50 to 200 g; a 35 mm flat is a small one.
+
+    An axle that bends spares the box a part of so short a blow: 20 g instead of 32 g.
+    """
     scene = load_scene("wheel_flat")
+    assert isinstance(scene.operation, QuarterVehicleOperation)
+    scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, wheelset=wheelset))
     assert isinstance(scene.operation, QuarterVehicleOperation)
     monitor = Monitor(fault_frequencies(scene.bearing), scene.bearing.roller_count)
     vibration, times, verdicts = [], [], []
@@ -31,7 +41,7 @@ def test_a_healthy_bearing_under_a_wheel_flat_shakes_once_a_revolution_and_gives
     time = np.concatenate(times) * 1e-9
     shaking = np.abs(np.concatenate(vibration) - GRAVITY)[time > SETTLED]
     assert np.isfinite(shaking).all()
-    assert 25.0 < shaking.max() / GRAVITY < 200.0
+    assert least < shaking.max() / GRAVITY < 200.0
     loud = time[time > SETTLED][shaking > 0.5 * shaking.max()]
     strikes = loud[np.concatenate(([True], np.diff(loud) > 0.03))]
     speed = scene.operation.speed_profile[0][1]
