@@ -1,8 +1,9 @@
 """Modes of a wheelset, and what an axlebox vibrates with in service.
 
-Vehicles and tracks were chosen before the first run: the shipped vehicles on the better line of ERRI B176
-from 200 km/h on, else on the worse one, all with the rail roughness of ISO 3095. Levels are those of a sensor
-170 mm above the bearing's centre, 10 to 500 Hz, as the rail model moves box and journal.
+Vehicles, smooth tracks and tolerances were chosen before the first run: the shipped vehicles on the better
+line of ERRI B176 from 200 km/h on, else on the worse one, all with the rail roughness of ISO 3095. The worn
+line, with a corrugation of its own, was chosen after the levels on smooth rails had been seen. Levels are
+those of a sensor 170 mm above the bearing's centre, 10 to 500 Hz, as the rail model moves box and journal.
 """
 
 from __future__ import annotations
