@@ -54,7 +54,9 @@ class CageWatch:
         now = bodies[:, CAGE_BODY:, RATE].mean(axis=0) / rolling
         turned = abs(rolling) * seconds / (2.0 * math.pi)
         before = np.array(self.ratio) if self.ratio else now
-        mean = now + (before - now) * math.exp(-turned)
+        # the first revolution is averaged as a whole: of a start the first instants hardly count
+        kept = min(math.exp(-turned), self.turned / (self.turned + turned))
+        mean = now + (before - now) * kept
         return CageWatch(tuple(float(each) for each in mean), self.turned + turned)
 
     @property

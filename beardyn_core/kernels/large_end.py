@@ -92,6 +92,9 @@ def _on_the_face(depth, along, distance, rib, window):
 def rim_points(sphere, centre, axis, ring_axis, rib, end):
     """Work out where the rim of the roller end is deepest behind the cone of the rib: two `RibPoint`.
 
+    A sphere within the apex distance is the deeper the nearer to its one deepest point, also on the rim: only
+    the deeper point bears. A larger one is flatter around the ring than the rib and bears on both sides.
+
     Over the turn t from the meridian plane the depth is g cos t + h sin t + q sin^2 t, q being half of what
     the cone recedes at the side of the rim: with the lean g of the rim small against it there is one deepest
     point on each side, with a large one a single point in the plane. The search begins on both sides. The

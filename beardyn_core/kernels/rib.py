@@ -39,7 +39,7 @@ _LARGEST_LOG2_THICKENING = 30.0
 
 
 class RibContact(NamedTuple):
-    """Contact of the large end with the rib: its face, or its rim at up to two points."""
+    """Contact of the large end: its sphere, or its rim at one point; at two where the sphere is too flat."""
 
     first: Any  # `PointContact`
     second: Any
@@ -79,12 +79,17 @@ def _pressed_points(sphere, centre, body, view, law, end):
         return RibContact(first, point_contact.absent_point(0.0 * along))
     if any_positive(where_greater(sphere.depth, 0.0, end.cosine - along, 0.0 * along)):
         deeper, other = rim_points(sphere, centre, body.axis, view.axis, law[0], end)
-        first, second = (
-            _load_point(deeper, centre, body, view, law),
-            _load_point(other, centre, body, view, law),
-        )
-        return RibContact(first, second)
+        first = _load_point(deeper, centre, body, view, law)
+        return RibContact(first, _load_other(other, centre, body, view, law, end.both))
     return RibContact(first, point_contact.absent_point(0.0 * along))
+
+
+@inline
+def _load_other(point, centre, body, view, law, both):
+    """Load the second point of the rim where the sphere is so flat that both sides of the rim bear."""
+    if both is None:
+        return point_contact.absent_point(0.0 * point.depth)
+    return _load_point(point, centre, body, view, law)
 
 
 @inline
@@ -135,10 +140,16 @@ def stiffen_rib(matrix, contact, rib, p):
     """Add the implicit part of the rib contact to the roller's matrix."""
     if rib is None:
         return matrix
-    matrix = _stiffen(matrix, contact.first, rib, p)
-    if rib.end is None:
+    return _stiffen_other(_stiffen(matrix, contact.first, rib, p), contact.second, rib, p, rib.end)
+
+
+@inline
+def _stiffen_other(matrix, point, rib, p, end):
+    if end is None:
         return matrix
-    return _stiffen(matrix, contact.second, rib, p)
+    if end.both is None:
+        return matrix
+    return _stiffen(matrix, point, rib, p)
 
 
 @inline
@@ -153,10 +164,16 @@ def push_rib(total, contact, rib):
     """Add the rib's wrench at the beginning of the step to that of the roller."""
     if rib is None:
         return total
-    total = _push_on(total, contact.first, rib)
-    if rib.end is None:
+    return _push_other(_push_on(total, contact.first, rib), contact.second, rib, rib.end)
+
+
+@inline
+def _push_other(total, point, rib, end):
+    if end is None:
         return total
-    return _push_on(total, contact.second, rib)
+    if end.both is None:
+        return total
+    return _push_on(total, point, rib)
 
 
 @inline
@@ -176,16 +193,17 @@ def settle_rib(contact, change, total, here, rib, p):
     sliding = add_scaled(first.slip, -dot(first.slip, first.normal), first.normal)
     output = ContactOutput(wrench.force, first.arm, sqrt(dot(sliding, sliding)), first.film)
     output_contact(here.lanes, here.rollers, here.block, RIB, output)
-    total = add_wrenches(total, wrench)
-    if rib.end is None:
-        return total
-    return _settle_second(contact, change, total, here, rib, p)
+    return _settle_other(contact, change, add_wrenches(total, wrench), here, (rib, p), rib.end)
 
 
 @inline
-def _settle_second(contact, change, total, here, rib, p):
+def _settle_other(contact, change, total, here, law, end):
     """Settle the second point of the rim; the output has the sum of both forces, at their mean place."""
-    first, second = contact
+    if end is None:
+        return total
+    if end.both is None:
+        return total
+    (rib, p), (first, second) = law, contact
     if not point_contact.is_pressed(second):
         return total
     time_constant = damper_time(p.effects.damping)

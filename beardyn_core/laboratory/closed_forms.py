@@ -149,7 +149,7 @@ class ClosedForms:
             nine_contacts.abscissae(bearing),
             rib_face_params(nine_contacts.large_rib(bearing), bearing.sphere_radius, bearing.sphere_centre),
             rib_face_params(nine_contacts.small_rib(bearing), bearing.small_end_radius, -half),
-            RibEndParams(bearing.small_end_radius, -half, _ALWAYS_THE_RIM, 1e-4),
+            RibEndParams(bearing.small_end_radius, -half, _ALWAYS_THE_RIM, 1e-4, None),
             np.array([np.concatenate([line.origin, line.pole]) for line in lines]),
             np.array([bearing.sphere_centre, bearing.sphere_radius, -half, bearing.small_end_radius]),
         )

@@ -86,6 +86,7 @@ def _end(bearing: Bearing, case: Bearing) -> RibEndParams:
         place=case.sphere_centre + ahead,
         cosine=ahead / case.sphere_radius,
         smallest_bend=_SMALLEST_BEND * math.sin(bearing.rib_polar_angle),
+        both=None,
     )
 
 

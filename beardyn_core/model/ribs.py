@@ -28,6 +28,7 @@ class RibEndParams(NamedTuple):
     place: float  # on the axis from the centre of mass [m]
     cosine: float  # of the angle under which the sphere's centre sees it
     smallest_bend: float  # floor of the second derivative in the search along the rim
+    both: float | None  # whether both sides of the rim bear: the sphere is too flat for its apex distance
 
 
 class RibShearParams(NamedTuple):
@@ -139,6 +140,7 @@ def _roller_end(bearing: Bearing) -> RibEndParams:
         place=bearing.sphere_centre - bearing.roller_mass_offset + ahead,
         cosine=ahead / bearing.sphere_radius,
         smallest_bend=_SMALLEST_BEND * math.sin(bearing.rib_polar_angle),
+        both=1.0 if bearing.sphere_ratio >= 1.0 else None,
     )
 
 

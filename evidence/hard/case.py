@@ -106,7 +106,7 @@ class HardCase:
     limits : tuple of Limit
         On top of `USUAL_LIMITS`; one for the same measure replaces the usual one.
     must_report, may_report : Status
-        Status bits that have to appear, and further ones that may.
+        Status bits that have to appear, of a ``coarse step`` at least one of them, and further ones that may.
     sentence : str
         Words of the sentence with which it must end or be refused.
     refined : bool

@@ -33,7 +33,7 @@ _TOO_LARGE = tuple(
     )
     for factor, bits, what in (
         (6, Status.CHATTER, "forces right to 0.6 %, friction flipping from step to step"),
-        (7, Status.CHATTER, "friction at its limit in alternating directions"),
+        (7, Status.CHATTER | Status.NOT_FINITE, "friction at its limit in alternating directions, or worse"),
         (32, Status.NOT_FINITE, "everything blows up"),
     )
 )

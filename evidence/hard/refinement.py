@@ -25,7 +25,7 @@ _COARSEST = {"force": 0.05, "force_scatter": 0.2, "torque": 0.05, "cage_speed": 
 # Smaller values are compared with these: [N], [N], [N m], [rad/s], [N].
 _FLOORS = {"force": 1000.0, "force_scatter": 200.0, "torque": 1.0, "cage_speed": 1.0, "roller_load": 500.0}
 _SETTLING_BLOCKS = 2
-REPEATS = 3
+REPEATS = 5
 APART = 1.0e-9  # of end play, between runs that should be the same [m]
 
 

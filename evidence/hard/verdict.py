@@ -114,7 +114,8 @@ def _complaints(case: HardCase, finding: Finding) -> list[str]:
     measures = finding.measures
     found = list(_about_the_sentence(case, finding))
     status = Status(measures.status)
-    if missing := case.must_report & ~status:
+    missing = case.must_report & ~status
+    if missing and not (case.run_as == "coarse step" and case.must_report & status):
         found.append(f"does not report {missing!r}")
     fatal = Status.NOT_FINITE | Status.PENETRATION | Status.OFF_RIB
     excused = case.must_report | case.may_report | (fatal if case.sentence else Status.FINE)
