@@ -73,7 +73,7 @@ def hear(scene: Scene, duration: float, time_us: float) -> Heard:
             break
         status, audit = status | int(block.status), block.audit
         if block.start_ns >= SETTLED * 1e9:
-            parts.append(block.acceleration[:, 2])
+            parts.append(block.vibration[0].acceleration[:, 2])
     signal = np.concatenate(parts) if parts else np.zeros(1)
     signal = signal - signal.mean()
     share = audit.losses[1] / audit.dissipated if audit is not None and audit.losses else math.nan

@@ -49,8 +49,8 @@ CASES = (
         limits=(Limit("cage_speed", -0.05, 0.05),),
         fast=True,
         known_failure=(
-            "From one start in five to three: with the usual step a mode of the standing bearing grows e-fold in "
-            "12 ms out of rounding, to 1.2 mJ after 0.3 s; with half the step it does not."
+            "From some starts a mode of the standing bearing grows e-fold in 12 ms out of rounding with the "
+            "usual step, to 1.2 mJ after 0.3 s; with half the step it does not."
         ),
     ),
     HardCase(
