@@ -47,6 +47,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, scene
     from beardyn_core.api.simulating import monitor, read, simulate
     from beardyn_core.api.statics import (
@@ -75,9 +76,10 @@ else:
 __all__ = ["Bearing", "Block", "Chain", "EffectSet", "InputError", "Lubricant", "MonitorSettings", "Run"]
 __all__ += ["RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks", "equilibrium"]
 __all__ += ["fault_frequencies", "film", "life", "load_distribution", "lubricant", "monitor", "read"]
-__all__ += ["scene", "simulate", "stiffness", "torque"]
+__all__ += ["scene", "simulate", "steady_heat", "stiffness", "torque"]
 
 _MODULES = {
+    "api.heat": ("steady_heat",),
     "api.making": ("lubricant",),
     "api.simulating": ("monitor", "read", "simulate"),
     "api.statics": (

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+import beardyn_core as bd
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.circumstances import circumstances
 from beardyn_core.choice.steady_heat import HOTTEST, SteadyHeat, steady_heat, torque_by_source
@@ -64,6 +65,13 @@ def test_a_bearing_that_closes_up_runs_away_and_is_told() -> None:
     found = steady_heat(at(1750.0, -1e-4, lost))
     assert not found.settles
     assert found.temperature.max() >= HOTTEST
+
+
+def test_python_asks_for_it_by_the_name_of_a_scene() -> None:
+    """The scene's end play is that at its 70 °C, and all parts start from there."""
+    found = bd.steady_heat("static_80kN", effects="full")
+    assert found.rise("axlebox") == pytest.approx(steady_heat(at(1165.0, 0.0)).rise("axlebox"), rel=1e-6)
+    assert found.power == pytest.approx(sum(found.torque.values()) * 1165.0 * RPM)
 
 
 def test_a_load_without_equilibrium_is_an_error() -> None:
