@@ -10,7 +10,8 @@ load_zone        load-zone integrals of one row under rigid rings
 ball_contact     films, rolling couples and curvatures of ball contacts
 contact          closed-form contact points against a search
 films            film thickness, mixed friction, inlet heating, traction
-losses           rolling resistance, torque, heat
+losses           rolling resistance, torque, power loss
+heat             torque and temperature of whole axlebox bearings
 catalogue_values load ratings, fault frequencies, viscosities
 life             rating life
 dynamics         mean forces, cage speed, energy, wall time
