@@ -56,8 +56,8 @@ def _scene_problems(trial: Trial, cell: Cell) -> tuple[str, ...]:
 def trial_scene(trial: Trial, cell: Cell) -> Scene:
     """Make the scene of one run.
 
-    Row and place of the spall follow from the run's seed: on the cup within 30 degrees of the middle of the
-    load zone, anywhere on the cone or a roller.
+    The bearing of a lot, row and place of the spall follow from the run's seed: on the cup within 30 degrees
+    of the middle of the load zone, anywhere on the cone or a roller.
 
     Raises
     ------
@@ -88,6 +88,11 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
         "seed": seed,
         "defects": [] if cell.fault == HEALTHY else [_spall(trial.spall, cell, seed)],
     }
+    scatter = data.get("scatter")
+    if trial.scatter is not None:
+        scatter = {**(scatter if isinstance(scatter, dict) else {}), "grade": trial.scatter}
+    if isinstance(scatter, dict):
+        data["scatter"] = {**scatter, "seed": seed}
     if cell.tier == "lumped":  # healthy and faulty runs with the same band
         data["numerics"] = {"steps_per_sample": 1, **data.get("numerics", {})}
     if isinstance(trial.effects, dict) and "preset" not in trial.effects:

@@ -13,6 +13,7 @@ from typing import Any
 
 from beardyn_core.edge import INTERNAL, At
 from beardyn_core.scene.excitation import WheelDefect
+from beardyn_core.scene.scatter import GRADES
 
 HEALTHY = "none"
 FAULTS = ("cup", "cone", "roller")
@@ -68,7 +69,7 @@ class Cell:
         return f"{self.conditions}, {self.tier}"
 
     def seed(self, trial_seed: int) -> int:
-        """Make the seed of track, noise and place of the spall, the same in every tier and order."""
+        """Make the seed of track, noise, bearing and place of the spall, the same in every tier and order."""
         return zlib.crc32(f"{self.conditions}, {trial_seed}".encode())
 
 
@@ -95,6 +96,11 @@ class Trial:
     folder: A[Path, INTERNAL] = Path()
     tier: A[str, At(one_of=TIERS), "of the runs"] = "quasistatic"
     effects: A[str | dict[str, Any] | None, "as in a scene file; the scene's when left out"] = None
+    scatter: A[
+        str | None,
+        At(one_of=tuple(GRADES)),
+        "grade of the bearings, in every run another of the lot; the scene's when left out",
+    ] = None
     faults: A[tuple[str, ...], At(one_of=FAULTS, size=(1, None)), "parts that are spalled"] = FAULTS
     sizes: A[
         tuple[float, ...], At("mm", gt=0.0, le=100.0, size=(1, None), required=True), "widths of the spalls"
@@ -109,7 +115,7 @@ class Trial:
     healthy_repeats: A[int, REPEATS, "runs of each combination without"] = 1
     revolutions: A[float, At(gt=0.0, ge=16.0, le=10_000.0), "of the shaft, a run"] = 40.0
     interval: A[float, At("s", gt=0.0, ge=0.1, le=60.0), "between two analyses"] = 1.0
-    seed: A[int, At(ge=0), "of tracks, noise and places of the spalls"] = 1
+    seed: A[int, At(ge=0), "of tracks, noise, bearings and places of the spalls"] = 1
     check: A[Check | None, "repeat some runs in another tier"] = None
 
     def rules(self) -> Iterator[str]:

@@ -57,8 +57,23 @@ def test_a_run_and_its_check_are_the_same_scene_in_another_tier(quick: Trial) ->
     assert (one.tier, two.tier) == ("quasistatic", "full")
     assert (one.defects, one.operation) == (two.defects, two.operation)
     assert (one.seed, one.duration) == (two.seed, two.duration)
+    assert one.scatter == two.scatter
     assert one.defects[0].on == own.fault
     assert one.defects[0].width == pytest.approx(own.size)  # type: ignore[union-attr]
+
+
+def test_every_run_has_another_bearing_of_the_lot(quick: Trial) -> None:
+    scatters = [trial_scene(quick, cell).scatter for cell in quick.cells() if not cell.checks]
+    assert {scatter.grade for scatter in scatters if scatter} == {"G1"}
+    assert len({scatter.seed for scatter in scatters if scatter}) == len(scatters)
+    own = replace(quick, scatter=None)
+    assert trial_scene(own, own.cells()[0]).scatter is None
+    lot = replace(own, scene="healthy_300")
+    first, second = (trial_scene(lot, cell).scatter for cell in lot.cells()[:2])
+    assert first is not None
+    assert second is not None
+    assert first.grade == second.grade == "G1"
+    assert first.seed != second.seed
 
 
 def test_the_shipped_trials_have_flats_and_polygons_with_every_fault_and_without() -> None:
