@@ -9,6 +9,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.arrays import Float
+from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
@@ -30,7 +31,6 @@ from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.integrate.torque import entrainment_speeds, running_torque
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import SEALS, drag_params, oil_supply
-from beardyn_core.model.traction import NO_LONGER_FITTED
 from beardyn_core.scene.scene import Scene
 
 _SPIN_SHARE = 0.18

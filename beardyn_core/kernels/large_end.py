@@ -113,7 +113,7 @@ def rim_points(sphere, centre, axis, ring_axis, rib, end):
     aside = cross(axis, upright)
     distance = sqrt(dot(across, across))
     lean = rib.normal_axial * dot(upright, ring_axis) + rib.normal_radial * dot(upright, across) / distance
-    cosine = lean * distance / (rib.normal_radial * end.radius)
+    cosine = lean * distance / (magnitude(rib.normal_radial) * end.radius)
     cosine = at_most(at_least(cosine, -_STEEPEST_START), _STEEPEST_START)
     sine = sqrt(1.0 - cosine * cosine)
     ahead = add_scaled(scale(cosine, upright), sine, aside)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
 from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import (
     LOG2_E,
@@ -27,7 +28,6 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
 )
 from beardyn_core.model.layout import LAMINA_PRESSURE
-from beardyn_core.model.traction import NO_LONGER_FITTED
 
 _TWO_OVER_PI = 0.6366197723675814
 _SLOWEST = 1e-12

@@ -16,6 +16,7 @@ def scattered_oversize(scene: Scene) -> Float:
 
     A raceway of another diameter is taken as rollers that are thicker or thinner: c more of diametral
     clearance opens the normal gap of a roller by c/2 times the cosine of the cup angle, half of it a contact.
+    The mean of both rows is end play, which is set when they are mounted: the scene's stays as it is.
 
     Returns
     -------
@@ -29,7 +30,8 @@ def scattered_oversize(scene: Scene) -> Float:
     made = scene.scattered.deviations(scene.bearing) if scene.scattered else None
     if made is None:
         return np.zeros((2, scene.bearing.roller_count))
-    gap = 0.5 * math.cos(scene.bearing.cup_angle) * made.row_clearance
+    apart = made.row_clearance - made.row_clearance.mean()
+    gap = 0.5 * math.cos(scene.bearing.cup_angle) * apart
     return np.asarray(0.5 * made.roller_diameter - 0.5 * gap[:, None])
 
 

@@ -20,9 +20,6 @@ from beardyn_core.model.laminae import for_springs, lamina_table
 from beardyn_core.model.layout import LAMINA_PRESSURE
 from beardyn_core.scene.scene import Scene
 
-# Largest Hertz pressure down to which Aihara's fit is blended away; all of it holds from twice that on, [Pa].
-NO_LONGER_FITTED = 0.25e9
-
 
 class SlipLawParams(NamedTuple):
     """Which law rounds the corner of dry friction: the member that is not ``None``."""

@@ -173,8 +173,9 @@ class QuarterVehicleOperation:
     wheelset: A[
         str,
         At(one_of=WHEELSETS),
-        "elastic: it bends and twists as the vehicle's wheelset says, where there is one; rigid: it does not",
-    ] = "elastic"
+        "elastic: it bends and twists as the vehicle's wheelset says, where there is one, and its load also "
+        "moves the twin's journal so, which is no load on the bearing; rigid: it does not",
+    ] = "rigid"
 
     @property
     def body_mass(self) -> float:

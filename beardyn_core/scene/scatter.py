@@ -79,7 +79,11 @@ class Scatter:
     profile: A[float | None, _variation(50.0), "variation of the crown's drop at the ends"] = None
     pocket_place: A[float | None, _variation(500.0), "variation along the pitch circle"] = None
     pocket_clearance: A[float | None, _variation(500.0), "variation along the pitch circle"] = None
-    row_clearance: A[float | None, _variation(100.0), "variation of the rows' diametral clearance"] = None
+    row_clearance: A[
+        float | None,
+        _variation(100.0),
+        "variation of the rows' diametral clearance; its mean is in the end play",
+    ] = None
     raceway_waviness: A[
         float | None,
         _variation(20.0),
@@ -107,6 +111,12 @@ class Scatter:
             yield (
                 f"pocket_place_um and pocket_clearance_um together are {taken / _MICRON:g}; they must be "
                 f"below {2.0 * room / _MICRON:g}, twice the clearance of a pocket"
+            )
+        longer = self.variation("roller_length")
+        if longer >= 2.0 * bearing.cage.axial_clearance:
+            yield (
+                f"roller_length_um is {longer / _MICRON:g}; it must be below "
+                f"{2.0 * bearing.cage.axial_clearance / _MICRON:g}, twice the axial clearance of a pocket"
             )
 
     def _drawn(self, name: str, row: int, count: int) -> Float:
@@ -141,12 +151,6 @@ class Scatter:
         """Make the seed of the phases of a surface, apart from those that a scene gives its own waves."""
         words = np.random.SeedSequence([self.seed, zlib.crc32(f"{on}_waviness".encode())])
         return int(words.generate_state(1)[0])
-
-    def described(self) -> str:
-        """Describe the scatter in a few words."""
-        own = [name.replace("_", " ") for name in _OF_G1 if getattr(self, name) is not None]
-        what = ("" if self.grade == "none" else f"grade {self.grade}", f"own {', '.join(own)}" if own else "")
-        return f"scatter: {', '.join(each for each in what if each) or 'none'}, seed {self.seed}"
 
     def truth(self, bearing: Bearing) -> dict[str, Any]:
         """Write grade, seed and all deviations, [m]."""

@@ -73,7 +73,7 @@ Above air of 20 °C.
 
 {temperatures}
 Boxes in service run some 20 to 50 K above the air. Healthy ones are {healthy_80:.0f}, {healthy_200:.0f} and
-{healthy_300:.0f} K warm here at 80, 200 and 300 km/h.
+{healthy_300:.0f} K warm here at 80, 200 and 300 km/h: the first two miss that range, ours are too cool.
 
 The monitor calls a box warm from 90 °C and hot from 120 °C on, or when it warms by 5 K a minute above 60 °C
 (`MonitorSettings`). In air of 40 °C a healthy box is at {summer:.0f} °C at 300 km/h: silent. One preloaded by

@@ -73,12 +73,13 @@ def test_settled_grease_lies_between_measured_boxes_and_the_catalogue() -> None:
         assert supplies == sorted(supplies)
 
 
-def test_healthy_boxes_are_as_warm_as_in_service() -> None:
-    """10 to 50 K above the air from 80 to 300 km/h."""
-    for speed in SPEEDS_KMH:
-        found = steady(HEALTHY, speed)
-        assert found.settles
-        assert 10.0 < found.rise("axlebox") < 50.0
+def test_healthy_boxes_are_as_warm_as_in_service_at_high_speed_and_cooler_below() -> None:
+    """In service 20 to 50 K above the air: ours at 300 km/h, at 80 and 200 km/h it is less, as the page says."""
+    found = {speed: steady(HEALTHY, speed) for speed in SPEEDS_KMH}
+    assert all(each.settles for each in found.values())
+    rises = {speed: each.rise("axlebox") for speed, each in found.items()}
+    assert 20.0 < rises[300.0] < 50.0
+    assert 10.0 < rises[80.0] < rises[200.0] < 20.0
 
 
 def test_the_monitor_is_silent_on_healthy_boxes_and_calls_those_in_trouble() -> None:

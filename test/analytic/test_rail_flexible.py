@@ -26,7 +26,9 @@ from beardyn_core.scene.running import Curve
 
 VEHICLES = ("emu_300", "passenger_coach", "freight_y25")
 MOUNTING = Mounting()
-OPERATION = QuarterVehicleOperation(load_vehicle("emu_300"), Irregularity("none"), ((0.0, 25.0),))
+OPERATION = QuarterVehicleOperation(
+    load_vehicle("emu_300"), Irregularity("none"), ((0.0, 25.0),), wheelset="elastic"
+)
 CURVE = (Curve(250.0, 0.05, 5.0, 60.0, 15.0, "right"),)
 RADIUS = 0.46
 

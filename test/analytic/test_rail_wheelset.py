@@ -23,7 +23,9 @@ from test.analytic.rail_rides import ride_of
 
 STEP = 1.0 / RIDE_RATE
 MOUNTING = Mounting()
-SMOOTH = QuarterVehicleOperation(load_vehicle("emu_300"), Irregularity("none"), ((0.0, 55.0),))
+SMOOTH = QuarterVehicleOperation(
+    load_vehicle("emu_300"), Irregularity("none"), ((0.0, 55.0),), wheelset="elastic"
+)
 RIGID = dataclasses.replace(SMOOTH, wheelset="rigid")
 
 

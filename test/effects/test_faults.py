@@ -69,14 +69,28 @@ def dips(faulty_force: Float, sound_force: Float) -> list[tuple[float, float]]:
 
 
 def test_every_fault_of_no_size_is_an_absent_one() -> None:
-    """To 1e-12 of the load, while roller 0 leaves the flat patches it starts on (60 steps) and beyond.
+    """To 1e-12 of the load.
 
     The two are compiled apart and round differently, which free rollers amplify: 4e-12 after 1000 steps.
     """
-    present, absent = Rig.at_equilibrium(faulty()), Rig.at_equilibrium(scene_with())
+    patches_apart = [defect for defect in faulty().defects if not isinstance(defect, Patch)]
+    scene = replace(faulty(), defects=tuple(patches_apart))
+    present, absent = Rig.at_equilibrium(scene), Rig.at_equilibrium(scene_with())
     with_faults, without = present.run(256)[0], absent.run(256)[0]
     np.testing.assert_allclose(with_faults[:, :3], without[:, :3], atol=1e-12 * 8e4, rtol=1e-12)
     np.testing.assert_allclose(present.fields()[:13], absent.fields()[:13], rtol=1e-11, atol=1e-11)
+
+
+def test_a_patch_of_no_depth_changes_what_begins_and_ends_within_a_step_alone() -> None:
+    """While roller 0 leaves the flat patches it starts on (60 steps) and beyond.
+
+    To 1e-12 of the load until a roller leaves the load zone: in a bearing with patches a contact that begins
+    or ends within a step has a part of its force (`kernels.laminae`); from then on to 1e-6.
+    """
+    present, absent = Rig.at_equilibrium(faulty()), Rig.at_equilibrium(scene_with())
+    with_patches, without = present.run(256)[0], absent.run(256)[0]
+    np.testing.assert_allclose(with_patches[:100, :3], without[:100, :3], atol=1e-12 * 8e4, rtol=1e-12)
+    np.testing.assert_allclose(with_patches[:, :3], without[:, :3], atol=1e-6 * 8e4)
 
 
 @pytest.mark.parametrize("width", [3e-3, 6e-3, 9e-3])

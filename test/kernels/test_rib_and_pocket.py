@@ -27,7 +27,11 @@ LANES8 = Lanes(8)
 
 @cache
 def parameters() -> Parameters:
-    return build_parameters(standard_scene(), Arrangement(17, 8), np.zeros(6))
+    """A whole sphere on the rib: `test_rib_edges` has its rim."""
+    scene = standard_scene()
+    assert scene.effects.rib is not None
+    whole = replace(scene.effects, rib=replace(scene.effects.rib, roller_end=False))
+    return build_parameters(replace(scene, effects=whole), Arrangement(17, 8), np.zeros(6))
 
 
 def rib_cases(count: int, seed: int, **options: Any) -> list[naive.Motion]:

@@ -66,8 +66,9 @@ class MonitorSettings:
     Notes
     -----
     EN 15437-2 asks for levels and leaves their values to the vehicle; those here are assumed: 90 and
-    120 °C, and 5 K a minute above 60 °C. Healthy boxes are silent up to 300 km/h in air of 40 °C, and
-    overgreased, preloaded and starved ones are at least warm there (docs/heat.md).
+    120 °C, and 5 K a minute above 60 °C. Healthy boxes with settled grease are silent up to 300 km/h in air
+    of 40 °C (freshly greased ones are warm then), and overgreased, preloaded and starved ones are at least
+    warm there (docs/heat.md).
     """
 
     band: A[tuple[float, float], "of the envelope where no band stands out, [Hz]"] = (2000.0, 10_000.0)
