@@ -74,7 +74,7 @@ def test_settled_grease_lies_between_measured_boxes_and_the_catalogue() -> None:
 
 
 def test_healthy_boxes_are_as_warm_as_in_service_at_high_speed_and_cooler_below() -> None:
-    """In service 20 to 50 K above the air: ours at 300 km/h, at 80 and 200 km/h it is less, as the page says."""
+    """In service 20 to 50 K above the air: ours at 300 km/h; below it is less, as the page says."""
     found = {speed: steady(HEALTHY, speed) for speed in SPEEDS_KMH}
     assert all(each.settles for each in found.values())
     rises = {speed: each.rise("axlebox") for speed, each in found.items()}

@@ -12,7 +12,7 @@ class Anchor:
 
     `topic` begins the row on the validation page; `tolerance` is relative, `absolute` adds to it; `misses`
     says why ours is known to lie outside; `slow` rows are dynamic runs. `beside`: ours is a formula of the
-    literature that stands in `evidence` alone; nothing in the simulator calls it, so it does not count.
+    literature that stands in `evidence` alone, or what the twin's sensors do not read; it does not count.
     """
 
     topic: str

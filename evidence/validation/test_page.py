@@ -52,7 +52,8 @@ def test_page_lists_nothing_else() -> None:
 
 @pytest.mark.parametrize("anchor", ANCHORS, ids=lambda anchor: f"{anchor.topic}-{anchor.quantity}")
 def test_a_row_counts_only_where_the_simulator_makes_the_number(anchor: Anchor) -> None:
-    assert anchor.beside == reaches_beside(anchor.ours, set())
+    in_the_rail_model_alone = anchor.topic == "axlebox vibration" and anchor.quantity.startswith("lateral")
+    assert anchor.beside == (in_the_rail_model_alone or reaches_beside(anchor.ours, set()))
 
 
 def reaches_beside(function: Any, seen: set[Any]) -> bool:

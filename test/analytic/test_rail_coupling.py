@@ -76,7 +76,7 @@ def both(sideways: bool) -> tuple[NDArray[np.float64], NDArray[np.float64], floa
     operation = scene.operation
     assert isinstance(operation, QuarterVehicleOperation)
     rough = dataclasses.replace(operation.irregularity, short_waves="iso_3095")
-    operation = dataclasses.replace(operation, irregularity=rough, lateral=sideways)
+    operation = dataclasses.replace(operation, irregularity=rough, lateral=sideways, wheelset="elastic")
     mounting = dataclasses.replace(scene.mounting, journal_tilt="free" if sideways else "locked")
     sensor = dataclasses.replace(scene.sensors[0], noise_density=0.0)
     scene = dataclasses.replace(scene, operation=operation, mounting=mounting, sensors=(sensor,))
