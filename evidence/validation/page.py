@@ -30,8 +30,8 @@ TABLE = (
 )
 BESIDE = (
     "Published formulas and cases for other bearings, worked out beside the simulator, as references of its "
-    "own\nlaws; and lateral levels of axleboxes in the rail model, which the twin's sensor reads in part. They are "
-    "not counted above."
+    "own\nlaws; and lateral levels of axleboxes in the rail model, which the twin's sensor reads in part. "
+    "They are not counted above."
 )
 
 
