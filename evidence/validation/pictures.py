@@ -18,7 +18,7 @@ DPI = 80
 
 def draw_posture(path: Path) -> None:
     """Draw skew and tilt over azimuth for three load eccentricities, both rows."""
-    figure, axes = plt.subplots(2, 2, figsize=(7.4, 4.0), sharex=True, sharey="row", layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(6.8, 3.7), sharex=True, sharey="row", layout="constrained")
     for condition in ECCENTRICITIES:
         run = posture(condition)
         for row, name in ((0, "inboard row"), (1, "outboard row")):
