@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+
+# The threshold of every trend: what changes or differs by less than this part of itself does neither.
+HOLDS_FROM = 0.03
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,17 @@ class Finding:
 
     holds: bool
     sentence: str
+
+
+def rises(values: Sequence[float]) -> bool:
+    """Tell whether values end by `HOLDS_FROM` above where they began, and no step goes back by as much."""
+    above = values[-1] > (1.0 + HOLDS_FROM) * values[0]
+    return above and all(later >= (1.0 - HOLDS_FROM) * earlier for earlier, later in pairwise(values))
+
+
+def falls(values: Sequence[float]) -> bool:
+    """Tell whether the values rise the other way round."""
+    return rises(values[::-1])
 
 
 @dataclass(frozen=True)

@@ -118,11 +118,11 @@ def _measures(
     start = twin.snapshot()
     start.state.bodies[CAGE_BODY:, POSITION] = offset_at_start
     twin.restore(start)
-    blocks = [twin.advance() for _ in range(round(duration * 1e9 / twin.block_ns))]
-    load = np.concatenate([block.contacts[..., 0, 3:6] for block in blocks])
-    row = int(np.argmax(np.linalg.norm(load, axis=-1).sum(axis=(0, 2))))
-    first = round(settled / duration * len(blocks))
-    kept = blocks[first:]
+    for _ in range(round(settled * 1e9 / twin.block_ns)):
+        twin.advance()
+    kept = [twin.advance() for _ in range(round((duration - settled) * 1e9 / twin.block_ns))]
+    load = np.linalg.norm(kept[-1].contacts[..., 0, 3:6], axis=-1)
+    row = int(np.argmax(load.sum(axis=(0, 2))))
     nominal = cage_speed(bearing, case.shaft_speed)
     centre = np.concatenate([block.body_pose[:, 2 + row, :3] for block in kept])[:, [2, 0]]  # z, then x
     offset = centre - centre.mean(axis=0)

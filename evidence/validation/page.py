@@ -1,7 +1,8 @@
 """Write docs/validation.md and its pictures: ``python -m evidence.validation.page`` (`make validation`).
 
-Runs every anchor and every trend, the dynamic ones too: a few minutes, the first time also compiling. With
-topics as arguments it works out the numbers of these alone and leaves the rest of the page as it is.
+Runs every anchor and every trend, the dynamic ones too: a quarter of an hour, the first time also compiling.
+With topics as arguments it works out the numbers, trends and pictures of these alone and leaves the rest of
+the page as it is.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import re
 import sys
 
 from evidence.pages import DOCS, PICTURES
-from evidence.validation.anchor import Anchor, Finding, Trend
+from evidence.validation.anchor import HOLDS_FROM, Anchor, Finding, Trend
 from evidence.validation.every import ANCHORS, TRENDS, UNREACHED
 from evidence.validation.pictures import DRAWINGS
 
@@ -32,6 +33,18 @@ BESIDE = (
     "Published formulas and cases for other bearings, worked out beside the simulator, as references of its "
     "own\nlaws; and lateral levels of axleboxes in the rail model, which the twin's sensor reads in part. "
     "They are not counted above."
+)
+
+OTHERS = "## Formulas that the simulator does not use"
+TRENDS_HEAD = (
+    "",
+    "## Trends",
+    "",
+    f"Of every rise, fall and difference {100.0 * HOLDS_FROM:g} % counts as none: a quantity rises where it "
+    "ends by more than that\nabove where it began and no step goes back by as much. A trend that does not "
+    "hold stands with the cause that was\ntested, in a run beside it that removes the cause, or says that "
+    "none was found.",
+    "",
 )
 
 
@@ -79,10 +92,15 @@ def row(anchor: Anchor) -> tuple[str, bool]:
     return "| " + " | ".join(cells) + " |", agrees
 
 
+def trend_heading(trend: Trend) -> str:
+    """Write the heading of one trend."""
+    return f"### {trend.topic}: {trend.claim}"
+
+
 def trend_lines(trend: Trend, finding: Finding) -> list[str]:
     """Write the paragraph of one trend."""
     verdict = "holds" if finding.holds else f"**does not hold**: {trend.misses or 'not explained'}"
-    lines = [f"### {trend.topic}: {trend.claim}", "", f"{finding.sentence} Verdict: {verdict}.", ""]
+    lines = [trend_heading(trend), "", f"{finding.sentence} Verdict: {verdict}.", ""]
     lines += [f"Source: {trend.source}.", ""]
     if trend.picture:
         lines += [f"![{trend.claim}](pictures/{trend.picture})", ""]
@@ -90,9 +108,9 @@ def trend_lines(trend: Trend, finding: Finding) -> list[str]:
 
 
 def rewrite(topics: list[str]) -> None:
-    """Write the rows of some topics anew; all other rows, and the trends, stay as they are."""
+    """Write the rows and trends of some topics anew; all others stay as they are."""
     lines = PAGE.read_text(encoding="utf-8").splitlines()
-    begin, end = lines.index(TABLE[1]) + 1, lines.index("## Trends") - 1
+    begin, end, after = lines.index(TABLE[1]) + 1, lines.index("## Trends") - 1, lines.index(OTHERS)
     known = lines[begin:end]
     rows = []
     for anchor in ANCHORS:
@@ -104,9 +122,30 @@ def rewrite(topics: list[str]) -> None:
         if anchor.topic in topics:
             print(rows[-1], flush=True)
     good = sum("**misses**" not in each for each in rows)
-    text = "\n".join([*lines[:begin], *rows, *lines[end:]]) + "\n"
-    counted = r"^\d+ of \d+ numbers"
-    PAGE.write_text(re.sub(counted, f"{good} of {len(rows)} numbers", text, flags=re.M), encoding="utf-8")
+    trends, held = trends_anew(lines[end:after], topics)
+    text = "\n".join([*lines[:begin], *rows, *trends, *lines[after:]]) + "\n"
+    text = re.sub(r"^\d+ of \d+ numbers", f"{good} of {len(rows)} numbers", text, flags=re.M)
+    counted = f"{held} of {len(TRENDS)} published trends"
+    PAGE.write_text(re.sub(r"\d+ of \d+ published trends", counted, text), encoding="utf-8")
+    for name in {trend.picture for trend in TRENDS if trend.topic in topics and trend.picture}:
+        DRAWINGS[name](PICTURES / name)
+
+
+def trends_anew(known: list[str], topics: list[str]) -> tuple[list[str], int]:
+    """Write the section of the trends, those of some topics anew, and count those that hold."""
+    written, held = list(TRENDS_HEAD), 0
+    for trend in TRENDS:
+        heading = trend_heading(trend)
+        if trend.topic in topics or heading not in known:
+            paragraph = trend_lines(trend, trend.study())
+            print(*paragraph[:3], sep="\n", flush=True)
+        else:
+            start = known.index(heading)
+            stop = next((at for at in range(start + 1, len(known)) if known[at][:4] == "### "), len(known))
+            paragraph = known[start:stop]
+        held += paragraph[2].endswith("Verdict: holds.")
+        written += paragraph
+    return written, held
 
 
 def main() -> None:
@@ -119,9 +158,9 @@ def main() -> None:
         print(text, flush=True)
     counted = [anchor for anchor in ANCHORS if not anchor.beside]
     lines = [*TABLE, *(rows[anchor][0] for anchor in counted)]
-    others = ["## Formulas that the simulator does not use", "", BESIDE, "", *TABLE]
+    others = [OTHERS, "", BESIDE, "", *TABLE]
     others += [rows[anchor][0] for anchor in ANCHORS if anchor.beside]
-    trends = ["", "## Trends", ""]
+    trends = list(TRENDS_HEAD)
     held = 0
     for trend in TRENDS:
         finding = trend.study()

@@ -18,7 +18,7 @@ DPI = 80
 
 def draw_posture(path: Path) -> None:
     """Draw skew and tilt over azimuth for three load eccentricities, both rows."""
-    figure, axes = plt.subplots(2, 2, figsize=(7.4, 4.0), sharex=True, sharey="row", layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(6.8, 3.7), sharex=True, sharey="row", layout="constrained")
     for condition in ECCENTRICITIES:
         run = posture(condition)
         for row, name in ((0, "inboard row"), (1, "outboard row")):
@@ -43,12 +43,11 @@ def draw_whirl(path: Path) -> None:
     """Draw the rms radius of whirl over speed, over axial load and over radial load added to an axial one."""
     figure, axes = plt.subplots(1, 3, figsize=(9.0, 2.9), sharey=True, layout="constrained")
     axes[0].plot(whirl.SPEEDS, whirl.microns(whirl.over_speed()), "o-")
-    axes[0].set_title(f"{whirl.AXIAL / 1e3:g} kN axial")
+    axes[0].set_title(f"{whirl.AXIAL / 1e3:g} kN axial, {whirl.REVOLUTIONS:g} rev.")
     axes[0].set_xlabel("shaft speed, rad/s")
-    for speed in whirl.LOADED_SPEEDS:
-        loads = [load / 1e3 for load in whirl.LOADS]
-        axes[1].plot(loads, whirl.microns(whirl.over_load(speed)), "o-", label=f"{speed:g} rad/s")
-    axes[1].set_title("by axial load")
+    loads = [load / 1e3 for load in whirl.LOADS]
+    axes[1].plot(loads, whirl.microns(whirl.over_load()), "o-")
+    axes[1].set_title(f"{whirl.LOADED_SPEED:g} rad/s, {whirl.LOADED_REVOLUTIONS:g} rev.")
     axes[1].set_xlabel("axial load, kN")
     radial = [load / 1e3 for load in whirl.RADIAL]
     axes[2].plot(radial, whirl.microns(whirl.over_radial()), "o-", label="whirl, rms")
@@ -56,7 +55,7 @@ def draw_whirl(path: Path) -> None:
     axes[2].plot(radial, spacing, "s--", label="uneven spacing, rms")
     axes[2].set_title(f"added to {whirl.COMBINED_AXIAL / 1e3:g} kN axial")
     axes[2].set_xlabel("radial load, kN")
-    play = 1e6 * whirl.over_speed()[0].radial_play
+    play = whirl.play()
     for panel in axes:
         panel.axhline(play, color="grey", linestyle=":", label="radial play")
         panel.grid(alpha=0.3)
@@ -67,10 +66,13 @@ def draw_whirl(path: Path) -> None:
 
 
 def draw_skid(path: Path) -> None:
-    """Draw the slip of the cages over radial load, for each fill of grease."""
+    """Draw the slip of the cages over radial load, for each grease and end play."""
     figure, panel = plt.subplots(figsize=(5.6, 3.2), layout="constrained")
-    for fill, name in ((skid.FRESH, "fresh grease"), (skid.SETTLED, "settled grease")):
-        panel.semilogx(skid.LOADS_KN, [100.0 * slip for slip in skid.slips(fill)], "o-", label=name)
+    for filling in skid.SERIES:
+        panel.semilogx(
+            skid.LOADS_KN, [100.0 * slip for slip in skid.slips(filling)], "o-", label=filling.name
+        )
+    panel.axvline(skid.MINIMUM_KN, color="grey", linestyle=":", label="0.02 C")
     light = (skid.LOADS_KN[0], skid.LIGHT_KN)
     panel.fill_between(light, 10.0, 60.0, alpha=0.25, color="grey", label="published at light load")
     panel.set_xlabel("radial load, kN")

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from evidence.validation.anchor import Anchor, Trend
+from evidence.validation.anchor import HOLDS_FROM, Anchor, Trend, falls, rises
 from evidence.validation.every import ANCHORS, TRENDS, UNREACHED
-from evidence.validation.page import reference_cells, unreached_line
+from evidence.validation.page import OTHERS, reference_cells, trends_anew, unreached_line
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
@@ -68,3 +68,26 @@ def reaches_beside(function: Any, seen: set[Any]) -> bool:
     called = [function.__globals__[name] for name in names if name in function.__globals__]
     called += [cell.cell_contents for cell in function.__closure__ or ()]
     return any(reaches_beside(each, seen) for each in called)
+
+
+@pytest.mark.parametrize(
+    ("values", "rising", "falling"),
+    [
+        ((1.0, 1.02, 1.029), False, False),
+        ((1.0, 1.02, 1.04), True, False),
+        ((1.04, 1.02, 1.0), False, True),
+        ((1.0, 0.98, 1.04), True, False),
+        ((1.0, 0.96, 1.1), False, False),
+    ],
+)
+def test_a_change_below_the_threshold_is_none(values: tuple[float, ...], rising: bool, falling: bool) -> None:
+    assert HOLDS_FROM == 0.03
+    assert rises(values) is rising
+    assert falls(values) is falling
+
+
+def test_writing_no_topic_anew_leaves_the_trends_as_they_are() -> None:
+    section = LINES[LINES.index("## Trends") - 1 : LINES.index(OTHERS)]
+    written, held = trends_anew(section, [])
+    assert "\n".join(written) == "\n".join(section)
+    assert f"{held} of {len(TRENDS)} published trends are reproduced." in PAGE

@@ -1,51 +1,65 @@
 """Trends of cage whirl under pure axial load.
 
-Standard effects with a dry cage, without weight across the axis, which pins a cage of 0.4 kg at rail speeds.
+Standard effects with a dry cage and a bearing of grade G2, without weight across the axis, which pins a cage
+of 0.4 kg at rail speeds. Rollers of unlike diameter drift through the play of their pockets for hundreds of
+revolutions, so runs last that long, and are looked at in their last quarter.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from itertools import pairwise
+
+import numpy as np
 
 from beardyn_core.choice import load_scene
-from evidence.validation.anchor import Finding, Trend
+from beardyn_core.scene.scatter import Scatter
+from evidence.validation.anchor import HOLDS_FROM, Finding, Trend, falls, rises
 from evidence.validation.cage_whirl import Whirl, WhirlCase, cage_whirl
 
 SAKAGUCHI = "Sakaguchi and Harada 2006, J. Tribol. 128 (10.1115/1.2197527), abstract"
 SPEEDS = (60.0, 122.0, 240.0, 480.0)
 AXIAL = 2e3
 LOADS = (2e3, 1e4, 4e4)
-LOADED_SPEEDS = (60.0, 240.0)
+LOADED_SPEED = 480.0
 RADIAL = (0.0, 5e3, 2e4, 8e4)
 COMBINED_AXIAL = 1e4
 COMBINED_SPEED = 240.0
-# Whirl is chaotic: a change of step or of rounding moves a radius by up to a tenth.
-SCATTER = 0.1
-GIVE = 10e-6  # what a bar yields under the impacts that stop the cage, m
+# Revolutions of the shaft until the spacing of the rollers has settled: the more the load, the more it takes.
+REVOLUTIONS, LOADED_REVOLUTIONS, COMBINED_REVOLUTIONS = 300.0, 1200.0, 600.0
+SHORT_S = 4.0
+
+
+SCATTER = Scatter("G2", 1)
 
 
 @lru_cache
-def whirl(case: WhirlCase) -> Whirl:
-    """Run a case once and measure the whirl of its cages."""
+def whirl(case: WhirlCase, duration: float, scatter: Scatter | None = SCATTER) -> Whirl:
+    """Run a case for a time in s and measure the whirl of its cages in the last quarter."""
     scene = load_scene("static_80kN")
-    return cage_whirl(replace(scene, effects=replace(scene.effects, gravity=None)), [case])
+    scene = replace(scene, effects=replace(scene.effects, gravity=None), scatter=scatter)
+    return cage_whirl(scene, [case], duration=duration, settled=0.75 * duration)
+
+
+def turned(case: WhirlCase, revolutions: float) -> Whirl:
+    """Run a case for some revolutions of the shaft."""
+    return whirl(case, revolutions * 2.0 * np.pi / case.shaft_speed)
 
 
 def over_speed() -> list[Whirl]:
-    """Run all speeds under axial load alone."""
-    return [whirl(WhirlCase(speed, AXIAL)) for speed in SPEEDS]
+    """Run all speeds under axial load alone, for the same number of revolutions."""
+    return [turned(WhirlCase(speed, AXIAL), REVOLUTIONS) for speed in SPEEDS]
 
 
-def over_load(speed: float) -> list[Whirl]:
+def over_load() -> list[Whirl]:
     """Run all axial loads at one speed."""
-    return [whirl(WhirlCase(speed, load)) for load in LOADS]
+    return [turned(WhirlCase(LOADED_SPEED, load), LOADED_REVOLUTIONS) for load in LOADS]
 
 
 def over_radial() -> list[Whirl]:
     """Run all radial loads added to an axial load."""
-    return [whirl(WhirlCase(COMBINED_SPEED, COMBINED_AXIAL, radial)) for radial in RADIAL]
+    cases = [WhirlCase(COMBINED_SPEED, COMBINED_AXIAL, radial) for radial in RADIAL]
+    return [turned(case, COMBINED_REVOLUTIONS) for case in cases]
 
 
 def microns(cases: list[Whirl], part: str = "amplitude") -> list[float]:
@@ -53,66 +67,86 @@ def microns(cases: list[Whirl], part: str = "amplitude") -> list[float]:
     return [1e6 * float(getattr(case, part)[0]) for case in cases]
 
 
+def play() -> float:
+    """Look up the radial play of the pockets, [um]."""
+    return 1e6 * over_speed()[0].radial_play
+
+
+def within_play(values: list[float]) -> list[float]:
+    """Cut radii at the play: what is beyond is the give of bars."""
+    return [min(value, play()) for value in values]
+
+
 def shown(values: list[float]) -> str:
     """Write lengths as text, in um."""
     return ", ".join(f"{value:.0f}" if value >= 10.0 else f"{value:.1f}" for value in values) + " um"
 
 
+LISTED_SPEEDS = f"at {', '.join(f'{speed:g}' for speed in SPEEDS)} rad/s"
+LISTED_LOADS = f"under {', '.join(f'{load / 1e3:g}' for load in LOADS)} kN"
+LISTED_RADIAL = (
+    f"under {', '.join(f'{load / 1e3:g}' for load in RADIAL)} kN radial added to "
+    f"{COMBINED_AXIAL / 1e3:g} kN axial, {COMBINED_SPEED:g} rad/s, after {COMBINED_REVOLUTIONS:g} revolutions"
+)
+
+
 def present() -> Finding:
     """Check that cages whirl under axial load alone."""
     found = over_speed()
-    values = microns(found)
     turns = [float(case.frequency[0]) for case in found]
     return Finding(
-        min(values) > 1.0 and min(turns) > 0.0,
+        min(microns(found)) > HOLDS_FROM * play() and min(turns) > HOLDS_FROM,
         f"Under {AXIAL / 1e3:g} kN axial and without weight the cage's centre goes round its mean place at "
-        f"{', '.join(f'{turn:.2f}' for turn in turns)} of the cage speed, rms radius {shown(values)}, at "
-        f"{', '.join(f'{speed:g}' for speed in SPEEDS)} rad/s.",
+        f"{', '.join(f'{turn:.2f}' for turn in turns)} of the cage speed, rms radius "
+        f"{shown(microns(found))}, {LISTED_SPEEDS} after {REVOLUTIONS:g} revolutions.",
     )
 
 
 def grows_with_speed() -> Finding:
     """Check that the whirl radius grows with speed."""
     values = microns(over_speed())
-    holds = all(later > (1.0 - SCATTER) * earlier for earlier, later in pairwise(values))
+    early = microns([whirl(WhirlCase(speed, AXIAL), SHORT_S) for speed in SPEEDS])
     return Finding(
-        holds and values[-1] > 2.0 * values[0],
-        f"Rms radius {shown(values)} at {', '.join(f'{speed:g}' for speed in SPEEDS)} rad/s, "
-        f"{AXIAL / 1e3:g} kN; a tenth is taken as scatter.",
+        rises(within_play(values)),
+        f"Rms radius {shown(values)} {LISTED_SPEEDS}, {AXIAL / 1e3:g} kN, after {REVOLUTIONS:g} revolutions, "
+        f"with a play of {play():.0f} um; after {SHORT_S:g} s at every speed: {shown(early)}.",
     )
 
 
 def grows_with_load() -> Finding:
     """Check that the whirl radius grows with axial load."""
-    sentences, holds = [], True
-    for speed in LOADED_SPEEDS:
-        values = microns(over_load(speed))
-        holds &= all(later > (1.0 + SCATTER) * earlier for earlier, later in pairwise(values))
-        sentences.append(f"{shown(values)} at {speed:g} rad/s")
+    values = microns(over_load())
+    early, identical = (
+        microns([whirl(WhirlCase(LOADED_SPEED, load), SHORT_S, scatter) for load in LOADS])
+        for scatter in (SCATTER, None)
+    )
     return Finding(
-        holds,
-        f"Rms radius under {', '.join(f'{load / 1e3:g}' for load in LOADS)} kN: {'; '.join(sentences)}.",
+        rises(within_play(values)),
+        f"Rms radius {shown(values)} {LISTED_LOADS} at {LOADED_SPEED:g} rad/s after "
+        f"{LOADED_REVOLUTIONS:g} revolutions, with a play of {play():.0f} um; after {SHORT_S:g} s: "
+        f"{shown(early)}, with identical rollers {shown(identical)}.",
     )
 
 
 def ends_at_the_play() -> Finding:
-    """Check that no cage goes farther than the radial play of its pockets."""
-    cases = [*over_speed(), *(case for speed in LOADED_SPEEDS for case in over_load(speed))]
-    reach = max(microns(cases, "reach"))
-    play = 1e6 * cases[0].radial_play
+    """Check that cages come to the radial play that their pockets have as made, and not beyond it."""
+    reach = microns([*over_speed(), *over_load()], "reach")
+    bearing = load_scene("static_80kN").bearing
+    made = 1.0 + SCATTER.deviations(bearing).pocket_clearance / bearing.cage.circumferential_clearance
+    least, most = play() * float(made.min()), play() * float(made.max())
     return Finding(
-        reach < play + 1e6 * GIVE and microns(over_speed())[-1] > 0.8 * play,
-        f"Farthest {reach:.0f} um from the axis, with a radial play of {play:.0f} um in the pockets.",
+        min(reach) > (1.0 - HOLDS_FROM) * least and max(reach) < (1.0 + HOLDS_FROM) * most,
+        f"Farthest {min(reach):.0f} to {max(reach):.0f} um from the axis, with a radial play of {play():.0f} "
+        f"um in the pockets as drawn, {least:.0f} to {most:.0f} um as made.",
     )
 
 
 def smaller_under_combined_load() -> Finding:
     """Check that radial load makes the whirl smaller."""
-    values = microns(over_radial())
+    values = within_play(microns(over_radial()))
     return Finding(
-        max(values[1:]) < values[0],
-        f"Rms radius {shown(values)} under {', '.join(f'{load / 1e3:g}' for load in RADIAL)} kN radial added "
-        f"to {COMBINED_AXIAL / 1e3:g} kN axial, {COMBINED_SPEED:g} rad/s.",
+        all(falls([values[0], value]) for value in values[1:]),
+        f"Rms radius {shown(microns(over_radial()))} {LISTED_RADIAL}.",
     )
 
 
@@ -120,23 +154,32 @@ def spacing_evened() -> Finding:
     """Check that radial load makes the spacing of the rollers more even."""
     values = microns(over_radial(), "spacing")
     return Finding(
-        max(values[1:]) < values[0],
-        f"Deviation of the roller spacing from an even one: rms {shown(values)} under "
-        f"{', '.join(f'{load / 1e3:g}' for load in RADIAL)} kN radial added to {COMBINED_AXIAL / 1e3:g} kN "
-        "axial.",
+        all(falls([values[0], value]) for value in values[1:]),
+        f"Deviation of the roller spacing from an even one: rms {shown(values)} {LISTED_RADIAL}.",
     )
 
 
+ALL_PRESSED = (
+    "up to 20 kN the axial load still presses every roller of the row, which drift as they do without radial "
+    "load; under 80 kN, which leaves a load zone, it does"
+)
 TRENDS = (
     Trend("cage whirl", "cages whirl under pure axial load", SAKAGUCHI, present, picture="whirl.png"),
-    Trend("cage whirl", "whirl grows with speed", SAKAGUCHI, grows_with_speed),
+    Trend(
+        "cage whirl",
+        "whirl grows with speed",
+        SAKAGUCHI,
+        grows_with_speed,
+        misses="rollers of unlike diameter drift until the cage lies at its play, at every speed; it grows "
+        "in a run of a few seconds, too short for the slow ones to get there",
+    ),
     Trend(
         "cage whirl",
         "whirl grows with axial load",
         SAKAGUCHI,
         grows_with_load,
-        misses="at 60 rad/s it is largest in the middle; at 240 rad/s the radius is the same within the "
-        "scatter, which the dry friction of the pockets sets there and not the load",
+        misses="rollers of unlike diameter drift until the cage lies at its play, under every load; with "
+        "identical ones it does not grow either, so no cause was found",
     ),
     Trend(
         "cage whirl", "whirl ends at the radial clearance of rollers and pockets", SAKAGUCHI, ends_at_the_play
@@ -146,15 +189,13 @@ TRENDS = (
         "whirl is smaller under combined load",
         SAKAGUCHI,
         smaller_under_combined_load,
-        misses="rollers that enter and leave the load zone push the cage, and there is nothing of its weight "
-        "or of a pocket film to hold it",
+        misses=ALL_PRESSED,
     ),
     Trend(
         "cage whirl",
         "combined load evens the spacing of the rollers",
         SAKAGUCHI,
         spacing_evened,
-        misses="ours starts evenly spaced and axial load keeps it so, while a load zone makes rollers run "
-        "ahead and fall behind; those of the source were uneven before",
+        misses=ALL_PRESSED,
     ),
 )
