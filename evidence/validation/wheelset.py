@@ -75,6 +75,7 @@ def run_at(vehicle: str, line: str, speed_kmh: float) -> Run:
         Irregularity(line, short_waves="iso_3095"),
         ((0.0, speed_kmh / 3.6),),
         lateral=True,
+        wheelset="elastic",
     )
     if vehicle == "freight_y25":
         return Run(replace(operation, payload=70e3), FREIGHT)

@@ -66,10 +66,11 @@ class Graph:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.processes.end()
+        # this node first: the leaving of others can stop it for good (Fast DDS issue 6502)
         self._executor.shutdown()
         self.node.destroy_node()
         self._context.try_shutdown()
+        self.processes.end()
         release_domain_id(self.domain)
         _left.append(self.domain)
 
@@ -93,8 +94,7 @@ class Graph:
         profile = Path(environment[PROFILE_VARIABLES[0]]).read_text()
         assert USUAL_LEASE in profile
         short = self.folder / "short_lease.xml"
-        announced = "<leaseAnnouncement><sec>"
-        short.write_text(profile.replace(USUAL_LEASE, SHORT_LEASE).replace(f"{announced}3", f"{announced}1"))
+        short.write_text(profile.replace(USUAL_LEASE, SHORT_LEASE))
         environment[PROFILE_VARIABLES[0]] = str(short)
 
     def start(self, name: str, module: str, *words: str, **parameters: object) -> None:
