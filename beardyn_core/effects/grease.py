@@ -10,14 +10,14 @@ from __future__ import annotations
 import math
 from typing import Annotated as A
 
+FRESH, SETTLED = 2.0e-6, 0.6e-6
 # Oil on both surfaces before a contact, [m], None for more than any contact takes in.
 LAYERS: dict[str, float | None] = {
     "flooded": None,
-    "fresh": 2.0e-6,
-    "settled": 0.6e-6,
+    "fresh": FRESH,
+    "settled": SETTLED,
     "channelled": 0.3e-6,
 }
-FRESH, SETTLED = 2.0e-6, 0.6e-6  # of `LAYERS`
 SETTLED_FILL = 0.02
 CHURNING: A[float, "in which churning dies away to 37 %, [millions of revolutions]"] = 0.1
 GREASE_LIFE: A[float, "in which half of the oil is used up, likewise"] = 300.0

@@ -83,6 +83,10 @@ def test_scene_keeps_the_age_of_its_grease() -> None:
         ("{supply: ageing}", "{}", "give both or neither"),
         ("{million_revolutions: 1}", "{million_revolutions: 1}", "give both or neither"),
         ("{supply: ageing, million_revolutions: 1}", "{}", "of film and drag differ"),
+        *(
+            (f"{{supply: ageing, million_revolutions: 1, {key}: 0.5}}", "{million_revolutions: 1}", key)
+            for key in ("layer_um", "starvation")
+        ),
     ],
 )
 def test_one_grease_has_one_age(film: str, drag: str, message: str) -> None:
