@@ -2,7 +2,8 @@
 
 An exception that is raised inside of the compiler, in a callback from C, is swallowed there or worse. So
 Ctrl-C waits until the compiler has returned; and because that may take half a minute, a thread of the
-command line watches too and ends the process when nothing is open that would be lost.
+command line watches too and ends the process when nothing is open that would be lost. Raised inside of the
+writer of a file it would leave half a record, so there it waits as well.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ EXIT_INTERRUPTED = 130
 _LOOK_S = 0.05
 
 _sealed = 0  # depth of sections of the main thread that an exception must not be raised in
+_whole = 0  # depth of those that Ctrl-C waits for the end of, however long
 _leavable = 0  # depth of those that the process may be ended in
 _pending = False  # whether Ctrl-C waits for the end of a sealed section
 _last_words: list[Callable[[], str]] = []
@@ -54,9 +56,23 @@ def sealed() -> Iterator[None]:
         unseal()
 
 
+@contextmanager
+def whole() -> Iterator[None]:
+    """Hold Ctrl-C back until what has been begun is done, such as a record of a file."""
+    global _whole
+    here = threading.current_thread() is threading.main_thread()
+    _whole += here
+    try:
+        yield
+    finally:
+        _whole -= here
+        if here:
+            _raise_pending()
+
+
 def _raise_pending() -> None:
     global _pending
-    if _pending and not _sealed:
+    if _pending and not _sealed and not _whole:
         _pending = False
         raise KeyboardInterrupt
 

@@ -16,6 +16,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
+from beardyn_core.interrupts import held_back, whole
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.stage_clock import REST, SINKS
@@ -35,6 +36,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 
 
+@held_back()
 def run(
     scene: Scene,
     sinks: Sequence[Sink] = (),
@@ -71,8 +73,9 @@ def run(
     def deliver(block: Block) -> None:
         trend.add(block)
         twin.stages.lap(REST)
-        for sink in opened:
-            sink.write(block)
+        with whole():
+            for sink in opened:
+                sink.write(block)
         if opened:
             twin.stages.lap(SINKS)
         if progress is not None:

@@ -121,6 +121,32 @@ def test_an_interrupt_closes_the_sinks(rolling: type[PureRolling]) -> None:
     assert "interrupted" in (sink.status or "")
 
 
+class HalfWritten(MemorySink):
+    """A file in the middle of a record when Ctrl-C comes."""
+
+    writing = False
+
+    def write(self, block: Block) -> None:
+        assert not self.writing, "the block before was left half written"
+        self.writing = True
+        if block.index == 2:
+            signal.raise_signal(signal.SIGINT)
+        super().write(block)
+        self.writing = False
+
+    def close(self, status: str = "") -> None:
+        assert not self.writing, "closed with half a record"
+        super().close(status)
+
+
+def test_an_interrupt_waits_for_the_end_of_a_record(rolling: type[PureRolling]) -> None:
+    sinks = HalfWritten(), MemorySink()
+    with pytest.raises(KeyboardInterrupt):
+        desk_run.run(load_scene("static_80kN", duration=0.5), sinks)
+    assert [len(sink.blocks) for sink in sinks] == [3, 3]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
 class FullSink(MemorySink):
     """Refuses to be finished."""
 
