@@ -154,9 +154,15 @@ def shaft(wheelset: Wheelset, half_mass: float, radius: float, arm: float, box_m
     Raises
     ------
     InputError
-        When too little is left for the wheel.
+        When too little is left for the wheel, or the bearing is not outside of it.
     """
     seat = (HALF_GAUGE - 0.5 * wheelset.seat_length, HALF_GAUGE + 0.5 * wheelset.seat_length)
+    if arm <= seat[1]:
+        raise InputError(
+            f"guidance.axlebox_spacing_m of the vehicle is {2.0 * arm:g}; with wheelset: elastic it must be "
+            f"above {2.0 * seat[1]:g}, where the wheel seats end: axles with inboard bearings are not modelled; "
+            "take wheelset: rigid"
+        )
     journal = (max(arm - 0.5 * wheelset.journal_length, seat[1]), arm + 0.5 * wheelset.journal_length)
     discs = wheelset.disc_places
     marks = sorted({0.0, *discs, seat[0], HALF_GAUGE, seat[1], journal[0], arm, journal[1]})

@@ -295,6 +295,13 @@ def test_a_half_wheelset_lighter_than_its_axle_is_refused():
         load_history(SMOOTH, dataclasses.replace(MOUNTING, journal_mass=250.0), 0.1, 1)
 
 
+def test_an_axle_with_inboard_bearings_is_refused():
+    guidance = dataclasses.replace(SMOOTH.vehicle.guidance, axlebox_spacing=1.2)
+    inboard = dataclasses.replace(SMOOTH, vehicle=dataclasses.replace(SMOOTH.vehicle, guidance=guidance))
+    with pytest.raises(InputError, match=r"axlebox_spacing_m of the vehicle is 1\.2; .* must be above 1\.68"):
+        half_shaft(inboard, MOUNTING, 0.0)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
