@@ -160,8 +160,8 @@ def shaft(wheelset: Wheelset, half_mass: float, radius: float, arm: float, box_m
     if arm <= seat[1]:
         raise InputError(
             f"guidance.axlebox_spacing_m of the vehicle is {2.0 * arm:g}; with wheelset: elastic it must be "
-            f"above {2.0 * seat[1]:g}, where the wheel seats end: axles with inboard bearings are not modelled; "
-            "take wheelset: rigid"
+            f"above {2.0 * seat[1]:g}, where the wheel seats end: axles with inboard bearings are not "
+            "modelled; take wheelset: rigid"
         )
     journal = (max(arm - 0.5 * wheelset.journal_length, seat[1]), arm + 0.5 * wheelset.journal_length)
     discs = wheelset.disc_places
