@@ -30,7 +30,7 @@ from beardyn_core.record.messages import (
 )
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.topics import TEMPERATURE, WRENCH, topic
-from beardyn_core.study.monitored_recording import HOT_BOX, Finding, conclude
+from beardyn_core.study.monitored_recording import HOT_BOX, WAITING, Finding, Tally
 from beardyn_ros.diagnostics import MONITOR, OK, TWIN, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
 from beardyn_ros.message_guard import MessageGuard
@@ -102,7 +102,7 @@ class MonitorNode(Node):
 
     def _begin(self) -> None:
         self._monitor = Monitor(self._orders, self._bearing.roller_count, algorithm=self._algorithm)
-        self._findings: list[Finding] = []
+        self._tally = Tally()
         self._last_sample = -1
         self._shaft: list[bytes] = []
         self._summed_up = False
@@ -162,8 +162,8 @@ class MonitorNode(Node):
             self.finished = bool(self._values.exit_when_done)
 
     def _report_finding(self, finding: Finding) -> None:
-        earlier = self._findings[-1].verdict if self._findings else ""
-        self._findings.append(finding)
+        earlier = self._tally.latest.verdict if self._tally.latest else ""
+        self._tally.add(finding)
         self._publish(finding)
         if finding.verdict != earlier:
             if finding.is_fault or finding.verdict == HOT_BOX:
@@ -181,8 +181,8 @@ class MonitorNode(Node):
     def _sum_up(self) -> None:
         """Log the last word about the run: the most frequent verdict."""
         self._summed_up = True
-        conclusion = conclude(self._findings)
-        finding = conclusion.finding or Finding("waiting", "not enough signal for a verdict", 0.0)
+        conclusion = self._tally.conclusion()
+        finding = conclusion.finding or Finding(WAITING, "not enough signal for a verdict", 0.0)
         counts = (("agreeing", str(conclusion.agreeing)), ("analyses", str(conclusion.analyses)))
         self._publish(finding, ("final", "true"), *counts)
         self._report()
@@ -193,21 +193,21 @@ class MonitorNode(Node):
         counts = self._intake.publisher_counts()
         namespace = self.get_namespace()
         connected = all(counts.get(topic(name).path(namespace), 0) for name in INPUTS[:2])
-        verdict = self._findings[-1].verdict if self._findings else "waiting"
+        latest = self._tally.latest or Finding(WAITING, "listening", 0.0)
         status = Diagnostic(
             diagnostic_name(namespace, MONITOR),
             WARN if self._monitor.lost or self._monitor.refused or self._guard.total else OK,
-            self._findings[-1].reason if self._findings else "listening",
+            latest.reason,
             (
                 ("connected", "true" if connected else "false"),
-                ("verdict", verdict),
-                ("analyses", str(len(self._findings))),
+                ("verdict", latest.verdict),
+                ("analyses", str(self._tally.analyses)),
                 ("gaps_in_vibration", str(self._monitor.lost)),
                 ("refused_blocks", str(self._monitor.refused)),
                 *self._guard.values(),
             ),
         )
-        stamp = round(self._findings[-1].time * 1e9) if self._findings else 0
+        stamp = round(latest.time * 1e9)
         self._out.publish("/diagnostics", encode_diagnostics(stamp, frame_of(self.get_namespace()), [status]))
 
     def close(self) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields
 from math import isfinite, nan
 from typing import Annotated as A
@@ -112,14 +112,45 @@ class Conclusion:
         return self.finding.verdict if self.finding else WAITING
 
 
-def conclude(findings: Sequence[Finding]) -> Conclusion:
-    """Find the most frequent verdict of a run; results before there was enough signal do not count."""
-    judged = [finding for finding in findings if finding.verdict != WAITING]
-    if not judged:
-        return Conclusion(None, 0, 0)
-    verdict, agreeing = Counter(finding.verdict for finding in judged).most_common(1)[0]
-    latest = [finding for finding in judged if finding.verdict == verdict][-1]
-    return Conclusion(latest, agreeing, len(judged))
+class Tally:
+    """Findings of a run summed up as they come, however many.
+
+    Attributes
+    ----------
+    latest : Finding or None
+        The last one.
+    analyses : int
+        All of them, those without enough signal included.
+    """
+
+    def __init__(self) -> None:
+        self.latest: Finding | None = None
+        self.analyses = 0
+        self._counts: Counter[str] = Counter()
+        self._last: dict[str, Finding] = {}
+
+    def add(self, finding: Finding) -> None:
+        """Count a finding."""
+        self.latest = finding
+        self.analyses += 1
+        if finding.verdict != WAITING:
+            self._counts[finding.verdict] += 1
+            self._last[finding.verdict] = finding
+
+    def conclusion(self) -> Conclusion:
+        """Find the most frequent verdict; results before there was enough signal do not count."""
+        if not self._counts:
+            return Conclusion(None, 0, 0)
+        verdict, agreeing = self._counts.most_common(1)[0]
+        return Conclusion(self._last[verdict], agreeing, self._counts.total())
+
+
+def conclude(findings: Iterable[Finding]) -> Conclusion:
+    """Sum up the findings of a run; see `Tally.conclusion`."""
+    tally = Tally()
+    for finding in findings:
+        tally.add(finding)
+    return tally.conclusion()
 
 
 MONITOR_STATUS = "axlebox/monitor"
