@@ -118,8 +118,9 @@ def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> R
     """
     solver = _Rollers(model, pose)
     touching = _on_cup_and_rib(model, pose)
-    start = solver.at(touching)
-    free = (solver.cone(touching).approach.max(axis=-1) <= _ROUNDING_GAP) & (not np.any(model.inertia_load))
+    contacts = solver.contacts(touching)
+    start = solver.at(touching, contacts)
+    free = (contacts[1].approach.max(axis=-1) <= _ROUNDING_GAP) & (not np.any(model.inertia_load))
     free |= model.missing  # what is not there touches nothing either
     if guess is not None:
         warm = solver.at(guess)
@@ -151,19 +152,16 @@ class _Rollers:
         lever = model.bearing.effective_length / math.sqrt(12.0)
         self.scale = np.array([1.0, 1.0, lever])
 
-    def cone(self, position: Float) -> ContactSet:
-        return cone_contacts(self.model, position, self.pose)
-
     def contacts(self, position: Float) -> tuple[ContactSet, ContactSet, ContactSet]:
         return (
             cup_contacts(self.model, position, self.pose),
-            self.cone(position),
+            cone_contacts(self.model, position, self.pose),
             rib_contacts(self.model, position, self.pose),
         )
 
-    def at(self, position: Float) -> _Trial:
+    def at(self, position: Float, contacts: tuple[ContactSet, ContactSet, ContactSet] | None = None) -> _Trial:
         """Work out energy and its derivatives, tilt measured as lever times angle."""
-        contacts = self.contacts(position)
+        contacts = contacts or self.contacts(position)
         energy = -np.sum(self.model.inertia_load * position, axis=-1)
         force = np.broadcast_to(self.model.inertia_load / self.scale, position.shape).copy()
         stiffness = np.zeros((*position.shape, 3))
@@ -183,9 +181,10 @@ class _Rollers:
 
     def state(self, position: Float, free: NDArray[np.bool_]) -> RollerState:
         """Work out everything the ring equilibrium needs, rollers that are free left out."""
-        trial = self.at(position)
+        found = self.contacts(position)
+        trial = self.at(position, found)
         held = ~free
-        contacts = tuple(_without(contact, free) for contact in self.contacts(position))
+        contacts = tuple(_without(contact, free) for contact in found)
         size = 5 + self.model.bending.shape[-1]
         cone_force = np.zeros(size)
         stiffness = np.zeros((size, size))
