@@ -203,8 +203,12 @@ def small_trial(tmp_path: Path) -> list[str]:
     return ["trial", "small.yaml", "-o", "out"]
 
 
-# as soon as the processes begin, and after the first run
-@pytest.mark.parametrize(("jobs", "moments"), [("1", (1,)), ("2", (0, 1))], ids=["1", "2"])
+# after the first run, and as soon as the processes begin: that a trial stops then too, `trial 4 s later` says
+@pytest.mark.parametrize(
+    ("jobs", "moments"),
+    [("1", (1,)), ("2", (1,)), pytest.param("2", (0, 1), marks=pytest.mark.slow)],
+    ids=["1", "2", "2, twice"],
+)
 def test_an_interrupted_trial_keeps_every_run_that_was_done(
     jobs: str, moments: tuple[int, ...], small_trial: list[str], tmp_path: Path
 ) -> None:

@@ -147,12 +147,13 @@ def test_the_bearing_command_offers_the_tilts_that_the_solution_knows() -> None:
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")
-def test_a_full_disk_is_exit_code_2_with_a_sentence() -> None:
-    done = beardyn("simulate", "static_5kN", "--duration", "0.02", "-o", "/dev/full", "--json")
-    assert done.returncode == command.BAD_INPUT
-    assert done.stdout == ""
-    assert "cannot write on /dev/full: No space left on device" in done.stderr
-    assert "Traceback" not in done.stderr
+def test_a_full_disk_is_exit_code_2_with_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["simulate", "static_5kN", "--duration", "0.02", "-o", "/dev/full", "--json"]
+    assert command.main(words) == command.BAD_INPUT
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert "cannot write on /dev/full: No space left on device" in told.err
+    assert "Traceback" not in told.err
 
 
 def options() -> list[tuple[str, argparse.Action]]:
