@@ -10,4 +10,4 @@ from hypothesis import settings
 
 def examples(count: int) -> int:
     """Give the count of the slow suite, a third of it in the fast one."""
-    return max(count // 3, 5) if settings.default.derandomize else count
+    return max(count // 3, 5) if settings().derandomize else count

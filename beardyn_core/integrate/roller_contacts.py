@@ -79,7 +79,8 @@ class ContactSet:
     stiffness: Float  # [N/m]; of coupled laminae a matrix [..., lamina, lamina]
     energy: Float  # [J]; of coupled laminae that of the line, [row, roller, 1]
     by_roller: Float  # [..., 3], change of approach with its radial, axial and tilt motion [-, -, m/rad]
-    # [..., 5 + 2 x mode], with displacement, tilt about x and z, cup bending [-, m/rad, -]; empty unless asked
+    # [..., 5 + 2 x mode], with displacement, tilt about x and z, cup bending [-, m/rad, -]; empty where it
+    # is not asked for
     by_cone: Float
 
 

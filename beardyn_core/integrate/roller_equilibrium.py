@@ -30,6 +30,8 @@ from beardyn_core.integrate.roller_contacts import (
 )
 from beardyn_core.model.tier_parameters import SpringParams, lever_of_cup
 
+Contacts = tuple[ContactSet, ContactSet, ContactSet]
+"""Of the rollers with cup, cone and rib."""
 TERMS = 8
 _SAMPLES = 31
 # below this share of the largest load the fit is absolute: a crown leaves light contacts none at all
@@ -152,14 +154,14 @@ class _Rollers:
         lever = model.bearing.effective_length / math.sqrt(12.0)
         self.scale = np.array([1.0, 1.0, lever])
 
-    def contacts(self, position: Float, by_cone: bool) -> tuple[ContactSet, ContactSet, ContactSet]:
+    def contacts(self, position: Float, by_cone: bool) -> Contacts:
         return (
             cup_contacts(self.model, position, self.pose, by_cone),
             cone_contacts(self.model, position, self.pose, by_cone),
             rib_contacts(self.model, position, self.pose, by_cone),
         )
 
-    def at(self, position: Float, contacts: tuple[ContactSet, ContactSet, ContactSet] | None = None) -> _Trial:
+    def at(self, position: Float, contacts: Contacts | None = None) -> _Trial:
         """Work out energy and its derivatives, tilt measured as lever times angle."""
         contacts = contacts or self.contacts(position, by_cone=False)
         energy = -np.sum(self.model.inertia_load * position, axis=-1)
