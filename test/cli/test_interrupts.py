@@ -20,6 +20,7 @@ import pytest
 
 from beardyn_core.cli import main as command
 from beardyn_core.config import config_folder
+from beardyn_core.interrupts import GRACE_S
 from beardyn_core.record.reading import read_run
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -227,7 +228,8 @@ def test_an_interrupted_trial_keeps_every_run_that_was_done(
             took = started.interrupt()
             check(started, took, f"interrupted; {count()} of 24 runs are done; the same command goes on")
         summary = tmp_path / "out" / "trial.json"
-        if least or summary.exists():  # the process is ended at once while it compiles before the first run
+        # a process that does not answer in time, for it compiles or the machine is slow, is ended without it
+        if (least and took < GRACE_S) or summary.exists():
             assert json.loads(summary.read_text())["complete"] is False
         assert count() >= before + least
 
