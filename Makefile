@@ -6,7 +6,8 @@ PYTHON ?= python3
 VENV ?= .venv
 ARGS ?=
 BASE ?= HEAD
-JOBS ?= $(shell nproc)
+# one a core, and one for the tests that wait
+JOBS ?= $(shell expr $$(nproc) + 1)
 PARALLEL = $(if $(filter-out 1,$(JOBS)),-n $(JOBS))
 
 BIN := $(VENV)/bin
@@ -28,7 +29,7 @@ help: ## what there is to make
 demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view (again: ARGS=--force)
 	@$(BIN)/python -m beardyn_ros demo $(ARGS)
 
-test: $(VENV)/.ready-test ## set up, then the tests, on JOBS processes (one a core)
+test: $(VENV)/.ready-test ## set up, then the tests, on JOBS processes (one more than cores)
 	@$(BIN)/python -m pytest $(PARALLEL) $(ARGS)
 
 same: $(VENV)/.ready-test ## short runs of every tier beside those of commit BASE (default: the last one): same to the bit, or where not

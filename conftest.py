@@ -15,6 +15,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from hypothesis import settings
 
 REPOSITORY = Path(__file__).resolve().parent
+# Tests of nodes, browsers and signals leave their core idle for two thirds of their time.
+WAITING = ("test/ros/", "test/browser/", "test/cli/test_interrupts.py")
 # Files that take longer than about twenty seconds, once compiled or before, the longest first.
 LONG_FILES = (
     "test/ros/test_load_stream.py",
@@ -78,17 +80,28 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 def _rank(nodeid: str) -> int:
     file = nodeid.partition("::")[0]
-    if file in LONG_FILES:
-        return LONG_FILES.index(file)
-    return len(LONG_FILES) + (not file.startswith("test/ros/"))
+    return LONG_FILES.index(file) if file in LONG_FILES else len(LONG_FILES)
 
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Hand whole files to the processes, for the tests of a file share runs, in the order of collection."""
+    """Hand whole files to the processes, for the tests of a file share runs, in the order of collection.
+
+    As long as there are both, one process has files that wait and the others have files that compute.
+    """
     from xdist.scheduler import LoadFileScheduling
 
     class ByFile(LoadFileScheduling):
+        def _assign_work_unit(self, node: Any) -> None:
+            """Give a process the next file of the kind that is wanted now."""
+            elsewhere = [work for other, work in self.assigned_work.items() if other is not node]
+            begun = [file for work in elsewhere for file, tests in work.items() if not all(tests.values())]
+            computing = any(file.startswith(WAITING) for file in begun)
+            wanted = (file for file in self.workqueue if file.startswith(WAITING) != computing)
+            if (file := next(wanted, None)) is not None:
+                self.workqueue.move_to_end(file, last=False)
+            super()._assign_work_unit(node)
+
         def remove_node(self, node: Any) -> str | None:
             """Take back the work of a process that has died, without the test that it died in.
 

@@ -30,6 +30,7 @@ ROW_COUNT = 2
 # The end sphere of a forced bearing that is centred this close to the bearing axis, where its direction from
 # there says nothing, is pushed along its roller's meridian [m].
 _ON_AXIS = 1.0e-3
+_NOT_ASKED = np.empty(0)
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,9 @@ class ContactSet:
     stiffness: Float  # [N/m]; of coupled laminae a matrix [..., lamina, lamina]
     energy: Float  # [J]; of coupled laminae that of the line, [row, roller, 1]
     by_roller: Float  # [..., 3], change of approach with its radial, axial and tilt motion [-, -, m/rad]
-    by_cone: Float  # [..., 5 + 2 x mode], with displacement, tilt about x and z, cup bending [-, m/rad, -]
+    # [..., 5 + 2 x mode], with displacement, tilt about x and z, cup bending [-, m/rad, -]; empty where it
+    # is not asked for
+    by_cone: Float
 
 
 def contact_model(
@@ -182,7 +185,9 @@ def stiffened(stiffness: Float, direction: Float) -> Float:
     return stiffness[..., None] * direction
 
 
-def cup_contacts(model: ContactModel, roller: Float, pose: ConePose | None = None) -> ContactSet:
+def cup_contacts(
+    model: ContactModel, roller: Float, pose: ConePose | None = None, by_cone: bool = True
+) -> ContactSet:
     """Work out the lamina contacts with the cup; `roller` is radial, axial, tilt, shape [row, roller, 3].
 
     The pose matters for the bending of the cup only.
@@ -196,18 +201,21 @@ def cup_contacts(model: ContactModel, roller: Float, pose: ConePose | None = Non
     across = model.radius * np.sin(phi - 0.5 * tilt) * half_sine
     inward = cosine * roller[..., 0:1] - sine * roller[..., 1:2]
     approach = inward + along + across - model.clearance - model.drop + model.oversize * math.cos(phi)
-    by_cone = np.zeros((*approach.shape, 5 + model.bending.shape[-1]))
     if pose is not None and pose.bending.size:
         approach = approach - cosine * (model.bending @ pose.bending)[..., None]
-        by_cone[..., 5:] = -cosine * model.bending[:, :, None, :]
     by_roller = np.empty((*approach.shape, 3))
     by_roller[..., 0], by_roller[..., 1] = cosine, -sine
     by_roller[..., 2] = model.abscissa * np.cos(phi - tilt) + model.radius * np.sin(phi - tilt)
     force, stiffness, energy = line_law(model, approach)
-    return ContactSet(approach, force, stiffness, energy, by_roller, by_cone)
+    following = _NOT_ASKED
+    if by_cone:
+        following = np.zeros((*approach.shape, 5 + model.bending.shape[-1]))
+        if pose is not None and pose.bending.size:
+            following[..., 5:] = -cosine * model.bending[:, :, None, :]
+    return ContactSet(approach, force, stiffness, energy, by_roller, following)
 
 
-def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactSet:
+def cone_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bool = True) -> ContactSet:
     """Work out the lamina contacts with the cone; `roller` is radial, axial, tilt, shape [row, roller, 3].
 
     Notes
@@ -228,10 +236,10 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose) -> Contact
     gap = cosine * distance - sine * (outwards * point[..., 1] - model.apex_axial) + model.drop
     normal = _cone_normal(point, outwards, sine, cosine)
     force, stiffness, energy = line_law(model, -gap)
-    return _assembled(model, pose, -gap, force, stiffness, energy, centre, point, normal)
+    return _assembled(model, pose, -gap, force, stiffness, energy, centre, point, normal, by_cone)
 
 
-def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactSet:
+def rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bool = True) -> ContactSet:
     """Work out contacts of the spherical large ends with the conical rib; one "lamina" per roller.
 
     The nearest point of the rib lies on its face between undercut and corner; the edges are sharp.
@@ -279,6 +287,7 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose) -> ContactS
         centre,
         point[:, :, None, :],
         normal[:, :, None, :],
+        by_cone,
     )
 
 
@@ -310,19 +319,22 @@ def _assembled(
     centre: Float,
     point: Float,
     normal: Float,
+    by_cone: bool,
 ) -> ContactSet:
     """Assemble a contact set with its derivatives; `centre`, `point`, `normal` are in cone axes."""
     lever = (point - centre[:, :, None, :]) @ pose.rotation.T
-    about_centre = _cross(point, normal) @ pose.rotation.T
+    about_centre = _cross(point, normal) @ pose.rotation.T if by_cone else _NOT_ASKED
     normal = normal @ pose.rotation.T
     by_roller = np.empty((*approach.shape, 3))
     by_roller[..., 0] = np.sum(normal * model.radial[:, :, None, :], axis=-1)
     by_roller[..., 1] = np.sum(normal * model.axial[:, :, None, :], axis=-1)
     by_roller[..., 2] = np.sum(_cross(lever, normal) * model.tilt_axis[:, :, None, :], axis=-1)
-    by_cone = np.zeros((*approach.shape, 5 + model.bending.shape[-1]))
-    by_cone[..., :3] = -normal
-    by_cone[..., 3], by_cone[..., 4] = -about_centre[..., 0], -about_centre[..., 2]
-    return ContactSet(approach, force, stiffness, energy, by_roller, by_cone)
+    following = _NOT_ASKED
+    if by_cone:
+        following = np.zeros((*approach.shape, 5 + model.bending.shape[-1]))
+        following[..., :3] = -normal
+        following[..., 3], following[..., 4] = -about_centre[..., 0], -about_centre[..., 2]
+    return ContactSet(approach, force, stiffness, energy, by_roller, following)
 
 
 def _cross(first: Float, second: Float) -> Float:

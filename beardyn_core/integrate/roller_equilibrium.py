@@ -30,6 +30,8 @@ from beardyn_core.integrate.roller_contacts import (
 )
 from beardyn_core.model.tier_parameters import SpringParams, lever_of_cup
 
+Contacts = tuple[ContactSet, ContactSet, ContactSet]
+"""Of the rollers with cup, cone and rib."""
 TERMS = 8
 _SAMPLES = 31
 # below this share of the largest load the fit is absolute: a crown leaves light contacts none at all
@@ -118,8 +120,9 @@ def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> R
     """
     solver = _Rollers(model, pose)
     touching = _on_cup_and_rib(model, pose)
-    start = solver.at(touching)
-    free = (solver.cone(touching).approach.max(axis=-1) <= _ROUNDING_GAP) & (not np.any(model.inertia_load))
+    contacts = solver.contacts(touching, by_cone=False)
+    start = solver.at(touching, contacts)
+    free = (contacts[1].approach.max(axis=-1) <= _ROUNDING_GAP) & (not np.any(model.inertia_load))
     free |= model.missing  # what is not there touches nothing either
     if guess is not None:
         warm = solver.at(guess)
@@ -151,19 +154,16 @@ class _Rollers:
         lever = model.bearing.effective_length / math.sqrt(12.0)
         self.scale = np.array([1.0, 1.0, lever])
 
-    def cone(self, position: Float) -> ContactSet:
-        return cone_contacts(self.model, position, self.pose)
-
-    def contacts(self, position: Float) -> tuple[ContactSet, ContactSet, ContactSet]:
+    def contacts(self, position: Float, by_cone: bool) -> Contacts:
         return (
-            cup_contacts(self.model, position, self.pose),
-            self.cone(position),
-            rib_contacts(self.model, position, self.pose),
+            cup_contacts(self.model, position, self.pose, by_cone),
+            cone_contacts(self.model, position, self.pose, by_cone),
+            rib_contacts(self.model, position, self.pose, by_cone),
         )
 
-    def at(self, position: Float) -> _Trial:
+    def at(self, position: Float, contacts: Contacts | None = None) -> _Trial:
         """Work out energy and its derivatives, tilt measured as lever times angle."""
-        contacts = self.contacts(position)
+        contacts = contacts or self.contacts(position, by_cone=False)
         energy = -np.sum(self.model.inertia_load * position, axis=-1)
         force = np.broadcast_to(self.model.inertia_load / self.scale, position.shape).copy()
         stiffness = np.zeros((*position.shape, 3))
@@ -183,9 +183,10 @@ class _Rollers:
 
     def state(self, position: Float, free: NDArray[np.bool_]) -> RollerState:
         """Work out everything the ring equilibrium needs, rollers that are free left out."""
-        trial = self.at(position)
+        found = self.contacts(position, by_cone=True)
+        trial = self.at(position, found)
         held = ~free
-        contacts = tuple(_without(contact, free) for contact in self.contacts(position))
+        contacts = tuple(_without(contact, free) for contact in found)
         size = 5 + self.model.bending.shape[-1]
         cone_force = np.zeros(size)
         stiffness = np.zeros((size, size))
@@ -287,8 +288,8 @@ def _on_cup_and_rib(model: ContactModel, pose: ConePose) -> Float:
     )
     position = np.zeros_like(model.centre)
     for _ in range(4):
-        cup = cup_contacts(model, position, pose)
-        rib = rib_contacts(model, position, pose)
+        cup = cup_contacts(model, position, pose, by_cone=False)
+        rib = rib_contacts(model, position, pose, by_cone=False)
         matrix = np.stack([cup.by_roller[:, :, 0, :2], rib.by_roller[:, :, 0, :2]], axis=-2)
         excess = np.stack([cup.approach.max(axis=-1), rib.approach[..., 0]], axis=-1) - wanted
         position[..., :2] -= np.linalg.solve(matrix, excess[..., None])[..., 0]

@@ -10,9 +10,9 @@ from evidence.light.grid import LOADS_KN, SETS, SPEEDS_RPM, run_point
 
 
 @pytest.mark.parametrize(
-    ("load_kn", "speed_rpm"), [(0.2, 1165.0), (1.0, 2500.0), (5.0, 2500.0), (80.0, 300.0)]
+    ("effects", "load_kn", "speed_rpm"),
+    [("full", 0.2, 1165.0), ("full", 5.0, 2500.0), ("standard", 1.0, 2500.0), ("standard", 80.0, 300.0)],
 )
-@pytest.mark.parametrize("effects", ["full", "standard"])
 def test_cages_neither_over_run_nor_turn_back(effects: str, load_kn: float, speed_rpm: float) -> None:
     point = run_point(effects, load_kn, speed_rpm)
     assert point.holds, point

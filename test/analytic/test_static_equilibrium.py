@@ -28,6 +28,7 @@ from beardyn_core.integrate.roller_contacts import (
     rib_contacts,
 )
 from beardyn_core.integrate.static import StaticSolution, _rotation, solve
+from test.examples import examples
 
 HS = load_bearing("HS130x230")
 PITCH = 2.0 * math.pi / HS.roller_count
@@ -83,7 +84,7 @@ def naive_balance(solution: StaticSolution, phase: float = 0.0) -> tuple[np.ndar
 
 @given(load=radial_loads, end_play=end_plays, phase=st.floats(0.0, 0.4))
 @example(load=(0.0, 0.0, 80e3), end_play=0.0, phase=0.0)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_roller_forces_balance_the_load_with_tilt_locked(load, end_play, phase):
     """1e-8 of the load on the cone and on every roller; the contacts push and never pull."""
     solution = solve(HS, load, end_play=end_play, roller_phase=phase)
@@ -95,7 +96,7 @@ def test_roller_forces_balance_the_load_with_tilt_locked(load, end_play, phase):
 
 
 @given(load=radial_loads, end_play=end_plays, moment=st.tuples(st.floats(-800, 800), st.floats(-800, 800)))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 def test_roller_forces_balance_load_and_moment_with_tilt_free(load, end_play, moment):
     solution = solve(HS, load, (moment[0], 0.0, moment[1]), end_play=end_play, tilt="free")
     force, about, left = naive_balance(solution)
@@ -120,7 +121,7 @@ def test_cup_takes_the_load_but_for_what_the_cage_holds():
 
 
 @given(load=radial_loads, end_play=end_plays, tilt=st.sampled_from(["locked", "free"]))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 def test_turning_by_one_pitch_changes_nothing(load, end_play, tilt):
     first = solve(HS, load, end_play=end_play, tilt=tilt)
     second = solve(HS, load, end_play=end_play, tilt=tilt, roller_phase=PITCH)
@@ -130,7 +131,7 @@ def test_turning_by_one_pitch_changes_nothing(load, end_play, tilt):
 
 
 @given(load=radial_loads, end_play=end_plays)
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 def test_load_turned_by_one_pitch_moves_the_load_zone_by_one_roller(load, end_play):
     turned = (
         load[0] * math.cos(PITCH) + load[2] * math.sin(PITCH),
@@ -143,7 +144,7 @@ def test_load_turned_by_one_pitch_moves_the_load_zone_by_one_roller(load, end_pl
 
 
 @given(load=radial_loads, end_play=end_plays, moment=st.tuples(st.floats(-500, 500), st.floats(-500, 500)))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 def test_mirror_image_of_the_load_swaps_the_rows(load, end_play, moment):
     first = solve(HS, load, (moment[0], 0, moment[1]), end_play=end_play, tilt="free", laminae=4)
     image = solve(

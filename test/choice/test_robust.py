@@ -67,7 +67,7 @@ def assert_a_choice_is_found(
     assert len(scene.chosen) >= 3
 
 
-@settings(max_examples=3, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=2, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.fixed_dictionaries(SCENES))
 def test_a_choice_is_found_for_every_valid_scene(given_keys: dict[str, Any]) -> None:
     assert_a_choice_is_found(**given_keys)

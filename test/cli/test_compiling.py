@@ -1,10 +1,9 @@
-"""What a user sees while kernels are compiled, and that Ctrl-C ends it."""
+"""What a user sees while kernels are compiled; `test_interrupts` ends it."""
 
 from __future__ import annotations
 
 import logging
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -44,23 +43,6 @@ def test_warmup_tells_what_it_found(capsys: pytest.CaptureFixture[str]) -> None:
     last = capsys.readouterr().out.splitlines()[-1]
     assert last.split()[:2] == ["static_80kN", "lumped"]
     assert "in the cache" in last
-
-
-def test_ctrl_c_while_compiling_ends_the_command(repository: Path, tmp_path: Path) -> None:
-    environment = {**os.environ, "PYTHONPATH": str(repository), "BEARDYN_CACHE_DIR": str(tmp_path)}
-    words = [sys.executable, "-m", "beardyn_core.cli.main", "warmup", "static_80kN"]
-    with subprocess.Popen(
-        words,
-        env=environment,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored in a job in the background
-    ) as running:
-        assert running.stderr is not None
-        assert twin.COMPILING in running.stderr.readline()
-        running.send_signal(signal.SIGINT)
-        assert "interrupted" in running.stderr.read()
-    assert running.returncode == 130
 
 
 FIRST_BLOCK = """

@@ -119,7 +119,11 @@ def test_an_earlier_recovery_stays_unless_forced(tmp_path: Path, capsys: pytest.
     assert read_run(recovered_name(cut)).complete
 
 
-def test_of_two_runs_to_one_file_the_second_is_refused_while_the_first_writes(tmp_path: Path) -> None:
+def test_of_two_runs_to_one_file_the_second_is_refused_while_the_first_writes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The process of the test is the second one."""
+    monkeypatch.chdir(tmp_path)
     words, recording = ["simulate", "static_5kN", "-o", "run.mcap"], tmp_path / "run.mcap"
     first = start(*words, "--duration", "600", cwd=tmp_path)
     try:
@@ -130,13 +134,10 @@ def test_of_two_runs_to_one_file_the_second_is_refused_while_the_first_writes(tm
             time.sleep(0.05)
         first.send_signal(signal.SIGSTOP)  # it has the file open, and leaves the processor to the others
         for force in ([], ["--force"]):
-            second = start(*words, *SHORT, *force, cwd=tmp_path)
-            _, told = second.communicate(timeout=60)
-            assert second.returncode == command.BAD_INPUT
-            assert "run.mcap: another process is writing this file" in told
-        watched = start("report", "run.mcap", cwd=tmp_path)
-        told, _ = watched.communicate(timeout=60)
-        assert watched.returncode == command.DONE
+            assert command.main([*words, *SHORT, *force]) == command.BAD_INPUT
+            assert "run.mcap: another process is writing this file" in capsys.readouterr().err
+        assert command.main(["report", "run.mcap"]) == command.DONE
+        told = capsys.readouterr().out
         assert "another process is writing this file; this is what it holds now" in told
         assert not recovered_name(recording).exists()
     finally:
@@ -145,15 +146,11 @@ def test_of_two_runs_to_one_file_the_second_is_refused_while_the_first_writes(tm
     # what a crash has left is readable and blocks nobody, but is not replaced unasked either
     assert read_run(recording).problem
     left = recording.read_bytes()
-    refused = start(*words, *SHORT, cwd=tmp_path)
-    _, told = refused.communicate(timeout=60)
-    assert refused.returncode == command.BAD_INPUT
-    assert "the file exists; --force replaces it" in told
+    assert command.main([*words, *SHORT]) == command.BAD_INPUT
+    assert "the file exists; --force replaces it" in capsys.readouterr().err
     assert recording.read_bytes() == left
-    done = start(*words, *SHORT, "--force", "--json", cwd=tmp_path)
-    told, complaints = done.communicate(timeout=120)
-    assert done.returncode == command.DONE, complaints
-    assert json.loads(told)["recording"] == "run.mcap"
+    assert command.main([*words, *SHORT, "--force", "--json"]) == command.DONE
+    assert json.loads(capsys.readouterr().out)["recording"] == "run.mcap"
     assert read_run(recording).complete
 
 

@@ -19,6 +19,7 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.scene.defect import PATCH_KINDS, Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
+from test.examples import examples
 
 
 def scene_of(folder: Path, **keys: Any) -> Scene:
@@ -203,7 +204,9 @@ others = some.one_of(
 )
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(25), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(defects=some.lists(some.one_of(patches, others), max_size=4))
 def test_any_allowed_defects_load_build_and_come_back_from_the_recording(
     tmp_path: Path, defects: list[dict[str, Any]]

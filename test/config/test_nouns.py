@@ -115,8 +115,19 @@ KNOWN = {name: load_scene(name) for name in SCENES}
 
 
 @given(some.data())
-@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
 def test_a_scene_with_any_number_changed_is_recorded_and_read_as_it_is(data: some.DataObject) -> None:
+    check_a_changed_number(data)
+
+
+@pytest.mark.slow
+@given(some.data())
+@settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
+def test_a_scene_with_many_numbers_changed_is_recorded_and_read_as_it_is(data: some.DataObject) -> None:
+    check_a_changed_number(data)
+
+
+def check_a_changed_number(data: some.DataObject) -> None:
     scene = KNOWN[data.draw(some.sampled_from(SCENES))]
     way, place = data.draw(some.sampled_from(list(leaves(scene))))
     limits = place.at.limits

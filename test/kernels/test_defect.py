@@ -106,8 +106,8 @@ def test_path_of_every_kind_is_that_of_a_disc_rolled_over_the_surface(
     azimuth = 0.3 + np.linspace(-0.05, 0.05, 87)
     found = springs(lanes, azimuth, patch)
     for lamina in (0, 5):
-        exact = naive_path(patch, tuple((azimuth - 0.3) * CUP_RADIUS), LAMINA_RADII[lamina])
-        error = np.abs(found[:, lamina, 1] - exact)
+        exact = naive_path(patch, tuple((azimuth[::2] - 0.3) * CUP_RADIUS), LAMINA_RADII[lamina])
+        error = np.abs(found[::2, lamina, 1] - exact)
         assert error[np.abs(np.array(exact) - 3e-5) > 1e-6].max() < 1e-8
         assert error.max() < 0.25 * 0.07 * 15e-6
     assert found[..., 1].max() == pytest.approx(3e-5, rel=1e-3)

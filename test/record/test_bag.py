@@ -20,6 +20,7 @@ from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import encode_string
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
+from test.examples import examples
 from test.record.synthetic_run import SyntheticRun, description
 from test.record.test_broken_files import told
 
@@ -133,7 +134,9 @@ def test_an_earlier_recording_is_refused_or_replaced_whole(tmp_path: Path) -> No
     assert [path.name for path in files_of(folder)] == ["run_0.mcap"]
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(60), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(
     content=st.one_of(
         st.binary(max_size=200),

@@ -17,6 +17,7 @@ from beardyn_core.cli import main as command
 from beardyn_core.errors import InputError
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import read_run
+from test.examples import examples
 from test.record.conftest import write_recording
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -127,7 +128,7 @@ def test_a_folder_and_a_missing_file_are_sentences(tmp_path: Path) -> None:
 
 
 QUICKLY = settings(
-    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=examples(30), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 
 
@@ -163,7 +164,9 @@ def test_a_file_with_flipped_bits_is_a_result_or_a_sentence(
     every_command_answers(path)
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(150), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(flips=st.lists(st.tuples(st.floats(0.0, 0.9999), st.integers(0, 255)), min_size=1, max_size=5))
 def test_reading_damaged_messages_is_a_result_or_a_sentence(
     flips: list[tuple[float, int]], loose_recording: Path, tmp_path: Path

@@ -28,6 +28,7 @@ from beardyn_core.record.messages import (
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.run_summary import diagnosed
 from beardyn_core.record.topics import topic
+from test.examples import examples
 from test.record.synthetic_run import SyntheticRun, description
 
 RUN = description(0.1)
@@ -40,7 +41,7 @@ MESSAGES = {
     "/diagnostics": encode_diagnostics(3, "axlebox", [Diagnostic("a/twin", 0, "b", (("k", "v"),))]),
 }
 QUICKLY = settings(
-    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=examples(150), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 ARRAYS = ("force", "force_waveform", "sensors", "specific_force", "shaft", "torque", "cages", "rollers")
 MORE_ARRAYS = ("bodies", "contacts", "load", "temperature", "diagnostics", "results", "duration")

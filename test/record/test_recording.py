@@ -32,6 +32,7 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import gaps, report
 from beardyn_core.record.sinks import McapSink, MemorySink
 from beardyn_core.record.topics import relative_name, topic
+from test.examples import examples
 from test.record.conftest import BLOCKS, write_recording
 from test.record.synthetic_run import SHAPE, SyntheticRun, description
 
@@ -220,7 +221,9 @@ def short_recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_recording(tmp_path_factory.mktemp("short") / "short.mcap", 12)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(60), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(share=st.floats(0.0, 1.0))
 def test_a_file_cut_anywhere_yields_a_prefix_or_says_why_not(
     share: float, short_recording: Path, tmp_path: Path
@@ -252,7 +255,9 @@ def test_a_file_cut_anywhere_yields_a_prefix_or_says_why_not(
             assert reader.message_count == len(found)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(60), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(share=st.floats(0.0, 0.999), flip=st.integers(1, 255))
 def test_a_damaged_byte_never_crashes_the_reader(
     share: float, flip: int, short_recording: Path, tmp_path: Path

@@ -10,18 +10,13 @@ from mcap.reader import make_reader
 
 from beardyn_core.record.messages import decode_string
 from beardyn_core.record.topics import relative_name, topic
-from test.ros.conftest import ROS_IS_MISSING
 from test.ros.graph import Graph
+from test.ros.nursery import Nursery
 
 SIGNALS = ("force", "force_waveform", "vibration")
 PLAYED = ("load/blocks", "load/truth")
 DURATION = 0.2
 BLOCKS = 10
-
-pytestmark = [
-    pytest.mark.ros,
-    pytest.mark.skipif(ROS_IS_MISSING, reason="rclpy is not installed (pip install .[ros])"),
-]
 
 
 def recorded_messages(path: Path, *names: str) -> list[tuple[str, bytes]]:
@@ -48,11 +43,11 @@ def wrap_twice(graph: Graph) -> None:
     assert graph.set_parameter("load", "loop", False).successful
 
 
-def original_run(folder: Path, fake: bool, **load: object) -> Path:
+def original_run(folder: Path, nursery: Nursery | None, fake: bool, **load: object) -> Path:
     """Twin and load node under a recorder; the file."""
     folder.mkdir()
     path = folder / "run.mcap"
-    with Graph(folder) as graph:
+    with Graph(folder, nursery) as graph:
         graph.listen("load/truth")
         graph.node_process("recorder", output=str(path))
         graph.fake_twin() if fake else graph.node_process("twin", scene="cup_spall")
@@ -69,11 +64,13 @@ def original_run(folder: Path, fake: bool, **load: object) -> Path:
     return path
 
 
-def signals_of_replay(folder: Path, fake: bool, path: Path) -> dict[str, list[bytes]]:
+def signals_of_replay(
+    folder: Path, nursery: Nursery | None, fake: bool, path: Path
+) -> dict[str, list[bytes]]:
     """Signals of the twin fed from the file, all at once: a bag knows no credit."""
     folder.mkdir()
     wanted = {name: len(cdrs) for name, cdrs in recorded_signals(path).items()}
-    with Graph(folder) as graph:
+    with Graph(folder, nursery) as graph:
         graph.listen(*SIGNALS)
         graph.fake_twin() if fake else graph.node_process("twin", scene="cup_spall")
         graph.until(
@@ -91,18 +88,20 @@ def signals_of_replay(folder: Path, fake: bool, path: Path) -> dict[str, list[by
 
 
 def test_recorded_load_topics_of_the_real_twin_give_the_same_bits_again(
-    tmp_path: Path, compiled_kernels: None
+    tmp_path: Path, nursery: Nursery | None, compiled_kernels: None
 ) -> None:
-    path = original_run(tmp_path / "original", fake=False, duration=DURATION)
+    path = original_run(tmp_path / "original", nursery, fake=False, duration=DURATION)
     signals = recorded_signals(path)
     assert len(signals["vibration"]) == BLOCKS
-    assert signals_of_replay(tmp_path / "replay", False, path) == signals
+    assert signals_of_replay(tmp_path / "replay", nursery, False, path) == signals
 
 
-def test_recording_of_a_looped_load_replays_to_the_same_bits_and_tells_its_passages(tmp_path: Path) -> None:
+def test_recording_of_a_looped_load_replays_to_the_same_bits_and_tells_its_passages(
+    tmp_path: Path, nursery: Nursery | None
+) -> None:
     load = {"duration": 0.5, "position": 0.3, "loop": True, "fade": 0.05, "horizon": 0.2}
-    path = original_run(tmp_path / "original", fake=True, **load)
-    assert signals_of_replay(tmp_path / "replay", True, path) == recorded_signals(path)
+    path = original_run(tmp_path / "original", nursery, fake=True, **load)
+    assert signals_of_replay(tmp_path / "replay", nursery, True, path) == recorded_signals(path)
     _, last = recorded_messages(path, "load/truth")[-1]
     passages = json.loads(decode_string(last))["replay"]["passages"]
     assert [passage["position_s"] for passage in passages[:3]] == [0.3, 0.0, 0.0]

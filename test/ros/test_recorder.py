@@ -46,12 +46,9 @@ def record(graph: Graph, path: Path, duration: float, *others: str, **parameters
     graph.fake_load(duration=duration)
 
 
-def test_recording_is_complete_and_an_independent_reader_decodes_every_topic(
-    graph_of_new_processes: Graph,
-) -> None:
+def test_recording_is_complete_and_an_independent_reader_decodes_every_topic(graph: Graph) -> None:
     from rosbags.highlevel import AnyReader
 
-    graph = graph_of_new_processes
     path = graph.folder / "run.mcap"
     graph.listen("vibration", "force_waveform")
     record(graph, path, 1.6, "monitor")

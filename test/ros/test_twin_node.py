@@ -16,12 +16,13 @@ from beardyn_core.record.topics import TOPICS, topic
 from beardyn_core.scene.load import LoadHistory
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
+from test.ros.nursery import Nursery
 
 SIGNALS = ("force", "force_waveform", "vibration")
 
 
-def signal_bytes(folder: Path, speed_factor: float) -> dict[str, list[bytes]]:
-    with Graph(folder) as graph:
+def signal_bytes(folder: Path, speed_factor: float, nursery: Nursery | None) -> dict[str, list[bytes]]:
+    with Graph(folder, nursery) as graph:
         graph.listen(*SIGNALS)
         graph.fake_twin(speed_factor=speed_factor)
         graph.until(
@@ -36,14 +37,15 @@ def signal_bytes(folder: Path, speed_factor: float) -> dict[str, list[bytes]]:
         return {name: graph.messages[name] for name in SIGNALS}
 
 
-@pytest.mark.ros
 @pytest.mark.parametrize("paced", [0.5, pytest.param(1.0, marks=pytest.mark.slow)])
-def test_lockstep_signals_are_bit_identical_at_any_speed_factor(tmp_path: Path, paced: float) -> None:
+def test_lockstep_signals_are_bit_identical_at_any_speed_factor(
+    tmp_path: Path, paced: float, nursery: Nursery | None
+) -> None:
     runs = []
     for factor in (paced, 0.0):
         folder = tmp_path / str(factor)
         folder.mkdir()
-        runs.append(signal_bytes(folder, factor))
+        runs.append(signal_bytes(folder, factor, nursery))
     assert runs[0] == runs[1]
     samples = np.concatenate([cloud_to_arrays(cdr)["sample"] for cdr in runs[0]["vibration"]])
     assert np.array_equal(samples, np.arange(20 * 512))

@@ -277,8 +277,22 @@ def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(plan: Pl
     assert other.end_play != kinematic.end_play
 
 
-@pytest.mark.parametrize("name", ["smooth_run", "cup_spall", "static_5kN"])
-@pytest.mark.parametrize(("quick", "each_effect"), [(True, False), (False, False), (False, True)])
+# every scene and every list of levels once; the slow suite has each with each
+LISTS = {"quick": (True, False), "usual": (False, False), "each effect": (False, True)}
+FAST_LISTS = {("smooth_run", "usual"), ("cup_spall", "quick"), ("static_5kN", "each effect")}
+
+
+@pytest.mark.parametrize(
+    ("name", "quick", "each_effect"),
+    [
+        pytest.param(
+            name, *chosen, id=f"{name}, {told}",
+            marks=[] if (name, told) in FAST_LISTS else [pytest.mark.slow],
+        )
+        for name in ("smooth_run", "cup_spall", "static_5kN")
+        for told, chosen in LISTS.items()
+    ],
+)  # fmt: skip
 def test_every_level_of_a_scene_can_be_computed_and_has_its_own_name(
     name: str, quick: bool, each_effect: bool
 ) -> None:
