@@ -65,6 +65,8 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.signals import SignalHandlerOptions
 
+    from beardyn_ros.leaving import leave_quietly
+
     logging.basicConfig(format="%(message)s", level=logging.INFO, stream=sys.stderr)
     stop = Event()
     previous = {number: signal.signal(number, _stopper(stop)) for number in (signal.SIGINT, signal.SIGTERM)}
@@ -98,7 +100,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
                 alive = bool(node.close())
             except InputError as error:  # such as a disk that refuses the rest, too
                 problems += [each for each in error.problems if each not in problems]
-            node.destroy_node()
+            leave_quietly(node)
         rclpy.try_shutdown()
         for number, handler in previous.items():
             signal.signal(number, handler)
