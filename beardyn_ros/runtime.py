@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import signal
@@ -85,6 +86,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
         except Exception as error:  # rclpy has several, all about unreadable arguments
             raise InputError(f"the ROS arguments cannot be read: {error}") from error
         node = make_node()
+        gc.freeze()  # what is imported stays: the collector need not look through it again and again
         executor = SingleThreadedExecutor()
         for each in (node, *getattr(node, "members", ())):
             executor.add_node(each)
