@@ -33,7 +33,6 @@ DEEPEST_HISTORY = 4000
 # Diagnostics are large and come a few times a second by the wall clock: 20 s of them.
 DIAGNOSTICS_HISTORY_FACTOR = 2
 RECENT_S = 5.0
-SELDOM_S, SELDOM_TURN_S = 1.0, 0.15
 LONGEST_SWEEP = 1000  # of one topic, then it is the turn of the next
 
 
@@ -105,7 +104,6 @@ class TopicPublishers:
             self._publishers[name] = self._node.create_publisher(
                 message_class(entry.type), entry.name, quality_of_service(entry, offered=True)
             )
-            ask_seldom(self._publishers[name])
         return self._publishers[name]
 
     def publish(self, name: str, cdr: bytes) -> bool:
@@ -149,28 +147,11 @@ class _PolledGroup(CallbackGroup):
         return False
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Begin whenever it is asked to."""
-        return True
+        """Never begin."""
+        return False
 
     def ending_execution(self, entity: Any) -> None:
-        """Do nothing: whatever is in it runs in the executor's one thread."""
-
-
-class _SeldomGroup(_PolledGroup):
-    """Lets the executor look at its entities once a second, and not at each of its hundred wake-ups."""
-
-    def can_execute(self, entity: Any) -> bool:
-        """Check whether it is their turn, for longer than the executor ever waits."""
-        return time.monotonic() % SELDOM_S < SELDOM_TURN_S
-
-
-_seldom = _SeldomGroup()
-
-
-def ask_seldom(entity: Any) -> None:
-    """Hear of incompatible QoS on a publisher or subscription within a second: events stay until taken."""
-    for handler in entity.event_handlers:
-        handler.callback_group = _seldom
+        """Do nothing: nothing has begun."""
 
 
 class RawIntake:
@@ -211,7 +192,6 @@ class RawIntake:
             callback_group=self._group,
             raw=True,
         )
-        ask_seldom(subscription)
         self._subscriptions.append((subscription, kind, handler))
 
     def sweep(self) -> int:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import random
 import select
 import shutil
 import signal
@@ -33,8 +32,6 @@ from beardyn_ros.environment import (
 )
 from beardyn_ros.processes import free_domain_id, release_domain_id
 
-TOPICS = tuple(f"spoken_{number}" for number in range(10))
-WATCHERS = 3
 STOPPED_AFTER_S = 8.0
 SLOW = Path(__file__).with_name("slow_acknowledgement.c")
 USUAL_PERIOD = "<leaseAnnouncement><sec>0</sec><nanosec>200000000</nanosec></leaseAnnouncement>"
@@ -85,11 +82,13 @@ def leavings(joins: int, plain: bool, folder: Path) -> Leavings:
         Leave by `destroy_node` alone instead of `leave_quietly`.
     folder : Path
     """
+    from test.ros.comers import WATCHERS, come_and_go, watch
+
     domain = free_domain_id()
-    watchers = [_fork(_watch, domain) for _ in range(WATCHERS)]
+    watchers = [_fork(watch, domain) for _ in range(WATCHERS)]
     for _, pipe in watchers:
         os.read(pipe, 1)
-    comer, comings = _fork(_come_and_go, domain, plain)
+    comer, comings = _fork(come_and_go, domain, plain)
     heard = dict.fromkeys((pipe for _, pipe in watchers), time.monotonic())
     stopped, rest = 0, b""
     found: list[float] = []
@@ -109,7 +108,7 @@ def leavings(joins: int, plain: bool, folder: Path) -> Leavings:
                     stopped += 1
                     _end(watcher, pipe)
                     del heard[pipe]
-                    watchers[place] = _fork(_watch, domain)
+                    watchers[place] = _fork(watch, domain)
                     heard[watchers[place][1]] = time.monotonic()
     finally:
         for process, pipe in (*watchers, (comer, comings)):
@@ -137,59 +136,6 @@ def _end(process: int, pipe: int) -> None:
     os.kill(process, signal.SIGKILL)
     os.waitpid(process, 0)
     os.close(pipe)
-
-
-def _watch(pipe: int, domain: int) -> None:
-    """Listen for ever; make and destroy a publisher now and then, which stops a stopped process for good."""
-    import rclpy
-    from rclpy.executors import SingleThreadedExecutor
-    from rclpy.node import Node
-    from std_msgs.msg import String
-
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain)
-    node, executor = Node("watcher", context=context), SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    for name in TOPICS:
-        node.create_subscription(String, name, lambda _: None, 100)
-    os.write(pipe, b".")
-    sounded = time.monotonic()
-    while True:
-        executor.spin_once(timeout_sec=0.05)
-        if time.monotonic() - sounded > 0.5:
-            node.destroy_publisher(node.create_publisher(String, "sound", 1))
-            os.write(pipe, b".")
-            sounded = time.monotonic()
-
-
-def _come_and_go(pipe: int, domain: int, plain: bool) -> None:
-    import rclpy
-    from rclpy.node import Node
-    from std_msgs.msg import String
-
-    from beardyn_ros.leaving import leave_quietly
-
-    while True:
-        context = rclpy.Context()
-        rclpy.init(context=context, domain_id=domain)
-        node = Node("comer", context=context)
-        publishers = [node.create_publisher(String, name, 100) for name in TOPICS]
-        begin = time.monotonic()
-        while any(each.get_subscription_count() < WATCHERS for each in publishers):
-            if time.monotonic() - begin > 3.0:  # a watcher has stopped
-                break
-            time.sleep(0.005)
-        found = time.monotonic() - begin
-        for _ in range(2):
-            for publisher in publishers:
-                publisher.publish(String(data="spoken" * 20))
-            time.sleep(random.uniform(0.0, 0.02))
-        if plain:
-            node.destroy_node()
-        else:
-            leave_quietly(node)
-        context.try_shutdown()
-        os.write(pipe, f"{found:.4f}\n".encode())
 
 
 def main(words: Sequence[str] | None = None) -> int:
