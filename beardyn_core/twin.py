@@ -44,6 +44,7 @@ from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 from beardyn_core.versions import versions
 
 LANE_WIDTH = 8
+STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slowly, and counting costs
 
 COMPILING = "compiling the kernels of these effects: once, about a minute"
 
@@ -85,6 +86,7 @@ class Twin:
         self._observer: Observer | None = None
         self._index = 0
         self.stages = StageClock()
+        self._stage_cycles = stage_cycles(None)
         heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
         self._warmth = cold_start(scene) if heated else None
         self._cages = CageWatch.of(scene)
@@ -261,7 +263,9 @@ class Twin:
         grow(self._parameters.effects.faults, self.scene, self._index * BLOCK_NS * 1e-9)
         rollers, bodies = self._run(self._state, loads, signals, blocks)
         wall = time.perf_counter() - began
-        self.stages.lap_kernel(stage_cycles(self._parameters.effects.timers))
+        if self._index % STAGES_SHARED_EVERY < blocks:
+            self._stage_cycles = stage_cycles(self._parameters.effects.timers)
+        self.stages.lap_kernel(self._stage_cycles)
         status = assess(
             self._state, len(signals), self.scene.bearing.large_end_radius, self._parameters.effects.rib
         )

@@ -5,6 +5,7 @@ module                responsibility
 ===================== ======================================================================================
 environment           what ROS 2 from wheels needs to start; says clearly when there is no ROS 2
 runtime               one process, one node: arguments, signals, executor, exit code
+leaving               a node leaves so that those who stay are not stopped by it
 requirements          says which Python packages of a distribution are too old
 parameters            parameters declared once from a table, refused with a sentence
 addressed             which parameters were given to one node itself, which to whoever shares a file

@@ -204,8 +204,10 @@ class _Observer:
         return self
 
     def __exit__(self, *_: object) -> None:
+        from beardyn_ros.leaving import leave_quietly
+
         self._executor.shutdown()
-        self._node.destroy_node()
+        leave_quietly(self._node)
         self._context.try_shutdown()
         signal.signal(signal.SIGINT, self._before)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import signal
@@ -65,6 +66,8 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.signals import SignalHandlerOptions
 
+    from beardyn_ros.leaving import leave_quietly
+
     logging.basicConfig(format="%(message)s", level=logging.INFO, stream=sys.stderr)
     stop = Event()
     previous = {number: signal.signal(number, _stopper(stop)) for number in (signal.SIGINT, signal.SIGTERM)}
@@ -83,6 +86,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
         except Exception as error:  # rclpy has several, all about unreadable arguments
             raise InputError(f"the ROS arguments cannot be read: {error}") from error
         node = make_node()
+        gc.freeze()  # what is imported stays: the collector need not look through it again and again
         executor = SingleThreadedExecutor()
         for each in (node, *getattr(node, "members", ())):
             executor.add_node(each)
@@ -98,7 +102,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
                 alive = bool(node.close())
             except InputError as error:  # such as a disk that refuses the rest, too
                 problems += [each for each in error.problems if each not in problems]
-            node.destroy_node()
+            leave_quietly(node)
         rclpy.try_shutdown()
         for number, handler in previous.items():
             signal.signal(number, handler)

@@ -7,6 +7,7 @@ handed over, never what is in it.
 
 from __future__ import annotations
 
+import gc
 import threading
 import time
 import traceback
@@ -170,6 +171,7 @@ class TwinSession:
         try:
             rig = self._make_rig()
             rig.twin.warm()
+            gc.freeze()  # compiler and kernels stay, see `run_node`
             self._set_state(READY, "compiled, waiting for activation")
             while not self._ending:
                 try:

@@ -8,6 +8,7 @@ faults      the twelve faults of a review, each as a scene that can be played ag
 review      plays them: what was measured then, what is now, whether it holds; writes docs/ros.md
 costs       processor time and memory of every node per simulated second
 memory      whether the memory of the nodes stays flat, in megabytes an hour
+leaving     do nodes that leave stop those who stay; how soon newcomers are found
 soak        kill -9 of each node in turn, nonsense, a full disk, clocks that jump
 =========== =====================================================================
 """

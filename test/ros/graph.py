@@ -66,9 +66,11 @@ class Graph:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        # this node first: the leaving of others can stop it for good (Fast DDS issue 6502)
+        from beardyn_ros.leaving import leave_quietly
+
+        # this node first: others that are killed do not leave quietly
         self._executor.shutdown()
-        self.node.destroy_node()
+        leave_quietly(self.node)
         self._context.try_shutdown()
         self.processes.end()
         release_domain_id(self.domain)
