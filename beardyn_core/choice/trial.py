@@ -88,6 +88,11 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
         "seed": seed,
         "defects": [] if cell.fault == HEALTHY else [_spall(trial.spall, cell, seed)],
     }
+    if trial.noise_density is not None:
+        data["sensors"] = [
+            {**sensor, "noise_density_m_per_s2_per_sqrt_Hz": trial.noise_density}
+            for sensor in data.get("sensors", [])
+        ]
     scatter = data.get("scatter")
     if trial.scatter is not None:
         scatter = {**(scatter if isinstance(scatter, dict) else {}), "grade": trial.scatter}
@@ -130,6 +135,6 @@ def _corners(trial: Trial) -> list[Cell]:
     corners += [replace(healthy, speed=speed) for speed in trial.speeds[1:]]
     corners += [replace(healthy, track=track) for track in trial.tracks[1:]]
     corners += [replace(healthy, wheel=wheel.name) for wheel in trial.wheels[1:]]
-    ends = (trial.sizes[0], trial.sizes[-1])
+    ends = (*trial.sizes[:1], *trial.sizes[-1:])
     corners += [replace(healthy, fault=fault, size=size) for fault in trial.faults for size in ends]
     return list(dict.fromkeys(corners))

@@ -129,10 +129,10 @@ def option_problems(args: argparse.Namespace) -> list[str]:
 
 
 def _write(result: TrialResult, found: dict[str, object], folder: Path, *, drawn: bool) -> None:
-    """Write trial.json of the runs there are, and trial.png, which only a complete trial has."""
+    """Write trial.json of the runs there are, and trial.png, which only a complete trial of spalls has."""
     with made_folder(folder):
         write_whole(folder / "trial.json", json_text("trial", found, indent=1) + "\n")
-        if drawn:
+        if drawn and result.trial.faults:
             from beardyn_core.study.trial_picture import trial_picture
 
             trial_picture(result, folder / "trial.png")

@@ -15,6 +15,7 @@ from beardyn_core.model.laminae import for_springs, lamina_places
 from beardyn_core.model.scatter import added_clearance, crown_errors, scattered_oversize
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.waviness import Waviness
 
 
 class SurfaceParams(NamedTuple):
@@ -189,8 +190,8 @@ def roller_oversize(scene: Scene) -> Float:
 
 
 POINTS_PER_WAVE = 64  # linear interpolation is then good to 0.12 % of the amplitude of the shortest wave
-# ... and to 2 % where scatter makes it: there it is a thirtieth of the longest or less
-POINTS_PER_SCATTERED_WAVE = 16
+# ... and to 5 % where scatter makes it: there it is a hundredth of the longest or less
+POINTS_PER_SCATTERED_WAVE = 8
 
 
 def wave_params(scene: Scene, on: str, arrangement: Arrangement) -> WaveParams | None:
@@ -203,16 +204,22 @@ def wave_params(scene: Scene, on: str, arrangement: Arrangement) -> WaveParams |
         for wave in waves
     ]
     points = max(1024, *shortest)
-    azimuth = np.arange(points + 2, dtype=np.float64) * (2.0 * math.pi / points)
     count = arrangement.roller_count if on == "roller" else 1
     tables = np.zeros((2, count, points + 2))
     for wave in waves:
         for roller in range(count):
             if wave.roller is None or on != "roller" or wave.roller == roller:
-                tables[wave.row, roller] += wave.gap(azimuth, roller)
+                tables[wave.row, roller] += np.resize(_one_turn(wave, roller, points), points + 2)
     first = np.arange(2 * count, dtype=float).reshape(2, count) * (points + 2)
     start = arrangement.to_lanes(np.broadcast_to(first, (2, arrangement.roller_count)))
     return WaveParams(tables.reshape(-1), np.ascontiguousarray(start[:, None, :]), float(points))
+
+
+def _one_turn(wave: Waviness, roller: int, points: int) -> Float:
+    """Compute `Waviness.gap` at points around the body by a Fourier transform, shape [point], [m]."""
+    lines = np.zeros(points // 2 + 1, np.complex128)
+    np.add.at(lines, list(wave.orders), np.array(wave.amplitudes) * np.exp(1j * wave.phases(roller)))
+    return np.fft.irfft(0.5 * points * lines, points)
 
 
 # --- the path of a rigid roller over a patch

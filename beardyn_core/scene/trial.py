@@ -101,10 +101,13 @@ class Trial:
         At(one_of=tuple(GRADES)),
         "grade of the bearings, in every run another of the lot; the scene's when left out",
     ] = None
-    faults: A[tuple[str, ...], At(one_of=FAULTS, size=(1, None)), "parts that are spalled"] = FAULTS
-    sizes: A[
-        tuple[float, ...], At("mm", gt=0.0, le=100.0, size=(1, None), required=True), "widths of the spalls"
-    ] = ()
+    noise_density: A[
+        float | None, At("m_per_s2_per_sqrt_Hz", ge=0.0), "of every accelerometer; the scene's when left out"
+    ] = None
+    faults: A[tuple[str, ...], At(one_of=FAULTS), "parts that are spalled; none: sound bearings only"] = (
+        FAULTS
+    )
+    sizes: A[tuple[float, ...], At("mm", gt=0.0, le=100.0), "widths of the spalls"] = ()
     spall: A[Spall, "how a spall of a width looks"] = Spall()
     speeds: A[
         tuple[float, ...], At("kmh", gt=0.0, ge=5.0, le=400.0, size=(1, None), required=True), "of the train"
@@ -129,6 +132,8 @@ class Trial:
         for key, values in lists.items():
             if len(set(values)) < len(values):
                 yield f"{key} has an entry twice; each must stand once"
+        if self.faults and not self.sizes:
+            yield "sizes_mm is missing; with faults it must have a width"
         names = [wheel.name for wheel in self.wheels]
         if len(set(names)) < len(names):
             yield "wheels has a name twice; each must stand once"

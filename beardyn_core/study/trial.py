@@ -50,6 +50,7 @@ class TrialRun:
     shaft_frequency: A[float, "[Hz]"]
     status: A[str, "``complete``, or how the run left the model's validity"]
     wall: A[float, "simulating and monitoring, [s]"]
+    called: A[tuple[str, ...], "the sentence and the band of every analysis that called a fault"] = ()
 
     @property
     def complete(self) -> bool:
@@ -59,7 +60,7 @@ class TrialRun:
     @classmethod
     def from_json(cls, found: dict[str, Any]) -> TrialRun:
         """Run of such an object."""
-        return cls(**{**found, "scores": tuple(found["scores"])})
+        return cls(**{**found, "scores": tuple(found["scores"]), "called": tuple(found.get("called", ()))})
 
 
 def run_digest(scene: Scene, trial: Trial, code: str) -> str:
@@ -94,6 +95,11 @@ def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialR
         shaft_frequency=_middle([result.shaft_frequency for result in judged]),
         status=status,
         wall=time.perf_counter() - began,
+        called=tuple(
+            f"{result.reason}, in {result.band[0]:.0f} to {result.band[1]:.0f} Hz"
+            for result in judged
+            if result.verdict in FAULTS
+        ),
     )
 
 

@@ -73,6 +73,26 @@ def _lines(result: TrialResult) -> Iterator[str]:
         yield f"{len(result.invalid)} runs left the model's validity and count nowhere, such as:"
         yield f"  {result.invalid[0][0].key}: {result.invalid[0][1].status}"
     yield ""
+    if trial.faults:
+        yield from _size_lines(result)
+    yield f"{'':24}{'found (95 %)':34}healthy runs with a false alarm (95 %)"
+    for name, where in [("all", everywhere), *slices(result)]:
+        yield f"{name:24}{rate_text(result.detection(where)):34}{rate_text(result.false_alarms(where))}"
+    analyses = result.false_analyses()
+    yield f"Healthy analyses with an alarm: {rate_text(analyses)}"
+    for cell, run in result.alarmed:
+        yield from (f"  {cell.key}: {sentence}" for sentence in run.called)
+    if not result.algorithm:
+        yield (
+            f"The threshold allows {100.0 * MonitorSettings().false_alarm_rate:g} % in stationary noise: "
+            f"{expected_false_alarms(result):.2g} of {analyses.total}"
+        )
+    if result.checks:
+        yield ""
+        yield from _check_lines(result)
+
+
+def _size_lines(result: TrialResult) -> Iterator[str]:
     yield f"{'spall on':10}{'width':>8}   {'found, named right (95 %)':32}{'wrong':>6}   score dB (range)"
     for row in result.sizes():
         low, middle, high = row.score
@@ -83,19 +103,6 @@ def _lines(result: TrialResult) -> Iterator[str]:
     for smallest in result.smallest():
         yield f"  {smallest_text(smallest)}"
     yield ""
-    yield f"{'':24}{'found (95 %)':34}healthy runs with a false alarm (95 %)"
-    for name, where in [("all", everywhere), *slices(result)]:
-        yield f"{name:24}{rate_text(result.detection(where)):34}{rate_text(result.false_alarms(where))}"
-    analyses = result.false_analyses()
-    yield f"Healthy analyses with an alarm: {rate_text(analyses)}"
-    if not result.algorithm:
-        yield (
-            f"The threshold allows {100.0 * MonitorSettings().false_alarm_rate:g} % in stationary noise: "
-            f"{expected_false_alarms(result):.2g} of {analyses.total}"
-        )
-    if result.checks:
-        yield ""
-        yield from _check_lines(result)
 
 
 def _check_lines(result: TrialResult) -> Iterator[str]:
@@ -157,6 +164,7 @@ def json_object(result: TrialResult) -> dict[str, Any]:
             for name, where in [("all", everywhere), *slices(result)]
         ],
         "false_analyses": _rate(result.false_analyses()),
+        "alarms": [{"run": cell.key, "called": list(run.called)} for cell, run in result.alarmed],
         "check": {
             "agreement": _rate(result.agreement()),
             "false_alarms": _rate(_false_alarms_in_check(result)),

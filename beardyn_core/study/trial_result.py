@@ -111,6 +111,14 @@ class TrialResult:
         healthy = [run for cell, run in _chosen(self.runs, where) if cell.fault == HEALTHY]
         return Rate.of(sum(run.alarms for run in healthy), sum(run.analyses for run in healthy))
 
+    @property
+    def alarmed(self) -> tuple[tuple[Cell, TrialRun], ...]:
+        """Healthy runs with an alarm, those of the check too."""
+        both = (*self.runs, *self.checks)
+        return tuple(
+            (cell, run) for cell, run in both if cell.fault == HEALTHY and run.complete and run.alarms
+        )
+
     def detection(self, where: Where = everywhere) -> Rate:
         """Count faulty runs whose verdict names the faulty part."""
         return detection(_chosen(self.runs, where))

@@ -15,6 +15,7 @@ from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram
 from beardyn_core.observe.chain.levels import levels_in_band, rise
 from beardyn_core.observe.chain.verdict import temperature_state
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors, without_wheel
+from beardyn_core.observe.features import order_spectrum
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
 
 
@@ -118,6 +119,28 @@ def test_one_line_alone_is_no_fault() -> None:
     cup = found.candidates[0]
     assert found.strongest_level > 30.0
     assert cup.score < cup.threshold
+
+
+def test_a_pattern_that_is_sure_but_faint_is_no_fault() -> None:
+    loud = _stretch("cup", 42)
+    far = replace(loud, acceleration=1e-3 * loud.acceleration)
+    shallow, deep = (replace(SETTINGS, least_depth=depth) for depth in (10.0, 0.0))
+    faint = REFERENCE(far, ORDERS, ROLLERS, shallow)
+    found = REFERENCE(loud, ORDERS, ROLLERS, shallow)
+    assert faint.score == pytest.approx(found.score, abs=1e-6)
+    assert (found.verdict, faint.verdict) == ("cup", "healthy")
+    assert faint.reason.endswith("it is too faint")
+    assert REFERENCE(far, ORDERS, ROLLERS, deep).verdict == "cup"
+
+
+def test_a_single_knock_near_the_end_is_on_no_whole_order() -> None:
+    power = np.random.default_rng(4).exponential(size=(40, 1024))
+    power[37, 300] += 1e4
+    rest = without_wheel(power, np.zeros(SECTORS, dtype=bool)).reshape(-1)
+    spectrum = order_spectrum(rest, 1024, 40.0, 3.0)
+    at = np.searchsorted(spectrum.order, np.arange(1.0, 40.0) - 1e-9)
+    beside = np.searchsorted(spectrum.order, np.arange(1.5, 40.0))
+    assert spectrum.amplitude[at].max() < 0.05 * spectrum.amplitude[beside].min()
 
 
 def test_levels_of_a_sine_and_their_rise() -> None:

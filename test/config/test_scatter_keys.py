@@ -15,7 +15,7 @@ from beardyn_core.config.yaml_text import read_mapping
 from beardyn_core.errors import InputError
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.scene.scatter import GRADES, RACEWAY_ORDERS, Deviations, Scatter
+from beardyn_core.scene.scatter import GRADES, RACEWAY_ORDERS, ROLLER_ORDERS, Deviations, Scatter
 from beardyn_core.scene.waviness import Waviness
 
 BEARING = load_scene("static_80kN").bearing
@@ -139,8 +139,13 @@ def test_waves_have_the_rms_of_their_grade_and_phases_of_their_own() -> None:
     assert set(gaps) == {(on, row) for on in ("cup", "cone", "roller") for row in (0, 1)}
     for (on, _), gap in gaps.items():
         rms = scatter.variation("roller_waviness" if on == "roller" else "raceway_waviness")
-        assert gap.std() == pytest.approx(rms, rel=1e-9)
-    assert max(scatter.waves[0].orders) == RACEWAY_ORDERS[1]
+        lines = np.abs(np.fft.rfft(gap)) * 2.0 / len(gap)
+        first, last, bridged = ROLLER_ORDERS if on == "roller" else RACEWAY_ORDERS
+        assert np.sqrt(0.5 * np.sum(lines[first : last + 1] ** 2)) == pytest.approx(rms, rel=1e-9)
+        # one law to the last order, and nothing beyond
+        order = np.arange(first, bridged + 1)
+        np.testing.assert_allclose(lines[first : bridged + 1] * order, first * lines[first], rtol=1e-6)
+        assert lines[bridged + 1 :].max() < 1e-6 * lines[bridged]
     assert len({gap.tobytes() for gap in gaps.values()}) == len(gaps)
     other = {wave.gap(azimuth, 0).tobytes() for wave in Scatter("G3", 10).waves}
     assert not other & {gap.tobytes() for gap in gaps.values()}

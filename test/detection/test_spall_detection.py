@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from scipy.signal import butter, hilbert, sosfiltfilt
 
 from beardyn_core.bearing.kinematics import FaultFrequencies, fault_frequencies
-from beardyn_core.choice import load_scene
+from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.observe.chain import MonitorResult
 from beardyn_core.observe.monitoring import Monitor, MonitorInput
 from beardyn_core.run import blocks
+from beardyn_core.study.trial import conduct_run
 
 DURATION = 2.2
 SETTLED = 0.1
@@ -120,3 +121,32 @@ def test_monitor_raises_no_alarm_on_healthy_runs_of_other_seeds(seed: int) -> No
 @pytest.mark.parametrize("seed", [201, 202, 203])
 def test_monitor_finds_the_cup_spall_on_other_seeds(seed: int) -> None:
     assert {result.verdict for result in heard("cup_spall", healthy=False, seed=seed).results} == {"cup"}
+
+
+# Of `beardyn trial healthy`: runs that alarmed while a bearing's waves ended at order 300, and a flat.
+SOUND = [(80, "german_low", "round"), (80, "german_low", "polygon"), (160, "german_low", "round")]
+SOUND += [(250, "german_high", "flat")]
+
+
+@pytest.mark.parametrize(
+    ("tier", "kmh", "track", "wheel"),
+    [
+        ("quasistatic", *SOUND[0]),
+        *(pytest.param("quasistatic", *each, marks=pytest.mark.slow) for each in SOUND[1:]),
+        *(pytest.param("full", *each, marks=pytest.mark.slow) for each in SOUND),
+    ],
+)
+def test_a_sound_bearing_under_a_quiet_sensor_is_left_alone(
+    tier: str, kmh: float, track: str, wheel: str
+) -> None:
+    trial = load_trial("healthy")
+    assert trial.noise_density == pytest.approx(3e-4)
+    cell = next(
+        cell
+        for cell in trial.cells()
+        if (cell.tier, round(3.6 * cell.speed), cell.track, cell.wheel) == (tier, kmh, track, wheel)
+    )
+    run = conduct_run(trial, cell, "", "")
+    assert run.complete
+    assert run.analyses > 1
+    assert run.called == ()

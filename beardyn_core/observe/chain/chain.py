@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
 
 import numpy as np
@@ -97,6 +97,7 @@ class Chain:
         power = self.envelope(stretch, band)
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
+        found = replace(found, power=float(np.mean(power)))
         verdict = self.decide(found, stretch, settings)
         levels = levels_of(stretch.in_band(settings.band), speed)
         cup, cone, roller = found.candidates

@@ -73,6 +73,7 @@ class Candidate:
     score: A[float, "mean power of its lines but the strongest, over that of noise, not below 0, [dB]"]
     threshold: A[float, "score that noise passes with the stated rate, [dB]"]
     strongest: A[float, "level of its strongest line, [dB]"]
+    burst: A[float, "root of the mean power that comes and goes on a line, the strongest left out, [m/s^2]"]
     lines: A[tuple[Line, ...], "those that stand out one by one"]
 
 
@@ -85,6 +86,7 @@ class FaultLines:
     strongest_order: A[float, "of the strongest line in the band of the fault lines, no whole order, [-]"]
     strongest_level: A[float, "of that line, [dB]"]
     chance_level: A[float, "level that the strongest line of noise passes with the stated rate, [dB]"]
+    power: A[float, "mean of the squared envelope, NaN when unknown, [m^2/s^4]"] = np.nan
 
 
 def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
@@ -215,6 +217,7 @@ def _lay(
     best = int(np.argmax(summed))
     order = float(trial[best])
     count = len(places)
+    squares = np.sort(spectrum.amplitude[np.minimum(index[best], len(spectrum.level) - 1)])[:-1] ** 2
     independent = max(1.0, _PLACES_PER_RESOLUTION * 2.0 * half * harmonics / resolution)
     lines = []
     for h, k in places.tolist():
@@ -228,6 +231,7 @@ def _lay(
         score=float(10.0 * np.log10(max(1.0, summed[best] / (count - 1)))),
         threshold=threshold(count, round(independent, 1), rate),
         strongest=max(line.level for line in lines),
+        burst=float(np.mean(squares) ** 0.25),
         lines=tuple(line for line in lines if line.level >= LINE_LEVEL),
     )
 

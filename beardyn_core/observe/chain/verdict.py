@@ -25,9 +25,10 @@ class Verdict:
 
 
 def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
-    """Report the fault whose score exceeds its threshold most, unless something stronger contradicts.
+    """Report the fault whose score exceeds its threshold most, unless it is faint or something contradicts.
 
-    A contradiction is a line that is no chance, stronger than all of the fault's and not one of them: then
+    Faint is what is below `least_burst` and `least_depth`, however sure it is that it is there. A
+    contradiction is a line that is no chance, stronger than all of the fault's and not one of them: then
     something else is periodic. A hot box is called whatever the lines say; it leaves a fault its name.
     """
     best = max(found.candidates, key=lambda candidate: candidate.score - candidate.threshold)
@@ -35,7 +36,8 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
         best, found.strongest_order, found.spectrum.resolution
     )
     state = temperature_state(stretch.temperature, stretch.heating, settings)
-    if best.score >= best.threshold and not contradicted:
+    faint = best.burst < settings.least_burst and best.burst**2 < settings.least_depth * found.power
+    if best.score >= best.threshold and not contradicted and not faint:
         name, reason = best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency)
     else:
         name, reason = HEALTHY, _healthy_sentence(best, contradicted, found.strongest_order)
@@ -76,8 +78,10 @@ def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
 
 def _healthy_sentence(best: Candidate, contradicted: bool, strongest_order: float) -> str:
     scores = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
-    if contradicted and best.score >= best.threshold:
-        return f"no fault: {scores}, but order {strongest_order:.3f} is stronger and belongs to none"
+    if best.score >= best.threshold:
+        if contradicted:
+            return f"no fault: {scores}, but order {strongest_order:.3f} is stronger and belongs to none"
+        return f"no fault: {scores}, but with {best.burst:.2g} m/s² it is too faint"
     return f"no fault: {scores}"
 
 

@@ -46,13 +46,15 @@ def without_wheel(power: Float, struck: Bool) -> Float:
 
     The power, shape [revolution, step], is the squared envelope over the angle of the shaft, in a multiple of
     `SECTORS` steps. Its mean over the revolutions at each angle holds all that comes back with the shaft:
-    every whole order. No bearing fault has one.
+    every whole order. No bearing fault has one. The mean is weighted as `order_spectrum` does: with equal
+    weights a single knock near an end of the stretch would be lines at every whole order.
 
     References
     ----------
     Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal Process.
     25, section 3.1 (time synchronous averaging).
     """
-    rest = power - power.mean(axis=0)
+    weight = np.hanning(power.size + 1)[:-1].reshape(power.shape)
+    rest = power - np.sum(weight * power, axis=0) / np.sum(weight, axis=0)
     rest[:, np.repeat(struck, power.shape[1] // SECTORS)] = 0.0
     return rest
