@@ -277,12 +277,12 @@ def _add_lean(lean, load, slopes, damage):
 def _within_the_step(touching, depth, rate, times):
     """Take what a spring presses with where its contact begins or ends within a step, [m].
 
-    A roller that its pocket throws, or that falls through a patch, strikes with up to 1 m/s and moves several
-    micrometres in a step. With all of the force at its first instant of contact the spring takes in k u^2 h^2
-    / 12 more than it stores, u being the speed and h the step, and gives that much more at the last one: what
-    is missing is that of the speed that the strike has cost. The implicit part of the spring, b h, gives back k u^2 b h^2
-    / 2 of it; the rest comes off the force of these instants. That is exact in the mean over their places in
-    the step; for a linear spring it is so at each place with b = 0.
+    A roller that its pocket throws, or that falls through a patch, strikes with up to 1 m/s and moves
+    several micrometres in a step. With all of the force at its first instant of contact the spring takes in
+    k u^2 h^2 / 12 more than it stores, u being the speed and h the step, and gives that much more at the
+    last one: what is missing is that of the speed that the strike has cost. The implicit part of the spring,
+    b h, gives back k u^2 b h^2 / 2 of it; the rest comes off the force of these instants. That is exact in
+    the mean over their places in the step; for a linear spring it is so at each place with b = 0.
     """
     step, spring_time = times
     way = at_least(magnitude(rate) * step, SMALLEST_APPROACH)
