@@ -132,7 +132,7 @@ class Twin:
     def _rehearse(self) -> None:
         """Compute a block at rest and discard it, so that all its kernels are compiled."""
         static = at_rest(self.scene.rows, self.roller_count, len(self._bending_stiffness))
-        state = initial_state(self.scene.bearing, self._arrangement, static, 1.0, 0.4)
+        state = initial_state(self.scene.bearing, self._arrangement, self._parameters, static, 1.0, 0.4)
         steps = self._steps
         buffer = LoadBuffer()
         buffer.append(LoadHistory(np.array([0, BLOCK_NS]), np.zeros((2, 6)), np.zeros(2), np.zeros((2, 3))))

@@ -13,6 +13,7 @@ from beardyn_core.integrate.state import State
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model import layout
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
+from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_parameters import LumpedParameters
 
 _ITERATIONS = 60
@@ -25,16 +26,24 @@ def kinematic_spin(bearing: Bearing, cage_speed: float) -> float:
 
 
 def initial_state(
-    bearing: Bearing, arrangement: Arrangement, static: StaticSolution, shaft_speed: float, cage_speed: float
+    bearing: Bearing,
+    arrangement: Arrangement,
+    parameters: Parameters,
+    static: StaticSolution,
+    shaft_speed: float,
+    cage_speed: float,
 ) -> State:
-    """Make the state in static equilibrium under the first load, rolling at the given speeds [rad/s]."""
+    """Make the state in static equilibrium under the first load, rolling at the given speeds [rad/s].
+
+    Each roller stands in the middle of its own pocket along the pitch circle.
+    """
     lanes = arrangement.to_lanes
     rollers = aligned_zeros(arrangement.block_count, layout.ROLLER_FIELDS, arrangement.width)
     angle = bearing.contact_angle + lanes(static.roller_tilt)
     offset = bearing.roller_mass_offset
     radius = 0.5 * bearing.pitch_diameter + lanes(static.roller_radial) + offset * np.sin(angle)
     rollers[:, layout.RADIUS] = radius
-    rollers[:, layout.ANGLE] = 2.0 * math.pi * arrangement.roller / arrangement.roller_count
+    rollers[:, layout.ANGLE] = parameters.rollers[:, layout.POCKET_ANGLE]
     rollers[:, layout.AXIAL] = 0.5 * bearing.row_spacing + lanes(static.roller_axial) + offset * np.cos(angle)
     rollers[:, layout.VELOCITY + 1] = cage_speed * radius
     sine, cosine = np.sin(angle), np.cos(angle)
@@ -52,13 +61,29 @@ def initial_state(
     bodies[layout.CONE_BODY, layout.TILT], bodies[layout.CONE_BODY, layout.TILT + 2] = static.tilt
     bodies[layout.CONE_BODY, layout.RATE] = shaft_speed
     bodies[layout.CAGE_BODY :, layout.RATE] = cage_speed
-    # through the end play rollers move further than their pockets allow, and take the cage with them
-    rows, room = arrangement.rows, 0.5 * bearing.cage.axial_clearance
-    shift, outward = static.roller_axial.mean(axis=1)[:rows], np.array([-1.0, 1.0])[:rows]
-    bodies[layout.CAGE_BODY :, layout.POSITION + 1] = outward * (shift - np.clip(shift, -room, room))
+    outward = np.array([-1.0, 1.0])[: arrangement.rows]
+    shift = _shift_of_cages(bearing, arrangement, parameters, static)
+    bodies[layout.CAGE_BODY :, layout.POSITION + 1] = outward * shift
     flex = np.zeros((*static.bending.shape, 2))
     flex[..., 0] = static.bending
     return State(rollers, bodies, np.zeros(layout.ENERGY_TERMS), flex)
+
+
+def _shift_of_cages(
+    bearing: Bearing, arrangement: Arrangement, parameters: Parameters, static: StaticSolution
+) -> Float:
+    """Find how far outward the rollers take each cage, shape [row], [m].
+
+    Through the end play they move further than their pockets allow. The cage goes no further than all of
+    them ask; where no place suits them all, halfway between those that press hardest.
+    """
+    rows, pockets = arrangement.rows, parameters.effects.faults.pockets
+    longer = 0.0 if pockets is None else arrangement.to_rollers(pockets[:, 1])
+    room = 0.5 * bearing.cage.axial_clearance + longer
+    shift = static.roller_axial[:rows]
+    least = np.max(shift - room, axis=1, where=arrangement.present, initial=-math.inf)
+    most = np.min(shift + room, axis=1, where=arrangement.present, initial=math.inf)
+    return np.where(least <= most, np.clip(0.0, least, most), 0.5 * (least + most))
 
 
 def at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:

@@ -83,17 +83,18 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
 
 
 def _start_full(
-    scene: Scene, arrangement: Arrangement, _parameters: Any, static: StaticSolution, load: Float
+    scene: Scene, arrangement: Arrangement, parameters: Any, static: StaticSolution, load: Float
 ) -> State:
     ratio = scene.effects.cage.initial_speed_ratio if scene.effects.cage else 1.0
     orbit = ratio * cage_speed(scene.bearing, load[6])
-    return initial_state(scene.bearing, arrangement, static, load[6], orbit)
+    return initial_state(scene.bearing, arrangement, parameters, static, load[6], orbit)
 
 
 def _start_rolling(
-    scene: Scene, arrangement: Arrangement, _parameters: Any, static: StaticSolution, load: Float
+    scene: Scene, arrangement: Arrangement, parameters: Any, static: StaticSolution, load: Float
 ) -> State:
-    return initial_state(scene.bearing, arrangement, static, load[6], cage_speed(scene.bearing, load[6]))
+    orbit = cage_speed(scene.bearing, load[6])
+    return initial_state(scene.bearing, arrangement, parameters.base, static, load[6], orbit)
 
 
 def _start_lumped(

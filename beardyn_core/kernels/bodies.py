@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.vectors import add_scaled, subtract
+from beardyn_core.kernels.vectors import add, add_scaled, subtract
 from beardyn_core.model import layout
 
 X, Y, Z = 0, 1, 2
@@ -75,6 +75,11 @@ def _set_axial(rings, ring, field, lane, side, vector):
 def show_rings(bodies, rings, cage_place):
     """Write cup, cone and cages in the row frames of every lane.
 
+    Cup and cone show the velocity that they will have at the end of the step if they go on accelerating.
+    Friction that hardly slips holds a roller at the ring's velocity. With that of the step before, all that
+    the roller is pressed with would follow the ring a step late: such a spring feeds a mode of the rate w by
+    up to w^2 h / 2, which at rest is more than the contacts damp.
+
     ``rings`` [group, ring, RING_FIELDS, lane]: written, origins relative to the cup's; ``cage_place``:
     axial place of a cage's centre of mass from the middle plane [m].
     """
@@ -103,10 +108,13 @@ def show_rings(bodies, rings, cage_place):
                     view[ring, layout.RING_TURN, lane] = (
                         bodies[body, layout.TURN] + bodies[body, layout.TILT + Y]
                     )
-                _set_polar(
-                    view, ring, layout.RING_VELOCITY, lane, side, body_vector(bodies, body, layout.LINEAR)
-                )
-                _set_axial(view, ring, layout.RING_OMEGA, lane, side, full_rotation(bodies, body, axis))
+                velocity, omega = body_vector(bodies, body, layout.LINEAR), full_rotation(bodies, body, axis)
+                _set_polar(view, ring, layout.RING_DRIFT, lane, side, velocity)
+                if ring != layout.CAGE_BODY:
+                    velocity = add(velocity, body_vector(bodies, body, layout.CHANGE))
+                    omega = add(omega, body_vector(bodies, body, layout.CHANGE + 3))
+                _set_polar(view, ring, layout.RING_VELOCITY, lane, side, velocity)
+                _set_axial(view, ring, layout.RING_OMEGA, lane, side, omega)
 
 
 @inline
@@ -154,17 +162,12 @@ def kick_cup(bodies, wrench, load, load_before, energy, box, step, mounting, gra
             inertia = mounting.box_mass
             bogie = load[LOAD_BOGIE + i]
             bogie_speed = (bogie - load_before[LOAD_BOGIE + i]) / step
-            place, speed = (
-                bodies[layout.CUP_BODY, layout.POSITION + i],
-                bodies[layout.CUP_BODY, layout.LINEAR + i],
-            )
         else:
             inertia = mounting.box_inertia[i - 3]
             bogie, bogie_speed = 0.0, 0.0
-            place, speed = (
-                bodies[layout.CUP_BODY, layout.TILT + i - 3],
-                bodies[layout.CUP_BODY, layout.ANGULAR + i - 3],
-            )
+        # tilts stand behind places, angular behind linear velocities
+        place = bodies[layout.CUP_BODY, layout.POSITION + i]
+        speed = bodies[layout.CUP_BODY, layout.LINEAR + i]
         stretch = place - bogie
         damper = mounting.damping[i] * (speed - bogie_speed)
         suspension = mounting.preload[i] - mounting.stiffness[i] * stretch - damper
@@ -175,10 +178,8 @@ def kick_cup(bodies, wrench, load, load_before, energy, box, step, mounting, gra
         energy[layout.ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
         energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += step * damper * (middle - bogie_speed)
         stored += 0.5 * mounting.stiffness[i] * stretch * stretch - mounting.preload[i] * stretch
-        if i < 3:
-            bodies[layout.CUP_BODY, layout.LINEAR + i] = speed + step * acceleration
-        else:
-            bodies[layout.CUP_BODY, layout.ANGULAR + i - 3] = speed + step * acceleration
+        bodies[layout.CUP_BODY, layout.LINEAR + i] = speed + step * acceleration
+        bodies[layout.CUP_BODY, layout.CHANGE + i] = step * acceleration
     return stored
 
 
@@ -207,12 +208,14 @@ def kick_cone(bodies, wrench, load, energy, step, mounting):
         if i == Y:
             energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += step * damper * middle
         bodies[layout.CONE_BODY, layout.LINEAR + i] += step * acceleration
+        bodies[layout.CONE_BODY, layout.CHANGE + i] = step * acceleration
     if mounting.journal_tilts != 0.0:
         for i in range(0, 3, 2):
             acceleration = (wrench[3 + i] + load[3 + i]) / mounting.journal_inertia
             middle = bodies[layout.CONE_BODY, layout.ANGULAR + i] + 0.5 * step * acceleration
             energy[layout.ENERGY_EXTERNAL] += step * load[3 + i] * middle
             bodies[layout.CONE_BODY, layout.ANGULAR + i] += step * acceleration
+            bodies[layout.CONE_BODY, layout.CHANGE + 3 + i] = step * acceleration
     bodies[layout.CONE_BODY, layout.RATE] = load[LOAD_SPEED]
     return torque, 0.5 * mounting.prop_stiffness * place * place
 

@@ -47,9 +47,9 @@ def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gra
         suspension = box[FORCE + i] - wrench[i] - pull
         energy[layout.ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
         energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += step * damper * (middle - bogie_speed)
-    for i in range(3):
-        bodies[layout.CUP_BODY, layout.LINEAR + i] += step * box[i]
-        bodies[layout.CUP_BODY, layout.ANGULAR + i] += step * box[3 + i]
+    for i in range(6):
+        bodies[layout.CUP_BODY, layout.LINEAR + i] += step * box[i]  # angular ones stand behind
+        bodies[layout.CUP_BODY, layout.CHANGE + i] = step * box[i]
     return stored
 
 

@@ -67,7 +67,6 @@ class Raceway(NamedTuple):
     effects: Any
     turning: Any  # 2, rates of the contact's azimuth in ring and roller [rad/s], used near a patch
     times: Any  # 2, the step, and the time over which springs are implicit [s]
-    damages: Any  # 2, of this ring and the other one; None where no roller can meet a patch
 
 
 @inline
@@ -131,7 +130,7 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         slopes = _slopes_of(lanes, k, count, damage, effects.coupling)
         gap_rate = _gap_rate(slopes, raceway.turning, damage)
         rate = _less_gap_rate(slip.rate[0] + x * slip.rate[1], gap_rate, damage)
-        pressing = _within_the_step(touching, depth, rate, raceway.times, raceway.damages)
+        pressing = _within_the_step(touching, depth, rate, raceway.times)
         push = _spring_push(pressing, rate, effects.damping)
         whole = share * (0.9 * tangent * touching)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
@@ -275,18 +274,16 @@ def _add_lean(lean, load, slopes, damage):
 
 
 @inline
-def _within_the_step(touching, depth, rate, times, damages):
+def _within_the_step(touching, depth, rate, times):
     """Take what a spring presses with where its contact begins or ends within a step, [m].
 
-    A roller that falls through a patch strikes with up to 1 m/s and moves several micrometres in a step.
-    With all of the force at its first instant of contact the spring takes in k u^2 h^2 / 12 more than it
-    stores, u being the speed and h the step, and gives that much more at the last one: what is missing is
-    that of the speed that the strike has cost. The implicit part of the spring, b h, gives back k u^2 b h^2
-    / 2 of it; the rest comes off the force of these instants. That is exact in the mean over their places in
-    the step; for a linear spring it is so at each place with b = 0.
+    A roller that its pocket throws, or that falls through a patch, strikes with up to 1 m/s and moves
+    several micrometres in a step. With all of the force at its first instant of contact the spring takes in
+    k u^2 h^2 / 12 more than it stores, u being the speed and h the step, and gives that much more at the
+    last one: what is missing is that of the speed that the strike has cost. The implicit part of the spring,
+    b h, gives back k u^2 b h^2 / 2 of it; the rest comes off the force of these instants. That is exact in
+    the mean over their places in the step; for a linear spring it is so at each place with b = 0.
     """
-    if damages[0] is None and damages[1] is None:
-        return touching
     step, spring_time = times
     way = at_least(magnitude(rate) * step, SMALLEST_APPROACH)
     part = (0.5 - 3.0 * spring_time / step) * at_least(1.0 - depth / way, 0.0)

@@ -42,7 +42,6 @@ class RingFaults(NamedTuple):
     surface: Any
     roller_surface: Any
     damage: Any
-    other_damage: Any  # of the other ring
     waves: Any
     roller_waves: Any
 
@@ -96,9 +95,9 @@ def prepare_raceway(lanes, block, ring, body, oversize, azimuths, p):
     surfaces = (faults.surface, faults.roller_surface)
     near = find_damage(lanes, block, azimuths, p.laminae.shape[1], surfaces, faults.damage)
     reach = p.roller.half_length + abs(p.roller.mass_offset)
-    times, damages = (p.step, p.spring_time), (faults.damage, faults.other_damage)
     turning = contact_turning(body, view, faults.damage)
-    shared = Raceway(lanes, ring.number, p.laminae, p.lamina_loads, reach, p.effects, turning, times, damages)
+    times = (p.step, p.spring_time)
+    shared = Raceway(lanes, ring.number, p.laminae, p.lamina_loads, reach, p.effects, turning, times)
     sums = lamina_sums(shared, line, slip, log2_speed, near, faults.damage)
     lean = lean_wrench(
         lanes, body, sums, (ring_climb, roller_climb), faults.damage, faults.waves, faults.roller_waves
@@ -256,16 +255,10 @@ def _gap_power(weighted_squares, rate, gap, damage):
 @inline
 def faults_of_cup(faults):
     """Take the faults that a contact with the cup meets: `RingFaults`."""
-    return RingFaults(
-        faults.cup, faults.roller, faults.cup_damage, faults.cone_damage, faults.cup_waves,
-        faults.roller_waves,
-    )  # fmt: skip
+    return RingFaults(faults.cup, faults.roller, faults.cup_damage, faults.cup_waves, faults.roller_waves)
 
 
 @inline
 def faults_of_cone(faults):
     """Take the faults that a contact with the cone meets: `RingFaults`."""
-    return RingFaults(
-        faults.cone, faults.roller, faults.cone_damage, faults.cup_damage, faults.cone_waves,
-        faults.roller_waves,
-    )  # fmt: skip
+    return RingFaults(faults.cone, faults.roller, faults.cone_damage, faults.cone_waves, faults.roller_waves)

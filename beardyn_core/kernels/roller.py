@@ -54,7 +54,7 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     """Advance one block of rollers by one step, their state in place, and add what it does to the rings."""
     step, effects, roller = p.step, p.effects, p.roller
     orbit = drift(
-        lanes, rollers, block, load_vector(lanes, rings, layout.CUP, layout.RING_VELOCITY), step, roller
+        lanes, rollers, block, load_vector(lanes, rings, layout.CUP, layout.RING_DRIFT), step, roller
     )
     cosine, sine, azimuth, momentum = orbit.cosine, orbit.sine, orbit.azimuth, orbit.momentum
     mask = lanes.load(p.rollers, block, layout.MASK)

@@ -58,12 +58,13 @@ def spring_time(bearing: Bearing, laminae: NDArray[np.float64], step: float, dam
     """Share of the step over which contact springs are implicit, from the lamina table, [s].
 
     ``laminae`` [LAMINA_ROWS, lamina]; ``step``: [s]; ``damped``: whether contacts are damped. A share between
-    1/12 and 1/4 is stable for a linear mode; contacts that lift off without a damper make energy with it, and
-    much less with 1/4.
+    1/12 and 1/4 is stable for a linear mode. Contacts that lift off without a damper make energy with it,
+    until the rollers fly apart; with 1/4 they do not.
     """
+    if not damped:
+        return MOST_SHARE * step
     bounce = highest_bounce(bearing, float(laminae[LAMINA_STIFFNESS].sum()))
-    share = implicit_spring_share(bounce, step)
-    return step * (share if damped or share == LEAST_SHARE else MOST_SHARE)
+    return step * implicit_spring_share(bounce, step)
 
 
 def implicit_spring_share(bounce: float, step: float) -> float:

@@ -58,6 +58,7 @@ class KinematicCageParams(NamedTuple):
 class CageParams(NamedTuple):
     """Pockets of a cage."""
 
+    step: float  # [s]
     stiffness: float  # [N/m]
     damping: float  # [N s/m]
     half_clearance: float  # along the pitch circle [m]
@@ -99,6 +100,7 @@ def cage_params(scene: Scene, step: float) -> CageParams | None:
     lean = cage.bar_inclination if isinstance(cage, Cage) else 0.0
     wear = 0.0 if isinstance(cage, KinematicCage) else cage.pocket_wear
     return CageParams(
+        step=step,
         stiffness=bearing.cage.stiffness,
         damping=bearing.cage.damping,
         half_clearance=0.5 * (bearing.cage.circumferential_clearance + wear),

@@ -52,7 +52,8 @@ LINEAR = 6  # 3, velocity [m/s]
 ANGULAR = 9  # 3, angular velocity without the spin [rad/s]
 TURN = 12  # spin angle about the own axis, +y [rad]
 RATE = 13  # spin speed about the own axis [rad/s]
-BODY_STATES = 14
+CHANGE = 14  # 6, of LINEAR and ANGULAR over the last step, of cup and cone in the full tier
+BODY_STATES = 20
 
 # --- ring data as the rollers see them, lanes [ring, field, lane]; order of rings: cup, cone, cage
 RING_ORIGIN = 0
@@ -60,7 +61,8 @@ RING_AXIS = 3
 RING_VELOCITY = 6
 RING_OMEGA = 9
 RING_TURN = 12
-RING_FIELDS = 13
+RING_DRIFT = 13  # velocity of the origin over the step that ends
+RING_FIELDS = 16
 
 # --- where energy is lost
 LOSS_NAMES = (

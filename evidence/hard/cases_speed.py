@@ -42,16 +42,12 @@ CASES = (
         "standstill_full",
         "speed",
         "the same with every effect: film tractions at zero entrainment, seals and rolling at rest",
-        "logarithms of speed and film have floors",
+        "logarithms of speed and film have floors; friction sees the rings' velocity at the end of the step",
         changes={"effects": "full"},
         load=steady(RADIAL, 0.0),
         duration=0.3,
         limits=(Limit("cage_speed", -0.05, 0.05),),
         fast=True,
-        known_failure=(
-            "From some starts a mode of the standing bearing grows e-fold in 12 ms out of rounding with the "
-            "usual step, to 1.2 mJ after 0.3 s; with half the step it does not."
-        ),
     ),
     HardCase(
         "start_from_standstill",

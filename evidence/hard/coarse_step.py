@@ -34,7 +34,8 @@ def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
     static = solve(
         bearing, point.force, end_play=scene.end_play, laminae=scene.numerics.laminae, speed=point.speed
     )
-    state = initial_state(bearing, arrangement, static, point.speed, cage_speed(bearing, point.speed))
+    orbit = cage_speed(bearing, point.speed)
+    state = initial_state(bearing, arrangement, parameters, static, point.speed, orbit)
     work = work_space(arrangement)
     signals = np.zeros((STEPS, SIGNAL_CHANNELS))
     load = np.array([*point.force, *point.moment, point.speed, 0.0, 0.0, 0.0])

@@ -69,7 +69,6 @@ CUT = {
     "_less_gap_rate": ("rate, gap_rate, damage", "rate"),
     "_add_gap": ("gap, tangent, x, slopes, gap_rate, damage", "gap"),
     "_release_gap": ("released, power, damage", "released"),
-    "_within_the_step": ("touching, depth, rate, times, damages", "touching"),
     "contact_turning": ("body, view, damage", "(0.0, 0.0)"),
     "_less_gap": ("damped, gap, damage", "damped"),
     "_gap_power": ("weighted_squares, rate, gap, damage", "weighted_squares"),

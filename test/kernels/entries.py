@@ -128,9 +128,8 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         line = generator_line(centre, body.axis, view.axis, oversize, raceway, p.roller)
         slip = line_slip(line, centre, body, view)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
-        shared = Raceway(
-            lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), (1.0, 0.0), (None, None)
-        )
+        instant = (1e-12, 0.0)  # in so short a step no contact begins or ends
+        shared = Raceway(lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), instant)
         sums = lamina_sums(shared, line, slip, log2_speed, False, None)
         level = Wrench((zero, zero, zero), (zero, zero, zero))
         contact = RacewayContact(line, slip, sums, level, log2_speed, centre, body, None)

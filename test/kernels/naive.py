@@ -263,6 +263,7 @@ def raceway_wrench(
     friction: Any = None,
     damping_time: float = 0.0,
     spring_time: float = 0.0,
+    step: float = 0.0,
     oversize: float = 0.0,
     exact_search: bool = False,
 ) -> Wrench:
@@ -287,6 +288,9 @@ def raceway_wrench(
         tangent = line_tangent(stiffness, depth)
         total.energy += line_energy(stiffness, depth)
         load = line_force(stiffness, depth) + damping_time * tangent * rate
+        if depth < abs(rate) * step:  # the contact begins or ends within the step
+            missing = (0.5 - 3.0 * spring_time / step) * (1.0 - depth / (abs(rate) * step))
+            load -= missing * line_force(stiffness, depth)
         if load <= 0.0:
             continue
         total.push(-load * normal, arm)
@@ -402,7 +406,10 @@ def pocket_wrench(
             continue
         slip = motion.slip(motion.centre + arm)
         rate = float(slip @ normal)
-        load = max(cage.stiffness * depth + cage.damping * rate, 0.0)
+        # a contact that begins or ends within the step: exact work in the mean of its two ends
+        way = max(abs(rate) * cage.step, 1e-15)
+        pressed = depth if depth >= way else 0.5 * depth * (1.0 + depth / way)
+        load = max(cage.stiffness * pressed + cage.damping * rate, 0.0)
         sliding = slip - rate * normal
         per_speed = cage.friction * load / math.hypot(float(np.linalg.norm(sliding)), cage.regularisation)
         total.push(-load * normal - per_speed * sliding, arm)

@@ -80,7 +80,9 @@ def pocket_wrench(
         slip = motion.slip(motion.centre + arm)
         rate = float(slip @ normal)
         sliding = slip - rate * normal
-        pressed = cage.stiffness * depth + cage.damping * rate if depth > 0.0 else 0.0
+        way = max(abs(rate) * cage.step, 1e-15)  # a contact that begins or ends within it
+        inside = depth if depth >= way else 0.5 * depth * (1.0 + depth / way)
+        pressed = cage.stiffness * inside + cage.damping * rate if depth > 0.0 else 0.0
         load, viscous = max(pressed, 0.0), 0.0
         solid = load
         if film is not None:

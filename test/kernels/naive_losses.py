@@ -37,7 +37,8 @@ def rolling_wrench(
     ``radius``: the equivalent one; the shear is against the entrainment, the pressure with it.
     """
     wrench = Wrench.none()
-    load = float(np.linalg.norm(raceway_wrench(motion, raceway, p.roller, p.laminae).force))
+    pressed = raceway_wrench(motion, raceway, p.roller, p.laminae, spring_time=p.spring_time, step=p.step)
+    load = float(np.linalg.norm(pressed.force))
     if load == 0.0:
         return wrench
     point = closed_form_point(

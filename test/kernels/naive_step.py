@@ -33,12 +33,16 @@ class RollerState:
 
 @dataclass(frozen=True)
 class Ring:
-    """A ring in Cartesian coordinates of a row's frame; cage: `axis` is its small rotation."""
+    """A ring in Cartesian coordinates of a row's frame; cage: `axis` is its small rotation.
+
+    ``velocity`` and ``omega`` are those that contacts see, ``drift`` is what the origin has just moved with.
+    """
 
     origin: Float
     axis: Float
     velocity: Float
     omega: Float
+    drift: Float
     turn: float = 0.0
 
 
@@ -78,7 +82,7 @@ def step_roller(
     """
     h, roller, effects = p.step, p.roller, p.effects
     cup, cone, cage = rings
-    centre = state.centre + h * (state.velocity - cup.velocity)
+    centre = state.centre + h * (state.velocity - cup.drift)
     angle_before = math.atan2(state.centre[1], state.centre[0])
     azimuth = math.atan2(centre[1], centre[0])
     turn = (azimuth - angle_before + math.pi) % (2.0 * math.pi) - math.pi
@@ -107,6 +111,7 @@ def step_roller(
                 friction=law(speed),
                 damping_time=damping_time,
                 spring_time=p.spring_time,
+                step=h,
             )
         )
     contacts.append(

@@ -120,7 +120,7 @@ class Rig:
             missing=scene.missing_places,
         )
         orbit = cage_ratio * cage_speed(bearing, speed)
-        state = initial_state(bearing, arrangement, static, speed, orbit)
+        state = initial_state(bearing, arrangement, parameters, static, speed, orbit)
         load = np.array([*force, 0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0])
         return Rig(
             scene, arrangement, parameters, state, work_space(arrangement, len(bending)), load,

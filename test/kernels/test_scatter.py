@@ -13,13 +13,23 @@ from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.tiers import lumped_parameters, quasistatic_parameters
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, OVERSIZE, POCKET_ANGLE
+from beardyn_core.model.layout import (
+    ANGLE,
+    AXIAL,
+    AXIS,
+    CAGE_BODY,
+    LAMINA_DROP,
+    LAMINA_PLACE,
+    OVERSIZE,
+    POCKET_ANGLE,
+    POSITION,
+)
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Scene
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import moving_contacts, worn_pockets
-from test.kernels.rig import scene_with
+from test.kernels.rig import Rig, scene_with
 
 Z = 17
 
@@ -117,3 +127,30 @@ def test_crown_of_a_roller_without_tilt_is_its_mean_drop() -> None:
     found = Arrangement(Z, 8).to_rollers(lumped.base.rollers[:, OVERSIZE])
     np.testing.assert_allclose(found, -mean, rtol=1e-6)
     np.testing.assert_array_equal(base.rollers[:, OVERSIZE], 0.0)  # that of the full tier is left alone
+
+
+def test_rollers_start_in_their_own_pockets_and_the_cage_where_most_of_them_fit() -> None:
+    """0.8 mm of end play, all to one side: the rollers of a row stand 0.4 mm off, 0.25 mm beyond the room.
+
+    The cage comes with them: no other place of it presses the roller that presses most any less.
+    """
+    scene = replace(
+        made(pocket_place=5e-5, pocket_clearance=2e-5, roller_length=5e-5, roller_diameter=3e-6),
+        end_play=8e-4,
+    )
+    assert scene.scatter is not None
+    bearing, deviations = scene.bearing, scene.scatter.deviations(scene.bearing)
+    rig = Rig.at_equilibrium(scene, (0.0, 1.76e4, 0.0), 0.0)
+    fields = rig.fields()
+    places = 2.0 * np.pi * np.arange(Z) / Z + deviations.pocket_place / (0.5 * bearing.pitch_diameter)
+    np.testing.assert_allclose(fields[ANGLE], places, rtol=0.0, atol=1e-15)
+
+    shift = fields[AXIAL] - 0.5 * bearing.row_spacing - bearing.roller_mass_offset * fields[AXIS + 2]
+    room = 0.5 * (bearing.cage.axial_clearance - deviations.roller_length)
+    outward = np.array([-1.0, 1.0])
+    cage = outward * rig.state.bodies[CAGE_BODY:, POSITION + 1]
+    pressed = (np.abs(shift - cage[:, None]) - room).max(axis=1)
+    anywhere = np.linspace(-1e-3, 1e-3, 20_001)
+    least = (np.abs(shift[:, None] - anywhere[:, None]) - room[:, None]).max(axis=2).min(axis=1)
+    assert np.abs(cage).max() > 1e-4
+    assert np.all(pressed <= np.maximum(least, 0.0) + 1e-12)

@@ -16,6 +16,7 @@ from beardyn_core.model.layout import (
     AXIAL,
     AXIS,
     CAGE_BODY,
+    CHANGE,
     CONE_BODY,
     CUP_BODY,
     LINEAR,
@@ -50,12 +51,14 @@ def ring_of(bodies: Float, body: int, row: int, place: float) -> naive_step.Ring
     axis = naive_step.rotated(state[TILT : TILT + 3], third)
     origin = state[POSITION : POSITION + 3] - bodies[CUP_BODY, POSITION : POSITION + 3]
     origin = in_row(origin, row) + np.array([0.0, 0.0, place])
-    omega = state[ANGULAR : ANGULAR + 3] + state[RATE] * axis
     is_cage = body >= CAGE_BODY
+    # cup and cone show where their velocities are going
+    motion = state[LINEAR : LINEAR + 6] + (0.0 if is_cage else state[CHANGE : CHANGE + 6])
+    omega = motion[3:] + state[RATE] * axis
     shown = state[TILT : TILT + 3] if is_cage else axis
     return naive_step.Ring(
-        origin, in_row(shown, row, axial=True), in_row(state[LINEAR : LINEAR + 3], row),
-        in_row(omega, row, axial=True), state[TURN],
+        origin, in_row(shown, row, axial=True), in_row(motion[:3], row),
+        in_row(omega, row, axial=True), in_row(state[LINEAR : LINEAR + 3], row), state[TURN],
     )  # fmt: skip
 
 
@@ -86,6 +89,7 @@ def shaken(seed: int, width: int = 8, scene: Scene | None = None) -> Rig:
     rig.set_fields(fields)
     bodies = rig.state.bodies
     bodies[CONE_BODY, LINEAR : LINEAR + 3] = rng.normal(0.0, 0.01, 3)
+    bodies[:CAGE_BODY, CHANGE : CHANGE + 6] = rng.normal(0.0, 1e-3, (CAGE_BODY, 6))
     cages = (len(bodies) - CAGE_BODY, 3)
     bodies[CAGE_BODY:, POSITION : POSITION + 3] = rng.normal(0.0, 3e-5, cages)
     bodies[CAGE_BODY:, TILT : TILT + 3] = rng.normal(0.0, 2e-4, cages) * [1.0, 0.0, 1.0]
