@@ -131,13 +131,16 @@ def levels(tier: str, scattered: bool) -> Float:
 @pytest.mark.slow
 @pytest.mark.parametrize("tier", FAST)
 def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -> None:
-    """Along z 3 dB from 125 Hz to 6.3 kHz, along y 4 dB beside the axial mode, whose damper is friction.
+    """Within 3 dB: along z from 125 Hz to 6.3 kHz, along y from 160 Hz beside the axial mode.
 
+    That mode's damper is friction. Along y at 125 Hz, a few lines of the spacing, the fast tiers are 4.1 dB
+    above and 3.2 dB below.
     Of identical rollers it is not: 10 dB and more along z, and along y the fast tiers have nothing at all.
     """
     apart = np.abs(levels(tier, True) - levels("full", True))
     assert apart[1].max() < 3.0
-    assert apart[0][(AXIAL[0] > BANDS) | (AXIAL[1] < BANDS)].max() < 4.0
+    assert apart[0][1:][((AXIAL[0] > BANDS) | (AXIAL[1] < BANDS))[1:]].max() < 3.0
+    assert apart[0][0] < 5.0
     identical = np.abs(levels(tier, False) - levels("full", False))
     assert identical[0].min() > 10.0
 
