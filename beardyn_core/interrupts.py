@@ -176,7 +176,7 @@ def _watch(reader: int, answered: threading.Event) -> None:
         pass
     answered.wait(GRACE_S)
     while not answered.wait(_LOOK_S):
-        if _sealed or _leavable:
+        if not _whole and (_sealed or _leavable):
             _end()
     os.close(reader)
 
