@@ -31,12 +31,11 @@ from beardyn_core.observe.summary import (
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import MemorySink, Sink
-from beardyn_core.run import start
+from beardyn_core.run import Simulation, start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 
 
-@held_back()
 def run(
     scene: Scene,
     sinks: Sequence[Sink] = (),
@@ -61,7 +60,18 @@ def run(
         The load could not be made and no sink has been opened; or a sink could not be written, then all
         are closed.
     """
-    simulation = start(scene)
+    return _fed(start(scene), scene, sinks, progress, life)
+
+
+@held_back()
+def _fed(
+    simulation: Simulation,
+    scene: Scene,
+    sinks: Sequence[Sink],
+    progress: Callable[[Block], None] | None,
+    life: bool,
+) -> RunSummary:
+    """Run a started simulation; Ctrl-C finds no sink in the middle of a block."""
     twin, load = simulation.twin, simulation.load
     description = RunDescription.of(scene, twin.truth(), twin.body_names, load)
 
