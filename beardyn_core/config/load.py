@@ -37,6 +37,7 @@ from beardyn_core.scene.scene import Free, Numerics, Scene
 from beardyn_core.scene.tier import TIER_NAMES, contradictions, integrator_problems
 from beardyn_core.scene.trial import Trial
 from beardyn_core.scene.waviness import Waviness
+from beardyn_core.structure.box import Box
 
 
 @dataclass(frozen=True)
@@ -104,6 +105,11 @@ def load_lubricant(name: str | Path) -> Lubricant:
 def load_vehicle(name: str | Path) -> Vehicle:
     """Load a shipped vehicle or that of a file; raises `InputError` with every mistake."""
     return _load(Vehicle, find("vehicles", str(name)))
+
+
+def load_box(name: str | Path) -> Box:
+    """Load a shipped axlebox or that of a file; raises `InputError` with every mistake."""
+    return _load(Box, find("structures", str(name)))
 
 
 def load_effects(name: str | Path) -> EffectSet:

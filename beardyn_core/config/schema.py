@@ -10,6 +10,7 @@ from beardyn_core.config.keys import in_order, keys_of
 from beardyn_core.config.scene_file import EffectSet, Scene
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.trial import Trial
+from beardyn_core.structure.box import Box
 
 _NOUNS: dict[str, type] = {
     "scene": Scene,
@@ -18,6 +19,7 @@ _NOUNS: dict[str, type] = {
     "vehicle": Vehicle,
     "effects": EffectSet,
     "trial": Trial,
+    "structure": Box,
 }
 SCHEMA_KINDS = tuple(_NOUNS)
 
