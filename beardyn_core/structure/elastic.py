@@ -22,7 +22,8 @@ from beardyn_core.structure.mesh import CUP, EXTRA, Mesh, row_places
 from beardyn_core.structure.modes import WAVES
 
 _SHIFT = (2.0 * math.pi * 300.0) ** 2
-_PASSES = 200
+_SOFT = (2.0 * math.pi * 5.0) ** 2
+_PASSES = 8
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ class Elastic:
 
     @cached_property
     def _shifted(self) -> Any:
-        return _factor(self.stiffness + _SHIFT * self.mass)
+        return factored(self.stiffness + _SHIFT * self.mass)
 
     def modes(self, highest: float, at_least: int = 24) -> tuple[Float, Float]:
         """Compute the free elastic modes up to a frequency [Hz].
@@ -88,13 +89,14 @@ class Elastic:
         momentum = self.mass @ rigid
         inverse = np.linalg.inv(self.rigid_mass)
         balanced = loads - momentum @ (inverse @ (rigid.T @ loads))
-        # the shifted body is solved again and again: each pass takes most of what the shift leaves
+        # springs of a few hertz hold the body; each pass takes away what they carry
+        soft = factored(self.stiffness + _SOFT * self.mass)
         found = np.zeros_like(loads)
         for _ in range(_PASSES):
-            more = self._shifted.solve(balanced - self.stiffness @ found)
+            more = soft.solve(balanced - self.stiffness @ found)
             more -= rigid @ (inverse @ (momentum.T @ more))
             found += more
-            if (np.abs(more).max(axis=0) <= 1e-9 * np.abs(found).max(axis=0)).all():
+            if (np.abs(more).max(axis=0) <= 1e-6 * np.abs(found).max(axis=0)).all():
                 return found
         raise RuntimeError("the static answer of the box did not converge")
 
@@ -168,7 +170,22 @@ def _curved(skfem: Any, mesh: Mesh) -> Any:
     found = np.searchsorted(key, wanted[0] * len(corners) + wanted[1])
     places = curved.doflocs.copy()
     places[:, len(corners) :] = mesh.nodes[middle[first[found]]].T
-    return skfem.MeshTet2(places, curved.t, sort_t=False)
+    chords, right = curved.doflocs, _volume(skfem, curved)
+    while True:
+        body = skfem.MeshTet2(places, curved.t, sort_t=False)
+        turned = np.flatnonzero((_volume(skfem, body) / right < 0.1).any(axis=1))
+        if not len(turned):
+            return body
+        # the middle of an edge that is bent too far for so large an element goes back to the chord
+        nodes = np.unique(body.dofs.element_dofs[:, turned])
+        places[:, nodes] = chords[:, nodes]
+
+
+def _volume(skfem: Any, body: Any) -> Float:
+    """Six times the volume that each point of integration stands for, negative where it is inside out."""
+    basis = skfem.Basis(body, skfem.ElementTetP2(), intorder=4)
+    found: Float = basis.mapping.detDF(basis.X)
+    return found
 
 
 def _lame(modulus: float, ratio: float) -> tuple[float, float]:
@@ -237,7 +254,8 @@ def _at(seat: Seat, places: Float, axis: Any) -> Float:
     return found
 
 
-def _factor(matrix: Any) -> Any:
+def factored(matrix: Any) -> Any:
+    """Factor a symmetric sparse matrix without pivoting; the result has a method ``solve``."""
     return splu(
         csc_matrix(matrix),
         permc_spec="MMD_AT_PLUS_A",
