@@ -109,6 +109,7 @@ def built() -> Built:
     return modes_of(box, BEARING, mesh=0.04, highest=8000.0)
 
 
+@pytest.mark.slow
 def test_modes_carry_no_rigid_motion_and_have_unit_mass(built: Built) -> None:
     frequency, shapes = built.body.modes(8000.0)
     assert frequency == pytest.approx(built.modes.frequency[: built.modes.free_count], rel=1e-9)
@@ -117,6 +118,7 @@ def test_modes_carry_no_rigid_motion_and_have_unit_mass(built: Built) -> None:
     assert (built.modes.frequency[built.modes.free_count :] > frequency[-1]).all()
 
 
+@pytest.mark.slow
 def test_static_bending_is_that_of_the_finite_elements(built: Built) -> None:
     """2 % are asked for; without residual modes several per cent are missing."""
     assert abs(built.static_error) < 2e-3
