@@ -18,7 +18,7 @@ ROS_WHEELS = [
     "ros-kilted-std-srvs==5.5.1",
 ]
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
-STRUCTURE = ["gmsh>=4.11", "scikit-fem>=9"]
+STRUCTURE = ["gmsh>=4.11", "pyuff>=2.4", "scikit-fem>=9"]
 TEST = [
     *DATA,
     *STRUCTURE,

@@ -200,8 +200,6 @@ def _structure(name: str) -> dict[str, Any]:
     return {
         "purpose": box.description,
         "bearing": box.bearing,
-        "outer_diameter_m": box.outer_diameter,
-        "length_m": box.length,
         "seats": [seat.name for seat in (*box.sensors, *box.suspension)],
     }
 

@@ -11,6 +11,7 @@ from beardyn_core.config.scene_file import EffectSet, Scene
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.trial import Trial
 from beardyn_core.structure.box import Box
+from beardyn_core.structure.imported import ModeFile
 
 _NOUNS: dict[str, type] = {
     "scene": Scene,
@@ -20,6 +21,7 @@ _NOUNS: dict[str, type] = {
     "effects": EffectSet,
     "trial": Trial,
     "structure": Box,
+    "modes": ModeFile,
 }
 SCHEMA_KINDS = tuple(_NOUNS)
 

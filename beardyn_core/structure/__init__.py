@@ -9,6 +9,7 @@ elastic    stiffness, mass and rigid motion of a mesh; static and free answers (
 reduction  free modes and residual modes: the fewest numbers that answer right
 modes      the modes of a box as the bearing and the sensors see them
 table      the text file of the modes
+imported   modes of another program, from a Universal file (pyuff)
 build      from a box to its modes, with what shows that they are right
 ========== =====================================================================
 

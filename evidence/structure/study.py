@@ -13,6 +13,7 @@ from scipy.sparse.linalg import eigsh
 
 from beardyn_core.arrays import Float
 from beardyn_core.config import load_bearing, load_box
+from beardyn_core.structure.box import Box
 from beardyn_core.structure.build import Built, load_zone, modes_of
 from beardyn_core.structure.elastic import factored, stacked
 
@@ -48,6 +49,7 @@ class Answer:
 def meshes() -> Iterator[Meshed]:
     """Build the box with finer and finer meshes."""
     box = load_box(BOX)
+    assert isinstance(box, Box)
     bearing = load_bearing(box.bearing)
     for mesh in MESHES:
         yield Meshed(mesh, modes_of(box, bearing, mesh=mesh, highest=HIGHEST))

@@ -16,7 +16,17 @@ from beardyn_core.config.folders import KINDS
 
 EXECUTABLES = ("twin", "load", "recorder", "viewer", "monitor", "car_load", "car_recorder")
 # no rosdep key
-FROM_PIP = {"gmsh", "mcap", "mcap-ros2-support", "pyarrow", "rerun-sdk", "scikit-fem", "xarray", "zstandard"}
+FROM_PIP = {
+    "gmsh",
+    "mcap",
+    "mcap-ros2-support",
+    "pyarrow",
+    "pyuff",
+    "rerun-sdk",
+    "scikit-fem",
+    "xarray",
+    "zstandard",
+}
 LEFT_OUT = (".git", ".venv", "build", "__pycache__", "*.egg-info", "*.mcap", "*.rrd")
 
 
