@@ -1,4 +1,4 @@
-"""Modes of another program or of a modal test, shapes at nodes, as the bearing, sensors and springs see them."""
+"""Modes of another program, shapes at nodes, as the bearing, the sensors and the springs see them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _RIGID_HZ = 1.0
 
 @dataclass(frozen=True)
 class ModeFile:
-    """A Universal file with modes of a free box, the cup in it, and where its nodes are in the axlebox frame."""
+    """A Universal file with modes of a free box, the cup in it, and how its nodes lie in the axlebox."""
 
     name: A[str, At(longest=80), "of the box"]
     bearing: A[str, At(longest=200), "shipped bearing or path of its file, whose cup is in the box"]
@@ -193,8 +193,8 @@ def _fit_row(
     waves = min(WAVES, (around - 1) // 2)
     if waves < 2:
         yield (
-            f"nodes lie at {around} azimuths on the cylinder of {2e3 * radius:.1f} mm under the {name} row; at "
-            "least 5 are needed: check origin_mm, forward, left, up and seat_diameter_mm"
+            f"nodes lie at {around} azimuths on the cylinder of {2e3 * radius:.1f} mm under the {name} row; "
+            "at least 5 are needed: check origin_mm, forward, left, up and seat_diameter_mm"
         )
         return
     order = np.arange(1, waves + 1) * angle[:, None]
