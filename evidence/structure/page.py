@@ -19,8 +19,9 @@ HEAD = """# Modes of an axlebox
 Written by `make structure`. `beardyn structure BOX` (extra `structure`: gmsh, scikit-fem) meshes a box with
 the cup in it, computes its free modes and adds residual modes (Rubin 1975), which make the static bending
 under the rollers right. `-o` writes them as a table in text; `beardyn_core/structure/table.py` says what is
-in it, so modes of another program can be written in the same way. Shipped boxes: `beardyn scenes structures`.
-No simulation uses the modes yet.
+in it. A file with `modes: box.unv` in place of dimensions reads free modes of another program from a
+Universal file ([keys](reference.md#structure-by-modes-of-another-program)). Shipped boxes: `beardyn scenes
+structures`. No simulation uses the modes yet.
 
 Everything here is of the box `{box}`.
 
