@@ -8,9 +8,9 @@ from beardyn_core.config import load_bearing, load_box
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.build import modes_of
 from evidence.structure.study import on_springs
+from test.finite_elements import need_finite_elements
 
-pytest.importorskip("gmsh", exc_type=ImportError)
-pytest.importorskip("skfem")
+need_finite_elements()
 
 
 @pytest.mark.slow

@@ -14,9 +14,9 @@ from beardyn_core.structure.box import Block, Box, Disc, Seat
 from beardyn_core.structure.build import Built, load_zone, modes_of
 from beardyn_core.structure.elastic import Elastic, elastic_body, stacked
 from beardyn_core.structure.mesh import mesh_of
+from test.finite_elements import need_finite_elements
 
-pytest.importorskip("gmsh", exc_type=ImportError)
-pytest.importorskip("skfem")
+need_finite_elements()
 
 BEARING = load_bearing("HS130x230")
 STEEL = BEARING.material

@@ -12,12 +12,13 @@ from beardyn_core.cli import main as command
 from beardyn_core.config.folders import shipped_names
 from beardyn_core.structure.table import read_table
 from test.cli.json_page import check
+from test.finite_elements import need_finite_elements
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", shipped_names("structures"))
 def test_the_modes_of_a_shipped_box(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    pytest.importorskip("gmsh", exc_type=ImportError)
+    need_finite_elements()
     path = tmp_path / "modes.csv"
     words = ["structure", name, "--mesh", "40", "--highest", "6", "-o", str(path), "--json"]
     assert command.main(words) == command.DONE
