@@ -20,7 +20,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step light damping heat ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step light damping heat structure ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -65,6 +65,9 @@ damping: $(VENV)/.ready-test ## set up, then damping times over their quoted ran
 
 heat: $(VENV)/.ready-test ## set up, then torque and steady temperatures beside published ones: docs/heat.md
 	@$(BIN)/python -m evidence.heat.page $(ARGS)
+
+structure: $(VENV)/.ready-test ## set up, then the modes of a box beside its finite elements: docs/structure.md
+	@$(BIN)/python -m evidence.structure.page $(ARGS)
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)

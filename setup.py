@@ -18,8 +18,10 @@ ROS_WHEELS = [
     "ros-kilted-std-srvs==5.5.1",
 ]
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
+STRUCTURE = ["gmsh>=4.11", "pyuff>=2.4", "scikit-fem>=9"]
 TEST = [
     *DATA,
+    *STRUCTURE,
     "hypothesis>=6.100",
     "jsonschema>=4.18",
     "mcap-ros2-support>=0.5",
@@ -85,7 +87,7 @@ setup(
         "tqdm>=4.66",
         "zstandard>=0.22",
     ],
-    extras_require={"ros": ROS_WHEELS, "data": DATA, "test": TEST, "dev": DEV},
+    extras_require={"ros": ROS_WHEELS, "data": DATA, "structure": STRUCTURE, "test": TEST, "dev": DEV},
     entry_points={"console_scripts": ["beardyn = beardyn_core.cli.main:main"]},
     zip_safe=False,
 )

@@ -20,6 +20,7 @@ arrays     names of array types in signatures
 effects    the catalogue of effects and sets of them
 bearing    geometry, kinematics, materials, lubricants
 scene      one bearing under one operation: loads, mounting, defects, sensors
+structure  modes of axleboxes: meshes, finite elements, tables of modes
 rail       wheel-rail scenario to load on the journal
 config     YAML files to bearings and scenes, all mistakes at once
 model      bearing and scene to kernel parameters, and where each number stands

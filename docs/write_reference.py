@@ -20,8 +20,9 @@ HEAD = """# Reference of the files
 
 Written by `python docs/write_reference.py` from the declarations in the code.
 
-Every key of scenes, bearings, lubricants, vehicles, effects and trials: what it means, in which unit, what is
-allowed, and what it is when it is not given (**required**: it must be given; *none*: then there is none).
+Every key of scenes, bearings, lubricants, vehicles, effects, trials and boxes: what it means, in which unit,
+what is allowed, and what it is when it is not given (**required**: it must be given; *none*: then there is
+none).
 The unit of a number is the end of its key. A key with a mapping leads to its own table. Where a file of a
 bearing, lubricant or vehicle has a number it may as well have `{value: 17, source: catalogue}`.
 
@@ -34,6 +35,8 @@ TITLES = {
     "vehicle": "Vehicle",
     "effects": "Effects",
     "trial": "Trial",
+    "structure": "Structure",
+    "modes": "Structure by modes of another program",
 }
 _LIMITS = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}
 _TYPES = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false"}

@@ -8,7 +8,7 @@ json_output strict JSON with a version, for every ``--json``
 files       inputs and outputs of a command: all complaints at once, a folder to write
 quantities  numbers with units in options
 demo        the main job in one go
-scenes      what scenes, bearings, lubricants, vehicles, effects and trials there are
+scenes      what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are
 new         a copy of a shipped file to start from
 simulate    a desk run
 explain     which effects a scene is computed with, why, and what each costs
@@ -19,6 +19,7 @@ report      what a recording holds
 monitor     what a monitor says over a recording
 export      signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
 bearing     static answers about one bearing
+structure   modes of an axlebox
 trial       a monitor over a matrix of scenes
 contacts    the contact laboratory
 schema      JSON schemas for editors

@@ -25,7 +25,7 @@ COMMANDS = {
     "start here": ("demo", "scenes", "new"),
     "simulate": ("simulate", "explain", "ladder", "warmup"),
     "recordings": ("view", "report", "monitor", "export"),
-    "bearings and monitors": ("bearing", "trial", "contacts"),
+    "bearings and monitors": ("bearing", "structure", "trial", "contacts"),
     "files": ("schema",),
 }
 """The subcommands, each a module of this package, under the headings of the help."""

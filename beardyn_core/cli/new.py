@@ -19,6 +19,7 @@ _HOW = {
     "vehicles": "in the operation of a scene beside it: vehicle: {file}",
     "effects": "beardyn simulate SCENE --effects {file}     in a scene beside it: effects: {file}",
     "trials": "beardyn trial {file}",
+    "structures": "beardyn structure {file}",
 }
 # What else a scene may say: shown as comments where the scene does not say it.
 POSSIBLE = {

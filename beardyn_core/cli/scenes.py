@@ -1,4 +1,4 @@
-"""``beardyn scenes``: what scenes, bearings, lubricants, vehicles, effects and trials there are."""
+"""``beardyn scenes``: what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from beardyn_core.errors import InputError
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
 
-KINDS = ("scenes", "bearings", "lubricants", "vehicles", "effects", "trials")
+KINDS = ("scenes", "bearings", "lubricants", "vehicles", "effects", "trials", "structures")
 _ZERO_CELSIUS = 273.15
 _GROUPS = (
     "healthy bearing under a train",
@@ -31,6 +31,7 @@ _USE = {
     "vehicles": "in a scene: operation: {kind: quarter_vehicle, vehicle: NAME, ...}",
     "effects": "in a scene: effects: NAME; for one run: beardyn simulate SCENE --effects NAME",
     "trials": "run: beardyn trial NAME",
+    "structures": "modes: beardyn structure NAME",
 }
 
 
@@ -38,7 +39,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "scenes",
-        help="list the shipped scenes, bearings, lubricants, vehicles, effects or trials",
+        help="list the shipped scenes, bearings, lubricants, vehicles, effects, trials or boxes",
         description="List what is shipped, with what each is for. Every name is a YAML file that "
         "`beardyn new NAME` copies.",
     )
@@ -192,6 +193,17 @@ def _trial(name: str) -> dict[str, Any]:
     }
 
 
+def _structure(name: str) -> dict[str, Any]:
+    from beardyn_core.config.load import load_box
+
+    box = load_box(name)
+    return {
+        "purpose": box.description,
+        "bearing": box.bearing,
+        "seats": [seat.name for seat in (*box.sensors, *box.suspension)],
+    }
+
+
 _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "scenes": _scene,
     "bearings": _bearing,
@@ -199,6 +211,7 @@ _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "vehicles": _vehicle,
     "effects": _effects,
     "trials": _trial,
+    "structures": _structure,
 }
 
 
@@ -262,4 +275,5 @@ _FIGURES: dict[str, Callable[[dict[str, Any]], list[str]]] = {
     "vehicles": lambda entry: [f"{entry['body_mass_kg'] / 1e3:g} t"],
     "effects": lambda entry: [f"{len(entry['effects'])} effects"],
     "trials": lambda entry: [f"{entry['run_count']} runs", f"of {entry['scene']}"],
+    "structures": lambda entry: [f"for {entry['bearing']}"],
 }

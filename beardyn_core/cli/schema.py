@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 
-KINDS = ("scene", "bearing", "lubricant", "vehicle", "effects", "trial")
+KINDS = ("scene", "bearing", "lubricant", "vehicle", "effects", "trial", "structure", "modes")
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from beardyn_core.config.load import (
         OpenScene,
         load_bearing,
+        load_box,
         load_effects,
         load_lubricant,
         load_vehicle,
@@ -41,8 +42,15 @@ if TYPE_CHECKING:
     from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
     from beardyn_core.config.yaml_text import scene_text
 
-__all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_bearing", "load_effects"]
-__all__ += ["load_lubricant", "load_vehicle", "read_scene", "read_scene_mapping", "read_scene_text"]
+__all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_bearing", "load_box"]
+__all__ += [
+    "load_effects",
+    "load_lubricant",
+    "load_vehicle",
+    "read_scene",
+    "read_scene_mapping",
+    "read_scene_text",
+]
 __all__ += ["read_trial", "scene_text", "shipped_names"]
 
 _MODULES = {

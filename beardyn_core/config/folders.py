@@ -11,7 +11,7 @@ from pathlib import Path
 
 from beardyn_core.errors import InputError
 
-KINDS = ("bearings", "lubricants", "vehicles", "effects", "scenes", "trials")
+KINDS = ("bearings", "lubricants", "vehicles", "effects", "scenes", "trials", "structures")
 _SUFFIXES = (".yaml", ".yml")
 
 
@@ -49,7 +49,7 @@ def config_folder() -> Path:
 
 
 def shipped_names(kind: str) -> tuple[str, ...]:
-    """List the names of the shipped bearings, lubricants, vehicles, effects or scenes, sorted."""
+    """List the names of what is shipped of one of `KINDS`, sorted."""
     folder = config_folder() / kind
     return tuple(sorted(path.stem for path in folder.glob("*") if path.suffix in _SUFFIXES))
 

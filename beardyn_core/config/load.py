@@ -16,7 +16,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.automatic import take_auto
-from beardyn_core.config.folders import find
+from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.keys import keys_of, valid
 from beardyn_core.config.missing import entries_of, missing_problems
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
@@ -37,6 +37,8 @@ from beardyn_core.scene.scene import Free, Numerics, Scene
 from beardyn_core.scene.tier import TIER_NAMES, contradictions, integrator_problems
 from beardyn_core.scene.trial import Trial
 from beardyn_core.scene.waviness import Waviness
+from beardyn_core.structure.box import Box
+from beardyn_core.structure.imported import ModeFile
 
 
 @dataclass(frozen=True)
@@ -104,6 +106,25 @@ def load_lubricant(name: str | Path) -> Lubricant:
 def load_vehicle(name: str | Path) -> Vehicle:
     """Load a shipped vehicle or that of a file; raises `InputError` with every mistake."""
     return _load(Vehicle, find("vehicles", str(name)))
+
+
+def load_box(name: str | Path) -> Box | ModeFile:
+    """Load a shipped axlebox or that of a file, in figures or as modes of another program.
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
+    path = find("structures", str(name))
+    data = read_file(path)
+    noun = ModeFile if "modes" in data else Box
+    box: Box | ModeFile = read_noun(noun, data, str(path))
+    if isinstance(box, ModeFile):
+        box = replace(box, modes=path.parent / box.modes)
+    if box.bearing not in shipped_names("bearings"):
+        box = replace(box, bearing=str(find("bearings", box.bearing, path.parent)))
+    return box
 
 
 def load_effects(name: str | Path) -> EffectSet:

@@ -10,6 +10,8 @@ from beardyn_core.config.keys import in_order, keys_of
 from beardyn_core.config.scene_file import EffectSet, Scene
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.trial import Trial
+from beardyn_core.structure.box import Box
+from beardyn_core.structure.imported import ModeFile
 
 _NOUNS: dict[str, type] = {
     "scene": Scene,
@@ -18,6 +20,8 @@ _NOUNS: dict[str, type] = {
     "vehicle": Vehicle,
     "effects": EffectSet,
     "trial": Trial,
+    "structure": Box,
+    "modes": ModeFile,
 }
 SCHEMA_KINDS = tuple(_NOUNS)
 

@@ -15,7 +15,18 @@ from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import KINDS
 
 EXECUTABLES = ("twin", "load", "recorder", "viewer", "monitor", "car_load", "car_recorder")
-FROM_PIP = {"mcap", "mcap-ros2-support", "pyarrow", "rerun-sdk", "xarray", "zstandard"}  # no rosdep key
+# no rosdep key
+FROM_PIP = {
+    "gmsh",
+    "mcap",
+    "mcap-ros2-support",
+    "pyarrow",
+    "pyuff",
+    "rerun-sdk",
+    "scikit-fem",
+    "xarray",
+    "zstandard",
+}
 LEFT_OUT = (".git", ".venv", "build", "__pycache__", "*.egg-info", "*.mcap", "*.rrd")
 
 

@@ -15,6 +15,7 @@ from beardyn_core.cli.new import POSSIBLE
 from beardyn_core.cli.scenes import KINDS
 from beardyn_core.config import (
     load_bearing,
+    load_box,
     load_effects,
     load_lubricant,
     load_vehicle,
@@ -28,6 +29,7 @@ LOADERS: dict[str, Any] = {
     "vehicles": load_vehicle,
     "effects": load_effects,
     "trials": load_trial,
+    "structures": load_box,
 }
 
 

@@ -17,6 +17,7 @@ from beardyn_core.config import (
     SCHEMA_KINDS,
     json_schema,
     load_bearing,
+    load_box,
     load_effects,
     load_lubricant,
     load_vehicle,
@@ -39,6 +40,7 @@ LOADERS: dict[str, Callable[[str], Any]] = {
     "bearings": load_bearing,
     "lubricants": load_lubricant,
     "vehicles": load_vehicle,
+    "structures": load_box,
     "effects": load_effects,
     "scenes": load_scene,
 }

@@ -33,6 +33,7 @@ from beardyn_core.config import (
     SCHEMA_KINDS,
     json_schema,
     load_bearing,
+    load_box,
     load_effects,
     load_lubricant,
     load_vehicle,
@@ -166,6 +167,7 @@ def digests_of_nouns() -> dict[str, str]:
         "scenes": load_scene,
         "trials": load_trial,
         "vehicles": load_vehicle,
+        "structures": load_box,
     }
     found = {
         f"{kind} {name}": digest(_canonical(load(name)).encode())

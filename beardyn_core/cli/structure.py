@@ -1,0 +1,153 @@
+"""`beardyn structure`: the modes of an axlebox, by finite elements or from another program."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from beardyn_core.cli.files import checked
+from beardyn_core.cli.json_output import json_text
+from beardyn_core.errors import InputError
+from beardyn_core.interrupts import last_words
+
+if TYPE_CHECKING:
+    from beardyn_core.structure.build import Built
+    from beardyn_core.structure.modes import Modes
+
+_SHOWN = 12
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the command to the subparsers of the command line."""
+    parser = subparsers.add_parser(
+        "structure",
+        help="compute the modes of an axlebox by finite elements, or read them",
+        description="Mesh an axlebox with the cup in it, compute its free modes and the residual modes that "
+        "make its static bending right, check them against the finite elements and write them as a table; or "
+        "read the modes of a Universal file that BOX names and write them as the same table. "
+        "Needs pip install beardyn[structure].",
+    )
+    parser.add_argument("box", metavar="BOX", help="name of a shipped box or path of a YAML file")
+    parser.add_argument("-o", "--output", metavar="FILE.csv", type=Path, help="table to write; default none")
+    parser.add_argument(
+        "--mesh", metavar="MM", type=float, default=15.0, help="largest edge of an element, mm; default 15"
+    )
+    parser.add_argument(
+        "--highest", metavar="KHZ", type=float, default=12.8, help="free modes up to here, kHz; default 12.8"
+    )
+    parser.add_argument(
+        "--waves",
+        metavar="N",
+        type=int,
+        default=3,
+        help="residual modes answer loads of up to N waves around a row, 1 to 8; default 3",
+    )
+    parser.add_argument("--force", action="store_true", help="replace a file that exists; default refuse")
+    parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from beardyn_core.config.load import load_bearing, load_box
+    from beardyn_core.outputs import file_problems, open_to_write
+    from beardyn_core.structure.box import Box
+    from beardyn_core.structure.build import modes_of
+    from beardyn_core.structure.imported import modes_of_file
+    from beardyn_core.structure.table import table_text
+
+    with checked(
+        lambda inputs: [
+            *_problems(args),
+            *file_problems("--output", args.output, inputs=inputs, force=args.force),
+        ]
+    ):
+        box = load_box(args.box)
+        bearing = load_bearing(box.bearing)
+    built: Built | None = None
+    with last_words(lambda: "nothing has been written"):
+        if isinstance(box, Box):
+            built = modes_of(
+                box,
+                bearing,
+                mesh=1e-3 * args.mesh,
+                highest=1e3 * args.highest,
+                waves=args.waves,
+                progress=lambda words: print(f"beardyn: {words}", file=sys.stderr),
+            )
+            modes = built.modes
+        else:
+            modes = modes_of_file(box, bearing)
+    if args.output is not None:
+        try:
+            with open_to_write(args.output, replace=args.force) as file:
+                file.write(table_text(modes).encode())
+        except OSError as error:
+            raise InputError(f"--output {args.output}: cannot be written: {error.strerror}") from error
+    if args.json:
+        print(json_text("structure", json_object(modes, built, args.output)))
+    else:
+        print(text(modes, built, args.output))
+    return 0
+
+
+def _problems(args: argparse.Namespace) -> list[str]:
+    limits = (
+        ("--mesh", args.mesh, 2.0, 60.0, "mm"),
+        ("--highest", args.highest, 0.5, 25.6, "kHz"),
+        ("--waves", args.waves, 1, 8, ""),
+    )
+    return [
+        f"{option} is {value:g}; it must be {low:g} to {high:g} {unit}".rstrip()
+        for option, value, low, high, unit in limits
+        if not low <= value <= high
+    ]
+
+
+def zone_yield(modes: Modes) -> float:
+    """Compute how far the raceway yields under a load zone on top, without rigid motion, [m/N]."""
+    from beardyn_core.structure.build import load_zone
+
+    zone = load_zone(modes.reads.shape[0])
+    return modes.yielding(zone, zone)
+
+
+def json_object(modes: Modes, built: Built | None, table: Path | None) -> dict[str, Any]:
+    """Gather what ``--json`` prints; ``built`` is ``None`` for modes of another program."""
+    return {
+        "box": modes.name,
+        "mass_kg": modes.mass,
+        "centre_m": modes.centre,
+        "inertia_kg_m2": modes.inertia,
+        "element_count": built and built.elements,
+        "unknown_count": built and built.unknowns,
+        "frequency_Hz": modes.frequency,
+        "free_mode_count": modes.free_count,
+        "yield_finite_elements_m_per_N": built and built.yielding[0],
+        "yield_modes_m_per_N": zone_yield(modes),
+        "table": table,
+    }
+
+
+def text(modes: Modes, built: Built | None, table: Path | None) -> str:
+    """Write the result for the terminal; ``built`` is ``None`` for modes of another program."""
+    free = [f"{each:.0f}" for each in modes.frequency[: modes.free_count]]
+    shown = ", ".join(free[:_SHOWN]) + (f" ... {free[-1]}" if len(free) > _SHOWN else "")
+    centre = ", ".join(f"{1e3 * each:.0f}" for each in modes.centre)
+    lines = [
+        f"{modes.name}: {modes.description}",
+        f"  {modes.mass:.1f} kg with the cup, centre of mass ({centre}) mm",
+        f"  {modes.free_count} free modes: {shown} Hz",
+    ]
+    yields = f"  under a load zone on top the raceway yields {1e9 * zone_yield(modes):.4g} um/kN"
+    if built is not None:
+        residual = modes.frequency[modes.free_count :]
+        lines.insert(2, f"  {built.elements} elements, {built.unknowns} unknowns")
+        lines.append(f"  {len(residual)} residual modes, {residual.min():.0f} to {residual.max():.0f} Hz")
+        yields += f", {100.0 * built.static_error:+.2f} % of the finite elements"
+    lines.append(yields)
+    if table is not None:
+        lines.append(f"{table} written")
+    return "\n".join(lines)

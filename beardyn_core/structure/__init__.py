@@ -1,0 +1,18 @@
+"""Axleboxes that bend: from a box in figures to its modes, and the table that keeps them.
+
+========== =====================================================================
+module     responsibility
+========== =====================================================================
+box        an axlebox in figures: housing, what is cast to it, cup, seats
+mesh       tetrahedra of a box (gmsh)
+elastic    stiffness, mass and rigid motion of a mesh; static and free answers (scikit-fem)
+reduction  free modes and residual modes: the fewest numbers that answer right
+modes      the modes of a box as the bearing and the sensors see them
+table      the text file of the modes
+imported   modes of another program, from a Universal file (pyuff)
+build      from a box to its modes, with what shows that they are right
+========== =====================================================================
+
+Meshing and finite elements need the extra ``structure`` (``pip install beardyn[structure]``); reading a table
+needs nothing.
+"""

@@ -1,0 +1,206 @@
+"""Modes of another program, shapes at nodes, as the bearing, the sensors and the springs see them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated as A
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.ring_bending import cup_raceway
+from beardyn_core.edge import At, Vector, refuse
+from beardyn_core.errors import InputError
+from beardyn_core.structure.box import Seat
+from beardyn_core.structure.mesh import EXTRA, row_places
+from beardyn_core.structure.modes import WAVES, Modes
+
+_AXIS = At(one_of=("x", "-x", "y", "-y", "z", "-z"))
+_NODES, _SHAPES, _NORMAL_MODE = (15, 2411), 55, 2
+_RIGID_HZ = 1.0
+
+
+@dataclass(frozen=True)
+class ModeFile:
+    """A Universal file with modes of a free box, the cup in it, and how its nodes lie in the axlebox."""
+
+    name: A[str, At(longest=80), "of the box"]
+    bearing: A[str, At(longest=200), "shipped bearing or path of its file, whose cup is in the box"]
+    modes: A[Path, "Universal file with nodes (15 or 2411) and normal modes (55), relative to this file"]
+    mass: A[float, At("kg", gt=0.0), "of box and cup"]
+    inertia: A[Vector, At("kg_m2", gt=0.0), "of box and cup about x, y, z through the bearing centre"]
+    sensors: A[tuple[Seat, ...], "where accelerometers may sit"]
+    description: A[str, At(usual=""), "what it is, in a few words"] = ""
+    centre: A[Vector, At("mm"), "of mass, from the bearing centre along x, y, z"] = (0.0, 0.0, 0.0)
+    suspension: A[tuple[Seat, ...], "where springs, links and dampers hold the box"] = ()
+    length_unit: A[str, At(one_of=("m", "mm")), "of the nodes; modal masses are in kg"] = "m"
+    forward: A[str, _AXIS, "axis of the file that is x forward"] = "x"
+    left: A[str, _AXIS, "axis of the file that is y left along the axle"] = "y"
+    up: A[str, _AXIS, "axis of the file that is z up"] = "z"
+    origin: A[Vector, At("mm"), "bearing centre in the axes of the file"] = (0.0, 0.0, 0.0)
+    seat_diameter: A[
+        float | None,
+        At("mm", gt=0.0, le=800.0),
+        "of the cylinder whose nodes are taken for the raceways; that of the cup's raceway when left out",
+    ] = None
+    tolerance: A[float, At("mm", gt=0.0, le=20.0), "how far from that cylinder a node may lie"] = 1.0e-3
+    damping_ratio: A[float, At(gt=0.0, le=0.2), "of modes for which the file has none"] = 0.02
+    sources: tuple[tuple[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        refuse(self, f"box {self.name!r}")
+
+    def rules(self) -> Iterator[str]:
+        """Check that the three axes are right-handed."""
+        if abs(np.linalg.det(self.turn) - 1.0) > 1e-9:
+            yield (
+                f"forward, left and up are {self.forward}, {self.left}, {self.up}; they must be three axes "
+                "of the file that follow each other as x, y and z do"
+            )
+
+    @property
+    def turn(self) -> Float:
+        """Rotation from the axes of the file to the axlebox frame, shape [3, 3]."""
+        found = np.zeros((3, 3))
+        for row, word in enumerate((self.forward, self.left, self.up)):
+            found[row, "xyz".index(word[-1])] = -1.0 if word.startswith("-") else 1.0
+        return found
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """Modes at nodes, unit modal mass, in the frame of their file."""
+
+    nodes: A[Float, "shape [node, 3], in the file's unit of length"]
+    frequency: A[Float, "shape [mode], [Hz]"]
+    damping_ratio: A[Float, "shape [mode], 0 where the file has none"]
+    shape: A[Float, "shape [mode, node, 3], [1/sqrt(kg)]"]
+
+
+def read_universal(path: Path) -> Shapes:
+    """Read nodes and normal modes of a Universal file.
+
+    Raises
+    ------
+    InputError
+        pyuff is missing, the file cannot be read, or it lacks nodes or modes.
+    """
+    try:
+        import pyuff
+    except ImportError as error:
+        raise InputError(f"Universal files need pyuff ({error}); {EXTRA}") from error
+    try:
+        if not path.is_file():
+            raise OSError("no such file")
+        sets = pyuff.UFF(str(path)).read_sets()
+    except Exception as error:  # of a broken file pyuff raises whatever Python does
+        raise InputError(f"{path}: cannot be read as a Universal file: {error}") from error
+    sets = sets if isinstance(sets, list) else [sets]
+    places: dict[int, Float] = {}
+    for each in (found for found in sets if found["type"] in _NODES):
+        where = np.stack([each["x"], each["y"], each["z"]], axis=1).astype(float)
+        places |= dict(zip(map(int, each["node_nums"]), where, strict=True))
+    modes = [each for each in sets if each["type"] == _SHAPES and each.get("analysis_type") == _NORMAL_MODE]
+    problems = []
+    if not places:
+        problems.append(f"{path}: there are no nodes (data set 15 or 2411)")
+    if not modes:
+        problems.append(f"{path}: there are no normal modes (data set 55, analysis type 2)")
+    strange = sorted({int(number) for each in modes for number in each["node_nums"]} - places.keys())
+    if modes and places and strange:
+        problems.append(f"{path}: {len(strange)} nodes of the shapes have no place, {strange[0]} first")
+    massless = [each["mode_n"] for each in modes if not each.get("modal_m", 0.0) > 0.0]
+    if massless:
+        problems.append(f"{path}: mode {massless[0]:g} has no modal mass; export the modes with it")
+    if problems:
+        raise InputError(problems)
+    numbers = sorted({int(number) for each in modes for number in each["node_nums"]})
+    order = {number: i for i, number in enumerate(numbers)}
+    shape = np.zeros((len(modes), len(numbers), 3))
+    for i, each in enumerate(modes):
+        rows = [order[int(number)] for number in each["node_nums"]]
+        shape[i, rows] = np.stack([np.real(each[axis]) for axis in ("r1", "r2", "r3")], axis=1)
+        shape[i] /= math.sqrt(each["modal_m"])
+    return Shapes(
+        np.array([places[number] for number in numbers]),
+        np.array([float(each["freq"]) for each in modes]),
+        np.array([float(each.get("modal_damp_vis", 0.0)) for each in modes]),
+        shape,
+    )
+
+
+def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
+    """Read the modes of a file as the bearing, sensors and springs see them; rigid motion is left out.
+
+    Raises
+    ------
+    InputError
+        With every mistake in the file, and where it has no nodes.
+    """
+    found = read_universal(box.modes)
+    unit = 1e-3 if box.length_unit == "mm" else 1.0
+    nodes = (unit * found.nodes - np.array(box.origin)) @ box.turn.T
+    bending = np.argsort(found.frequency)
+    bending = bending[found.frequency[bending] > _RIGID_HZ]
+    shape = found.shape[bending] @ box.turn.T
+    seats = (*box.sensors, *box.suspension)
+    problems: list[str] = []
+    raceway = np.zeros((len(bending), 2, 3, 2 * WAVES + 1))
+    for row, name in enumerate(("inboard", "outboard")):
+        problems += _fit_row(raceway[:, row], nodes, shape, box, bearing, row, name)
+    read = {}
+    for seat in seats:
+        distance = np.linalg.norm(nodes - np.array(seat.position), axis=1)
+        if distance.min() > seat.radius:
+            problems.append(
+                f"no node within radius_mm {1e3 * seat.radius:g} of the seat {seat.name!r}; the nearest is "
+                f"{1e3 * distance.min():.0f} mm away"
+            )
+        else:
+            read[seat.name] = shape[:, distance <= seat.radius].mean(axis=1)
+    if problems:
+        raise InputError([f"{box.modes}: {problem}" for problem in problems])
+    damping = found.damping_ratio[bending]
+    return Modes(
+        box.name,
+        f"{box.description}; modes of {box.modes.name}".removeprefix("; "),
+        found.frequency[bending],
+        np.where(damping > 0.0, damping, box.damping_ratio),
+        raceway,
+        read,
+        {seat.name: seat.position for seat in seats},
+        box.mass,
+        box.centre,
+        box.inertia,
+        len(bending),
+    )
+
+
+def _fit_row(
+    target: Float, nodes: Float, shape: Float, box: ModeFile, bearing: Bearing, row: int, name: str
+) -> Iterator[str]:
+    """Fit the series around one row to the nodes under it; yields what is wrong with them."""
+    radius = cup_raceway(bearing) if box.seat_diameter is None else 0.5 * box.seat_diameter
+    distance = np.hypot(nodes[:, 0], nodes[:, 2])
+    along = np.abs(nodes[:, 1] - row_places(bearing)[row]) <= 0.5 * bearing.effective_length
+    near = along & (np.abs(distance - radius) <= box.tolerance)
+    angle = np.arctan2(nodes[near, 0], nodes[near, 2])
+    around = len(np.unique(np.round(np.degrees(angle))))
+    waves = min(WAVES, (around - 1) // 2)
+    if waves < 2:
+        yield (
+            f"nodes lie at {around} azimuths on the cylinder of {2e3 * radius:.1f} mm under the {name} row; "
+            "at least 5 are needed: check origin_mm, forward, left, up and seat_diameter_mm"
+        )
+        return
+    order = np.arange(1, waves + 1) * angle[:, None]
+    basis = np.concatenate([np.ones((len(angle), 1)), np.cos(order), np.sin(order)], axis=1)
+    columns = [*range(waves + 1), *range(WAVES + 1, WAVES + 1 + waves)]
+    sine, cosine = np.sin(angle), np.cos(angle)
+    x, y, z = np.moveaxis(shape[:, near], 2, 0)
+    for field, values in enumerate((x * sine + z * cosine, x * cosine - z * sine, y)):
+        target[:, field, columns] = np.linalg.lstsq(basis, values.T, rcond=None)[0].T

@@ -1,0 +1,98 @@
+"""The text file of the modes of a box: what is written is read again, and every mistake is told at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from beardyn_core.errors import InputError
+from beardyn_core.structure.modes import Modes
+from beardyn_core.structure.table import SERIES, modes_of_text, read_table, table_text
+
+HEAD = """\
+# name: mine
+# mass_kg: 61.5
+# inertia_kg_m2: [1.1, 2.2, 3.3]
+# seats_mm:
+#   top: [0, 0, 170]
+"""
+
+
+def drawn(seed: int, count: int = 5) -> Modes:
+    random = np.random.default_rng(seed)
+    return Modes(
+        "drawn",
+        "by chance",
+        np.sort(random.uniform(500.0, 30e3, count)),
+        random.uniform(0.0, 0.1, count),
+        random.normal(size=(count, 2, 3, len(SERIES))),
+        {"top": random.normal(size=(count, 3)), "spring": random.normal(size=(count, 3))},
+        {"top": (0.0, 0.0, 0.17), "spring": (-0.21, 0.0, 0.03)},
+        61.5,
+        (0.01, 0.0, -0.002),
+        (1.1, 2.2, 3.3),
+        3,
+    )
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_written_is_read_again(seed: int, tmp_path: Path) -> None:
+    modes = drawn(seed)
+    path = tmp_path / "modes.csv"
+    path.write_text(table_text(modes))
+    again = read_table(path)
+    assert again.frequency == pytest.approx(modes.frequency, rel=1e-6)
+    assert again.reads == pytest.approx(modes.reads, rel=1e-6, abs=1e-6)
+    assert (again.name, again.places, again.mass, again.centre, again.inertia, again.free_count) == (
+        *(modes.name, modes.places, modes.mass, modes.centre, modes.inertia, modes.free_count),
+    )
+    assert table_text(again) == path.read_text()
+
+
+def test_a_short_table_of_ones_own_needs_no_column_that_is_zero() -> None:
+    text = HEAD + (
+        "frequency_Hz,damping_ratio,inboard_radial_cos2,outboard_radial_cos2,top_x,top_y,top_z\n"
+        "2100,0.02,0.15,0.15,0,0,0.1\n"
+        "1300,0.03,0.1,0.1,0,0,0.2\n"
+    )
+    modes = modes_of_text(text, "mine.csv")
+    assert modes.frequency.tolist() == [1300.0, 2100.0]  # in order
+    assert modes.raceway[0, :, 0, 2].tolist() == [0.1, 0.1]
+    assert np.count_nonzero(modes.raceway) == 4
+    assert modes.seats["top"][0].tolist() == [0.0, 0.0, 0.2]
+    assert modes.free_count == 2
+
+
+def test_every_mistake_is_told_at_once() -> None:
+    text = HEAD.replace("# mass_kg: 61.5\n", "# mass: 61.5\n") + (
+        "frequency_Hz,damping_ratio,inboard_radial_cos9,top_x,top_z\n0,0.02,0,0,0\n1200,2,0,0\n1300,0.1,0,x,inf\n"
+    )
+    with pytest.raises(InputError) as found:
+        modes_of_text(text, "mine.csv")
+    told = "\n".join(found.value.problems)
+    for words in (
+        "mine.csv: the head lacks mass_kg",
+        "mine.csv: the head has 'mass'; allowed are",
+        "line 7: frequency_Hz is 0; rigid motion is no mode",
+        "line 8 has 4 numbers; there are 5 columns",
+        "line 9, top_x: 'x' is no number",
+        "line 9, top_z: inf is not finite",
+        "the column top_y is missing",
+        "the column 'inboard_radial_cos9' is unknown",
+    ):
+        assert words in told
+
+
+@given(st.text(max_size=200), st.booleans())
+@settings(max_examples=100, deadline=None)
+def test_any_text_is_modes_or_a_sentence(text: str, after_a_head: bool) -> None:
+    problems: list[str] = []
+    try:
+        modes_of_text(HEAD + text if after_a_head else text, "any.csv")
+    except InputError as error:
+        problems = error.problems
+    assert all(problem.startswith("any.csv: ") for problem in problems)
