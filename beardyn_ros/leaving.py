@@ -31,6 +31,23 @@ def leave_quietly(node: Any) -> None:
     left, through a writer that goes with the last node: so that is one with nothing else to say.
     ``python -m evidence.ros.leaving`` shows both.
     """
+    try:
+        last = _nobody(node)
+    except Exception:  # the context has gone: there is nobody left to be quiet for
+        node.destroy_node()
+        return
+    deadline = time.monotonic() + LAST_WORDS_TIMEOUT_S
+    for each in (*getattr(node, "members", ()), node):
+        for publisher in each.publishers:
+            publisher.wait_for_all_acked(Duration(seconds=max(deadline - time.monotonic(), 0.0)))
+    time.sleep(QUIET_S)
+    node.destroy_node()
+    time.sleep(QUIET_S)
+    last.destroy_node()
+
+
+def _nobody(node: Any) -> Any:
+    """Make a hidden node beside one, which has nothing to say."""
     last = Node(
         f"_{node.get_name()}_leaving",  # hidden from `ros2 node list`
         namespace=node.get_namespace(),
@@ -42,11 +59,4 @@ def leave_quietly(node: Any) -> None:
     )
     for publisher in list(last.publishers):
         last.destroy_publisher(publisher)
-    deadline = time.monotonic() + LAST_WORDS_TIMEOUT_S
-    for each in (*getattr(node, "members", ()), node):
-        for publisher in each.publishers:
-            publisher.wait_for_all_acked(Duration(seconds=max(deadline - time.monotonic(), 0.0)))
-    time.sleep(QUIET_S)
-    node.destroy_node()
-    time.sleep(QUIET_S)
-    last.destroy_node()
+    return last

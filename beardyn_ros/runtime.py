@@ -86,6 +86,7 @@ def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
         except Exception as error:  # rclpy has several, all about unreadable arguments
             raise InputError(f"the ROS arguments cannot be read: {error}") from error
         node = make_node()
+        gc.collect()
         gc.freeze()  # what is imported stays: the collector need not look through it again and again
         executor = SingleThreadedExecutor()
         for each in (node, *getattr(node, "members", ())):

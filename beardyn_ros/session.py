@@ -171,6 +171,7 @@ class TwinSession:
         try:
             rig = self._make_rig()
             rig.twin.warm()
+            gc.collect()
             gc.freeze()  # compiler and kernels stay, see `run_node`
             self._set_state(READY, "compiled, waiting for activation")
             while not self._ending:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from beardyn_core.cli.files import checked
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
-from beardyn_core.interrupts import last_words
+from beardyn_core.interrupts import last_words, may_be_left
 
 if TYPE_CHECKING:
     from beardyn_core.structure.build import Built
@@ -32,16 +32,18 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument("box", metavar="BOX", help="name of a shipped box or path of a YAML file")
     parser.add_argument("-o", "--output", metavar="FILE.csv", type=Path, help="table to write; default none")
     parser.add_argument(
-        "--mesh", metavar="MM", type=float, default=15.0, help="largest edge of an element, mm; default 15"
+        "--mesh",
+        metavar="MM",
+        type=float,
+        help="largest edge of an element, mm; default 15, some 100 000 unknowns",
     )
     parser.add_argument(
-        "--highest", metavar="KHZ", type=float, default=12.8, help="free modes up to here, kHz; default 12.8"
+        "--highest", metavar="KHZ", type=float, help="free modes up to here, kHz; default 12.8"
     )
     parser.add_argument(
         "--waves",
         metavar="N",
         type=int,
-        default=3,
         help="residual modes answer loads of up to N waves around a row, 1 to 8; default 3",
     )
     parser.add_argument("--force", action="store_true", help="replace a file that exists; default refuse")
@@ -54,8 +56,8 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.config.load import load_bearing, load_box
     from beardyn_core.outputs import file_problems, open_to_write
     from beardyn_core.structure.box import Box
-    from beardyn_core.structure.build import modes_of
-    from beardyn_core.structure.imported import modes_of_file
+    from beardyn_core.structure.build import HIGHEST, MESH, RESIDUAL_WAVES, modes_of
+    from beardyn_core.structure.imported import ModeFile, modes_of_file
     from beardyn_core.structure.table import table_text
 
     with checked(
@@ -66,15 +68,17 @@ def run(args: argparse.Namespace) -> int:
     ):
         box = load_box(args.box)
         bearing = load_bearing(box.bearing)
+        if isinstance(box, ModeFile) and {args.mesh, args.highest, args.waves} != {None}:
+            raise InputError(f"{args.box} has its modes: leave --mesh, --highest and --waves out")
     built: Built | None = None
-    with last_words(lambda: "nothing has been written"):
+    with may_be_left(), last_words(lambda: "nothing has been written"):
         if isinstance(box, Box):
             built = modes_of(
                 box,
                 bearing,
-                mesh=1e-3 * args.mesh,
-                highest=1e3 * args.highest,
-                waves=args.waves,
+                mesh=MESH if args.mesh is None else 1e-3 * args.mesh,
+                highest=HIGHEST if args.highest is None else 1e3 * args.highest,
+                waves=RESIDUAL_WAVES if args.waves is None else args.waves,
                 progress=lambda words: print(f"beardyn: {words}", file=sys.stderr),
             )
             modes = built.modes
@@ -95,14 +99,14 @@ def run(args: argparse.Namespace) -> int:
 
 def _problems(args: argparse.Namespace) -> list[str]:
     limits = (
-        ("--mesh", args.mesh, 2.0, 60.0, "mm"),
-        ("--highest", args.highest, 0.5, 25.6, "kHz"),
+        ("--mesh", args.mesh, 8.0, 60.0, "mm"),
+        ("--highest", args.highest, 2.0, 25.6, "kHz"),
         ("--waves", args.waves, 1, 8, ""),
     )
     return [
         f"{option} is {value:g}; it must be {low:g} to {high:g} {unit}".rstrip()
         for option, value, low, high, unit in limits
-        if not low <= value <= high
+        if value is not None and not low <= value <= high
     ]
 
 

@@ -52,7 +52,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--output",
         metavar="DIR",
         type=Path,
-        help="keep the runs here, write trial.json and trial.png; default none",
+        help="keep the runs here, write trial.json and, of a trial with spalls, trial.png; default none",
     )
     parser.add_argument("--jobs", metavar="N", type=int, help="processes; default one for each core")
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full; default the trial's")

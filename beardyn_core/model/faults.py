@@ -190,7 +190,7 @@ def roller_oversize(scene: Scene) -> Float:
 
 
 POINTS_PER_WAVE = 64  # linear interpolation is then good to 0.12 % of the amplitude of the shortest wave
-# ... and to 5 % where scatter makes it: there it is a hundredth of the longest or less
+# ... and to 8 % where scatter makes it: there it is a hundredth of the longest or less
 POINTS_PER_SCATTERED_WAVE = 8
 
 

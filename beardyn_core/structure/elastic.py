@@ -49,6 +49,10 @@ class Elastic:
     def _shifted(self) -> Any:
         return factored(self.stiffness + _SHIFT * self.mass)
 
+    @cached_property
+    def _soft(self) -> Any:
+        return factored(self.stiffness + _SOFT * self.mass)
+
     def modes(self, highest: float, at_least: int = 24) -> tuple[Float, Float]:
         """Compute the free elastic modes up to a frequency [Hz].
 
@@ -90,15 +94,14 @@ class Elastic:
         inverse = np.linalg.inv(self.rigid_mass)
         balanced = loads - momentum @ (inverse @ (rigid.T @ loads))
         # springs of a few hertz hold the body; each pass takes away what they carry
-        soft = factored(self.stiffness + _SOFT * self.mass)
         found = np.zeros_like(loads)
         for _ in range(_PASSES):
-            more = soft.solve(balanced - self.stiffness @ found)
+            more = self._soft.solve(balanced - self.stiffness @ found)
             more -= rigid @ (inverse @ (momentum.T @ more))
             found += more
             if (np.abs(more).max(axis=0) <= 1e-6 * np.abs(found).max(axis=0)).all():
                 return found
-        raise RuntimeError("the static answer of the box did not converge")
+        raise InputError("the static answer of the box does not converge; take another mesh size")
 
 
 def elastic_body(box: Box, bearing: Bearing, mesh: Mesh) -> Elastic:
@@ -242,7 +245,7 @@ def _raceway(skfem: Any, body: Any, element: Any, bearing: Bearing) -> Float:
 
 def _at(seat: Seat, places: Float, axis: Any) -> Float:
     distance = np.linalg.norm(places - np.array(seat.position), axis=1)
-    if distance.min() > 3.0 * seat.radius:
+    if distance.min() > seat.radius:
         raise InputError(
             f"the seat {seat.name!r} is {1e3 * distance.min():.0f} mm away from the box; move it to the box"
         )

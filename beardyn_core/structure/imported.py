@@ -22,6 +22,8 @@ from beardyn_core.structure.modes import WAVES, Modes
 _AXIS = At(one_of=("x", "-x", "y", "-y", "z", "-z"))
 _NODES, _SHAPES, _NORMAL_MODE = (15, 2411), 55, 2
 _RIGID_HZ = 1.0
+_SAME_PLACE = np.radians(3.0)
+_CONDITION = 10.0  # of the fit: how much it makes of what is not in the shapes
 
 
 @dataclass(frozen=True)
@@ -189,16 +191,23 @@ def _fit_row(
     along = np.abs(nodes[:, 1] - row_places(bearing)[row]) <= 0.5 * bearing.effective_length
     near = along & (np.abs(distance - radius) <= box.tolerance)
     angle = np.arctan2(nodes[near, 0], nodes[near, 2])
-    around = len(np.unique(np.round(np.degrees(angle))))
-    waves = min(WAVES, (around - 1) // 2)
+    around = len(np.unique(np.round(angle / _SAME_PLACE)))
+    waves = min(WAVES, (around - 1) // 3)  # three nodes a wave: two would take a shorter wave for a longer
     if waves < 2:
         yield (
             f"nodes lie at {around} azimuths on the cylinder of {2e3 * radius:.1f} mm under the {name} row; "
-            "at least 5 are needed: check origin_mm, forward, left, up and seat_diameter_mm"
+            "at least 7 are needed: check origin_mm, forward, left, up and seat_diameter_mm"
         )
         return
     order = np.arange(1, waves + 1) * angle[:, None]
     basis = np.concatenate([np.ones((len(angle), 1)), np.cos(order), np.sin(order)], axis=1)
+    if np.linalg.cond(basis) > _CONDITION:
+        gap = np.degrees(np.diff(np.sort(angle), append=angle.min() + 2.0 * np.pi).max())
+        yield (
+            f"nodes under the {name} row leave {gap:.0f} degrees of the circle empty: {waves} waves around "
+            "it cannot be told apart; give nodes all round"
+        )
+        return
     columns = [*range(waves + 1), *range(WAVES + 1, WAVES + 1 + waves)]
     sine, cosine = np.sin(angle), np.cos(angle)
     x, y, z = np.moveaxis(shape[:, near], 2, 0)

@@ -66,7 +66,7 @@ def _meshed(model: Any, box: Box, bearing: Bearing, size: float, option: Any) ->
     if box.outer_diameter <= bearing.outer_diameter:
         raise InputError(
             f"box {box.name!r}: outer_diameter_mm is {1e3 * box.outer_diameter:g}; the cup of "
-            f"{bearing.name} has {2e3 * bearing.outer_diameter / 2:g}, the housing must be wider"
+            f"{bearing.name} has {1e3 * bearing.outer_diameter:g}, the housing must be wider"
         )
 
     def cylinder(radius: float, length: float, begin: float | None = None) -> tuple[int, int]:
@@ -123,8 +123,6 @@ def _sector(occ: Any, parts: list[tuple[int, int]], box: Box) -> list[tuple[int,
     """Keep of a cylinder what lies within half the arc on either side of the top."""
     radius = 0.5 * box.outer_diameter
     wedge = occ.addCylinder(0.0, -0.5 * box.length, 0.0, 0.0, box.length, 0.0, 1.01 * radius, angle=box.arc)
-    # gmsh begins an arc about y on +z and turns towards +x
-    occ.rotate([(3, wedge)], 0.0, 0.0, 0.0, *_AXLE, 0.0)
     occ.synchronize()
     mass = occ.getCenterOfMass(3, wedge)
     occ.rotate([(3, wedge)], 0.0, 0.0, 0.0, *_AXLE, -math.atan2(mass[0], mass[2]))

@@ -27,10 +27,6 @@ class Reduced:
     seen: A[Float, "shape [read, mode], what the functionals read of each, [1/sqrt(kg)]"]
     free_count: A[int, "of them are free modes, the first"]
 
-    def flexibility(self) -> Float:
-        """Give the static answer at all functionals to unit loads at all of them, [m/N]."""
-        return (self.seen / (2.0 * np.pi * self.frequency) ** 2) @ self.seen.T
-
 
 def reduced(body: Elastic, names: tuple[str, ...], highest: float, waves: int) -> Reduced:
     """Reduce a body to free modes up to a frequency [Hz] and residual modes.

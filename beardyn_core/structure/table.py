@@ -81,8 +81,8 @@ def modes_of_text(text: str, label: str) -> Modes:
         raise InputError(f"{label}: the head is no YAML: {' '.join(str(error).split())}") from error
     if not isinstance(head, dict):
         raise InputError(f"{label}: the head is missing; lines that begin with # say name, mass_kg and so on")
-    problems = [f"{label}: {each}" for each in _head_problems(head)]
     names, numbers, found = _numbers(lines[begin:], begin)
+    problems = [f"{label}: {each}" for each in _head_problems(head, len(numbers))]
     problems += [f"{label}: {each}" for each in found]
     seats = [str(name) for name in head["seats_mm"]] if isinstance(head.get("seats_mm"), dict) else []
     problems += [f"{label}: {each}" for each in _column_problems(names, seats)]
@@ -109,7 +109,7 @@ def modes_of_text(text: str, label: str) -> Modes:
     )
 
 
-def _head_problems(head: dict[str, Any]) -> Iterator[str]:
+def _head_problems(head: dict[str, Any], count: int) -> Iterator[str]:
     wanted = {"name", "mass_kg", "inertia_kg_m2", "seats_mm"}
     known = wanted | {"description", "centre_mm", "free_modes"}
     for key in sorted(wanted - head.keys()):
@@ -119,11 +119,13 @@ def _head_problems(head: dict[str, Any]) -> Iterator[str]:
     if "mass_kg" in head and not (_is_number(head["mass_kg"]) and head["mass_kg"] > 0):
         yield f"mass_kg is {head['mass_kg']!r}; it must be a number greater than 0"
     free = head.get("free_modes", 0)
-    if not isinstance(free, int) or isinstance(free, bool) or free < 0:
-        yield f"free_modes is {free!r}; it must be a whole number of at least 0"
+    if not isinstance(free, int) or isinstance(free, bool) or not 0 <= free <= count:
+        yield f"free_modes is {free!r}; it must be a whole number from 0 to the {count} modes of the file"
     for key in ("centre_mm", "inertia_kg_m2"):
         if key in head and not _is_vector(head[key]):
             yield f"{key} is {head[key]!r}; it must be three numbers, along x, y, z"
+    if _is_vector(head.get("inertia_kg_m2")) and min(head["inertia_kg_m2"]) <= 0:
+        yield f"inertia_kg_m2 is {head['inertia_kg_m2']!r}; its numbers must be greater than 0"
     seats = head.get("seats_mm", {})
     if not isinstance(seats, dict):
         yield f"seats_mm is {seats!r}; it must be names with three numbers each"
@@ -147,13 +149,14 @@ def _column_problems(names: list[str], seats: list[str]) -> Iterator[str]:
 
 def _numbers(lines: list[str], before: int) -> tuple[list[str], Float, list[str]]:
     """Read column names and numbers; gives the mistakes last."""
+    numbers = [before + i for i, line in enumerate(lines, start=1) if line.strip()]
     rows = list(csv.reader(line for line in lines if line.strip()))
-    if len(rows) < 2:
-        return rows[0] if rows else [], np.zeros((0, 0)), ["there is no line with a mode"]
+    if len(rows) < 2 or len(rows) != len(numbers):
+        return rows[0] if rows else [], np.zeros((0, 0)), ["there are no lines with a mode each"]
     names, problems = [name.strip() for name in rows[0]], []
     found = np.full((len(rows) - 1, len(names)), np.nan)
     for i, row in enumerate(rows[1:]):
-        line = before + i + 2
+        line = numbers[i + 1]
         if len(row) != len(names):
             problems.append(f"line {line} has {len(row)} numbers; there are {len(names)} columns")
             continue
