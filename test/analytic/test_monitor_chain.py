@@ -10,10 +10,10 @@ from scipy.stats import binomtest
 
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
-from beardyn_core.observe.chain.fault_lines import comb_score, trimmed_tail
+from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score, trimmed_tail
 from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram
 from beardyn_core.observe.chain.levels import levels_in_band, rise
-from beardyn_core.observe.chain.verdict import temperature_state
+from beardyn_core.observe.chain.verdict import Verdict, strongest_pattern, temperature_state
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors, without_wheel
 from beardyn_core.observe.features import order_spectrum
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
@@ -77,6 +77,29 @@ def test_a_flat_wheel_raises_no_alarm_and_hides_no_spall(seed: int) -> None:
     assert healthy.crest > 10.0  # it is anything but quiet
     spalled = REFERENCE(_with_flat(_stretch("cup", 30 + seed)), ORDERS, ROLLERS, SETTINGS)
     assert spalled.verdict == "cup", spalled.reason
+
+
+def test_a_stretch_cut_off_in_a_strike_is_heard_like_any_other() -> None:
+    whole = _stretch(None, 51, noise=0.01)
+    last = np.clip(np.arange(len(whole.shaft_angle)) - len(whole.shaft_angle) + 0.02 * RATE, 0.0, None)
+    cut = replace(whole, acceleration=whole.acceleration + 0.4 * last[:, None])  # up to 200 m/s² within 20 ms
+    assert by_kurtogram(cut, SETTINGS) == by_kurtogram(whole, SETTINGS) == Band(*SETTINGS.band)
+    levels, usual = (REFERENCE(stretch, ORDERS, ROLLERS, SETTINGS) for stretch in (cut, whole))
+    assert levels.rms == pytest.approx(usual.rms, rel=1e-3)
+    assert levels.crest == pytest.approx(usual.crest, rel=1e-2)
+
+
+def test_strikes_of_the_wheel_do_not_make_a_fault_shallow() -> None:
+    depths = []
+
+    def decide(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
+        depths.append(found.candidates[0].burst ** 2 / found.power)
+        return strongest_pattern(found, stretch, settings)
+
+    listening = Chain(select_band=lambda stretch, settings: Band(1600.0, 6400.0), decide=decide)
+    for stretch in (_stretch("cup", 52), _with_flat(_stretch("cup", 52))):
+        assert listening(stretch, ORDERS, ROLLERS, SETTINGS).verdict == "cup"
+    assert depths[1] == pytest.approx(depths[0], rel=0.15)
 
 
 @pytest.mark.parametrize("lines", [5, 15])

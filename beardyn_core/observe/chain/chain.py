@@ -16,7 +16,7 @@ from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
 from beardyn_core.observe.chain.levels import levels_of, rise
 from beardyn_core.observe.chain.result import MonitorResult
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
-from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
+from beardyn_core.observe.chain.wheel import quiet_samples, struck_sectors, without_wheel
 from beardyn_core.observe.features import resample_by_angle
 
 
@@ -97,9 +97,10 @@ class Chain:
         power = self.envelope(stretch, band)
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
-        found = replace(found, power=float(np.mean(power)))
+        beside = np.where(quiet_samples(stretch, settings), power, 0.0)[stretch.inner]
+        found = replace(found, power=float(np.mean(beside)))
         verdict = self.decide(found, stretch, settings)
-        levels = levels_of(stretch.in_band(settings.band), speed)
+        levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         cup, cone, roller = found.candidates
         best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
         return MonitorResult(

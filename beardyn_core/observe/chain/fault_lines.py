@@ -86,7 +86,7 @@ class FaultLines:
     strongest_order: A[float, "of the strongest line in the band of the fault lines, no whole order, [-]"]
     strongest_level: A[float, "of that line, [dB]"]
     chance_level: A[float, "level that the strongest line of noise passes with the stated rate, [dB]"]
-    power: A[float, "mean of the squared envelope, NaN when unknown, [m^2/s^4]"] = np.nan
+    power: A[float, "mean squared envelope beside strikes of the wheel, NaN when unknown, [m^2/s^4]"] = np.nan
 
 
 def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.fft import ifft
 
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors
+from beardyn_core.observe.chain.wheel import quiet_samples
 
 Complex = NDArray[np.complex128]
 
@@ -45,7 +45,8 @@ def fast_kurtogram(
     """Compute spectral kurtosis in bands of the 1/3-binary tree: all, halves, thirds, quarters, sixths ...
 
     Bands come from wide to narrow; below the narrowest width [Hz] nothing is divided further, and bands that
-    reach below the lowest frequency [Hz] are left out, as are sectors in which the wheel strikes the rail.
+    reach below the lowest frequency [Hz] are left out, as are sectors in which the wheel strikes the rail,
+    and the ramps of the stretch.
 
     Notes
     -----
@@ -61,8 +62,7 @@ def fast_kurtogram(
     """
     half = 0.5 * stretch.rate
     spectrum = stretch.spectrum  # the weight of the mean, its first line, is 0 in every band
-    turned = (stretch.shaft_angle - stretch.shaft_angle[0]) / (2.0 * np.pi)
-    quiet = ~struck_sectors(stretch, settings)[np.minimum((turned % 1.0 * SECTORS).astype(int), SECTORS - 1)]
+    quiet = quiet_samples(stretch, settings)
     parts = sorted(
         count for power in range(16) for count in (2**power, 3 * 2**power) if half / count >= narrowest
     )

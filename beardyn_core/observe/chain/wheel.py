@@ -41,6 +41,15 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     return struck
 
 
+def quiet_samples(stretch: Stretch, settings: MonitorSettings) -> Bool:
+    """Tell the samples between the ramps where the wheel does not strike, shape [sample]."""
+    turned = (stretch.shaft_angle - stretch.shaft_angle[0]) / (2.0 * np.pi)
+    sector = np.minimum((turned % 1.0 * SECTORS).astype(int), SECTORS - 1)
+    quiet = ~struck_sectors(stretch, settings)[sector]
+    quiet[: stretch.inner.start] = quiet[stretch.inner.stop :] = False
+    return quiet
+
+
 def without_wheel(power: Float, struck: Bool) -> Float:
     """Subtract the wheel's own pattern; 0 where it strikes.
 
