@@ -9,7 +9,8 @@ from evidence.hard.case import HardCase, Limit, steady
 
 SPEED = 122.0
 RADIAL = (0.0, 0.0, 8.0e4)
-CARRIED = (Limit("mean_force", 0.97 * 8e4, 1.03 * 8e4),)
+# Load less 84 N of weights; 0.1 m/s of the journal's 900 kg over the second half, 0.15 s, are 600 N.
+CARRIED = (Limit("mean_force", 0.99 * 8e4, 1.01 * 8e4),)
 
 
 def _cup(**keys: Any) -> dict[str, Any]:

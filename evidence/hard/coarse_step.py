@@ -43,13 +43,12 @@ def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
     output = Output(signals, *trends, np.zeros(ENERGY_TERMS))
     advance(Lanes(LANE_WIDTH), state, work, np.repeat(load[None], STEPS + 1, axis=0), output, parameters)
     status = assess(state, STEPS, bearing.large_end_radius, parameters.effects.rib)
-    force = np.linalg.norm(signals[:, :3], axis=1)
     return Measures(
         simulated=STEPS * parameters.step,
         status=int(status),
         finite=bool(np.isfinite(signals).all()),
         penetration=float(state.rollers[:, PENETRATION].max()),
         chatter_index=float(chatter_index(state, STEPS).max()),
-        mean_force=float(force[STEPS // 2 :].mean()),
-        peak_force=float(force.max()),
+        mean_force=float(np.linalg.norm(signals[STEPS // 2 :, :3].mean(axis=0))),
+        peak_force=float(np.linalg.norm(signals[:, :3], axis=1).max()),
     )

@@ -67,7 +67,9 @@ class Measures:
         Largest change of the momentum of journal, rollers and cages in a block that no force accounts
         for, over force times duration of the block, [-].
     mean_force, peak_force : float
-        Size of the rollers' force on the cup: mean of the second half, largest, [N].
+        Of the rollers' force on the cup: size of its mean over the second half, largest size, [N]. Momentum
+        balances the mean of each component. The mean of the size is more than that: under a load F_z by about
+        the mean of F_x^2 / 2 F_z.
     mean_torque, torque_scatter : float
         On the shaft: mean, and standard deviation at every step in the second half, [N m].
     cage_speed_ratio : float
@@ -140,7 +142,7 @@ class Watch:
         torque, bodies = signals[:, SIGNAL_TORQUE], after.state.bodies
         self.rows.append(
             [size.mean(), size.var(), torque.mean(), bodies[CAGE_BODY:, RATE].mean(), loads.mean(),
-             torque.mean(), torque.var(), bodies[CONE_BODY, RATE]]
+             torque.mean(), torque.var(), bodies[CONE_BODY, RATE], *block.force_waveform[:, :3].mean(axis=0)]
         )  # fmt: skip
         self._most("peak_force", float(size.max()))
         self._most("roller_load", float(loads.max()))
@@ -187,7 +189,7 @@ class Watch:
             simulated=len(rows) * Twin.block_ns * 1e-9,
             status=self.status,
             finite=self.finite,
-            mean_force=float(late[:, 0].mean()),
+            mean_force=float(np.linalg.norm(late[:, 8:11].mean(axis=0))),
             mean_torque=float(late[:, 5].mean()),
             torque_scatter=math.sqrt(float(late[:, 6].mean())),
             cage_speed_ratio=cage / nominal if abs(nominal) > 1e-3 else math.nan,

@@ -289,7 +289,7 @@ def raceway_wrench(
         total.energy += line_energy(stiffness, depth)
         load = line_force(stiffness, depth) + damping_time * tangent * rate
         if depth < abs(rate) * step:  # the contact begins or ends within the step
-            missing = (0.5 - 3.0 * spring_time / step) * (1.0 - depth / (abs(rate) * step))
+            missing = max(0.5 - 3.0 * spring_time / step, 0.0) * (1.0 - depth / (abs(rate) * step))
             load -= missing * line_force(stiffness, depth)
         if load <= 0.0:
             continue

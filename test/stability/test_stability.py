@@ -14,7 +14,7 @@ from beardyn_core.effects import ContactDamping
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import Status, assess
 from beardyn_core.model.build import spring_time
-from beardyn_core.model.layout import CONE_BODY, LINEAR, SIGNAL_FORCE
+from beardyn_core.model.layout import CONE_BODY, LINEAR, PENETRATION, SIGNAL_FORCE
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from test.kernels.rig import (
@@ -247,6 +247,19 @@ def test_step_far_too_large_is_reported(factor: int, status: Status) -> None:
     rig.run(500)
     found = assess(rig.state, 500, rig.scene.bearing.large_end_radius)
     assert found == status if status == Status.FINE else found & status
+
+
+@pytest.mark.parametrize("start", range(5))
+def test_six_times_the_step_chatters_without_flying_apart(start: int) -> None:
+    """Strikes that press with more than the force of their spring threw rollers from 2 of these 5 starts."""
+    rig = Rig.at_equilibrium(scene_with(end_play=standard_scene().end_play + start * 1e-9))
+    step = 6.0 * rig.parameters.step
+    implicit = spring_time(rig.scene.bearing, rig.parameters.laminae, step, True)
+    rig.parameters = rig.parameters._replace(step=step, spring_time=implicit)
+    signals = rig.run(500)[0]
+    assert np.isfinite(signals).all()
+    assert rig.state.rollers[:, PENETRATION].max() < 1e-4
+    assert signals[250:, SIGNAL_FORCE + 2].mean() == pytest.approx(8e4, rel=0.05)
 
 
 @pytest.mark.parametrize("steps_per_sample", [2, 3, 4])
