@@ -239,7 +239,11 @@ def _lay(
 def _beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
     """Remove the whole orders from a spectrum, where a wheel of varying strikes leaves a residue."""
     whole = np.abs(spectrum.order - np.round(spectrum.order)) <= 2.0 * spectrum.resolution
-    return replace(spectrum, level=np.where(whole, _NOTHING, spectrum.level))
+    return replace(
+        spectrum,
+        level=np.where(whole, _NOTHING, spectrum.level),
+        amplitude=np.where(whole, 0.0, spectrum.amplitude),
+    )
 
 
 def _name(pattern: Pattern, harmonic: int, side: int) -> str:

@@ -25,19 +25,19 @@ class Verdict:
 
 
 def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
-    """Report the fault whose score exceeds its threshold most, unless it is faint or something contradicts.
+    """Report the fault whose score exceeds its threshold most, unless something contradicts.
 
-    Faint is what is below `least_burst` and `least_depth`, however sure it is that it is there. A
-    contradiction is a line that is no chance, stronger than all of the fault's and not one of them: then
+    What is below `least_burst` and `least_depth` is faint and no fault, however sure it is that it is there.
+    A contradiction is a line that is no chance, stronger than all of the fault's and not one of them: then
     something else is periodic. A hot box is called whatever the lines say; it leaves a fault its name.
     """
-    best = max(found.candidates, key=lambda candidate: candidate.score - candidate.threshold)
+    heard = [each for each in found.candidates if not _is_faint(each, found.power, settings)]
+    best = max(heard or found.candidates, key=lambda candidate: candidate.score - candidate.threshold)
     contradicted = found.strongest_level > max(found.chance_level, best.strongest) and not explains(
         best, found.strongest_order, found.spectrum.resolution
     )
     state = temperature_state(stretch.temperature, stretch.heating, settings)
-    faint = best.burst < settings.least_burst and best.burst**2 < settings.least_depth * found.power
-    if best.score >= best.threshold and not contradicted and not faint:
+    if heard and best.score >= best.threshold and not contradicted:
         name, reason = best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency)
     else:
         name, reason = HEALTHY, _healthy_sentence(best, contradicted, found.strongest_order)
@@ -45,6 +45,10 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
         name = HOT_BOX if name == HEALTHY else name
         reason = f"{_hot_sentence(stretch)}; {reason}"
     return Verdict(name, reason, best, state)
+
+
+def _is_faint(candidate: Candidate, power: float, settings: MonitorSettings) -> bool:
+    return candidate.burst < settings.least_burst and candidate.burst**2 < settings.least_depth * power
 
 
 def temperature_state(temperature: float, heating: float, settings: MonitorSettings) -> str:
