@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.model.layout import CONE_BODY, CUP_BODY, LINEAR
+from beardyn_core.model.layout import BODY_STATES, CONE_BODY, CUP_BODY, LINEAR
 from benchmarks.naive_model import NaiveModel, forces_against_kernel
 from benchmarks.runs import Table, straight_line
 from evidence.performance.page import goal_rows, page
@@ -37,7 +37,7 @@ def test_the_plain_model_has_the_forces_of_the_kernel_with_everything_in_motion(
 def test_the_plain_model_accelerates_the_cone_by_its_forces_and_the_load() -> None:
     model = NaiveModel(shaken(2))
     state = model.initial_state()
-    rates = model.rates(0.0, state)[: 4 * 14].reshape(4, 14)
+    rates = model.rates(0.0, state)[: 4 * BODY_STATES].reshape(4, BODY_STATES)
     mass = model.rig.parameters.mounting.journal_mass
     expected = (model.wrenches(state)[CONE_BODY, :3] + model.rig.load[:3]) / mass
     np.testing.assert_allclose(rates[CONE_BODY, LINEAR : LINEAR + 3], expected)

@@ -140,11 +140,15 @@ class HalfWritten(MemorySink):
 
 
 def test_an_interrupt_waits_for_the_end_of_a_record(rolling: type[PureRolling]) -> None:
-    sinks = HalfWritten(), MemorySink()
-    with pytest.raises(KeyboardInterrupt):
-        desk_run.run(load_scene("static_80kN", duration=0.5), sinks)
-    assert [len(sink.blocks) for sink in sinks] == [3, 3]
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        sinks = HalfWritten(), MemorySink()
+        with pytest.raises(KeyboardInterrupt):
+            desk_run.run(load_scene("static_80kN", duration=0.5), sinks)
+        assert [len(sink.blocks) for sink in sinks] == [3, 3]
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 class FullSink(MemorySink):
