@@ -113,7 +113,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
     preload : float64 array, shape [6]
         Force and moment of the suspension on the axlebox at rest, [N, N m].
     """
-    bearing, effects = scene.bearing, scene.effects
+    bearing, effects, damping = scene.bearing, scene.effects, scene.effects.contact_damping
     offset = bearing.roller_mass_offset
     taper = math.tan(bearing.half_angle)
     coulomb, mixed, load_sharing = traction_params(scene)
@@ -122,7 +122,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
     step = 1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample)
     return Parameters(
         step=step,
-        spring_time=spring_time(bearing, laminae, step, effects.contact_damping is not None),
+        spring_time=spring_time(bearing, laminae, step, damping is not None and damping.time_constant > 0.0),
         roller=RollerParams(
             mass=bearing.roller_mass,
             axial_inertia=bearing.roller_axial_inertia,
