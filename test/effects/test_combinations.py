@@ -45,6 +45,9 @@ def test_every_pair_of_choices_occurs_and_every_effect_is_a_factor() -> None:
     assert members == set(FACTORS) - set(OUTSIDE)
 
 
+ROUNDING = 1e-15  # of all losses: what is left of those of a contact that has no damper
+
+
 @cache
 def scene(index: int) -> Scene:
     return scene_of(ROWS[index])
@@ -133,7 +136,7 @@ def test_energy_of_a_combination_balances(index: int, load: float) -> None:
     lost = dict(zip(LOSS_NAMES, last.losses, strict=True))
     for source, effect in SOURCES.items():
         assert (lost[source] > 0.0) == (getattr(effects, effect) is not None), source
-    assert min(last.losses) >= 0.0
+    assert min(last.losses) >= -ROUNDING * last.dissipated
 
 
 @pytest.mark.slow
@@ -182,7 +185,7 @@ def test_no_force_of_a_combination_makes_energy(index: int) -> None:
         if name in EXPLICIT:
             assert spent[:, source].sum() >= 0.0, name
         else:
-            assert spent[:, source].min() >= 0.0, name
+            assert spent[:, source].min() >= -ROUNDING * spent.sum(), name
 
 
 @pytest.mark.slow
