@@ -155,3 +155,18 @@ def test_axes_and_places_that_cannot_be_are_told(tmp_path: Path) -> None:
     told = "\n".join(found.value.problems)
     assert "nodes lie at 0 azimuths" in told
     assert "no node within radius_mm 5 of the seat 'top'" in told
+
+
+def test_nodes_on_a_saddle_do_not_tell_the_waves_apart(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """150 degrees of the circle: a fit would make coefficients of hundreds of the noise."""
+    angle = np.radians(np.arange(-75, 76, 10))
+    rings = [
+        np.stack([RADIUS * np.sin(angle), np.full(len(angle), place), RADIUS * np.cos(angle)], axis=1)
+        for place in row_places(BEARING)
+    ]
+    monkeypatch.setattr(f"{__name__}.nodes", lambda: np.concatenate([*rings, [TOP.position]]))
+    write(tmp_path / "modes.unv")
+    with pytest.raises(InputError, match="leave 210 degrees of the circle empty"):
+        modes_of_file(box(tmp_path / "modes.unv"), BEARING)

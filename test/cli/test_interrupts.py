@@ -22,6 +22,7 @@ from beardyn_core.cli import main as command
 from beardyn_core.config import config_folder
 from beardyn_core.interrupts import GRACE_S
 from beardyn_core.record.reading import read_run
+from test.finite_elements import need_finite_elements
 
 ROOT = Path(__file__).resolve().parents[2]
 # What is promised is 2 s. Noise may double it, and a machine with more to do than it has cores is slower
@@ -193,6 +194,17 @@ def test_an_interrupted_simulation_says_what_its_recording_holds(
     assert run.complete
     said = float(started.said.partition("until ")[2].partition(" s,")[0])
     assert run.vibration.time[-1] == pytest.approx(said, abs=0.021)
+
+
+@pytest.mark.slow
+def test_modes_that_are_being_solved_are_left_at_once(tmp_path: Path) -> None:
+    """In one call of the solver, which takes most of a minute."""
+    need_finite_elements()
+    with running(["structure", "high_speed", "--mesh", "18"], tmp_path) as started:
+        started.wait_for(lambda: "solving" in started.said)
+        time.sleep(1.0)
+        took = started.interrupt()
+        check(started, took, "nothing has been written")
 
 
 @pytest.fixture
