@@ -330,8 +330,8 @@ class Twin:
     def _seat_channels(self) -> int:
         """Signals of every step for what the modes of the box give the sensors."""
         structure = self._parameters.effects.structure
-        absent = structure is None or structure.sensors is None or "structure" in self.scene.missing_effects
-        return 0 if absent else 3 * len(self.scene.sensors)
+        absent = structure is None or "structure" in self.scene.missing_effects
+        return 0 if structure is None or absent else len(structure.seats) - 6
 
     def _run(self, state: State, loads: Float, signals: Float, blocks: int) -> tuple[Any, Float]:
         tier = self._tier

@@ -25,7 +25,7 @@ from beardyn_core.kernels.land import land_of, push_lands, settle_lands
 from beardyn_core.kernels.lanes import align_stack
 from beardyn_core.kernels.roller import step_rollers
 from beardyn_core.kernels.stage_timer import mark, time_step
-from beardyn_core.kernels.structure import drift_flex, flex_energy, kick_flex, show_raceways, show_seats
+from beardyn_core.kernels.structure import kick_structure, show_structure, structure_energy
 from beardyn_core.model import layout
 from beardyn_core.model.stages import CAGE, LOSS, RINGS
 
@@ -122,14 +122,14 @@ def advance(lanes, state, work, loads, output, p):
         time_step(timers, step)
         drift_bodies(bodies, p.step)
         place_cages(bodies, cage)
-        drift_flex(flex, p.step, structure)
         show_rings(bodies, rings, place)
-        show_raceways(flex, bend, structure)
-        show_seats(flex, box, structure)
+        show_structure(lanes, flex, box, p.step, bend, structure)
         sums[:] = 0.0
         if step == 0:
             copy_sums(energy, audit)
-            audit[layout.ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(flex, structure)
+            audit[layout.ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + structure_energy(
+                flex, structure
+            )
         mark(timers, RINGS)
         for group in range(groups):
             for index in range(blocks_per_group):
@@ -160,7 +160,7 @@ def advance(lanes, state, work, loads, output, p):
         stored -= settle_cages(bodies, before, sums, energy, p.step, cage, effects.audit)
         stored += settle_lands(bodies, lands, energy, p.step, cage, land)
         mark(timers, CAGE)
-        stored += kick_flex(flex, sums, box, signals[step], energy, p.step, bend, structure)
+        stored += kick_structure(flex, sums, box, signals[step], energy, p.step, bend, structure)
         collect_energy(sums, energy, effects, effects.audit)
         mark(timers, RINGS)
         if step == 0:
@@ -170,7 +170,7 @@ def advance(lanes, state, work, loads, output, p):
             audit[layout.ENERGY_KINETIC] = 0.5 * (
                 audit[layout.ENERGY_KINETIC]
                 + kinetic_energy(rollers, bodies, p)
-                + flex_energy(flex, structure)
+                + structure_energy(flex, structure)
             )
         if (step + 1) % stride == 0:
             keep_trend(rollers, bodies, output, (step + 1) // stride - 1)

@@ -64,8 +64,9 @@ def initial_state(
     outward = np.array([-1.0, 1.0])[: arrangement.rows]
     shift = _shift_of_cages(bearing, arrangement, parameters, static)
     bodies[layout.CAGE_BODY :, layout.POSITION + 1] = outward * shift
-    flex = np.zeros((2, len(static.bending)))
-    flex[0] = static.bending
+    structure = parameters.effects.structure
+    flex = np.zeros((2, 0 if structure is None else len(structure.shapes)))
+    flex[0, : len(static.bending)] = static.bending[: flex.shape[1]]
     return State(rollers, bodies, np.zeros(layout.ENERGY_TERMS), flex)
 
 

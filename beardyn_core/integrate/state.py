@@ -27,12 +27,13 @@ class State(NamedTuple):
 
 
 class BendSpace(NamedTuple):
-    """How the raceways bend and what bends them; series of fields of rows, empty without a structure."""
+    """How the box bends and what bends it; all that is read of the modes, empty without a structure."""
 
-    raceway: Any  # float64 [2, row x 3 x series], places [m] and speeds [m/s]
-    lanes: Any  # float64 [group, 1, SHOWN x series, lane]
-    forces: Any  # float64 [row x 3 x series], [N]
-    push: Any  # float64 [mode], forces on unit modal masses, then changes of speed
+    bent: Any  # float64 [2, read], places and speeds
+    lanes: Any  # float64 [group, 1, SHOWN x series, lane], series around the raceways
+    forces: Any  # float64 [read]
+    change: Any  # float64 [mode], of the speeds over the step
+    seats: Any  # float64 [6 + 3 x sensor], of the speeds of the seats
 
 
 class WorkSpace(NamedTuple):
@@ -57,8 +58,8 @@ class Output(NamedTuple):
 def work_space(arrangement: Arrangement, structure: StructureParams | None = None) -> WorkSpace:
     """Make the work space for the rollers' arrangement and the structure."""
     groups, width = arrangement.group_count, arrangement.width
-    modes, reads = (0, 0) if structure is None else structure.raceway.shape
-    series = reads // (3 * arrangement.rows)
+    modes, reads = (0, 0) if structure is None else structure.shapes.shape
+    series = 0 if structure is None else structure.series
     return WorkSpace(
         aligned_zeros(groups, 3, RING_FIELDS, width),
         aligned_zeros(groups, 1, SUM_FIELDS + 3 * series, width),
@@ -69,5 +70,6 @@ def work_space(arrangement: Arrangement, structure: StructureParams | None = Non
             aligned_zeros(groups, 1, SHOWN * series, width),
             np.zeros(reads),
             np.zeros(modes),
+            np.zeros(0 if structure is None else len(structure.seats)),
         ),
     )

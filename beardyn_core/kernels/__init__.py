@@ -8,8 +8,8 @@ Arguments mean the same in all kernels; a function's own words tell what is spec
 - Parameters of an effect bear its name (``rib``: `RibParams`) and are ``None`` where it is absent; ``cage``,
   ``roller``, ``damping`` and the like are the tuples of `model` too.
 - ``rollers`` [block, ROLLER_FIELDS, lane], ``rings`` [ring, RING_FIELDS, lane], ``sums`` [1, SUM_FIELDS +
-  3 x series, lane], ``bodies`` [body, BODY_STATES], ``wrenches`` [body, 6], ``energy`` [ENERGY_TERMS], ``flex``
-  [2, mode], ``laminae`` [LAMINA_ROWS, lamina]: C-contiguous float64 arrays, see `model.layout`.
+  3 x series, lane], ``bodies`` [body, BODY_STATES], ``wrenches`` [body, 6], ``energy`` [ENERGY_TERMS],
+  ``flex`` [2, mode], ``laminae`` [LAMINA_ROWS, lamina]: C-contiguous float64 arrays, see `model.layout`.
 - ``body``, ``view``, ``here``, ``change``: a `Body`, the `View` of the ring that it meets, `Here`, and the
   `Twist` of the roller over the step; ``step`` [s]; ``ring``: ``CUP`` or ``CONE``.
 - ``centre``: centre of mass of the roller from the ring's origin [m]; ``axis``, ``ring_axis``: unit axes,

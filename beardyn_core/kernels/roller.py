@@ -64,7 +64,7 @@ def step_rollers(lanes, block, rollers, rings, sums, bends, p):
     zero = lanes.constant(0.0)
     body = Body((orbit.radius, zero, orbit.axial), orbit.axis, orbit.velocity, omega, orbit.rate)
     cup_view = ring_view(lanes, rings, layout.CUP, cosine, sine)
-    bent_view, shift = bent_cup(lanes, bends, cup_view, cosine, sine, effects.structure)
+    bent_view, shift = bent_cup(lanes, bends, cup_view, orbit.radius, cosine, sine, effects.structure)
     cone_view = ring_view(lanes, rings, layout.CONE, cosine, sine)
     spin = lanes.load(rollers, block, layout.SPIN)
     timers = effects.timers

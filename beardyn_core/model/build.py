@@ -156,7 +156,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             rib=rib_params(scene),
             small_rib=small_rib_params(bearing, effects),
             load_sharing=load_sharing,
-            structure=structure_params(body, scene, step),
+            structure=structure_params(body, scene, arrangement, step),
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=fault_params(scene, arrangement, laminae),
             audit=AuditParams(1.0) if effects.audit else None,

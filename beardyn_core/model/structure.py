@@ -16,10 +16,12 @@ from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
 from beardyn_core.config.structure import modes_of_effects, seat_of
 from beardyn_core.effects import RingStructure, Structure
 from beardyn_core.errors import InputError
+from beardyn_core.model.arrangement import Arrangement, aligned_zeros
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.modes import FIELDS, Modes
 
+WAVES_SEEN = 6  # of a table: those with 7 and 8 waves change what yields to one roller by up to 0.2 % of it
 _RESOLVED = 2.5  # rate of a mode times the step up to which its motion is exact
 _RADIAL, _TANGENTIAL, _AXIAL = range(len(FIELDS))
 
@@ -27,14 +29,18 @@ _RADIAL, _TANGENTIAL, _AXIAL = range(len(FIELDS))
 class StructureParams(NamedTuple):
     """Modes with unit modal mass, whose free motion is exact from step to step."""
 
-    raceway: Any  # [mode, row x field x series], series around the raceways, axial outwards [1/sqrt(kg)]
+    # [mode, read], series around the raceways by row and field, axial outwards, then motion of the bearing
+    # centre that stretches the springs alike [1/sqrt(kg)]; zeros fill up to multiples of 4 and 8
+    shapes: Any
+    rows: int
+    series: int
     taper: float  # tangent of the cup's cone angle
     stiffness: Any  # [mode], square of the rate [1/s^2]
     damping: Any  # [mode], [1/s]
     inertia: Any  # [mode], of the step, with the damper's half step [-]
     mass: Any  # [mode], inertia without the damper [-]
-    suspension: Any  # [6, mode], motion of the bearing centre that stretches the springs alike, or None
-    sensors: Any  # [3 x sensor, mode], [1/sqrt(kg)], or None
+    seats: Any  # [6 + 3 x sensor, mode], those of the suspension as above, then of the sensors [1/sqrt(kg)]
+    sides: Any  # [group, 2, lane], 1 in lanes of row 0, and 1 in lanes of the other row
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +104,7 @@ def _body(
     return ModalBody(
         2.0 * math.pi * modes.frequency,
         modes.damping_ratio,
-        _without_empty_waves(raceway),
+        _first_waves(raceway),
         math.tan(bearing.cup_angle),
         _suspension(modes) if suspended else None,
         modes,
@@ -131,24 +137,46 @@ def rings(bearing: Bearing, structure: RingStructure, rows: int) -> ModalBody:
     )
 
 
-def structure_params(body: ModalBody | None, scene: Scene, step: float) -> StructureParams | None:
+def structure_params(
+    body: ModalBody | None, scene: Scene, arrangement: Arrangement, step: float
+) -> StructureParams | None:
     """Work out the parameters of a modal body for a time step [s]."""
     if body is None:
         return None
+    count, rows, fields, series = body.raceway.shape
+    modes, reads = -(-count // 4) * 4, -(-(rows * fields * series + 6) // 8) * 8
+    shapes = np.zeros((modes, reads))
+    shapes[:count, : rows * fields * series] = body.raceway.reshape(count, -1)
+    if body.suspension is not None:
+        shapes[:count, rows * fields * series : rows * fields * series + 6] = body.suspension.T
+
+    def filled(values: Float, rest: float = 0.0) -> Float:
+        return np.concatenate([values, np.full(modes - count, rest)])
+
     mass, damping, inertia = exact_oscillators(body.rate, body.damping_ratio, step)
-    sensors = None
+    seats = np.zeros((6, modes))
+    seats[:, :count] = 0.0 if body.suspension is None else body.suspension
     if body.modes is not None:
-        seats = [body.modes.seats[seat_of(sensor, body.modes)] for sensor in scene.sensors]
-        sensors = np.ascontiguousarray(np.concatenate(seats, axis=1).T)
+        read = [body.modes.seats[seat_of(sensor, body.modes)] for sensor in scene.sensors]
+        sensors = np.zeros((3 * len(read), modes))
+        sensors[:, :count] = np.concatenate(read, axis=1).T
+        seats = np.concatenate([seats, sensors])
+    sides = aligned_zeros(arrangement.group_count, 2, arrangement.width)
+    for group in range(arrangement.group_count):
+        for lane in range(arrangement.width):
+            row = group if arrangement.width == 1 else arrangement.rows * lane // arrangement.width
+            sides[group, row, lane] = 1.0
     return StructureParams(
-        np.ascontiguousarray(body.raceway.reshape(len(body.rate), -1)),
+        shapes,
+        rows,
+        series,
         body.taper,
-        body.stiffness,
-        damping,
-        inertia,
-        mass,
-        None if body.suspension is None else np.ascontiguousarray(body.suspension),
-        sensors,
+        filled(body.stiffness),
+        filled(damping),
+        filled(inertia, 1.0),
+        filled(mass, 1.0),
+        seats,
+        sides,
     )
 
 
@@ -210,10 +238,10 @@ def _suspension(modes: Modes) -> Float:
     return np.asarray((shapes @ share).T)
 
 
-def _without_empty_waves(raceway: Float) -> Float:
-    """Leave out the highest waves where nothing has them."""
+def _first_waves(raceway: Float) -> Float:
+    """Leave out waves beyond those that matter, and the highest ones where nothing has them."""
     waves = raceway.shape[-1] // 2
     there = np.abs(raceway).max(axis=(0, 1, 2), initial=0.0) > 0.0
-    most = max((n for n in range(1, waves + 1) if there[n] or there[waves + n]), default=0)
+    most = max((n for n in range(1, WAVES_SEEN + 1) if there[n] or there[waves + n]), default=0)
     columns = [*range(most + 1), *range(waves + 1, waves + 1 + most)]
     return np.ascontiguousarray(raceway[..., columns])

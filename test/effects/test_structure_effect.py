@@ -112,7 +112,7 @@ def looked_at(rig: Rig) -> tuple[float, Float, Float]:
     structure = rig.parameters.effects.structure
     assert structure is not None
     energy = float(rig.work.sums[:, 0, ELASTIC].sum())
-    modal = structure.raceway @ rig.work.bend.forces
+    modal = structure.shapes @ rig.work.bend.forces
     fields = rig.fields()
     rig.state = kept
     return energy, modal, fields
@@ -123,8 +123,8 @@ def bent(seed: int, width: int = 8) -> Rig:
     rig = shaken(seed, width, scene_with(FLEXIBLE))
     rng = np.random.default_rng(seed)
     mass = np.repeat(masses(), 2)
-    rig.state.flex[0] += rng.normal(0.0, 4e-6, 6) * np.sqrt(mass)
-    rig.state.flex[1] = rng.normal(0.0, 0.01, 6) * np.sqrt(mass)
+    rig.state.flex[0, :6] += rng.normal(0.0, 4e-6, 6) * np.sqrt(mass)
+    rig.state.flex[1, :6] = rng.normal(0.0, 0.01, 6) * np.sqrt(mass)
     return rig
 
 
@@ -210,7 +210,7 @@ def test_modes_move_by_the_force_they_get() -> None:
     rig.run(1)
     place = before[0] + h * before[1]
     np.testing.assert_allclose(rig.state.flex[0], place, rtol=1e-14)
-    push = p.raceway @ rig.work.bend.forces
+    push = p.shapes @ rig.work.bend.forces
     change = rig.state.flex[1] - before[1]
     middle = before[1] + 0.5 * change
     expected = h * (push - p.stiffness * place - p.damping * middle)

@@ -131,7 +131,7 @@ class Rig:
     ) -> tuple[Float, Float, Float]:
         """Advance; returns signals [step, channel] and trends of rollers and bodies."""
         structure = self.parameters.effects.structure
-        seats = 0 if structure is None or structure.sensors is None else len(structure.sensors)
+        seats = 0 if structure is None else len(structure.seats) - 6
         signals = np.zeros((steps, SIGNAL_CHANNELS + seats))
         rollers = np.zeros((trends, *self.state.rollers.shape))
         bodies = np.zeros((trends, *self.state.bodies.shape))
