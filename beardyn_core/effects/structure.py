@@ -50,7 +50,7 @@ class ModalStructure:
     about: ClassVar[About] = About(
         adds="Modes of the axlebox: it bends under rollers and springs, and rings where its sensors sit.",
         states="1 position and 1 velocity per mode",
-        cost="medium",
+        cost="high",
         validity="Up to the highest free mode of the table; linear; raceways bend in their middle planes and "
         "neither tilt nor turn there; one damping ratio a mode; wheelset, cages and seals see a rigid box.",
         source="Rubin (1975), AIAA J. 13, 995, for the residual modes; finite elements in docs/structure.md",

@@ -118,11 +118,11 @@ def rings(bearing: Bearing, structure: RingStructure, rows: int) -> ModalBody:
         wall = (structure.housing_wall, structure.housing_modulus, structure.housing_density)
         parts.append(housing_ring(bearing, *wall))
     most = structure.highest_mode
-    orders = np.repeat(np.arange(2, most + 1), 2)
+    orders = [n for n in range(2, most + 1) for _ in range(2)]
     stiffness = np.array(
         [structure.stiffness_factor * sum(part.modal_stiffness(n) for part in parts) for n in orders]
     )
-    mass = np.array([sum(part.modal_mass(n) for part in parts) for n in orders])
+    mass = np.array([sum([part.modal_mass(n) for part in parts]) for n in orders])
     raceway = np.zeros((len(orders), rows, len(FIELDS), 2 * most + 1))
     for m, n in enumerate(orders):
         # w = a cos + b sin, and v = (b cos - a sin) / n keeps the length of the ring
