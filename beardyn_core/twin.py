@@ -17,7 +17,7 @@ from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.snapshot import Snapshot
 from beardyn_core.integrate.start import at_rest, initial_state
 from beardyn_core.integrate.state import Output, State, work_space
-from beardyn_core.integrate.static import solve
+from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.integrate.warming import cold_start, scene_at, warmed
@@ -30,6 +30,7 @@ from beardyn_core.model.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORC
 from beardyn_core.model.mounting import tilt_restraint
 from beardyn_core.model.scatter import crown_errors
 from beardyn_core.model.stages import stage_cycles
+from beardyn_core.model.structure import body_of
 from beardyn_core.observe.absence import absence_of
 from beardyn_core.observe.block import Block, EnergyAudit, body_names
 from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
@@ -44,6 +45,8 @@ from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 from beardyn_core.versions import versions
 
 LANE_WIDTH = 8
+_SETTLED = 1e-6  # of the load: moment on the springs by the tilt of a bent box [m]
+_PASSES = 8
 STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slowly, and counting costs
 
 COMPILING = "compiling the kernels of these effects: once, about a minute"
@@ -78,7 +81,8 @@ class Twin:
         self._tier = TIERS[scene.tier]
         self._parameters = build_parameters(scene, self._arrangement, np.zeros(6))
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
-        self._work = work_space(self._arrangement, len(self._bending_stiffness))
+        self._structure = body_of(scene)
+        self._work = work_space(self._arrangement, self._parameters.effects.structure)
         self._steps = round(BLOCK_NS * 1e-9 / self._parameters.step)
         self._audit = np.zeros(ENERGY_TERMS)
         self._first_audit: Float | None = None
@@ -90,7 +94,8 @@ class Twin:
         heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
         self._warmth = cold_start(scene) if heated else None
         self._cages = CageWatch.of(scene)
-        self._signals = np.zeros((self.blocks_at_once * self._steps, SIGNAL_CHANNELS))
+        self._channels = SIGNAL_CHANNELS + self._seat_channels
+        self._signals = np.zeros((self.blocks_at_once * self._steps, self._channels))
         self._audited = scene.effects.audit is not None and "audit" not in scene.missing_effects
 
     @property
@@ -105,7 +110,7 @@ class Twin:
 
     @property
     def step_signals(self) -> Float:
-        """Every step of the last block, shape [step, SIGNAL_CHANNELS]; the next block overwrites it."""
+        """Every step of the last block, shape [step, channel]; the next block overwrites it."""
         return self._signals
 
     @property
@@ -131,7 +136,8 @@ class Twin:
 
     def _rehearse(self) -> None:
         """Compute a block at rest and discard it, so that all its kernels are compiled."""
-        static = at_rest(self.scene.rows, self.roller_count, len(self._bending_stiffness))
+        modes = 0 if self._structure is None else len(self._structure.rate)
+        static = at_rest(self.scene.rows, self.roller_count, modes)
         state = initial_state(self.scene.bearing, self._arrangement, self._parameters, static, 1.0, 0.4)
         steps = self._steps
         buffer = LoadBuffer()
@@ -141,7 +147,7 @@ class Twin:
             state, loads[: TRENDS_PER_BLOCK + 1].copy(), self._signals[:TRENDS_PER_BLOCK].copy(), 1
         )
         assess(state, steps, self.scene.bearing.large_end_radius, self._parameters.effects.rib)
-        signals = np.zeros((steps, SIGNAL_CHANNELS))
+        signals = np.zeros((steps, self._channels))
         observer = Observer(self.scene, self._arrangement, self._parameters, signals[0])
         observer.first_instant(*self._complete(state.rollers, state.bodies), loads[0, :6])
         block = observer.observe(0, signals, loads, rollers, bodies, 0, None, 0.0, None)
@@ -162,45 +168,68 @@ class Twin:
         """
         if not self.load.append(load):
             raise ValidityError(self.load.reason)
-        scene, bearing = self.scene, self.scene.bearing
+        scene = self.scene
         first = self._loads(0, BLOCK_NS, 1)[0]
-        free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
-        moment = np.array([first[3], 0.0, first[5]])
-        restraint = self._tilt_restraint
-        static = solve(
-            bearing,
-            first[:3],
-            moment if free else np.zeros(3),
-            end_play=scene.end_play,
-            tilt="free" if free else "locked",
-            laminae=scene.numerics.laminae,
-            speed=first[6],
-            coupling=scene.effects.lamina_coupling,
-            oversize=roller_oversize(scene),
-            crown=crown_errors(scene),
-            bending_stiffness=self._bending_stiffness,
-            tilt_stiffness=restraint,
-            axial_stiffness=scene.mounting.axial_prop_stiffness,
-            rows=scene.rows,
-            missing=scene.missing_places,
-        )
-        on_cup = first[:3].copy()
-        on_cup[1] -= scene.mounting.axial_prop_stiffness * static.displacement[1]
-        moment[[0, 2]] -= restraint * static.tilt
-        carried = self._weight_of_rollers_and_cages()
-        preload = np.concatenate([-on_cup, -moment])
-        preload[2] += carried + self._free_fall * self._parameters.mounting.box_mass
-        box = self._parameters.mounting.coupling
-        if box is not None:
-            preload[3:] -= self._free_fall * box.weight[3:]
+        static, preload = self._at_rest(first)
         self._parameters = build_parameters(scene, self._arrangement, preload)
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._state = self._tier.start(scene, self._arrangement, self._kernel_parameters, static, first)
-        rest = np.zeros(SIGNAL_CHANNELS)
-        rest[SIGNAL_FORCE : SIGNAL_FORCE + 3] = on_cup
-        rest[SIGNAL_FORCE + 2] -= carried
+        rest = np.zeros(self._channels)
+        rest[SIGNAL_FORCE : SIGNAL_FORCE + 3] = first[:3]
+        rest[SIGNAL_FORCE + 1] -= scene.mounting.axial_prop_stiffness * static.displacement[1]
+        rest[SIGNAL_FORCE + 2] -= self._weight_of_rollers_and_cages()
         self._observer = Observer(scene, self._arrangement, self._parameters, rest)
         self._observer.first_instant(*self._complete(self._state.rollers, self._state.bodies), first[:6])
+
+    def _at_rest(self, first: Float) -> tuple[StaticSolution, Float]:
+        """Solve the static equilibrium under a load row, and the suspension's force on the box, [6]."""
+        scene, body, restraint = self.scene, self._structure, self._tilt_restraint
+        free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
+        moment = np.array([first[3], 0.0, first[5]])
+        props, tilt = 0.0, np.zeros(2)
+        seats = None if body is None else body.suspension
+        for _ in range(_PASSES):
+            preload = self._suspension_force(first, moment, props, restraint * tilt)
+            static = solve(
+                scene.bearing,
+                first[:3],
+                moment if free else np.zeros(3),
+                end_play=scene.end_play,
+                tilt="free" if free else "locked",
+                laminae=scene.numerics.laminae,
+                speed=first[6],
+                coupling=scene.effects.lamina_coupling,
+                oversize=roller_oversize(scene),
+                crown=crown_errors(scene),
+                body=body,
+                modal_load=() if seats is None else preload @ seats,
+                tilt_stiffness=restraint,
+                axial_stiffness=scene.mounting.axial_prop_stiffness,
+                rows=scene.rows,
+                missing=scene.missing_places,
+            )
+            props = scene.mounting.axial_prop_stiffness * float(static.displacement[1])
+            settled = np.abs(restraint * (static.tilt - tilt)).max() < _SETTLED * np.abs(first[:3]).max()
+            tilt = static.tilt
+            if seats is None or settled:
+                break
+        preload = self._suspension_force(first, moment, props, restraint * tilt)
+        box = self._parameters.mounting.coupling
+        if seats is not None and box is not None:
+            preload += box.stiffness @ (seats @ static.bending)
+        return static, preload
+
+    def _suspension_force(self, first: Float, moment: Float, prop: float, tilted: Float) -> Float:
+        """Balance the box under a load row, less what prop [N] and restraint of the tilt [N m] take, [6]."""
+        force = np.concatenate([-first[:3], -moment])
+        force[1] += prop
+        force[[3, 5]] += tilted
+        force[2] += self._weight_of_rollers_and_cages()
+        force[2] += self._free_fall * self._parameters.mounting.box_mass
+        box = self._parameters.mounting.coupling
+        if box is not None:
+            force[3:] -= self._free_fall * box.weight[3:]
+        return force
 
     @property
     def _free_fall(self) -> float:
@@ -298,10 +327,11 @@ class Twin:
         return tilt_restraint(self.scene.mounting, self._parameters.mounting)
 
     @property
-    def _bending_stiffness(self) -> Float:
-        """Bending stiffness of the cup, [N/m]; empty for a rigid one."""
-        flexibility = self._parameters.effects.ring_flexibility
-        return np.zeros(0) if flexibility is None else np.asarray(flexibility.stiffness)
+    def _seat_channels(self) -> int:
+        """Signals of every step for what the modes of the box give the sensors."""
+        structure = self._parameters.effects.structure
+        absent = structure is None or "structure" in self.scene.missing_effects
+        return 0 if structure is None or absent else len(structure.seats) - 6
 
     def _run(self, state: State, loads: Float, signals: Float, blocks: int) -> tuple[Any, Float]:
         tier = self._tier

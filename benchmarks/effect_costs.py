@@ -40,7 +40,7 @@ from beardyn_core.effects import (
     Rib,
     RibMixedFilm,
     RibShearedFilm,
-    RingFlexibility,
+    RingStructure,
     RollingResistance,
     RotatingCage,
     Seal,
@@ -86,7 +86,7 @@ def _sets() -> dict[str, EffectSet]:
     more("cage lubrication", cage=replace(cage, lubrication=PocketFilm()))
     more("cage guidance", cage=replace(cage, guidance=LandGuidance()))
     more("seal", seal=Seal())
-    more("ring_flexibility", ring_flexibility=RingFlexibility())
+    more("structure", structure=RingStructure())
     more("thermal", thermal=Thermal())
     found["full"] = FULL
     return found

@@ -12,7 +12,7 @@ evidence      all of these for one scene, each worked out once
 rule          alternatives with influence and cost, decisions, the choice with reasons and errors
 friction      rules: traction and film, rolling resistance, drag, seal, thermal
 guidance      rules: rib, small rib, cage
-motion        rules: gravity, contact damping, ring flexibility, lamina coupling, audit
+motion        rules: gravity, contact damping, structure, lamina coupling, audit
 fast_step     the step of the fast tiers
 usual_step    the step of a scene that names none
 numerics      what a tier or a lamina count leaves out; the step

@@ -36,7 +36,7 @@ RULES: tuple[Callable[[Evidence], Rule], ...] = (
     guidance.small_rib,
     guidance.cage,
     friction.seal,
-    motion.ring_flexibility,
+    motion.structure,
     motion.gravity,
     friction.thermal,
     motion.audit,

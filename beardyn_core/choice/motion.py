@@ -81,22 +81,22 @@ def audit(evidence: Evidence) -> Rule:
     return on_or_off("audit", effect, reason, {}, evidence.costs.saved("audit"), FULL)
 
 
-def ring_flexibility(evidence: Evidence) -> Rule:
-    """Decide on a flexible cup: on when it changes load distribution or deflection."""
-    effect = evidence.scene.effects.ring_flexibility
+def structure(evidence: Evidence) -> Rule:
+    """Decide on a box that bends: on when it changes load distribution or deflection."""
+    effect = evidence.scene.effects.structure
     if effect is None:
-        return absent("ring_flexibility")
+        return absent("structure")
     change = evidence.difference({"bending": False}, {"bending": True})
     influence = {
         **change.influence(),
         "torque": evidence.torque_share(evidence.torque_of_rigid_cup - evidence.torque),
     }
     reason = (
-        f"bending of the cup changes the deflection by {percent(change.deflection)} and the largest roller "
+        f"bending of the box changes the deflection by {percent(change.deflection)} and the largest roller "
         f"load by {percent(change.roller_load)}, the torque by {percent(influence['torque'])}"
     )
-    cost = evidence.costs.extra("ring_flexibility")
-    return on_or_off("ring_flexibility", effect, reason, influence, cost)
+    cost = evidence.costs.extra("structure")
+    return on_or_off("structure", effect, reason, influence, cost)
 
 
 def lamina_coupling(evidence: Evidence) -> Rule:

@@ -14,8 +14,9 @@ from beardyn_core.integrate.roller_equilibrium import spring_params
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.faults import roller_oversize
-from beardyn_core.model.mounting import flexibility_params, moved
+from beardyn_core.model.mounting import moved
 from beardyn_core.model.scatter import crown_errors
+from beardyn_core.model.structure import body_of
 from beardyn_core.scene.scene import Scene
 
 USUAL_LAMINAE = 6
@@ -30,13 +31,12 @@ class Statics:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self._known: dict[tuple[object, ...], StaticSolution | None] = {}
-        flexibility = flexibility_params(scene.bearing, scene.effects)
-        self._bending = () if flexibility is None else tuple(flexibility.stiffness.tolist())
+        self._body = body_of(scene)
 
     @property
     def flexible(self) -> bool:
         """Whether the reference's cup bends."""
-        return bool(self._bending)
+        return self._body is not None
 
     def at(
         self,
@@ -70,7 +70,7 @@ class Statics:
                 coupling=coupling,
                 oversize=roller_oversize(scene),
                 crown=crown_errors(scene),
-                bending_stiffness=self._bending if bending else (),
+                body=self._body if bending else None,
                 tilt_stiffness=self._restraint(),
                 axial_stiffness=scene.mounting.axial_prop_stiffness,
                 rows=scene.rows,

@@ -6,6 +6,7 @@ module       responsibility, in the order of the data
 folders      where configuration lies; a name becomes a file
 yaml_text    YAML text to a mapping, and a scene back to YAML
 file_model   base of the models: unknown keys explained, all mistakes kept
+structure    modes of a box by name, and the mounting that goes with them
 keys         from an annotated noun to the model of its file
 scene_file   what the parts of a scene say otherwise than their nouns; presets of effects
 problems     refusals to sentences with file, key, value, what is allowed

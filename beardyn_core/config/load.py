@@ -193,6 +193,7 @@ class _Reading:
         self.data.setdefault("effects", "standard")
         free = take_auto(self.data)
         self._inline_effects()
+        self._locate_table()
         operation = self.data.get("operation")
         if isinstance(operation, dict):
             operation = self.data["operation"] = dict(operation)
@@ -274,6 +275,14 @@ class _Reading:
             profile = irregularity["kind"] == "csv"
             layout = RAIL_LAYOUT if profile else DENSITY_LAYOUT
             self._locate(irregularity, "path", lambda path: read_table(path, layout))
+
+    def _locate_table(self) -> None:
+        """Make the path of a table of modes absolute; names of shipped ones stay."""
+        effects = self.data["effects"]
+        structure = effects.get("structure") if isinstance(effects, dict) else None
+        if isinstance(structure, dict) and str(structure.get("table", "")).endswith(".csv"):
+            table = str((self.folder / structure["table"]).resolve())
+            self.data["effects"] = {**effects, "structure": {**structure, "table": table}}
 
     def _locate(self, owner: dict[str, Any], key: str, read: Callable[[Path], object]) -> None:
         path = owner.get(key)

@@ -10,13 +10,17 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema, field_validator
 from pydantic_core import PydanticKnownError
 
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant, gold_pressure_viscosity, walther_viscosity
 from beardyn_core.config.file_model import FileModel, SourcedModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
-from beardyn_core.edge import UNITS, Problem, WorkedOut, places
+from beardyn_core.config.structure import box_problems, modes_of_effects, mounting_of, seat_of
+from beardyn_core.edge import UNITS, NounError, Problem, WorkedOut, places
 from beardyn_core.effects import EffectSet
+from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.defect import Growth, Patch
+from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.running import Timetable
 from beardyn_core.scene.scene import Numerics, Scene
@@ -237,6 +241,12 @@ class EffectsFile(FileModel):
     def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:
         return super()._prepare({**data, "traction": None} if data.get("traction") is False else data)
 
+    @classmethod
+    def _advice(cls, key: str, given: set[str]) -> str:
+        if key == "ring_flexibility":
+            return "ring_flexibility is called `structure` now; what it held is structure of kind: rings"
+        return super()._advice(key, given)
+
 
 def overlay(preset: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
     """Change the effects of a preset: named options replace those of the preset, the rest stays."""
@@ -307,7 +317,30 @@ class SceneFile(FileModel):
         closure = given["temperatures"].closure(bearing) if given["temperatures"] else 0.0
         mounted = bearing.end_play if given["end_play"] is None else given["end_play"]
         defects = tuple(with_length(defect, bearing.effective_length) for defect in given["defects"])
-        return Scene(**{**given, "bearing": bearing, "end_play": mounted + closure, "defects": defects})
+        given |= {"bearing": bearing, "end_play": mounted + closure, "defects": defects}
+        return Scene(**{**given, "mounting": self._with_box_of_table(given, bearing)})
+
+    def _with_box_of_table(self, given: dict[str, Any], bearing: Bearing) -> Mounting:
+        """Take the box from the table of its modes, and find sensors that sit nowhere on it."""
+        mounting: Mounting = given["mounting"]
+        problems = []
+        try:
+            modes = modes_of_effects(given["effects"])
+            if modes is None:
+                return mounting
+            taken = mounting_of(modes, mounting, bearing)
+        except InputError as error:
+            problems = [Problem(each, ("effects", "structure")) for each in error.problems]
+            raise NounError("structure", problems) from error
+        problems += box_problems(self.mounting.model_fields_set, mounting, taken, modes.name)  # type: ignore[attr-defined]
+        for index, sensor in enumerate(given["sensors"]):
+            try:
+                seat_of(sensor, modes)
+            except InputError as error:
+                problems += [Problem(each, ("sensors", index)) for each in error.problems]
+        if problems:
+            raise NounError("structure", problems)
+        return taken
 
     def rules(self) -> Iterator[str | Problem]:
         """Find what is given twice, and a time step that does not serve the sensors."""

@@ -15,7 +15,7 @@ cage               cage of each row, its pockets and lands
 drag               drag and churning of the rollers
 seal               seals between cup and shaft
 gravity            weight
-ring_flexibility   bending of the cup in its housing
+structure          bending of the axlebox with the cup in it
 grease             what running leaves of a fill of grease
 thermal            slow warming of bearing, grease and axlebox
 audit              energy balance
@@ -39,10 +39,10 @@ from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.lamina_coupling import LaminaCoupling
 from beardyn_core.effects.rib import Rib, RibMixedFilm, RibShearedFilm
-from beardyn_core.effects.ring_flexibility import RingFlexibility
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
 from beardyn_core.effects.small_rib import SmallRib
+from beardyn_core.effects.structure import ModalStructure, RingStructure, Structure
 from beardyn_core.effects.thermal import Thermal
 from beardyn_core.effects.traction import (
     CoulombTraction,
@@ -68,16 +68,18 @@ __all__ = [
     "LineFilm",
     "LoadSharingTraction",
     "MixedTraction",
+    "ModalStructure",
     "PocketFilm",
     "Rib",
     "RibMixedFilm",
     "RibShearedFilm",
-    "RingFlexibility",
+    "RingStructure",
     "RollingResistance",
     "RotatingCage",
     "Seal",
     "ShearedFilmTraction",
     "SmallRib",
+    "Structure",
     "Thermal",
     "Traction",
 ]

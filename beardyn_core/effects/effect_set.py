@@ -15,10 +15,10 @@ from beardyn_core.effects.film import LineFilm
 from beardyn_core.effects.gravity import Gravity
 from beardyn_core.effects.lamina_coupling import LaminaCoupling
 from beardyn_core.effects.rib import Rib
-from beardyn_core.effects.ring_flexibility import RingFlexibility
 from beardyn_core.effects.rolling_resistance import RollingResistance
 from beardyn_core.effects.seal import Seal
 from beardyn_core.effects.small_rib import SmallRib
+from beardyn_core.effects.structure import Structure
 from beardyn_core.effects.thermal import Thermal
 from beardyn_core.effects.traction import MixedTraction, Traction
 
@@ -46,7 +46,7 @@ class EffectSet:
     small_rib: A[SmallRib | None, At(switch=True), "small roller ends on the small rib of the cone"] = None
     cage: A[CageModel | None, At(switch=True), "cage of each row"] = Cage()
     seal: A[Seal | None, At(switch=True), "friction of the seals"] = None
-    ring_flexibility: A[RingFlexibility | None, At(switch=True), "bending of the cup in its housing"] = None
+    structure: A[Structure | None, At(switch=True), "bending of the axlebox with the cup in it"] = None
     gravity: A[Gravity | None, At(switch=True), "weight of rollers, cages and axlebox"] = Gravity()
     thermal: A[Thermal | None, At(switch=True), "slow warming of the parts; needs the audit"] = None
     audit: A[Audit | None, At(switch=True), "energy balance kept while the model runs"] = Audit()

@@ -23,9 +23,9 @@ from beardyn_core.kernels.cage_bodies import (
 )
 from beardyn_core.kernels.land import land_of, push_lands, settle_lands
 from beardyn_core.kernels.lanes import align_stack
-from beardyn_core.kernels.ring_flexibility import drift_flex, flex_energy, kick_flex
 from beardyn_core.kernels.roller import step_rollers
 from beardyn_core.kernels.stage_timer import mark, time_step
+from beardyn_core.kernels.structure import kick_structure, show_structure, structure_energy
 from beardyn_core.model import layout
 from beardyn_core.model.stages import CAGE, LOSS, RINGS
 
@@ -107,7 +107,7 @@ def advance(lanes, state, work, loads, output, p):
     boundaries; ``work``: a `WorkSpace`.
     """
     rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
-    rings, sums, wrenches, box = work.rings, work.sums, work.wrenches, work.box
+    rings, sums, wrenches, box, bend = work
     signals, audit = output.signals, output.audit
     align_stack(lanes)
     steps = signals.shape[0]
@@ -116,24 +116,25 @@ def advance(lanes, state, work, loads, output, p):
     blocks_per_group = rollers.shape[0] // groups
     clear_block_sums(rollers)
     effects = p.effects
-    cage, flexibility, timers = effects.cage, effects.ring_flexibility, effects.timers
+    cage, structure, timers = effects.cage, effects.structure, effects.timers
     place, land = cage_place(cage), land_of(cage)
     for step in range(steps):
         time_step(timers, step)
         drift_bodies(bodies, p.step)
         place_cages(bodies, cage)
-        drift_flex(flex, p.step, flexibility)
         show_rings(bodies, rings, place)
+        show_structure(lanes, flex, box, p.step, bend, structure)
         sums[:] = 0.0
         if step == 0:
             copy_sums(energy, audit)
-            audit[layout.ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + flex_energy(flex, flexibility)
+            audit[layout.ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + structure_energy(
+                flex, structure
+            )
         mark(timers, RINGS)
         for group in range(groups):
             for index in range(blocks_per_group):
-                step_rollers(
-                    lanes, group * blocks_per_group + index, rollers, rings[group], sums[group], flex, p
-                )
+                block = group * blocks_per_group + index
+                step_rollers(lanes, block, rollers, rings[group], sums[group], bend.lanes[group], p)
         collect_reactions(sums, wrenches)
         mark(timers, RINGS)
         lands = push_lands(bodies, wrenches, cage, land)
@@ -159,7 +160,7 @@ def advance(lanes, state, work, loads, output, p):
         stored -= settle_cages(bodies, before, sums, energy, p.step, cage, effects.audit)
         stored += settle_lands(bodies, lands, energy, p.step, cage, land)
         mark(timers, CAGE)
-        stored += kick_flex(flex, sums, energy, p.step, flexibility)
+        stored += kick_structure(flex, sums, box, signals[step], energy, p.step, bend, structure)
         collect_energy(sums, energy, effects, effects.audit)
         mark(timers, RINGS)
         if step == 0:
@@ -169,7 +170,7 @@ def advance(lanes, state, work, loads, output, p):
             audit[layout.ENERGY_KINETIC] = 0.5 * (
                 audit[layout.ENERGY_KINETIC]
                 + kinetic_energy(rollers, bodies, p)
-                + flex_energy(flex, flexibility)
+                + structure_energy(flex, structure)
             )
         if (step + 1) % stride == 0:
             keep_trend(rollers, bodies, output, (step + 1) // stride - 1)

@@ -25,6 +25,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_spin
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, bearing_lamina_root, coupled_law
 from beardyn_core.effects import LaminaCoupling
+from beardyn_core.model.structure import ModalBody
 
 ROW_COUNT = 2
 # The end sphere of a forced bearing that is centred this close to the bearing axis, where its direction from
@@ -50,7 +51,7 @@ class ContactModel:
     lamina_factor: float  # stiffness factor of one lamina contact [N/m^(10/9)]
     rib_factor: float  # [N/m^1.5]
     inertia_load: Float  # [3], radial, axial and tilting, of the orbiting roller at mid-length [N, N, N m]
-    bending: Float  # [row, roller, 2 x mode], radial deflection of the cup per amplitude of its modes [-]
+    bending: Float  # [row, roller, mode], how far the raceway opens per amplitude of a mode [1/sqrt(kg)]
     missing: NDArray[np.bool_]  # [row, roller], rollers that are not there
     coupling: LaminaRoot | None = None  # matrices of coupled laminae
 
@@ -67,7 +68,7 @@ class ConePose:
 
     displacement: Float  # [3], of the bearing centre fixed to the cone [m]
     rotation: Float  # [3, 3], from cone axes to cup axes
-    bending: Float = field(default_factory=lambda: np.zeros(0))  # [2 x mode], amplitudes of the cup's [m]
+    bending: Float = field(default_factory=lambda: np.zeros(0))  # [mode], amplitudes [m sqrt(kg)]
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ class ContactSet:
     stiffness: Float  # [N/m]; of coupled laminae a matrix [..., lamina, lamina]
     energy: Float  # [J]; of coupled laminae that of the line, [row, roller, 1]
     by_roller: Float  # [..., 3], change of approach with its radial, axial and tilt motion [-, -, m/rad]
-    # [..., 5 + 2 x mode], with displacement, tilt about x and z, cup bending [-, m/rad, -]; empty where it
+    # [..., 5 + mode], with displacement, tilt about x and z, modes [-, m/rad, 1/sqrt(kg)]; empty where it
     # is not asked for
     by_cone: Float
 
@@ -92,15 +93,12 @@ def contact_model(
     roller_phase: float,
     coupling: LaminaCoupling | None = None,
     oversize: Float | None = None,
-    modes: int = 0,
+    body: ModalBody | None = None,
     rows: int = ROW_COUNT,
     missing: Sequence[tuple[int, int]] = (),
     crown: ArrayLike | None = None,
 ) -> ContactModel:
-    """Gather the constants of the contacts; arguments as of `static.solve`.
-
-    ``modes``: bending modes of the cup, with 2, 3, ... waves.
-    """
+    """Gather the constants of the contacts; arguments as of `static.solve`."""
     error = np.zeros((rows, bearing.roller_count)) if oversize is None else oversize[:rows]
     azimuth = roller_phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
     radial = np.zeros((rows, bearing.roller_count, 3))
@@ -131,16 +129,9 @@ def contact_model(
         rib_factor=rib_contact_factor(bearing),
         inertia_load=_inertia_load(bearing, speed),
         coupling=None if coupling is None else bearing_lamina_root(bearing, coupling, laminae),
-        bending=_bending_shapes(azimuth, modes, rows),
+        bending=np.zeros((*radial.shape[:2], 0)) if body is None else body.openings(azimuth),
         missing=not_there,
     )
-
-
-def _bending_shapes(azimuth: Float, modes: int, rows: int) -> Float:
-    """Work out the cosine and sine of 2, 3, ... times the azimuth, the same for all rows."""
-    angle = (np.arange(modes) + 2) * azimuth[:, None]
-    shapes = np.stack([np.cos(angle), np.sin(angle)], axis=-1).reshape(azimuth.size, 2 * modes)
-    return np.stack([shapes] * rows)
 
 
 def _inertia_load(bearing: Bearing, speed: float) -> Float:

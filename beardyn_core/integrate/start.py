@@ -64,8 +64,9 @@ def initial_state(
     outward = np.array([-1.0, 1.0])[: arrangement.rows]
     shift = _shift_of_cages(bearing, arrangement, parameters, static)
     bodies[layout.CAGE_BODY :, layout.POSITION + 1] = outward * shift
-    flex = np.zeros((*static.bending.shape, 2))
-    flex[..., 0] = static.bending
+    structure = parameters.effects.structure
+    flex = np.zeros((2, 0 if structure is None else len(structure.shapes)))
+    flex[0, : len(static.bending)] = static.bending[: flex.shape[1]]
     return State(rollers, bodies, np.zeros(layout.ENERGY_TERMS), flex)
 
 
@@ -93,7 +94,7 @@ def at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
         displacement=np.zeros(3), tilt=np.zeros(2), cup_load=none, cone_load=none, rib_load=none,
         cup_lamina_load=none[..., None], cone_lamina_load=none[..., None],
         roller_radial=none, roller_axial=none, roller_tilt=none, stiffness_tilt_held=np.zeros((3, 3)),
-        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0, bending=np.zeros((modes, 2)),
+        stiffness_tilt_free=np.zeros((3, 3)), iterations=0, residual=0.0, bending=np.zeros(modes),
     )  # fmt: skip
 
 

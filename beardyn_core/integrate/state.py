@@ -6,8 +6,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from beardyn_core.kernels.box import BOX_FIELDS
+from beardyn_core.kernels.structure import SHOWN
 from beardyn_core.model.arrangement import Arrangement, aligned_copy, aligned_zeros
 from beardyn_core.model.layout import CAGE_BODY, RING_FIELDS, SUM_FIELDS
+from beardyn_core.model.structure import StructureParams
 
 
 class State(NamedTuple):
@@ -16,20 +19,31 @@ class State(NamedTuple):
     rollers: Any  # float64 [block, ROLLER_FIELDS, lane]
     bodies: Any  # float64 [2 + row, BODY_STATES]: cup, cone, cages
     energy: Any  # float64 [ENERGY_TERMS], works since the start [J]
-    flex: Any  # float64 [mode, 2, 2], bending of the cup: cosine and sine, place [m] and speed [m/s]
+    flex: Any  # float64 [2, mode], bending of the box: places [m sqrt(kg)] and speeds of unit modal masses
 
     def copy(self) -> State:
         """Copy all arrays, so that the copy shares nothing."""
         return State(*(aligned_copy(each) for each in self))
 
 
+class BendSpace(NamedTuple):
+    """How the box bends and what bends it; all that is read of the modes, empty without a structure."""
+
+    bent: Any  # float64 [2, read], places and speeds
+    lanes: Any  # float64 [group, 1, SHOWN x series, lane], series around the raceways
+    forces: Any  # float64 [read]
+    change: Any  # float64 [mode], of the speeds over the step
+    seats: Any  # float64 [6 + 3 x sensor], of the speeds of the seats
+
+
 class WorkSpace(NamedTuple):
     """Arrays that a step writes before it reads them."""
 
     rings: Any  # float64 [group, 3, RING_FIELDS, lane]
-    sums: Any  # float64 [group, 1, SUM_FIELDS + 2 x mode, lane]
+    sums: Any  # float64 [group, 1, SUM_FIELDS + 3 x series, lane]
     wrenches: Any  # float64 [2 + row, 6]
-    box: Any  # float64 [12]
+    box: Any  # float64 [BOX_FIELDS]
+    bend: BendSpace
 
 
 class Output(NamedTuple):
@@ -41,12 +55,21 @@ class Output(NamedTuple):
     audit: Any  # float64 [ENERGY_TERMS], works up to, and energy stored at, the middle of the first step [J]
 
 
-def work_space(arrangement: Arrangement, modes: int = 0) -> WorkSpace:
-    """Make the work space for the rollers' arrangement and the bending modes of the cup."""
+def work_space(arrangement: Arrangement, structure: StructureParams | None = None) -> WorkSpace:
+    """Make the work space for the rollers' arrangement and the structure."""
     groups, width = arrangement.group_count, arrangement.width
+    modes, reads = (0, 0) if structure is None else structure.shapes.shape
+    series = 0 if structure is None else structure.series
     return WorkSpace(
         aligned_zeros(groups, 3, RING_FIELDS, width),
-        aligned_zeros(groups, 1, SUM_FIELDS + 2 * modes, width),
+        aligned_zeros(groups, 1, SUM_FIELDS + 3 * series, width),
         np.zeros((CAGE_BODY + arrangement.rows, 6)),
-        np.zeros(12),
+        np.zeros(BOX_FIELDS),
+        BendSpace(
+            np.zeros((2, reads)),
+            aligned_zeros(groups, 1, SHOWN * series, width),
+            np.zeros(reads),
+            np.zeros(modes),
+            np.zeros(0 if structure is None else len(structure.seats)),
+        ),
     )

@@ -1,8 +1,8 @@
 """Static equilibrium of both rows, or of one: every roller between cup, cone and rib.
 
 Unknown are the displacement of the cone relative to the cup and, when it is free, its tilt about x and z,
-and the amplitudes of the cup's bending when it is not rigid. The rollers follow (`roller_equilibrium`); what
-is left is a convex problem in three or five unknowns and two for each bending mode.
+and the amplitudes of the modes of the box when it is not rigid. The rollers follow (`roller_equilibrium`);
+what is left is a convex problem in three or five unknowns and one for each mode.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.roller_contacts import ROW_COUNT, ConePose, ContactModel, contact_model
 from beardyn_core.integrate.roller_equilibrium import RollerState, solve_rollers
+from beardyn_core.model.structure import ModalBody
 
 TILT_MODES = ("locked", "free")
 
@@ -60,8 +61,8 @@ class StaticSolution:
         Newton steps of the cone.
     residual : float
         What is left of the load, [N].
-    bending : float64 array, shape [mode, 2]
-        Cosine and sine amplitude of the cup's bending with 2, 3, ... waves, [m].
+    bending : float64 array, shape [mode]
+        Amplitudes of the modes of the box, [m sqrt(kg)].
 
     Notes
     -----
@@ -83,7 +84,7 @@ class StaticSolution:
     stiffness_tilt_free: Float
     iterations: int
     residual: float
-    bending: Float = field(default_factory=lambda: np.zeros((0, 2)))
+    bending: Float = field(default_factory=lambda: np.zeros(0))
 
     @property
     def loaded_roller_count(self) -> tuple[int, ...]:
@@ -117,7 +118,8 @@ def solve(
     roller_phase: float = 0.0,
     coupling: LaminaCoupling | None = None,
     oversize: Float | None = None,
-    bending_stiffness: ArrayLike = (),
+    body: ModalBody | None = None,
+    modal_load: ArrayLike = (),
     tilt_stiffness: ArrayLike = (0.0, 0.0),
     axial_stiffness: float = 0.0,
     rows: int = ROW_COUNT,
@@ -146,8 +148,10 @@ def solve(
         Coupling of the laminae along the rollers.
     oversize : float64 array, shape [row, roller], optional
         Radius error of each roller, [m].
-    bending_stiffness : array_like, shape [mode]
-        Of the cup against bending with 2, 3, ... waves, [N/m]; without it the cup is rigid.
+    body : ModalBody or None
+        How the box bends; without it the cup is rigid.
+    modal_load : array_like, shape [mode]
+        What else but the rollers pushes its modes, [N/sqrt(kg)].
     tilt_stiffness : array_like, shape [2]
         Of whatever restrains the free tilt of the cone against the cup about x and z, [N m/rad].
     axial_stiffness : float
@@ -174,14 +178,15 @@ def solve(
     """
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
-    modal = np.repeat(np.asarray(bending_stiffness, dtype=np.float64), 2)
+    modal = np.zeros(0) if body is None else body.stiffness
     springs = np.concatenate(
         [[0.0, axial_stiffness, 0.0], np.asarray(tilt_stiffness, dtype=np.float64), modal]
     )
     model = contact_model(
-        bearing, end_play, laminae, speed, roller_phase, coupling, oversize, modal.size // 2, rows, missing,
+        bearing, end_play, laminae, speed, roller_phase, coupling, oversize, body, rows, missing,
         crown,
     )  # fmt: skip
+    load = np.concatenate([load, np.asarray(modal_load, dtype=np.float64)])
     cone = _Cone(model, load, 5 if tilt == "free" else 3, springs)
     state, unknowns, iterations = _equilibrium(cone)
     residual = cone.residual(unknowns, state)
@@ -201,20 +206,22 @@ def solve(
         stiffness_tilt_free=free,
         iterations=iterations,
         residual=float(np.abs(residual).max()),
-        bending=unknowns[5:].reshape(-1, 2).copy(),
+        bending=unknowns[5:].copy(),
     )
 
 
 class _Cone:
-    """Energy of the loaded cone and of the springs on it as a function of its pose and the cup's bending."""
+    """Energy of the loaded cone and of the springs on it as a function of its pose and the box's bending."""
 
     def __init__(self, model: ContactModel, load: Float, moving: int, springs: Float) -> None:
         self.model = model
-        self.load = np.concatenate([load, np.zeros(springs.size - 5)])
+        self.load = np.concatenate([load, np.zeros(springs.size - load.size)])
         self.springs = springs
         self.active = np.concatenate([np.arange(moving), np.arange(5, springs.size)])
         lever = 0.5 * model.bearing.pressure_centre_spread
-        self.scale = np.array([1.0, 1.0, 1.0, lever, lever, *np.ones(springs.size - 5)])
+        # modes count as far as they open a raceway, so that steps and residuals are metres and newtons
+        modal = np.sqrt((model.bending**2).mean(axis=(0, 1)))
+        self.scale = np.concatenate([[1.0, 1.0, 1.0, lever, lever], np.maximum(modal, 1e-3)])
 
     def at(self, unknowns: Float, guess: Float | None) -> RollerState:
         pose = ConePose(unknowns[:3], _rotation(unknowns[3], unknowns[4]), unknowns[5:])
@@ -290,7 +297,7 @@ def _rotation(about_x: float, about_z: float) -> Float:
 
 
 def _bending_follows(stiffness: Float) -> Float:
-    """Reduce the stiffness to the cone pose with the bending of the cup following, shape [5, 5]."""
+    """Reduce the stiffness to the cone pose with the bending of the box following, shape [5, 5]."""
     pose, coupling, bending = stiffness[:5, :5], stiffness[:5, 5:], stiffness[5:, 5:]
     if bending.size == 0:
         return pose

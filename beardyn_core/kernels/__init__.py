@@ -8,8 +8,8 @@ Arguments mean the same in all kernels; a function's own words tell what is spec
 - Parameters of an effect bear its name (``rib``: `RibParams`) and are ``None`` where it is absent; ``cage``,
   ``roller``, ``damping`` and the like are the tuples of `model` too.
 - ``rollers`` [block, ROLLER_FIELDS, lane], ``rings`` [ring, RING_FIELDS, lane], ``sums`` [1, SUM_FIELDS +
-  2 x mode, lane], ``bodies`` [body, BODY_STATES], ``wrenches`` [body, 6], ``energy`` [ENERGY_TERMS], ``flex``
-  [mode, 2, 2], ``laminae`` [LAMINA_ROWS, lamina]: C-contiguous float64 arrays, see `model.layout`.
+  3 x series, lane], ``bodies`` [body, BODY_STATES], ``wrenches`` [body, 6], ``energy`` [ENERGY_TERMS],
+  ``flex`` [2, mode], ``laminae`` [LAMINA_ROWS, lamina]: C-contiguous float64 arrays, see `model.layout`.
 - ``body``, ``view``, ``here``, ``change``: a `Body`, the `View` of the ring that it meets, `Here`, and the
   `Twist` of the roller over the step; ``step`` [s]; ``ring``: ``CUP`` or ``CONE``.
 - ``centre``: centre of mass of the roller from the ring's origin [m]; ``axis``, ``ring_axis``: unit axes,
@@ -41,7 +41,7 @@ film              film thickness of a lamina
 traction          friction of a lamina: dry, of a full film, of both
 laminae           the springs of a raceway contact and their sums
 raceway           contact of a roller with a raceway
-ring_flexibility  bending of the cup
+structure         bending of the axlebox with the cup
 rolling           couple against rolling
 drag              medium around the rollers
 point_contact     contact with the cone at a point, and the small rib

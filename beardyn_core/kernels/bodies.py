@@ -150,8 +150,8 @@ def kick_cup(bodies, wrench, load, load_before, energy, box, step, mounting, gra
     """Accelerate the axlebox under rollers, suspension and weight; returns the suspension's energy, [J].
 
     ``wrench`` [6]: of the rollers on the cup [N, N m]; ``load``, ``load_before``: load row at the end and at
-    the beginning of the step; bogie displacement from `LOAD_BOGIE`; ``box`` [6]: written: acceleration of the
-    box, linear and angular.
+    the beginning of the step; bogie displacement from `LOAD_BOGIE`; ``box``: written in front: acceleration
+    of the box, linear and angular.
     """
     stored = 0.0
     if mounting.cup_moves == 0.0:

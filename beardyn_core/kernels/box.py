@@ -1,4 +1,8 @@
-"""The axlebox, with its centre of mass and its springs at the bearing centre or beside it."""
+"""The axlebox, with its centre of mass and its springs at the bearing centre or beside it.
+
+The springs act at seats that give way when the box bends: as much as the bearing centre would have to move
+for the same stretch, which `structure.show_seats` writes into the work space.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +10,17 @@ from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, fall, kick_cup
 from beardyn_core.model import layout
 
-FORCE = 6  # in the work space, after the acceleration
+# in the work space, after the acceleration: all forces, those of the suspension and of its dampers alone,
+# then how far and how fast its seats give way
+FORCE, SUSPENSION, DAMPERS, SEAT_PLACE, SEAT_SPEED = range(6, 36, 6)
+BOX_FIELDS = 36
 
 
 @inline
 def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gravity, coupling):
     """Accelerate the axlebox; arguments and result as `kick_cup`, with full matrices when coupled.
 
-    ``box`` [12]: written: acceleration of the bearing centre, linear and angular; then force and moment.
+    ``box`` [BOX_FIELDS]: read: motion of the seats; written: acceleration of the bearing centre and forces.
 
     Small tilts and rates: centrifugal and gyroscopic terms of the box are neglected.
     """
@@ -26,11 +33,14 @@ def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gra
     for i in range(6):
         spring, damper = 0.0, 0.0
         for j in range(6):
-            spring += coupling.stiffness[i, j] * _stretch(bodies, load, j)
-            damper += coupling.damping[i, j] * (_speed(bodies, j) - _bogie_speed(load, load_before, step, j))
+            spring += coupling.stiffness[i, j] * (_stretch(bodies, load, j) + box[SEAT_PLACE + j])
+            speed = _speed(bodies, j) + box[SEAT_SPEED + j]
+            damper += coupling.damping[i, j] * (speed - _bogie_speed(load, load_before, step, j))
+        box[DAMPERS + i] = damper
+        box[SUSPENSION + i] = mounting.preload[i] - spring - damper
         pull = coupling.weight[i] * fall(gravity)
         box[FORCE + i] = wrench[i] + mounting.preload[i] - spring - damper + pull
-        stretch = _stretch(bodies, load, i)
+        stretch = _stretch(bodies, load, i) + box[SEAT_PLACE + i]
         stored += 0.5 * spring * stretch - mounting.preload[i] * stretch
     for i in range(6):
         acceleration = 0.0
@@ -41,12 +51,9 @@ def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gra
         middle = _speed(bodies, i) + 0.5 * step * box[i]
         bogie_speed = _bogie_speed(load, load_before, step, i)
         pull = coupling.weight[i] * fall(gravity)
-        damper = 0.0
-        for j in range(6):
-            damper += coupling.damping[i, j] * (_speed(bodies, j) - _bogie_speed(load, load_before, step, j))
-        suspension = box[FORCE + i] - wrench[i] - pull
-        energy[layout.ENERGY_EXTERNAL] += step * (suspension * bogie_speed + pull * middle)
-        energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += step * damper * (middle - bogie_speed)
+        energy[layout.ENERGY_EXTERNAL] += step * (box[SUSPENSION + i] * bogie_speed + pull * middle)
+        lost = step * box[DAMPERS + i] * (middle - bogie_speed)
+        energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += lost
     for i in range(6):
         bodies[layout.CUP_BODY, layout.LINEAR + i] += step * box[i]  # angular ones stand behind
         bodies[layout.CUP_BODY, layout.CHANGE + i] = step * box[i]

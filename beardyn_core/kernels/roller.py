@@ -24,10 +24,10 @@ from beardyn_core.kernels.point_contact import (
     stiffen_small_rib,
 )
 from beardyn_core.kernels.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
-from beardyn_core.kernels.ring_flexibility import about_rigid_cup, bend_cup, bent_cup
 from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_rolling
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.stage_timer import mark
+from beardyn_core.kernels.structure import SHOWN, about_rigid_cup, bend_cup, bent_cup
 from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in
 from beardyn_core.model import layout
 from beardyn_core.model.stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
@@ -50,7 +50,7 @@ def velocity_change(matrix, right, zero, explicit):
 
 
 @inline
-def step_rollers(lanes, block, rollers, rings, sums, flex, p):
+def step_rollers(lanes, block, rollers, rings, sums, bends, p):
     """Advance one block of rollers by one step, their state in place, and add what it does to the rings."""
     step, effects, roller = p.step, p.effects, p.roller
     orbit = drift(
@@ -64,7 +64,7 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     zero = lanes.constant(0.0)
     body = Body((orbit.radius, zero, orbit.axial), orbit.axis, orbit.velocity, omega, orbit.rate)
     cup_view = ring_view(lanes, rings, layout.CUP, cosine, sine)
-    bent_view, shift = bent_cup(lanes, flex, cup_view, cosine, sine, effects.ring_flexibility)
+    bent_view, shift = bent_cup(lanes, bends, cup_view, orbit.radius, cosine, sine, effects.structure)
     cone_view = ring_view(lanes, rings, layout.CONE, cosine, sine)
     spin = lanes.load(rollers, block, layout.SPIN)
     timers = effects.timers
@@ -73,7 +73,7 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     azimuths = (azimuth - lanes.load(rings, layout.CUP, layout.RING_TURN), -spin)
     ring = raceway.Ring(layout.CUP, p.cup, raceway.faults_of_cup(effects.faults), bent_view)
     cup = raceway.prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
-    cup = about_rigid_cup(cup, shift, effects.ring_flexibility)
+    cup = about_rigid_cup(cup, shift, effects.structure)
     azimuths = (azimuth - lanes.load(rings, layout.CONE, layout.RING_TURN), _PI - spin)
     ring = raceway.Ring(layout.CONE, p.cone, raceway.faults_of_cone(effects.faults), cone_view)
     cone = raceway.prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
@@ -117,7 +117,7 @@ def step_rollers(lanes, block, rollers, rings, sums, flex, p):
     mark(timers, SOLVE)
 
     on_cup = raceway.settle_raceway(layout.CUP, cup, change, here, p)
-    bend_cup(on_cup.force, here, flex.shape[0], effects.ring_flexibility)
+    bend_cup(on_cup.force, here, bends.shape[1] // SHOWN, effects.structure)
     on_cone = raceway.settle_raceway(layout.CONE, cone, change, here, p)
     total = Wrench(add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment))
     mark(timers, SETTLE)

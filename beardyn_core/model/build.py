@@ -16,7 +16,7 @@ from beardyn_core.model.film import film_params
 from beardyn_core.model.laminae import coupling_params, lamina_table
 from beardyn_core.model.layout import LAMINA_STIFFNESS, MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
 from beardyn_core.model.losses import drag_params, rolling_params, seal_params
-from beardyn_core.model.mounting import flexibility_params, mounting_params
+from beardyn_core.model.mounting import mounting_params
 from beardyn_core.model.parameters import (
     AuditParams,
     DampingParams,
@@ -30,6 +30,7 @@ from beardyn_core.model.parameters import (
 from beardyn_core.model.ribs import rib_params, small_rib_params
 from beardyn_core.model.scatter import pocket_offsets
 from beardyn_core.model.stages import new_timers
+from beardyn_core.model.structure import body_of, structure_params
 from beardyn_core.model.traction import traction_params
 from beardyn_core.scene.scene import Scene
 
@@ -120,6 +121,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
     cup_angle, cone_angle = bearing.cup_angle, bearing.cone_angle
     laminae = lamina_table(scene)
     step = 1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample)
+    body = body_of(scene)
     return Parameters(
         step=step,
         spring_time=spring_time(bearing, laminae, step, damping is not None and damping.time_constant > 0.0),
@@ -140,7 +142,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         laminae=laminae,
         lamina_loads=aligned_zeros(1, 2 * laminae.shape[1], arrangement.width),
         rollers=roller_constants(arrangement, roller_oversize(scene), pocket_offsets(scene)),
-        mounting=mounting_params(bearing, scene.mounting, preload),
+        mounting=mounting_params(bearing, scene.mounting, preload, body.modes if body else None),
         effects=EffectParams(
             damping=DampingParams(effects.contact_damping.time_constant) if effects.contact_damping else None,
             film=film_params(scene),
@@ -154,7 +156,7 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
             rib=rib_params(scene),
             small_rib=small_rib_params(bearing, effects),
             load_sharing=load_sharing,
-            ring_flexibility=flexibility_params(bearing, effects),
+            structure=structure_params(body, scene, arrangement, step),
             gravity=GravityParams(effects.gravity.acceleration) if effects.gravity else None,
             faults=fault_params(scene, arrangement, laminae),
             audit=AuditParams(1.0) if effects.audit else None,

@@ -28,7 +28,7 @@ _SHARES: dict[str, dict[str, float]] = {
     "drag": {"grease": 1.0},
     "seal": {"cone": 0.5, "axlebox": 0.5},
     "suspension": {},  # outside the axlebox
-    "ring_bending": {"axlebox": 1.0},
+    "structure": {"axlebox": 1.0},
 }
 
 _STEEL_HEAT = 460.0  # [J/(kg K)]

@@ -67,11 +67,11 @@ RING_FIELDS = 16
 # --- where energy is lost
 LOSS_NAMES = (
     "raceway_sliding", "contact_damping", "rolling_resistance", "rib", "small_rib", "pocket", "cage_land",
-    "drag", "seal", "suspension", "ring_bending",
+    "drag", "seal", "suspension", "structure",
 )  # fmt: skip
 LOSSES = len(LOSS_NAMES)
 LOSS_SLIDING, LOSS_DAMPING, LOSS_ROLLING, LOSS_RIB, LOSS_SMALL_RIB, LOSS_POCKET = range(6)
-LOSS_LAND, LOSS_DRAG, LOSS_SEAL, LOSS_SUSPENSION, LOSS_RING_BENDING = range(6, LOSSES)
+LOSS_LAND, LOSS_DRAG, LOSS_SEAL, LOSS_SUSPENSION, LOSS_STRUCTURE = range(6, LOSSES)
 
 # --- sums over the rollers, lanes [0, field, lane]
 REACTION = 0  # 3 rings x (force, moment)
@@ -80,14 +80,14 @@ WORK_NUMERICAL = WORK_LOST + LOSSES
 WORK_GRAVITY = WORK_NUMERICAL + 1
 ELASTIC = WORK_NUMERICAL + 2  # elastic energy at the beginning of the step [J]
 LOST_ON_CAGE = WORK_NUMERICAL + 3  # 6: lost part of the pockets' wrench on the cage [N, N m]
-SUM_FIELDS = LOST_ON_CAGE + 6  # then, with flexible rings, 2 modal forces for each mode
+SUM_FIELDS = LOST_ON_CAGE + 6  # then, with a structure, forces on the series around the raceways
 
 # --- signals of every step [step, channel]
 SIGNAL_FORCE = 0  # 6: rollers on the cup, about the bearing centre [N, N m]
 SIGNAL_ACCELERATION = 6  # 3: of the axlebox [m/s^2]
 SIGNAL_ANGULAR_ACCELERATION = 9  # 3 [rad/s^2]
 SIGNAL_TORQUE = 12  # bearing on the shaft, about +y [N m]
-SIGNAL_CHANNELS = 13
+SIGNAL_CHANNELS = 13  # then, with the modes of a box, 3 for each sensor: acceleration of its seat
 
 # --- energy terms since the start [J]
 ENERGY_EXTERNAL, ENERGY_NUMERICAL, ENERGY_LOST = range(3)  # ENERGY_LOST: by source, LOSSES fields

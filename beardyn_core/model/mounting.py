@@ -1,4 +1,4 @@
-"""Rings, their bending and the suspension as kernel parameters; the box may hang beside the centre."""
+"""Rings and the suspension as kernel parameters; the box may hang beside the centre."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from numpy.typing import ArrayLike
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
-from beardyn_core.effects import EffectSet
 from beardyn_core.scene.mounting import Mounting
+from beardyn_core.structure.modes import Modes
 
 
 class BoxCoupling(NamedTuple):
@@ -41,14 +40,6 @@ class MountingParams(NamedTuple):
     prop_damping: float  # [N s/m]
 
 
-class FlexibilityParams(NamedTuple):
-    """Bending modes of the cup, from two waves upwards, each in two directions."""
-
-    mass: Any  # [mode], [kg]
-    stiffness: Any  # [mode], [N/m]
-    damping: Any  # [mode], [N s/m]
-
-
 def cross_matrix(arm: ArrayLike) -> Float:
     """Make the matrix that turns a vector v into arm x v, shape [3, 3]."""
     x, y, z = np.asarray(arm, dtype=float)
@@ -68,12 +59,18 @@ def moved(diagonal: ArrayLike, centre: ArrayLike) -> Float:
     return np.asarray(motion.T @ np.diag(np.asarray(diagonal, dtype=float)) @ motion)
 
 
-def box_coupling(bearing: Bearing, mounting: Mounting) -> BoxCoupling | None:
-    """Make full matrices of the box with the cup; ``None`` with everything at the bearing centre."""
-    if not any(mounting.box_centre) and not any(mounting.suspension_centre):
+def box_coupling(bearing: Bearing, mounting: Mounting, modes: Modes | None = None) -> BoxCoupling | None:
+    """Make full matrices of the box with the cup; ``None`` with everything at the bearing centre.
+
+    ``modes``: those of the box, whose seats may give way; its inertia is taken from there.
+    """
+    if modes is None and not any(mounting.box_centre) and not any(mounting.suspension_centre):
         return None
     mass = spatial_mass(mounting.box_mass, mounting.box_inertia, mounting.box_centre)
     mass += spatial_mass(bearing.cup_mass, bearing.cup_inertia, np.zeros(3))
+    if modes is not None:
+        xy, xz, yz = modes.products
+        mass[3:, 3:] += [[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]]
     return BoxCoupling(
         mass=mass,
         inverse_mass=np.ascontiguousarray(np.linalg.inv(mass)),
@@ -83,8 +80,10 @@ def box_coupling(bearing: Bearing, mounting: Mounting) -> BoxCoupling | None:
     )
 
 
-def mounting_params(bearing: Bearing, mounting: Mounting, preload: Float) -> MountingParams:
-    """Collect rings and suspension, with the cup and cone masses added."""
+def mounting_params(
+    bearing: Bearing, mounting: Mounting, preload: Float, modes: Modes | None = None
+) -> MountingParams:
+    """Collect rings and suspension, with the cup and cone masses added; ``modes`` as of `box_coupling`."""
     return MountingParams(
         cup_moves=float(mounting.cup == "suspended"),
         journal_tilts=float(mounting.journal_tilt == "free"),
@@ -95,7 +94,7 @@ def mounting_params(bearing: Bearing, mounting: Mounting, preload: Float) -> Mou
         stiffness=np.array([*mounting.stiffness, *mounting.rotational_stiffness], dtype=float),
         damping=np.array([*mounting.damping, *mounting.rotational_damping], dtype=float),
         preload=np.array(preload, dtype=float),
-        coupling=box_coupling(bearing, mounting),
+        coupling=box_coupling(bearing, mounting, modes),
         prop_stiffness=mounting.axial_prop_stiffness,
         prop_damping=mounting.axial_prop_damping,
     )
@@ -113,19 +112,3 @@ def tilt_restraint(mounting: Mounting, parameters: MountingParams) -> Float:
         # the bearing centre stays where it is, so its springs beside it restrain the tilt too
         stiffness = np.diag(parameters.coupling.stiffness)
     return np.asarray(stiffness)[[3, 5]]
-
-
-def flexibility_params(bearing: Bearing, effects: EffectSet) -> FlexibilityParams | None:
-    """Work out the modes of the cup with the housing wall around it."""
-    ring = effects.ring_flexibility
-    if ring is None:
-        return None
-    parts = [cup_ring(bearing)]
-    if ring.housing_wall > 0.0:
-        parts.append(housing_ring(bearing, ring.housing_wall, ring.housing_modulus, ring.housing_density))
-    waves = range(2, ring.highest_mode + 1)
-    stiffness = np.array(
-        [ring.stiffness_factor * sum(part.modal_stiffness(n) for part in parts) for n in waves]
-    )
-    mass = np.array([sum(part.modal_mass(n) for part in parts) for n in waves])
-    return FlexibilityParams(mass, stiffness, 2.0 * ring.damping_ratio * np.sqrt(stiffness * mass))

@@ -14,8 +14,9 @@ if TYPE_CHECKING:  # each of them imports this module
     from beardyn_core.model.film import FilmParams
     from beardyn_core.model.laminae import CouplingParams
     from beardyn_core.model.losses import DragParams, RollingParams, SealParams
-    from beardyn_core.model.mounting import FlexibilityParams, MountingParams
+    from beardyn_core.model.mounting import MountingParams
     from beardyn_core.model.ribs import RibParams, SmallRibParams
+    from beardyn_core.model.structure import StructureParams
     from beardyn_core.model.traction import CoulombParams, LoadSharingParams, MixedParams
 
 
@@ -79,7 +80,7 @@ class EffectParams(NamedTuple):
     rib: RibParams | None
     small_rib: SmallRibParams | None
     cage: CageParams | None
-    ring_flexibility: FlexibilityParams | None
+    structure: StructureParams | None
     seal: SealParams | None
     gravity: GravityParams | None
     faults: FaultParams

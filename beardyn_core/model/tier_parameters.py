@@ -104,7 +104,7 @@ def without_roller_dynamics(base: Parameters) -> Parameters:
     """Leave out what only the dynamics of the rollers read: each number costs time in every call."""
     effects = base.effects._replace(
         coupling=None, coulomb=None, mixed=None, load_sharing=None, small_rib=None, cage=None,
-        ring_flexibility=None,
+        structure=None,
     )  # fmt: skip
     return base._replace(effects=effects, explicit=None)
 

@@ -8,7 +8,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, SAMPLES_PER_BLOCK, WAVEFORM_RATE
-from beardyn_core.model.layout import ANGULAR, CUP_BODY, SIGNAL_CHANNELS, SIGNAL_FORCE, SIGNAL_TORQUE, TILT
+from beardyn_core.model.layout import ANGULAR, CUP_BODY, SIGNAL_FORCE, SIGNAL_TORQUE, TILT
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.kinematics import (
@@ -41,7 +41,7 @@ class Observer:
 
     Parameters
     ----------
-    signal : float64 array, shape [SIGNAL_CHANNELS]
+    signal : float64 array, shape [SIGNAL_CHANNELS and those of the seats]
         Signals at rest, which fill the filters.
     """
 
@@ -58,7 +58,7 @@ class Observer:
             self._waveform_delay = delay(longer)
         else:
             every = round(steps)
-            self._waveforms = Decimator(every, SIGNAL_CHANNELS, signal, held_back=1 + wait * every)
+            self._waveforms = Decimator(every, len(signal), signal, held_back=1 + wait * every)
             self._waveform_delay = wait + (DELAY if every > 1 else 0)
         self._sensors = Sensors(scene, self._waveform_delay)
         rest = np.concatenate([signal[:6], REST, signal[SIGNAL_TORQUE : SIGNAL_TORQUE + 1]])

@@ -9,7 +9,7 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
-from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION
+from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION, SIGNAL_CHANNELS
 from beardyn_core.observe.accelerometer import GRAVITY, LOOKAHEAD, NoiseStream, Resonance, force_at, reading
 from beardyn_core.observe.block import Vibration
 from beardyn_core.observe.resampling import DELAY, Decimator
@@ -56,8 +56,8 @@ class Sensors:
         self._chains = [
             None
             if sensor.mounting_resonance is None and sensor.rate == RATES[0]
-            else _Chain(sensor, round(steps), lookahead(scene))
-            for sensor in scene.sensors
+            else _Chain(sensor, number, round(steps), lookahead(scene))
+            for number, sensor in enumerate(scene.sensors)
         ]
         self.delays = [delay if chain is None else chain.delay for chain in self._chains]
 
@@ -75,11 +75,11 @@ class Sensors:
             Rotation and angular velocity of the box at 400 Hz; the second row is that before the first step.
         """
         found = []
-        for sensor, chain, delay, noise in zip(
-            self._sensors, self._chains, self.delays, self._noise, strict=True
+        for number, (sensor, chain, delay, noise) in enumerate(
+            zip(self._sensors, self._chains, self.delays, self._noise, strict=True)
         ):
             if chain is None:
-                signal = box_force(sensor.position, waves, motion, delay)
+                signal = box_force(sensor.position, waves, motion, delay, number)
             else:
                 signal = chain.push(signals, motion)
             first = self._first(index, sensor, delay)
@@ -107,11 +107,11 @@ class Sensors:
 class _Chain:
     """From the steps to the samples of one accelerometer."""
 
-    def __init__(self, sensor: Accelerometer, steps: int, wait: int) -> None:
+    def __init__(self, sensor: Accelerometer, number: int, steps: int, wait: int) -> None:
         factor = round(WAVEFORM_RATE * steps / sensor.rate)
         wait *= steps
         self.delay = (DELAY if factor > 1 else 0) + wait // factor
-        self._position = sensor.position
+        self._position, self._number = sensor.position, number
         self._resonance: Resonance | None = None
         if sensor.mounting_resonance is not None:
             # behind an anti-alias filter the gain is right wherever anything is left
@@ -125,18 +125,23 @@ class _Chain:
 
     def push(self, signals: Float, motion: Float) -> Float:
         """Compute the specific force at the rate of the sensor, shape [sample, 3], [m/s^2]."""
-        force = box_force(self._position, signals, motion, -1)
+        force = box_force(self._position, signals, motion, -1, self._number)
         return self._decimator.push(force if self._resonance is None else self._resonance.push(force))
 
 
-def box_force(position: tuple[float, float, float], signals: Float, motion: Float, delay: int) -> Float:
+def box_force(
+    position: tuple[float, float, float], signals: Float, motion: Float, delay: int, sensor: int = 0
+) -> Float:
     """Compute the specific force at a place of the box [m], see `force_at`, shape [sample, 3], [m/s^2].
 
     Signals, shape [sample, SIGNAL_CHANNELS], come late by ``delay`` samples, at most those of a row; the
-    motion, shape [trend + 2, 6], is as of `Sensors.read` and linear in between.
+    motion, shape [trend + 2, 6], is as of `Sensors.read` and linear in between. Where the modes of the box
+    shake the seat of each ``sensor``, what they give it stands behind the other signals.
     """
     force = np.empty((len(signals), 3))
     _box_force(*position, signals, motion, len(signals) // (len(motion) - 2), delay, force)
+    if signals.shape[1] > SIGNAL_CHANNELS:
+        force += signals[:, SIGNAL_CHANNELS + 3 * sensor : SIGNAL_CHANNELS + 3 * sensor + 3]
     return force
 
 

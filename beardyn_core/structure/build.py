@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
 
 import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.elastic import Elastic, elastic_body, stacked
 from beardyn_core.structure.mesh import mesh_of
@@ -88,6 +90,9 @@ def modes_of(
         _centre(inertia),
         (float(inertia[3, 3]), float(inertia[4, 4]), float(inertia[5, 5])),
         found.free_count,
+        (float(inertia[3, 4]), float(inertia[3, 5]), float(inertia[4, 5])),
+        tuple(seat.name for seat in box.suspension),
+        digest(box, bearing),
     )
     zone = load_zone(len(stacked(body, names)))
     loads = stacked(body, names).T @ zone
@@ -95,6 +100,15 @@ def modes_of(
     return Built(
         modes, body, len(tetrahedra.elements), body.stiffness.shape[0], (exact, modes.yielding(zone, zone))
     )
+
+
+def digest(box: Box, bearing: Bearing) -> str:
+    """Make a short word of all that a box and its cup are meshed from; names, words and sources left out."""
+    cup = bearing.material
+    figures = replace(box, name="", description="", bearing="", sources=())
+    shape = (bearing.outer_diameter, bearing.width, bearing.row_spacing, bearing.effective_length)
+    text = repr((figures, shape, cup_raceway(bearing), cup.youngs_modulus, cup.poisson_ratio, cup.density))
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def load_zone(reads: int) -> Float:

@@ -179,6 +179,7 @@ def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
         box.centre,
         box.inertia,
         len(bending),
+        suspension=tuple(seat.name for seat in box.suspension),
     )
 
 

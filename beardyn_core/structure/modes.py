@@ -13,7 +13,7 @@ WAVES = 8  # most waves around a raceway
 FIELDS = ("radial", "tangential", "axial")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Modes:
     """Modes of a free box with unit modal mass; they move neither its centre of mass nor its principal axes.
 
@@ -35,6 +35,13 @@ class Modes:
         tuple[float, float, float], "of box and cup about x, y, z through the bearing centre, [kg m^2]"
     ]
     free_count: A[int, "of the modes are free ones, the first; the rest are residual"]
+    products: A[tuple[float, float, float], "xy, xz, yz of the same matrix of inertia, [kg m^2]"] = (
+        0.0,
+        0.0,
+        0.0,
+    )
+    suspension: A[tuple[str, ...], "names of the seats of springs and links; none: they bend nothing"] = ()
+    made_from: A[str, "digest of box and cup that were meshed; empty for modes of another program"] = ""
 
     @property
     def reads(self) -> Float:
@@ -45,8 +52,8 @@ class Modes:
         )
 
     def below(self, highest: float) -> Modes:
-        """Give the modes up to a frequency [Hz], residual modes among them."""
-        kept = self.frequency <= highest
+        """Leave out free modes above a frequency [Hz]; residual modes stay, so that the rest still yields."""
+        kept = (self.frequency <= highest) | (np.arange(len(self.frequency)) >= self.free_count)
         return replace(
             self,
             frequency=self.frequency[kept],

@@ -1,11 +1,12 @@
 """The text file of the modes of a box: a head in YAML, then a line for each mode.
 
-The head stands behind ``#`` and has name, description, mass, centre, inertia, the number of free modes and
-the seats with their positions. The columns are ``frequency_Hz``, ``damping_ratio``, then for each row,
-``inboard`` and ``outboard``, and each field, ``radial``, ``tangential`` and ``axial``, the series around the
-raceway: ``inboard_radial_mean``, ``inboard_radial_cos1`` ... ``inboard_radial_sin8``; then ``NAME_x``,
-``NAME_y`` and ``NAME_z`` of each seat. Shapes have unit modal mass, [1/sqrt(kg)]. Columns of the raceway that
-are left out are zero.
+The head stands behind ``#`` and has name, description, mass, centre, inertia, the number of free modes, the
+seats with their positions and which of them are the suspension's; of a box that was meshed also a digest of
+what was. The columns are ``frequency_Hz``, ``damping_ratio``, then for each row, ``inboard`` and
+``outboard``, and each field, ``radial``, ``tangential`` and ``axial``, the series around the raceway:
+``inboard_radial_mean``, ``inboard_radial_cos1`` ... ``inboard_radial_sin8``; then ``NAME_x``, ``NAME_y`` and
+``NAME_z`` of each seat. Shapes have unit modal mass, [1/sqrt(kg)]. Columns of the raceway that are left out
+are zero.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ ROWS = ("inboard", "outboard")
 AXES = ("x", "y", "z")
 SERIES = ("mean", *(f"cos{n}" for n in range(1, WAVES + 1)), *(f"sin{n}" for n in range(1, WAVES + 1)))
 RACEWAY_COLUMNS = tuple(f"{row}_{field}_{term}" for row in ROWS for field in FIELDS for term in SERIES)
-_DIGITS = 7
+_DIGITS = 5
 
 
 def table_text(modes: Modes) -> str:
@@ -38,7 +39,10 @@ def table_text(modes: Modes) -> str:
         "mass_kg": _short(modes.mass),
         "centre_mm": [_short(1e3 * each) for each in modes.centre],
         "inertia_kg_m2": [_short(each) for each in modes.inertia],
+        "products_kg_m2": [_short(each) for each in modes.products],
         "free_modes": modes.free_count,
+        "suspension": list(modes.suspension),
+        **({"made_from": modes.made_from} if modes.made_from else {}),
         "seats_mm": {name: [_short(1e3 * each) for each in place] for name, place in modes.places.items()},
     }
     text = io.StringIO()
@@ -51,7 +55,7 @@ def table_text(modes: Modes) -> str:
     largest = np.abs(reads).max(initial=0.0)
     for frequency, damping, shape in zip(modes.frequency, modes.damping_ratio, reads, strict=True):
         # what rounding has left of a zero stays out of the file
-        shown = np.where(np.abs(shape) < 1e-7 * largest, 0.0, shape)
+        shown = np.where(np.abs(shape) < 10.0**-_DIGITS * largest, 0.0, shape)
         writer.writerow([_text(each) for each in (frequency, damping, *shown)])
     return text.getvalue()
 
@@ -106,12 +110,15 @@ def modes_of_text(text: str, label: str) -> Modes:
         _vector(head.get("centre_mm", (0, 0, 0)), 1e-3),
         _vector(head["inertia_kg_m2"], 1.0),
         free,
+        _vector(head.get("products_kg_m2", (0, 0, 0)), 1.0),
+        tuple(map(str, head.get("suspension", ()))),
+        str(head.get("made_from", "")),
     )
 
 
 def _head_problems(head: dict[str, Any], count: int) -> Iterator[str]:
     wanted = {"name", "mass_kg", "inertia_kg_m2", "seats_mm"}
-    known = wanted | {"description", "centre_mm", "free_modes"}
+    known = wanted | {"description", "centre_mm", "products_kg_m2", "free_modes", "suspension", "made_from"}
     for key in sorted(wanted - head.keys()):
         yield f"the head lacks {key}; it has {', '.join(sorted(map(str, head)))}"
     for key in sorted(map(str, head.keys() - known)):
@@ -121,12 +128,17 @@ def _head_problems(head: dict[str, Any], count: int) -> Iterator[str]:
     free = head.get("free_modes", 0)
     if not isinstance(free, int) or isinstance(free, bool) or not 0 <= free <= count:
         yield f"free_modes is {free!r}; it must be a whole number from 0 to the {count} modes of the file"
-    for key in ("centre_mm", "inertia_kg_m2"):
+    for key in ("centre_mm", "inertia_kg_m2", "products_kg_m2"):
         if key in head and not _is_vector(head[key]):
-            yield f"{key} is {head[key]!r}; it must be three numbers, along x, y, z"
+            order = "xy, xz, yz" if key == "products_kg_m2" else "along x, y, z"
+            yield f"{key} is {head[key]!r}; it must be three numbers, {order}"
     if _is_vector(head.get("inertia_kg_m2")) and min(head["inertia_kg_m2"]) <= 0:
         yield f"inertia_kg_m2 is {head['inertia_kg_m2']!r}; its numbers must be greater than 0"
-    seats = head.get("seats_mm", {})
+    seats, springs = head.get("seats_mm", {}), head.get("suspension", [])
+    if not isinstance(springs, list) or not all(
+        isinstance(seats, dict) and each in seats for each in springs
+    ):
+        yield f"suspension is {springs!r}; it must be a list of names of seats_mm"
     if not isinstance(seats, dict):
         yield f"seats_mm is {seats!r}; it must be names with three numbers each"
     else:

@@ -94,12 +94,12 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
         lossy = replace(
             standard, **{name: getattr(full, name) for name in ("rolling_resistance", "drag", "seal")}
         )
-        flexible = replace(lossy, ring_flexibility=full.ring_flexibility)
+        flexible = replace(lossy, structure=full.structure)
         six = [(3, usual), (6, 2), (6, 3), (6, usual), (6, 2 * usual)]
         steps |= {
             "standard": (standard, [*six, (20, usual)]),
             "standard + losses": (lossy, [(6, usual)]),
-            "standard + losses + ring_flexibility": (flexible, [(6, usual)]),
+            "standard + losses + structure": (flexible, [(6, usual)]),
             "full - lamina_coupling": (replace(full, lamina_coupling=None), [(6, usual)]),
             "full": (full, [*six, (6, 4 * usual), (10, usual)]),
         }

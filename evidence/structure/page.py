@@ -21,7 +21,8 @@ the cup in it, computes its free modes and adds residual modes (Rubin 1975), whi
 under the rollers right. `-o` writes them as a table in text; `beardyn_core/structure/table.py` says what is
 in it. A file with `modes: box.unv` in place of dimensions reads free modes of another program from a
 Universal file ([keys](reference.md#structure-by-modes-of-another-program)). Shipped boxes: `beardyn scenes
-structures`. No simulation uses the modes yet.
+structures`. The effect `structure` of kind `modes` takes a table into the full tier
+([keys](reference.md#structure)).
 
 Everything here is of the box `{box}`.
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.steady_heat import steady_heat
-from beardyn_core.effects import Drag, EffectSet, LineFilm, RingFlexibility, Thermal
+from beardyn_core.effects import Drag, EffectSet, LineFilm, RingStructure, Thermal
 from beardyn_core.integrate.warming import film_temperature
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.mounting import Mounting
@@ -113,8 +113,9 @@ def _effects(effects: EffectSet, condition: Condition) -> EffectSet:
     film, drag = effects.film or LineFilm(), effects.drag or Drag()
     if condition.fresh:
         film, drag = replace(film, supply="fresh"), replace(drag, fill=FRESH_FILL)
-    ring = replace(effects.ring_flexibility or RingFlexibility(), stiffness_factor=condition.stiffer)
-    return replace(effects, film=film, drag=drag, ring_flexibility=ring)
+    usual = effects.structure if isinstance(effects.structure, RingStructure) else RingStructure()
+    ring = replace(usual, stiffness_factor=condition.stiffer)
+    return replace(effects, film=film, drag=drag, structure=ring)
 
 
 @lru_cache

@@ -10,7 +10,7 @@ import numpy as np
 
 from beardyn_core.config import load_bearing
 from beardyn_core.integrate.static import solve
-from beardyn_core.model.mounting import flexibility_params
+from beardyn_core.model.structure import ModalBody, body_of
 from evidence.validation.anchor import HOLDS_FROM, Finding, Trend, falls, rises
 from evidence.validation.posture import (
     RIG,
@@ -107,7 +107,7 @@ def rows_tilt_opposite() -> Finding:
     )
 
 
-def loaded_counts(play: float, restraint: float, bending: Sequence[float]) -> list[tuple[int, ...]]:
+def loaded_counts(play: float, restraint: float, body: ModalBody | None) -> list[tuple[int, ...]]:
     """Count the loaded rollers of both rows at rest, with the load centred and 40 mm beside it."""
     return [
         solve(
@@ -117,7 +117,7 @@ def loaded_counts(play: float, restraint: float, bending: Sequence[float]) -> li
             end_play=play,
             tilt="free",
             tilt_stiffness=(restraint, restraint),
-            bending_stiffness=bending,
+            body=body,
         ).loaded_roller_count
         for eccentricity in (0.0, 40.0)
     ]
@@ -125,15 +125,15 @@ def loaded_counts(play: float, restraint: float, bending: Sequence[float]) -> li
 
 def loaded_rollers() -> Finding:
     """Look for the published counts over end play, restraint of the tilt and housing."""
-    flexible = flexibility_params(load_bearing("HS130x230"), scene_of(BASE).effects)
+    flexible = body_of(scene_of(BASE))
     assert flexible is not None
     found = {
         f"{1e6 * play:.0f} um of play, {restraint / 1e6:g} MN m/rad and a {cup} cup": loaded_counts(
-            play, restraint, bending
+            play, restraint, body
         )
         for play in (0.0, 1e-4, 2e-4)
         for restraint in (VEHICLE, RIG, RIGID)
-        for cup, bending in (("rigid", ()), ("bending", tuple(flexible.stiffness)))
+        for cup, body in (("rigid", None), ("bending", flexible))
     }
     matching = [label for label, (centred, beside) in found.items() if centred == (5, 5) and max(beside) == 7]
     nearest = min(found, key=lambda label: sum(abs(count - 5) for count in found[label][0]))

@@ -10,7 +10,7 @@ import pytest
 
 from beardyn_core.integrate.static import solve
 from beardyn_core.kernels.bodies import drift_bodies
-from beardyn_core.kernels.box import box_energy, kick_box
+from beardyn_core.kernels.box import BOX_FIELDS, box_energy, kick_box
 from beardyn_core.model.layout import (
     ANGULAR,
     BODY_STATES,
@@ -109,7 +109,7 @@ def moving_box(
     bodies = np.zeros((4, BODY_STATES))
     bodies[CUP_BODY, LINEAR : LINEAR + 3] = (0.01, -0.02, 0.03)
     bodies[CUP_BODY, ANGULAR : ANGULAR + 3] = (0.1, 0.2, -0.1)
-    box, energy, load = np.zeros(12), np.zeros(ENERGY_TERMS), np.zeros(10)
+    box, energy, load = np.zeros(BOX_FIELDS), np.zeros(ENERGY_TERMS), np.zeros(10)
     places, energies = np.zeros((steps, 6)), np.zeros((steps, 4))
     for k in range(steps):
         drift_bodies(bodies, step)

@@ -39,7 +39,7 @@ def test_the_mean_force_alone_leads_to_the_lumped_tier() -> None:
 def test_force_and_deflection_in_a_rigid_housing_lead_to_the_lumped_tier() -> None:
     scene = variant(
         quantities=["force", "deflection"],
-        effects={"preset": "auto", "ring_flexibility": False},
+        effects={"preset": "auto", "structure": False},
         mounting=HELD,
     )
     assert scene.tier == "lumped"
@@ -48,9 +48,9 @@ def test_force_and_deflection_in_a_rigid_housing_lead_to_the_lumped_tier() -> No
 
 def test_deflection_in_a_thin_housing_needs_the_bending_of_the_cup() -> None:
     scene = variant(quantities=["force", "deflection"], mounting=HELD)
-    assert scene.effects.ring_flexibility is not None
-    assert "ring_flexibility" not in scene.missing_effects
-    assert re.search(r"deflection by (19|20|21) %", reasons(scene)["ring_flexibility"])
+    assert scene.effects.structure is not None
+    assert "structure" not in scene.missing_effects
+    assert re.search(r"deflection by (19|20|21) %", reasons(scene)["structure"])
 
 
 def test_an_eccentric_load_on_a_free_journal_needs_the_bending_of_the_cup() -> None:
@@ -58,8 +58,8 @@ def test_an_eccentric_load_on_a_free_journal_needs_the_bending_of_the_cup() -> N
         quantities=["deflection", "roller_load"],
         mounting={"cup": "suspended", "journal_tilt": "free", "load_offset_mm": [0, 20, 0]},
     )
-    assert scene.effects.ring_flexibility is not None
-    assert has_number(reasons(scene)["ring_flexibility"])
+    assert scene.effects.structure is not None
+    assert has_number(reasons(scene)["structure"])
 
 
 def test_a_smooth_run_has_what_its_torque_is_made_of() -> None:
@@ -153,7 +153,7 @@ def test_a_crowned_roller_that_no_spring_follows_leads_to_the_quasistatic_tier()
     shipped = read_file(config_folder() / "bearings" / "HS130x230.yaml")
     scene = variant(
         bearing={**shipped, "profile": {"kind": "crowned", "drop_um": 20}},
-        effects={"preset": "auto", "ring_flexibility": False},
+        effects={"preset": "auto", "structure": False},
         operation=constant([0, 15, 60], 600),
         quantities=["deflection", "roller_load"],
         accuracy_percent=3.0,

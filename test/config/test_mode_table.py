@@ -45,8 +45,8 @@ def test_what_is_written_is_read_again(seed: int, tmp_path: Path) -> None:
     path = tmp_path / "modes.csv"
     path.write_text(table_text(modes))
     again = read_table(path)
-    assert again.frequency == pytest.approx(modes.frequency, rel=1e-6)
-    assert again.reads == pytest.approx(modes.reads, rel=1e-6, abs=1e-6)
+    assert again.frequency == pytest.approx(modes.frequency, rel=5e-5)  # five digits
+    assert again.reads == pytest.approx(modes.reads, rel=5e-5, abs=5e-5)
     assert (again.name, again.places, again.mass, again.centre, again.inertia, again.free_count) == (
         *(modes.name, modes.places, modes.mass, modes.centre, modes.inertia, modes.free_count),
     )

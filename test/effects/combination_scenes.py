@@ -68,7 +68,7 @@ FACTORS: dict[str, tuple[Choice, ...]] = {
     "drag": (("none", None), ("present", True)),
     "small_rib": (("none", None), ("present", True)),
     "seal": (("none", None), ("present", True)),
-    "ring_flexibility": (("none", None), ("present", True)),
+    "structure": (("none", None), ("present", True)),
     "gravity": (("none", False), ("present", True)),
     "faults": (("none", []), ("present", FAULTS)),
     "waviness": (("none", []), ("present", WAVES)),

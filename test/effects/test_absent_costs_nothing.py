@@ -45,13 +45,13 @@ CUT = {
     "_drilled": ("moment, contact, spin, drilling", "moment"),
     "_drilling_loss": ("contact, d_spin, drilling", "(0.0, 0.0)"),
     "rib_log2_film": ("load, speed, film", "0.0"),
-    # ring flexibility
-    "bent_cup": ("lanes, flex, view, cosine, sine, flexibility", "(view, 0.0)"),
-    "about_rigid_cup": ("contact, shift, flexibility", "contact"),
-    "bend_cup": ("force, here, modes, flexibility", "None"),
-    "drift_flex": ("flex, step, flexibility", "None"),
-    "kick_flex": ("flex, sums, energy, step, flexibility", "0.0"),
-    "flex_energy": ("flex, flexibility", "0.0"),
+    # structure
+    "bent_cup": ("lanes, bends, view, radius, cosine, sine, structure", "(view, 0.0)"),
+    "about_rigid_cup": ("contact, shift, structure", "contact"),
+    "bend_cup": ("force, here, series, structure", "None"),
+    "show_structure": ("lanes, flex, box, step, bend, structure", "None"),
+    "kick_structure": ("flex, sums, box, signal, energy, step, bend, structure", "0.0"),
+    "structure_energy": ("flex, structure", "0.0"),
     # seals, lands, cages that follow the rings
     "add_seals": ("bodies, wrenches, energy, step, seal", "None"),
     "push_lands": ("bodies, wrenches, cage, land", "0.0"),

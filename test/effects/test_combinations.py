@@ -25,14 +25,14 @@ from test.kernels.test_step import shaken
 
 BLOCKS, BLOCKS_WITHOUT_RIB = 5, 2  # nothing but the rib keeps rollers from leaving sideways
 HEAVY, LIGHT = 8e4, 4e3
-RICH = {"thermal", "faults", "ring_flexibility", "film", "rolling_resistance"}
+RICH = {"thermal", "faults", "structure", "film", "rolling_resistance"}
 EXPLICIT = ("pocket", "cage_land", "suspension")
 SOURCES = {
     "rolling_resistance": "rolling_resistance",
     "rib": "rib",
     "drag": "drag",
     "seal": "seal",
-    "ring_bending": "ring_flexibility",
+    "structure": "structure",
 }
 EVERY = pytest.mark.parametrize("index", range(len(ROWS)), ids=[label(row) for row in ROWS])
 

@@ -29,7 +29,7 @@ from beardyn_core.effects import (
     PocketFilm,
     Rib,
     RibMixedFilm,
-    RingFlexibility,
+    RingStructure,
     RollingResistance,
     Seal,
     SmallRib,
@@ -60,7 +60,7 @@ ZERO = EffectSet(
     small_rib=SmallRib(),
     cage=Cage(lubrication=PocketFilm(), guidance=LandGuidance()),
     seal=Seal(torque=0.0, speed_coefficient=0.0),
-    ring_flexibility=RingFlexibility(stiffness_factor=1e19),
+    structure=RingStructure(stiffness_factor=1e19),
     gravity=Gravity(0.0),
     audit=Audit(),
 )
@@ -153,7 +153,7 @@ FELT: dict[str, tuple[Scene, str, float]] = {
     "pocket film": (zero_scene(), "pocket film", OUT_OF_REACH),
     "land": (zero_scene(), "land", OUT_OF_REACH),
     "seal": (with_effects(seal=Seal()), "", OUT_OF_REACH),
-    "flexibility": (with_effects(ring_flexibility=RingFlexibility()), "", OUT_OF_REACH),
+    "flexibility": (with_effects(structure=RingStructure()), "", OUT_OF_REACH),
     "gravity": (with_effects(gravity=Gravity()), "", OUT_OF_REACH),
     **{
         f"{patch.kind} on {patch.on}": (instead(i, replace(patch, depth=1e-5)), "", OUT_OF_REACH)

@@ -24,6 +24,7 @@ from beardyn_core.model.faults import roller_oversize
 from beardyn_core.model.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.scatter import crown_errors
+from beardyn_core.model.structure import body_of
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
@@ -103,8 +104,6 @@ class Rig:
         bearing = scene.bearing
         arrangement = Arrangement(bearing.roller_count, width, scene.rows, scene.missing_places)
         parameters = build_parameters(scene, arrangement, np.zeros(6))
-        flexibility = parameters.effects.ring_flexibility
-        bending = np.zeros(0) if flexibility is None else flexibility.stiffness
         static = solve(
             bearing,
             np.array(force),
@@ -114,7 +113,7 @@ class Rig:
             coupling=scene.effects.lamina_coupling,
             oversize=roller_oversize(scene),
             crown=crown_errors(scene),
-            bending_stiffness=bending,
+            body=body_of(scene),
             axial_stiffness=scene.mounting.axial_prop_stiffness,
             rows=scene.rows,
             missing=scene.missing_places,
@@ -123,15 +122,17 @@ class Rig:
         state = initial_state(bearing, arrangement, parameters, static, speed, orbit)
         load = np.array([*force, 0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0])
         return Rig(
-            scene, arrangement, parameters, state, work_space(arrangement, len(bending)), load,
-            np.zeros(ENERGY_TERMS),
+            scene, arrangement, parameters, state,
+            work_space(arrangement, parameters.effects.structure), load, np.zeros(ENERGY_TERMS),
         )  # fmt: skip
 
     def run(
         self, steps: int, trends: int = 1, kernel: Callable[..., None] = advance
     ) -> tuple[Float, Float, Float]:
         """Advance; returns signals [step, channel] and trends of rollers and bodies."""
-        signals = np.zeros((steps, SIGNAL_CHANNELS))
+        structure = self.parameters.effects.structure
+        seats = 0 if structure is None else len(structure.seats) - 6
+        signals = np.zeros((steps, SIGNAL_CHANNELS + seats))
         rollers = np.zeros((trends, *self.state.rollers.shape))
         bodies = np.zeros((trends, *self.state.bodies.shape))
         loads = np.repeat(self.load[None], steps + 1, axis=0)

@@ -1,0 +1,120 @@
+"""The modes of a shipped axlebox or of a table of one's own, and the mounting that goes with them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.config.folders import closest, config_folder
+from beardyn_core.edge import Problem, places, written_value
+from beardyn_core.effects import EffectSet, ModalStructure
+from beardyn_core.errors import InputError
+from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.structure.modes import Modes
+from beardyn_core.structure.table import read_table
+
+SEAT_REACH = 5e-3  # a sensor this close to a seat sits on it [m]
+BOX_KEYS = ("box_mass_kg", "box_centre_mm", "box_inertia_kg_m2")
+
+
+def table_path(name: str) -> Path:
+    """Find the table of a shipped box, or that of a path, which ends in ``.csv``."""
+    if name.endswith(".csv"):
+        return Path(name)
+    folder = config_folder() / "structures"
+    if not (path := folder / f"{name}.csv").is_file():
+        names = sorted(each.stem for each in folder.glob("*.csv"))
+        guess = closest(name, names)
+        hint = f"did you mean {guess}? " if guess else ""
+        raise InputError(
+            f"there is no table of a box {name!r}; {hint}shipped are {', '.join(names) or 'none'}; a table "
+            "of your own is given by its path, ending in .csv"
+        )
+    return path
+
+
+def modes_of_effects(effects: EffectSet) -> Modes | None:
+    """Read the modes of the box of a set of effects; ``None`` where the box has none.
+
+    Raises
+    ------
+    InputError
+        With every mistake in the table.
+    """
+    structure = effects.structure
+    if not isinstance(structure, ModalStructure):
+        return None
+    path = table_path(structure.table)
+    try:
+        written = path.stat().st_mtime_ns
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error})") from error
+    return _read(path, written, structure.highest)
+
+
+@lru_cache(maxsize=8)
+def _read(path: Path, _written: int, highest: float | None) -> Modes:
+    modes = read_table(path)
+    return modes if highest is None else modes.below(highest)
+
+
+def seat_of(sensor: Accelerometer, modes: Modes) -> str:
+    """Find the seat that an accelerometer sits on; raises `InputError` with the seats there are."""
+    distance = {
+        name: math.dist(sensor.position, place)
+        for name, place in modes.places.items()
+        if name not in modes.suspension
+    }
+    nearest = min(distance, key=lambda name: distance[name], default=None)
+    if nearest is None or distance[nearest] > SEAT_REACH:
+        seats = ", ".join(f"{name} at {_mm(modes.places[name])}" for name in distance)
+        raise InputError(
+            f"sensor {sensor.name!r} at position_mm {_mm(sensor.position)} sits on no seat of the box "
+            f"{modes.name}; it has {seats or 'none'}"
+        )
+    return nearest
+
+
+def _mm(place: tuple[float, float, float]) -> list[float]:
+    return [round(1e3 * each, 1) for each in place]
+
+
+def mounting_of(modes: Modes, mounting: Mounting, bearing: Bearing) -> Mounting:
+    """Put the box of a table into a mounting: mass, centre of mass and inertia without the cup.
+
+    Raises
+    ------
+    InputError
+        When the box is lighter than the cup that it should hold.
+    """
+    mass = modes.mass - bearing.cup_mass
+    inertia = np.array(modes.inertia) - np.array(bearing.cup_inertia)
+    if mass <= 0.0 or inertia.min() <= 0.0:
+        raise InputError(
+            f"the box {modes.name} has {modes.mass:g} kg with its cup; the cup of {bearing.name} alone has "
+            f"{bearing.cup_mass:g} kg: take the box of this bearing"
+        )
+    x, y, z = (modes.mass / mass * each for each in modes.centre)
+    about_x, about_y, about_z = map(float, inertia)
+    return replace(mounting, box_mass=mass, box_centre=(x, y, z), box_inertia=(about_x, about_y, about_z))
+
+
+def box_problems(given: set[str], stated: Mounting, taken: Mounting, name: str) -> Iterator[Problem]:
+    """Find keys of a mounting that say something else of the box than its table."""
+    for place in places(Mounting):
+        if place.key in BOX_KEYS and place.key in given:
+            said, meant = getattr(stated, place.field), getattr(taken, place.field)
+            if not np.allclose(said, meant, rtol=1e-3, atol=1e-4):
+                shown = written_value(meant, place.at)
+                yield Problem(
+                    f"{place.key} is {written_value(said, place.at)}; the box {name} of effects.structure "
+                    f"has {shown} without the cup: leave the key out",
+                    ("mounting",),
+                )

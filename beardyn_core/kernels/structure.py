@@ -1,0 +1,250 @@
+"""Bending of the axlebox with the cup: how the rollers see it, what they do to it, and its own motion.
+
+The modes have unit modal mass; ``flex`` [2, mode] holds their places [m sqrt(kg)] and speeds (positions at
+whole steps, velocities half a step later, like all bodies). Once a step they give the displacement around
+each raceway as a Fourier series of the azimuth; each roller walks through its waves.
+
+Seen from one roller, a bent raceway is to first order the round one moved by w outwards and by dw/dt along
+the orbit: that gives its gap, the slope of its normal and the shifted contact point in one go. On a cone of
+the angle alpha an axial displacement u counts in the gap as -u tan(alpha) outwards, so w is the radial
+displacement less that. The slope is what makes the normal force conservative, so the energy audit closes.
+
+Series stand as in a table of modes: mean, cosines, sines; of each row the radial, the tangential and the
+axial one, towards the outer side of the row.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from beardyn_core.jit import FASTMATH, entry, inline
+from beardyn_core.kernels.box import DAMPERS, SEAT_PLACE, SEAT_SPEED, SUSPENSION
+from beardyn_core.kernels.exchange import accumulate
+from beardyn_core.kernels.orbit import View
+from beardyn_core.kernels.raceway import RacewayContact
+from beardyn_core.kernels.vectors import add
+from beardyn_core.model.layout import (
+    ENERGY_LOST,
+    LOSS_STRUCTURE,
+    LOSS_SUSPENSION,
+    SIGNAL_CHANNELS,
+    SUM_FIELDS,
+)
+
+PLACE, SPEED = 0, 1
+SHOWN = 4  # series of each lane: the gap's place, then the three speeds
+
+# sums may be taken in any order here, so that they go into vectors
+_sums_in_any_order = partial(entry, flags=(*FASTMATH, "reassoc"))
+
+
+@_sums_in_any_order
+def _bend(shapes, flex, step, bent):
+    """Move the modes along their velocities and add their shapes, four at a time, into ``bent`` [2, read]."""
+    for m in range(flex.shape[1]):
+        flex[PLACE, m] += step * flex[SPEED, m]
+    for k in range(shapes.shape[1]):
+        bent[PLACE, k] = 0.0
+        bent[SPEED, k] = 0.0
+    for m in range(0, shapes.shape[0], 4):
+        place, place1, place2, place3 = flex[PLACE, m : m + 4]
+        speed, speed1, speed2, speed3 = flex[SPEED, m : m + 4]
+        for k in range(shapes.shape[1]):
+            one, two, three, four = shapes[m, k], shapes[m + 1, k], shapes[m + 2, k], shapes[m + 3, k]
+            bent[PLACE, k] += place * one + place1 * two + place2 * three + place3 * four
+            bent[SPEED, k] += speed * one + speed1 * two + speed2 * three + speed3 * four
+
+
+@_sums_in_any_order
+def _kick(structure, flex, forces, change, step):
+    """Accelerate all modes under forces [read]; gives the bending energy and what is lost, [J]."""
+    shapes = structure.shapes
+    for m in range(0, shapes.shape[0], 4):
+        one, two, three, four = 0.0, 0.0, 0.0, 0.0
+        for k in range(shapes.shape[1]):
+            force = forces[k]
+            one += shapes[m, k] * force
+            two += shapes[m + 1, k] * force
+            three += shapes[m + 2, k] * force
+            four += shapes[m + 3, k] * force
+        change[m], change[m + 1], change[m + 2], change[m + 3] = one, two, three, four
+    stored, lost = 0.0, 0.0
+    for m in range(shapes.shape[0]):
+        place, speed = flex[PLACE, m], flex[SPEED, m]
+        spring = structure.stiffness[m] * place
+        change[m] = step * (change[m] - spring - structure.damping[m] * speed) / structure.inertia[m]
+        middle = speed + 0.5 * change[m]
+        lost += structure.damping[m] * middle * middle
+        stored += 0.5 * spring * place
+        flex[SPEED, m] = speed + change[m]
+    return stored, step * lost
+
+
+@_sums_in_any_order
+def _at_seats(seats, change, found):
+    """Work out the change of speed of every seat, ``found`` [6 of the suspension, then 3 x sensor]."""
+    for k in range(seats.shape[0]):
+        total = 0.0
+        for m in range(change.shape[0]):
+            total += seats[k, m] * change[m]
+        found[k] = total
+
+
+@inline
+def show_structure(lanes, flex, box, step, bend, structure):
+    """Move all modes along their velocities, and write how raceways and seats of the suspension give way.
+
+    ``bend``: a `BendSpace`; the seats stand in ``box``, as motion of the bearing centre.
+    """
+    if structure is None:
+        return
+    _bend(structure.shapes, flex, step, bend.bent)
+    series = bend.lanes.shape[2] // SHOWN
+    other = 3 * series * (structure.rows - 1)
+    for group in range(bend.lanes.shape[0]):
+        target = bend.lanes[group]
+        near, far = lanes.load(structure.sides, group, 0), lanes.load(structure.sides, group, 1)
+        for k in range(series):
+            axial, radial = k + 2 * series, k
+            one = bend.bent[PLACE, radial] - structure.taper * bend.bent[PLACE, axial]
+            two = bend.bent[PLACE, other + radial] - structure.taper * bend.bent[PLACE, other + axial]
+            lanes.store(target, 0, k, near * one + far * two)
+        for k in range(3 * series):
+            lanes.store(target, 0, series + k, near * bend.bent[SPEED, k] + far * bend.bent[SPEED, other + k])
+    first = other + 3 * series
+    for i in range(6):
+        box[SEAT_PLACE + i] = bend.bent[PLACE, first + i]
+        box[SEAT_SPEED + i] = bend.bent[SPEED, first + i]
+
+
+@inline
+def bent_cup(lanes, bends, view, radius, cosine, sine, structure):
+    """Bend the cup as each roller at a ``radius`` [m] sees it; ``bends``: ``lanes`` of a `BendSpace`.
+
+    Returns ``view``: with the origin and the velocity of the piece of raceway at the roller;
+    ``shift``: by how much the origin moved [m].
+
+    Neglects the turn of the piece of raceway about the axle and its tilt.
+    """
+    zero = lanes.constant(0.0)
+    if structure is None:
+        return view, (zero, zero, zero)
+    series = bends.shape[1] // SHOWN
+    waves = series // 2
+    deflection, slope = lanes.load(bends, 0, 0), zero
+    speed, around = lanes.load(bends, 0, series), lanes.load(bends, 0, 2 * series)
+    along = lanes.load(bends, 0, 3 * series)
+    cosine_before, sine_before = lanes.constant(1.0), zero
+    cosine_n, sine_n = cosine, sine
+    for n in range(1, waves + 1):
+        a, b = lanes.load(bends, 0, n), lanes.load(bends, 0, waves + n)
+        deflection = deflection + (a * cosine_n + b * sine_n)
+        slope = slope + float(n) * (b * cosine_n - a * sine_n)
+        a, b = lanes.load(bends, 0, series + n), lanes.load(bends, 0, series + waves + n)
+        speed = speed + (a * cosine_n + b * sine_n)
+        a, b = lanes.load(bends, 0, 2 * series + n), lanes.load(bends, 0, 2 * series + waves + n)
+        around = around + (a * cosine_n + b * sine_n)
+        a, b = lanes.load(bends, 0, 3 * series + n), lanes.load(bends, 0, 3 * series + waves + n)
+        along = along + (a * cosine_n + b * sine_n)
+        cosine_next = 2.0 * cosine * cosine_n - cosine_before
+        sine_next = 2.0 * cosine * sine_n - sine_before
+        cosine_before, sine_before = cosine_n, sine_n
+        cosine_n, sine_n = cosine_next, sine_next
+    # the gap of the shifted circle is that of the bent one, and its push along the orbit the slope of its
+    # energy, to second order: to the first alone a static bend of 0.1 mm feeds 1e-4 of the losses
+    ahead = slope * (1.0 - deflection / radius)
+    shift = (deflection + 0.5 * ahead * ahead / radius, ahead, zero)
+    moving = add(view.velocity, (speed, around, along))
+    return View(add(view.origin, shift), view.axis, moving, view.omega), shift
+
+
+@inline
+def about_rigid_cup(contact, shift, structure):
+    """Place a contact from the origin of the rigid cup, about which reactions are summed."""
+    if structure is None:
+        return contact
+    c, centre = contact, add(contact.centre, shift)
+    return RacewayContact(c.line, c.slip, c.sums, c.lean, c.log2_speed, centre, c.body, c.damage)
+
+
+@inline
+def bend_cup(force, here, series, structure):
+    """Add the work that the rollers' reaction does on a unit of each term of the series to the sums.
+
+    ``force``: of the cup on the roller [N]; ``series``: terms of each.
+    """
+    if structure is None:
+        return
+    waves = series // 2
+    radial, around, along = here.mask * force[0], here.mask * force[1], here.mask * force[2]
+    accumulate(here, SUM_FIELDS, 0.0 - radial)
+    accumulate(here, SUM_FIELDS + series, 0.0 - around)
+    accumulate(here, SUM_FIELDS + 2 * series, 0.0 - along)
+    cosine_before, sine_before = here.lanes.constant(1.0), here.lanes.constant(0.0)
+    cosine_n, sine_n = here.cosine, here.sine
+    for n in range(1, waves + 1):
+        first = SUM_FIELDS + n
+        accumulate(here, first, 0.0 - radial * cosine_n)
+        accumulate(here, first + waves, 0.0 - radial * sine_n)
+        accumulate(here, first + series, 0.0 - around * cosine_n)
+        accumulate(here, first + series + waves, 0.0 - around * sine_n)
+        accumulate(here, first + 2 * series, 0.0 - along * cosine_n)
+        accumulate(here, first + 2 * series + waves, 0.0 - along * sine_n)
+        cosine_next = 2.0 * here.cosine * cosine_n - cosine_before
+        sine_next = 2.0 * here.cosine * sine_n - sine_before
+        cosine_before, sine_before = cosine_n, sine_n
+        cosine_n, sine_n = cosine_next, sine_next
+
+
+@_sums_in_any_order
+def _collect_forces(sums, forces, rows, count):
+    """Sum the lanes' forces on the ``count`` terms around each raceway into ``forces`` [read]."""
+    width = sums.shape[3]
+    share = width // rows if width > 1 else 1
+    for row in range(rows):
+        group, lane = (0, row * share) if width > 1 else (row, 0)
+        for k in range(count):
+            field = SUM_FIELDS + k
+            if share == 4:
+                total = sums[group, 0, field, lane] + sums[group, 0, field, lane + 1]
+                total += sums[group, 0, field, lane + 2] + sums[group, 0, field, lane + 3]
+            else:
+                total = 0.0
+                for i in range(share):
+                    total += sums[group, 0, field, lane + i]
+            forces[count * row + k] = total
+
+
+@inline
+def kick_structure(flex, sums, box, signal, energy, step, bend, structure):
+    """Accelerate the modes under rollers and suspension and return the bending energy, [J].
+
+    The inertia of `StructureParams` makes this the exact free motion of a damped oscillator, so a mode may be
+    as stiff as one likes. ``signal``: written behind `SIGNAL_CHANNELS`: acceleration of the sensors' seats.
+    """
+    if structure is None:
+        return 0.0
+    count = 3 * (bend.lanes.shape[2] // SHOWN)
+    _collect_forces(sums, bend.forces, structure.rows, count)
+    for i in range(6):
+        bend.forces[count * structure.rows + i] = box[SUSPENSION + i]
+    stored, lost = _kick(structure, flex, bend.forces, bend.change, step)
+    energy[ENERGY_LOST + LOSS_STRUCTURE] += lost
+    _at_seats(structure.seats, bend.change, bend.seats)
+    for i in range(6):
+        middle = box[SEAT_SPEED + i] + 0.5 * bend.seats[i]
+        energy[ENERGY_LOST + LOSS_SUSPENSION] += step * box[DAMPERS + i] * middle
+    for k in range(structure.seats.shape[0] - 6):
+        signal[SIGNAL_CHANNELS + k] = bend.seats[6 + k] / step
+    return stored
+
+
+@inline
+def structure_energy(flex, structure):
+    """Sum the kinetic energy of the modes, [J]."""
+    if structure is None:
+        return 0.0
+    total = 0.0
+    for m in range(flex.shape[1]):
+        total += 0.5 * structure.mass[m] * flex[SPEED, m] ** 2
+    return total
