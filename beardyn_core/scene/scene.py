@@ -96,7 +96,7 @@ class Scene:
     sensors: A[tuple[Accelerometer, ...], At(size=(1, None)), "on the axlebox"] = (Accelerometer(),)
     numerics: A[Numerics, "discretisation of the run, or auto"] = Numerics()
     duration: A[float, At("s", gt=0.0, le=86400.0), "simulated time"] = 2.0
-    seed: A[int, SEED, "of irregularity and sensor noise"] = 1
+    seed: A[int, SEED, "of irregularity, background and sensor noise"] = 1
     # what has been chosen automatically, each with its reason
     chosen: A[tuple[str, ...], INTERNAL] = field(default=(), compare=False)
 
