@@ -20,7 +20,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step light damping heat structure ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step light damping service heat structure ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -59,6 +59,9 @@ step: $(VENV)/.ready-test ## set up, then time steps against an explicit referen
 
 light: $(VENV)/.ready-test ## set up, then cages under light loads in every shipped set: docs/light.md
 	@$(BIN)/python -m evidence.light.page $(ARGS)
+
+service: $(VENV)/.ready-test ## set up, then what sensors in service hear: docs/sensors.md
+	@$(BIN)/python -m evidence.service.page $(ARGS)
 
 damping: $(VENV)/.ready-test ## set up, then damping times over their quoted range: docs/damping.md
 	@$(BIN)/python -m evidence.damping.page $(ARGS)

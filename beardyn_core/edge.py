@@ -62,6 +62,7 @@ class Unit(NamedTuple):
 # Ending of a key -> its unit; longer endings stand before the shorter ones that they end in.
 UNITS = {
     "m_per_s2_per_sqrt_Hz": Unit("metres per second squared per square root of hertz"),
+    "mV_per_m_per_s2": Unit("millivolts per metre per second squared", over=1e3),
     "N_m_s_per_rad": Unit("newton metre seconds per radian"),
     "kN_m_per_rad": Unit("kilonewton metres per radian", times=1e3),
     "kg_per_m3": Unit("kilograms per cubic metre"),
@@ -85,6 +86,8 @@ UNITS = {
     "kN_m": Unit("kilonewton metres", times=1e3),
     "N_m": Unit("newton metres"),
     "mrad": Unit("milliradians", over=1e3),
+    "N_s": Unit("newton seconds"),
+    "mV": Unit("millivolts", over=1e3),
     "kmh": Unit("kilometres per hour", times=1.0 / 3.6),
     "rpm": Unit("revolutions per minute", times=2.0 * math.pi / 60.0),
     "deg": Unit("degrees", times=math.pi / 180.0),

@@ -61,7 +61,7 @@ def start(scene: Scene, duration: float | None = None) -> Simulation:
         twin = Twin(scene)
         seconds = scene.duration if duration is None else duration
         count = max(1, math.ceil(seconds * 1e9 / twin.block_ns - 1e-6))
-        load = load_of_run(scene.operation, scene.mounting, count * twin.block_ns * 1e-9, scene.seed)
+        load = load_of_run(scene, count * twin.block_ns * 1e-9)
         twin.warm()
         twin.start(load)
         return Simulation(twin, load.until(count * twin.block_ns), count)

@@ -17,7 +17,7 @@ from scipy.interpolate import CubicSpline
 
 from beardyn_core.choice import load_scene
 from beardyn_core.errors import InputError
-from beardyn_core.rail.build import load_history
+from beardyn_core.rail.build import load_history, load_of_scene
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.operation import MeasuredOperation, Operation, QuarterVehicleOperation
@@ -128,7 +128,7 @@ class CarScenario:
             scene = replace(scene, operation=operation)
             if side == "right":
                 scene = replace(scene, operation=_mirrored(operation), seed=scene.seed + 1)
-        history = load_history(scene.operation, scene.mounting, self._length, scene.seed)
+        history = load_of_scene(scene, self._length)
         if side == "right" and isinstance(scene.operation, QuarterVehicleOperation):
             history = LoadHistory(
                 history.time_ns, history.wrench * MIRRORED, history.shaft_speed, history.bogie * MIRRORED[:3]

@@ -48,7 +48,7 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
         0 for the scene's own, or the whole CSV, [s].
     """
     from beardyn_core.choice import load_scene
-    from beardyn_core.rail.build import load_history
+    from beardyn_core.rail.build import load_of_scene
     from beardyn_core.rail.measured import read_measurement
     from beardyn_core.scene.operation import MeasuredOperation
 
@@ -60,7 +60,7 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
         if not duration:
             time_s = read_measurement(path).time
             length = float(time_s[-1] - time_s[0])
-    history = load_history(scene.operation, scene.mounting, length, scene.seed)
+    history = load_of_scene(scene, length)
     return Scenario(history, scenario_events(replace(scene, duration=length)))
 
 

@@ -19,7 +19,7 @@ from beardyn_core.choice import load_scene
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of
-from beardyn_core.rail.build import load_history
+from beardyn_core.rail.build import load_history, load_of_scene
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.spectra import spectral_density
 from beardyn_core.scene.excitation import SPECTRA, VERTICAL_ONLY, RailDefect, WheelDefect
@@ -89,7 +89,8 @@ def friends(scene: Scene) -> str:
     """Describe what a monitor may mistake for a fault."""
     kinds = [event["kind"].replace("_", " ") for event in events_of(scene)["events"]]
     strange = [kind for kind in dict.fromkeys(kinds) if kind not in ("standstill", "forwards", "backwards")]
-    return ", ".join(strange)
+    besides = [] if scene.background is None else [f"background `{scene.background.name}`"]
+    return ", ".join([*strange, *besides])
 
 
 def speeds(scene: Scene) -> str:
@@ -192,7 +193,7 @@ def picture(scene: Scene) -> bytes:
     import matplotlib.pyplot as plt
     from PIL import Image
 
-    history = load_history(scene.operation, scene.mounting, scene.duration, scene.seed)
+    history = load_of_scene(scene, scene.duration)
     time = history.time_ns * 1e-9
     size = {"height_ratios": [3, 1.2]}
     figure, (load, speed) = plt.subplots(2, 1, sharex=True, figsize=(6.4, 2.9), dpi=100, gridspec_kw=size)

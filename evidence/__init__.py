@@ -11,6 +11,7 @@ step        docs/step.md: chosen time steps beside an explicit one of 0.1 us
 light       docs/light.md: cages under light loads
 structure   docs/structure.md: modes of an axlebox beside its finite elements
 damping     docs/damping.md: what the damping of the contacts changes
+service     docs/sensors.md: what a sensor in service hears, and what the monitor says of it
 heat        docs/heat.md: torque and steady temperatures beside published ones
 ladder      docs/ladder.md: what accuracy costs
 automatic   docs/automatic.md: what `effects: auto` chooses, on trial

@@ -9,7 +9,7 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
-from beardyn_core.rail.build import load_history
+from beardyn_core.rail.build import load_of_scene
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.operation import ConstantOperation, MeasuredOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene
@@ -117,7 +117,7 @@ def _samples(scene: Scene) -> tuple[Float, Float]:
         measured = read_measurement(operation.path)
         within = measured.time <= scene.duration
         return measured.wrench[within], measured.shaft_speed[within]
-    history = load_history(operation, scene.mounting, look, scene.seed)
+    history = load_of_scene(scene, look)
     begun = history.time_ns >= min(0.2, 0.5 * look) * 1e9  # the irregularity fades in
     if not begun.any():
         raise InputError(f"{scene.name}: duration is {scene.duration:g} s, too short to have a load")

@@ -98,6 +98,8 @@ def _sudden(scene: Scene) -> str:
             return "strikes of wheel or rail"
     elif not isinstance(operation, ConstantOperation | SteppedOperation):
         return "measured loads"
-    if any(sensor.mounting_resonance is not None or sensor.rate > WAVEFORM_RATE for sensor in scene.sensors):
-        return "accelerometers with a resonance or a faster rate"
+    if scene.background is not None and scene.background.forces:
+        return "forces of the background"
+    if any(sensor.rate > WAVEFORM_RATE for sensor in scene.sensors):
+        return "accelerometers with a faster rate"
     return ""

@@ -13,6 +13,7 @@ from beardyn_core.cli.json_output import json_text
 if TYPE_CHECKING:
     from beardyn_core.choice import Explanation
     from beardyn_core.choice.rule import Choice
+    from beardyn_core.scene.scene import Scene
 
 DONE = 0
 _WIDTH = 110
@@ -85,8 +86,26 @@ def text(found: Explanation) -> str:
     else:
         parts += ["", *_lines(found.current, "as the scene has it")]
         parts += ["", *_lines(found.automatic, "what `effects: auto` would choose")]
+    parts += _heard(found.scene)
     parts += ["", f"Cost shares and real-time factor as measured on {costs.machine}, {costs.date}."]
     return "\n".join(parts)
+
+
+def _heard(scene: Scene) -> list[str]:
+    """Name what sensors hear besides, and paths that are filters and no model."""
+    from beardyn_core.edge import written
+
+    found = []
+    if scene.background is not None:
+        parts = [part for part in written(scene.background) if part not in ("name", "description", "sources")]
+        found.append(f"background {scene.background.name}: {', '.join(parts)}")
+    found += [
+        f"sensor {sensor.name}: measured path {path.path.name} on {', '.join(path.axes)}, a filter behind "
+        "the rigid box; rollers and raceways do not feel it"
+        for sensor in scene.sensors
+        for path in sensor.measured_paths
+    ]
+    return ["", *found] if found else []
 
 
 def _lines(choice: Choice, title: str) -> list[str]:

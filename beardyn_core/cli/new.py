@@ -20,18 +20,22 @@ _HOW = {
     "effects": "beardyn simulate SCENE --effects {file}     in a scene beside it: effects: {file}",
     "trials": "beardyn trial {file}",
     "structures": "beardyn structure {file}",
+    "sensors": "in a sensor of a scene beside it: type: {file}",
+    "backgrounds": "in a scene beside it: background: {file}",
 }
 # What else a scene may say: shown as comments where the scene does not say it.
 POSSIBLE = {
     "end_play_mm": "end_play_mm: 0.1   # total axial travel, negative: preload; else that of the bearing",
     "tier": "tier: quasistatic   # full (default), quasistatic or lumped: which bodies move by themselves",
     "effects": "effects: full   # one of `beardyn scenes effects` (standard by default)",
+    "background": "background: {name: mine, knocks: {rate_Hz: 3, impulse_N_s: 0.1}}   "
+    "# or one of `beardyn scenes backgrounds`",
     "defects": 'defects:\n  - {kind: spall, "on": cup, row: 0, azimuth_deg: 0, width_mm: 6, depth_um: 100}',
     "waviness": 'waviness:\n  - {"on": cup, row: 0, orders: [20], amplitude_um: 1}',
     "scatter": "scatter: {grade: G2, seed: 1}   # rollers, pockets, raceways as made: none, G1, G2, G3, G5",
-    "sensors": "sensors:\n  - {name: axlebox_top, position_mm: [0, 0, 170], range_m_per_s2: 5000}",
+    "sensors": "sensors:\n  - {name: axlebox_top, position_mm: [0, 0, 170], type: iepe_100}",
     "numerics": "numerics: {laminae: 6}   # slices of each roller contact",
-    "seed": "seed: 2   # of irregularity and sensor noise",
+    "seed": "seed: 2   # of irregularity, background and sensor noise",
 }
 _WORD = re.compile(r"(?!(?:true|false|null|True|False|Null|TRUE|FALSE|NULL)$)[A-Za-z_][\w.-]{0,79}")
 

@@ -1,4 +1,4 @@
-"""``beardyn scenes``: what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are."""
+"""``beardyn scenes``: what scenes there are, and what bearings, sensors, ... they can be made of."""
 
 from __future__ import annotations
 
@@ -15,7 +15,17 @@ from beardyn_core.errors import InputError
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
 
-KINDS = ("scenes", "bearings", "lubricants", "vehicles", "effects", "trials", "structures")
+KINDS = (
+    "scenes",
+    "bearings",
+    "lubricants",
+    "vehicles",
+    "effects",
+    "trials",
+    "structures",
+    "sensors",
+    "backgrounds",
+)
 _ZERO_CELSIUS = 273.15
 _GROUPS = (
     "healthy bearing under a train",
@@ -32,6 +42,8 @@ _USE = {
     "effects": "in a scene: effects: NAME; for one run: beardyn simulate SCENE --effects NAME",
     "trials": "run: beardyn trial NAME",
     "structures": "modes: beardyn structure NAME",
+    "sensors": "in a scene: sensors: [{name: top, type: NAME}]",
+    "backgrounds": "in a scene: background: NAME",
 }
 
 
@@ -39,7 +51,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "scenes",
-        help="list the shipped scenes, bearings, lubricants, vehicles, effects, trials or boxes",
+        help="list the shipped scenes, bearings, lubricants, vehicles, effects, trials, boxes, sensors, ...",
         description="List what is shipped, with what each is for. Every name is a YAML file that "
         "`beardyn new NAME` copies.",
     )
@@ -204,6 +216,27 @@ def _structure(name: str) -> dict[str, Any]:
     }
 
 
+def _sensor(name: str) -> dict[str, Any]:
+    from beardyn_core.config.load import load_sensor
+
+    sensor = load_sensor(name)
+    return {
+        "purpose": sensor.description,
+        "noise_density_m_per_s2_per_sqrt_Hz": sensor.noise_density,
+        "range_m_per_s2": sensor.range,
+        "mounting_resonance_Hz": sensor.mounting_resonance,
+    }
+
+
+def _background(name: str) -> dict[str, Any]:
+    from beardyn_core.config.load import load_background
+    from beardyn_core.edge import written
+
+    background = load_background(name)
+    parts = [part for part in written(background) if part not in ("name", "description", "sources")]
+    return {"purpose": background.description, "parts": parts}
+
+
 _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "scenes": _scene,
     "bearings": _bearing,
@@ -212,6 +245,8 @@ _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "effects": _effects,
     "trials": _trial,
     "structures": _structure,
+    "sensors": _sensor,
+    "backgrounds": _background,
 }
 
 
@@ -268,6 +303,18 @@ def _lubricant_figures(entry: dict[str, Any]) -> list[str]:
     return [f"{cold:.0f} mm2/s at 40 °C, {hot:.1f} at 100 °C"]
 
 
+def _sensor_figures(entry: dict[str, Any]) -> list[str]:
+    noise, range_, resonance = (
+        entry[key]
+        for key in ("noise_density_m_per_s2_per_sqrt_Hz", "range_m_per_s2", "mounting_resonance_Hz")
+    )
+    return [
+        f"{noise:.2g} m/s2 per root Hz",
+        f"to {range_:g} m/s2",
+        "rigid" if resonance is None else f"{resonance / 1e3:g} kHz",
+    ]
+
+
 _FIGURES: dict[str, Callable[[dict[str, Any]], list[str]]] = {
     "scenes": _scene_figures,
     "bearings": _bearing_figures,
@@ -276,4 +323,6 @@ _FIGURES: dict[str, Callable[[dict[str, Any]], list[str]]] = {
     "effects": lambda entry: [f"{len(entry['effects'])} effects"],
     "trials": lambda entry: [f"{entry['run_count']} runs", f"of {entry['scene']}"],
     "structures": lambda entry: [f"for {entry['bearing']}"],
+    "sensors": _sensor_figures,
+    "backgrounds": lambda entry: [", ".join(entry["parts"])],
 }

@@ -5,7 +5,18 @@ from __future__ import annotations
 import argparse
 import json
 
-KINDS = ("scene", "bearing", "lubricant", "vehicle", "effects", "trial", "structure", "modes")
+KINDS = (
+    "scene",
+    "bearing",
+    "lubricant",
+    "vehicle",
+    "effects",
+    "trial",
+    "structure",
+    "modes",
+    "sensor",
+    "background",
+)
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -30,10 +30,12 @@ if TYPE_CHECKING:
     from beardyn_core.config.folders import config_folder, shipped_names
     from beardyn_core.config.load import (
         OpenScene,
+        load_background,
         load_bearing,
         load_box,
         load_effects,
         load_lubricant,
+        load_sensor,
         load_vehicle,
         read_scene,
         read_scene_mapping,
@@ -45,8 +47,10 @@ if TYPE_CHECKING:
 
 __all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_bearing", "load_box"]
 __all__ += [
+    "load_background",
     "load_effects",
     "load_lubricant",
+    "load_sensor",
     "load_vehicle",
     "read_scene",
     "read_scene_mapping",

@@ -11,7 +11,17 @@ from pathlib import Path
 
 from beardyn_core.errors import InputError
 
-KINDS = ("bearings", "lubricants", "vehicles", "effects", "scenes", "trials", "structures")
+KINDS = (
+    "bearings",
+    "lubricants",
+    "vehicles",
+    "effects",
+    "scenes",
+    "trials",
+    "structures",
+    "sensors",
+    "backgrounds",
+)
 _SUFFIXES = (".yaml", ".yml")
 
 

@@ -29,11 +29,14 @@ from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
 from beardyn_core.rail.table import read_table
+from beardyn_core.rail.transfer_path import read_transfer_path
+from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.excitation import MEASURED, WheelDefect
 from beardyn_core.scene.operation import QuarterVehicleOperation, Vehicle
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Free, Numerics, Scene
+from beardyn_core.scene.sensor import SensorType
 from beardyn_core.scene.tier import TIER_NAMES, contradictions, integrator_problems
 from beardyn_core.scene.trial import Trial
 from beardyn_core.scene.waviness import Waviness
@@ -127,6 +130,16 @@ def load_box(name: str | Path) -> Box | ModeFile:
     return box
 
 
+def load_sensor(name: str | Path) -> SensorType:
+    """Load a shipped kind of sensor or that of a file; raises `InputError` with every mistake."""
+    return _load(SensorType, find("sensors", str(name)))
+
+
+def load_background(name: str | Path) -> Background:
+    """Load a shipped background or that of a file; raises `InputError` with every mistake."""
+    return _load(Background, find("backgrounds", str(name)))
+
+
 def load_effects(name: str | Path) -> EffectSet:
     """Load the effects of a shipped preset or of a file; raises `InputError` with every mistake."""
     return _load(EffectSet, find("effects", str(name)))
@@ -190,10 +203,12 @@ class _Reading:
             self._override(place, value)
         self._inline(self.data, "bearing", "bearings", ())
         self._inline(self.data, "lubricant", "lubricants", ())
+        self._inline(self.data, "background", "backgrounds", ())
         self.data.setdefault("effects", "standard")
         free = take_auto(self.data)
         self._inline_effects()
         self._locate_table()
+        self._inline_sensors()
         operation = self.data.get("operation")
         if isinstance(operation, dict):
             operation = self.data["operation"] = dict(operation)
@@ -243,6 +258,20 @@ class _Reading:
             self.origins.append(Origin(place, str(path)))
         except InputError as error:
             self.problems += error.problems
+
+    def _inline_sensors(self) -> None:
+        """Resolve the types of the sensors and read their measured paths for mistakes."""
+        sensors = self.data.get("sensors")
+        if not isinstance(sensors, list | tuple):
+            return
+        self.data["sensors"] = [dict(each) if isinstance(each, dict) else each for each in sensors]
+        for place, sensor in entries_of(self.data, "sensors"):
+            self._inline(sensor, "type", "sensors", place)
+            paths = sensor.get("measured_paths")
+            if isinstance(paths, list | tuple):
+                sensor["measured_paths"] = [dict(each) if isinstance(each, dict) else each for each in paths]
+                for _, path in entries_of(sensor, "measured_paths"):
+                    self._locate(path, "path", read_transfer_path)
 
     def _inline_effects(self) -> None:
         given = self.data["effects"]

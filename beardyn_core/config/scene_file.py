@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -19,12 +19,13 @@ from beardyn_core.edge import UNITS, NounError, Problem, WorkedOut, places
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import speed_points
+from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Growth, Patch
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.running import Timetable
 from beardyn_core.scene.scene import Numerics, Scene
-from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, steps_do_not_fit
+from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, SensorType, steps_do_not_fit
 from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
 from beardyn_core.scene.waviness import Band, Waviness
 
@@ -171,7 +172,7 @@ class QuarterVehicleFile(FileModel):
 
 @reads(Accelerometer)
 class SensorFile(FileModel):
-    """A sensor, of which the schema lists the rates."""
+    """A sensor, which has from its type what it does not give itself; the schema lists the rates."""
 
     rate_kHz: Annotated[
         float,
@@ -181,6 +182,20 @@ class SensorFile(FileModel):
         RATES[0] / 1e3,
         description=f"51.2 needs an even numerics.steps_per_sample of {FINE_STEPS} or more, its default then",
     )
+
+    def values(self) -> dict[str, Any]:
+        """Take from the type what is not given."""
+        found = super().values()
+        kind = found["type"]
+        if not isinstance(kind, SensorType):
+            return {**found, "type": None}
+        given = {
+            place.field
+            for place in self.places
+            if place.key in self.model_fields_set and getattr(self, place.key) is not None
+        }
+        own = {field.name for field in fields(SensorType)} & {place.field for place in self.places}
+        return found | {name: getattr(kind, name) for name in own - given - {"name"}}
 
 
 def _number_of_steps(value: Any) -> Any:
@@ -307,7 +322,9 @@ class SceneFile(FileModel):
         """Make the scene, with what its parts leave to each other; ``None`` with an unread reference."""
         given = self.values()
         parts = ("bearing", "lubricant", "effects", "numerics", "operation")
-        if any(isinstance(given[part], str) or given[part] is None for part in parts):
+        if isinstance(given["background"], str) or any(
+            isinstance(given[part], str) or given[part] is None for part in parts
+        ):
             return None
         bearing, um = given["bearing"], UNITS["um"]
         if self.roughness.raceway_um is not None:
@@ -353,9 +370,29 @@ class SceneFile(FileModel):
             if name in names[:index]:
                 yield f"sensors[{index}].name is {name!r}, given twice; each sensor needs its own name"
         if isinstance(given["numerics"], Numerics):
-            found = steps_do_not_fit(given["sensors"], given["numerics"].steps_per_sample)
+            steps = given["numerics"].steps_per_sample
+            found = steps_do_not_fit(given["sensors"], steps)
             if found:
                 yield found
+            if steps < 1 and isinstance(given["background"], Background) and given["background"].forces:
+                yield (
+                    f"numerics.steps_per_sample is {steps:g}; a background with forces needs at least 1, for "
+                    "they reach 8 kHz"
+                )
+        yield from _rough_twice(given["background"], given["operation"])
+
+
+def _rough_twice(background: Any, operation: Any) -> Iterator[str]:
+    """Find a roughness without a rail, or one besides that of the irregularity."""
+    if not isinstance(background, Background) or background.roughness is None or operation is None:
+        return
+    if not isinstance(operation, QuarterVehicleOperation):
+        yield "background.roughness needs an operation of kind quarter_vehicle, with a wheel on a rail"
+    elif operation.irregularity.short_waves is not None:
+        yield (
+            "background.roughness and operation.irregularity.short_waves are both given; they are the same "
+            "waves: leave one out"
+        )
 
 
 def with_length(defect: Any, effective_length: float) -> Any:

@@ -8,7 +8,9 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.keys import in_order, keys_of
 from beardyn_core.config.scene_file import EffectSet, Scene
+from beardyn_core.scene.background import Background
 from beardyn_core.scene.operation import Vehicle
+from beardyn_core.scene.sensor import SensorType
 from beardyn_core.scene.trial import Trial
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.imported import ModeFile
@@ -22,6 +24,8 @@ _NOUNS: dict[str, type] = {
     "trial": Trial,
     "structure": Box,
     "modes": ModeFile,
+    "sensor": SensorType,
+    "background": Background,
 }
 SCHEMA_KINDS = tuple(_NOUNS)
 

@@ -7,7 +7,9 @@ block         the block of about 20 ms that crosses every border
 absence       rollers and rows that are not there
 kinematics    world poses, twists and contact forces from the kernel's state
 resampling    streaming decimation and interpolation
-accelerometer specific force at the sensor, mounting resonance, noise, clipping
+accelerometer specific force at the sensor, mounting resonance, low pass, noise, clipping
+path_filter   a measured transfer path from the rigid box to a sensor
+pickup        what the inverter induces in the cables of the sensors
 sensors       all accelerometers of a scene
 channels      raw signals of the kernel to the channels of a block
 stage_clock   wall time of a run by stage

@@ -1,4 +1,4 @@
-"""Reading of an accelerometer on the axlebox: motion, gravity, mounting resonance, noise, clipping."""
+"""Reading of an accelerometer on the axlebox: motion, gravity, its own response, noise, clipping."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, log2
 from beardyn_core.scene.sensor import Accelerometer
 
-LOOKAHEAD = 12  # steps; with one step per sample the gain is still within 0.02 dB
-_HIGHEST_POLE = 0.475  # of the step rate; above that the gain over the band is smooth enough without poles
+LOOKAHEAD = 12  # samples; the gain is within 0.02 dB
+_HIGHEST_POLE = 0.475  # of the rate; above that the gain over the band is smooth enough without poles
 _BAND_POINTS = 400
 
 
@@ -32,8 +32,17 @@ def resonance_gain(frequency: Float, resonance: float, damping_ratio: float) -> 
     return np.asarray(1.0 / (1.0 - r * r + 2j * damping_ratio * r))
 
 
+def low_pass_gain(frequency: Float, corner: float | None) -> NDArray[np.complex128]:
+    """Compute the gain of an amplifier with a low pass of second order (Butterworth), at frequencies in [Hz].
+
+    The corner is where it is 3 dB down, [Hz]; ``None``: 1.
+    """
+    r = np.asarray(frequency) / (np.inf if corner is None else corner)
+    return np.asarray(1.0 / (1.0 - r * r + np.sqrt(2.0) * 1j * r))
+
+
 def filter_coefficients(
-    resonance: float, damping_ratio: float, rate: float, band: float
+    resonance: float | None, damping_ratio: float, rate: float, band: float, low_pass: float | None = None
 ) -> tuple[Float, Float]:
     """Design the filter: 2 poles, factors of the last output and the one before; taps, the oldest first.
 
@@ -43,13 +52,16 @@ def filter_coefficients(
     taps match it there: least squares of the relative error, gain 1 at rest.
     """
     poles = np.zeros(2)
-    if resonance < _HIGHEST_POLE * rate:
+    if resonance is None:
+        resonance = np.inf
+    elif resonance < _HIGHEST_POLE * rate:
         turn = 2.0 * np.pi * resonance / rate
         pole = np.exp(turn * (-damping_ratio + 1j * np.sqrt(1.0 - damping_ratio**2)))
         poles = np.array([2.0 * pole.real, -(abs(pole) ** 2)])
     frequency = np.linspace(0.0, band, _BAND_POINTS)
     late = np.exp(-2j * np.pi * frequency / rate)
-    rest = resonance_gain(frequency, resonance, damping_ratio) * (1.0 - poles[0] * late - poles[1] * late**2)
+    gain = resonance_gain(frequency, resonance, damping_ratio) * low_pass_gain(frequency, low_pass)
+    rest = gain * (1.0 - poles[0] * late - poles[1] * late**2)
     offered = late[:, None] ** np.arange(LOOKAHEAD, -LOOKAHEAD - 1, -1) / rest[:, None]
     system = np.concatenate((offered.real, offered.imag))
     wanted = np.repeat([1.0, 0.0], _BAND_POINTS)
@@ -57,32 +69,30 @@ def filter_coefficients(
     return poles, taps * (1.0 - poles.sum()) / taps.sum()
 
 
-class Resonance:
-    """The filter of one sensor; its output comes `LOOKAHEAD` steps late.
+class Response:
+    """The filter of one sensor: mounting resonance and low pass; its output comes `LOOKAHEAD` samples late.
 
     Cutting the stream into other blocks gives the same bits.
 
     Parameters
     ----------
-    resonance, damping_ratio : float
-        [Hz], [-].
-    rate : float
-        Of the steps, [Hz].
+    sensor : Accelerometer
+        With a resonance or a low pass.
     band : float
-        Up to here the gain is that of `resonance_gain`, [Hz].
+        Up to here the gain is that of `resonance_gain` and `low_pass_gain`, [Hz].
     initial : float64 array, shape [channel]
-        What the stream held before its first step.
+        What the stream held before its first sample.
     """
 
-    def __init__(
-        self, resonance: float, damping_ratio: float, rate: float, band: float, initial: Float
-    ) -> None:
-        self._poles, self._taps = filter_coefficients(resonance, damping_ratio, rate, band)
+    def __init__(self, sensor: Accelerometer, band: float, initial: Float) -> None:
+        self._poles, self._taps = filter_coefficients(
+            sensor.mounting_resonance, sensor.mounting_damping_ratio, sensor.rate, band, sensor.low_pass
+        )
         self._inputs = np.tile(initial, (2 * LOOKAHEAD, 1))
         self._outputs = np.tile(initial, (2, 1))
 
     def push(self, block: Float) -> Float:
-        """Filter a block, shape [step, channel], and return as many steps."""
+        """Filter a block, shape [sample, channel], and return as many samples."""
         stretch = np.concatenate((self._inputs, block))
         out = np.empty((len(block) + 2, block.shape[1]))
         out[:2] = self._outputs

@@ -55,23 +55,27 @@ class Observer:
         longer = round(1 / steps)  # samples of a step that is longer than one
         if steps < 1:
             self._waveforms = Interpolator(longer, SIGNAL_TORQUE, signal[:SIGNAL_TORQUE])
-            self._waveform_delay = delay(longer)
+            late = delay(longer)
         else:
             every = round(steps)
-            self._waveforms = Decimator(every, len(signal), signal, held_back=1 + wait * every)
-            self._waveform_delay = wait + (DELAY if every > 1 else 0)
-        self._sensors = Sensors(scene, self._waveform_delay)
+            self._waveforms = Decimator(every, len(signal), signal, held_back=1)
+            late = DELAY if every > 1 else 0
+        self._sensors = Sensors(scene, late)
+        channels = self._waveforms.channels
+        self._held_back = Decimator(1, channels, signal[:channels], held_back=wait)
+        self._waveform_delay = late + wait
         rest = np.concatenate([signal[:6], REST, signal[SIGNAL_TORQUE : SIGNAL_TORQUE + 1]])
         carry = -self._waveform_delay % _WAVEFORMS_PER_TREND
+        trends = (self._waveform_delay + carry) // _WAVEFORMS_PER_TREND
         # force and torque are decimated before anything is put between them
         self._slow_decimator: TwoStageDecimator | None = None
         if steps < 1:
             every = _WAVEFORMS_PER_TREND // longer
             slow = np.delete(rest, [6, 7, 8])
-            self._slow_decimator = TwoStageDecimator(every, len(slow), slow, held_back=every + 1)
+            self._slow_decimator = TwoStageDecimator(every, len(slow), slow, held_back=trends * every + 1)
             rest = REST
         self._trend_decimator = TwoStageDecimator(_WAVEFORMS_PER_TREND, len(rest), rest, held_back=carry)
-        self._trend_delay = DELAY + (self._waveform_delay + carry) // _WAVEFORMS_PER_TREND
+        self._trend_delay = DELAY + trends
         # trends of a first accelerometer that runs faster than the other waveforms
         self._fast_decimator: TwoStageDecimator | None = None
         if scene.sensors and scene.sensors[0].rate > RATES[0]:
@@ -120,8 +124,9 @@ class Observer:
             [K].
         """
         waves = self._waveforms.push(signals)
+        readings = self._sensors.read(index, waves, signals, self._motion(bodies), loads[:, 6])
+        waves = self._held_back.push(waves)
         first_wave = index * SAMPLES_PER_BLOCK - self._waveform_delay
-        readings = self._sensors.read(index, waves, signals, self._motion(bodies))
         reading = readings[0] if readings and self._fast_decimator is None else np.tile(REST, (len(waves), 1))
         blocks = len(bodies) // TRENDS_PER_BLOCK
         first_trend = index * TRENDS_PER_BLOCK - self._trend_delay

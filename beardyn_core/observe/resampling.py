@@ -200,7 +200,7 @@ class Interpolator:
     def __init__(self, factor: int, channels: int, initial: Float) -> None:
         if factor not in FACTORS:
             raise ValueError(f"factor is {factor}; allowed is one of {FACTORS}")
-        self.factor = factor
+        self.factor, self.channels = factor, channels
         self._stages = tuple(_taps(*each) for each in (_SHARP, _WIDE)[: factor // 2])
         kept = [2 * len(taps) - 1 + spare for taps, spare in zip(self._stages, _SPARE[factor], strict=False)]
         # the stream before each stage from the oldest sample that is still needed on

@@ -10,11 +10,14 @@ from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION, SIGNAL_CHANNELS
-from beardyn_core.observe.accelerometer import GRAVITY, LOOKAHEAD, NoiseStream, Resonance, force_at, reading
+from beardyn_core.observe.accelerometer import GRAVITY, LOOKAHEAD, NoiseStream, Response, force_at, reading
 from beardyn_core.observe.block import Vibration
+from beardyn_core.observe.path_filter import PATH_LOOKAHEAD, PathFilter
+from beardyn_core.observe.pickup import PickupStream
 from beardyn_core.observe.resampling import DELAY, Decimator
+from beardyn_core.rail.transfer_path import read_transfer_path
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import RATES, Accelerometer, steps_do_not_fit
+from beardyn_core.scene.sensor import AXES, RATES, Accelerometer, steps_do_not_fit
 
 REST = np.array([0.0, 0.0, GRAVITY])
 BLOCKS_PER_SECOND = 1_000_000_000 // BLOCK_NS
@@ -22,18 +25,26 @@ _PASS_BAND = 0.4  # of a rate, behind its anti-alias filter
 
 
 def lookahead(scene: Scene) -> int:
-    """Count the samples of 25.6 kHz by which all waveforms wait for the filter of a mounting resonance."""
-    if all(sensor.mounting_resonance is None for sensor in scene.sensors):
-        return 0
-    return -(-LOOKAHEAD // round(scene.numerics.steps_per_sample))
+    """Count the samples of 25.6 kHz by which all waveforms wait for what sensors have of their own."""
+    return max(
+        (-(-_late(sensor) * round(RATES[0]) // round(sensor.rate)) for sensor in scene.sensors), default=0
+    )
+
+
+def _responds(sensor: Accelerometer) -> bool:
+    return sensor.mounting_resonance is not None or sensor.low_pass is not None
+
+
+def _late(sensor: Accelerometer) -> int:
+    """Count the samples, at its rate, by which a sensor's own filters look ahead."""
+    return LOOKAHEAD * _responds(sensor) + PATH_LOOKAHEAD * bool(sensor.measured_paths)
 
 
 class Sensors:
     """Accelerometers of a run.
 
-    A rigidly mounted one at 25.6 kHz reads the box motion that has been decimated for all. Any other one
-    has a chain of its own: specific force at every step, resonance, anti-alias filter to its rate. Noise
-    and clipping come last.
+    Specific force at their place, from the box motion decimated for all (25.6 kHz) or from every step
+    (51.2 kHz); measured path, mounting resonance and low pass; electrical pickup, noise and clipping.
 
     Parameters
     ----------
@@ -51,17 +62,13 @@ class Sensors:
         problem = steps_do_not_fit(scene.sensors, steps)
         if problem:
             raise ValueError(problem)
-        self._sensors = scene.sensors
-        self._noise = [NoiseStream(scene.seed, number) for number in range(len(scene.sensors))]
+        self._delay = delay
         self._chains = [
-            None
-            if sensor.mounting_resonance is None and sensor.rate == RATES[0]
-            else _Chain(sensor, number, round(steps), lookahead(scene))
-            for number, sensor in enumerate(scene.sensors)
+            _Chain(sensor, number, scene, round(steps), delay) for number, sensor in enumerate(scene.sensors)
         ]
-        self.delays = [delay if chain is None else chain.delay for chain in self._chains]
+        self.delays = [chain.delay for chain in self._chains]
 
-    def read(self, index: int, waves: Float, signals: Float, motion: Float) -> list[Float]:
+    def read(self, index: int, waves: Float, signals: Float, motion: Float, speed: Float) -> list[Float]:
         """Compute the readings of every accelerometer, shapes [sample, 3], [m/s^2].
 
         Parameters
@@ -73,60 +80,79 @@ class Sensors:
         signals : float64 array, shape [step, SIGNAL_CHANNELS]
         motion : float64 array, shape [trend + 2, 6]
             Rotation and angular velocity of the box at 400 Hz; the second row is that before the first step.
+        speed : float64 array, shape [step + 1]
+            Of the shaft, [rad/s].
         """
-        found = []
-        for number, (sensor, chain, delay, noise) in enumerate(
-            zip(self._sensors, self._chains, self.delays, self._noise, strict=True)
-        ):
-            if chain is None:
-                signal = box_force(sensor.position, waves, motion, delay, number)
-            else:
-                signal = chain.push(signals, motion)
-            first = self._first(index, sensor, delay)
-            skipped = max(0, -first)
-            signal[skipped:] = reading(sensor, signal[skipped:], sensor.rate, noise, first + skipped)
-            found.append(signal)
-        return found
+        return [chain.push(index, waves, signals, motion, speed) for chain in self._chains]
 
     def vibration(self, index: int, readings: list[Float]) -> tuple[Vibration, ...]:
         """Stamp readings with their time; those before the start of the run are left out."""
         found = []
-        for sensor, delay, values in zip(self._sensors, self.delays, readings, strict=True):
-            first = self._first(index, sensor, delay)
+        for chain, values in zip(self._chains, readings, strict=True):
+            first = chain.first(index)
             skipped = max(0, -first)
             sample = np.arange(first + skipped, first + len(values), dtype=np.int64)
-            time_ns = sample * 1_000_000_000 // round(sensor.rate)
-            found.append(Vibration(sensor.rate, first + skipped, time_ns, values[skipped:]))
+            time_ns = sample * 1_000_000_000 // round(chain.sensor.rate)
+            found.append(Vibration(chain.sensor.rate, first + skipped, time_ns, values[skipped:]))
         return tuple(found)
-
-    @staticmethod
-    def _first(index: int, sensor: Accelerometer, delay: int) -> int:
-        return index * round(sensor.rate / BLOCKS_PER_SECOND) - delay
 
 
 class _Chain:
-    """From the steps to the samples of one accelerometer."""
+    """From the motion of the box to the samples of one accelerometer."""
 
-    def __init__(self, sensor: Accelerometer, number: int, steps: int, wait: int) -> None:
-        factor = round(WAVEFORM_RATE * steps / sensor.rate)
-        wait *= steps
-        self.delay = (DELAY if factor > 1 else 0) + wait // factor
-        self._position, self._number = sensor.position, number
-        self._resonance: Resonance | None = None
-        if sensor.mounting_resonance is not None:
-            # behind an anti-alias filter the gain is right wherever anything is left
-            band = (_PASS_BAND if factor == 1 else 1.0 - _PASS_BAND) * sensor.rate
-            self._resonance = Resonance(
-                sensor.mounting_resonance, sensor.mounting_damping_ratio, WAVEFORM_RATE * steps, band, REST
-            )
-            wait -= LOOKAHEAD
-        # a step's signals are those of its end: sample 0 stands at the end of the step before the first
-        self._decimator = Decimator(factor, 3, REST, held_back=1 + wait)
+    def __init__(self, sensor: Accelerometer, number: int, scene: Scene, steps: int, delay: int) -> None:
+        self.sensor, self._number = sensor, number
+        self._waves_late = delay
+        self._decimator: Decimator | None = None
+        wait = lookahead(scene)
+        if sensor.rate > RATES[0]:
+            factor = round(WAVEFORM_RATE * steps / sensor.rate)
+            # a step's signals are those of its end: sample 0 stands at the end of the step before the first
+            self._decimator = Decimator(factor, 3, REST, held_back=1)
+            delay, wait = (DELAY if factor > 1 else 0), wait * round(sensor.rate / RATES[0])
+        self.delay = delay + wait
+        self._held_back = Decimator(1, 3, REST, held_back=wait - _late(sensor))
+        self._response = Response(sensor, _PASS_BAND * sensor.rate, REST) if _responds(sensor) else None
+        self._path: PathFilter | None = None
+        if sensor.measured_paths:
+            paths = {
+                AXES.index(axis): read_transfer_path(each.path)
+                for each in sensor.measured_paths
+                for axis in each.axes
+            }
+            self._path = PathFilter(paths, sensor.rate, REST)
+        self._noise = NoiseStream(scene.seed, number)
+        pickup = None if scene.background is None else scene.background.pickup
+        self._pickup: PickupStream | None = None
+        if pickup is not None:
+            self._pickup = PickupStream(pickup, sensor.rate, scene.seed, number)
+            self._pickup_held_back = Decimator(1, 1, held_back=self.delay)
 
-    def push(self, signals: Float, motion: Float) -> Float:
-        """Compute the specific force at the rate of the sensor, shape [sample, 3], [m/s^2]."""
-        force = box_force(self._position, signals, motion, -1, self._number)
-        return self._decimator.push(force if self._resonance is None else self._resonance.push(force))
+    def first(self, index: int) -> int:
+        """Find the running number of the first sample that a block brings."""
+        return index * round(self.sensor.rate / BLOCKS_PER_SECOND) - self.delay
+
+    def push(self, index: int, waves: Float, signals: Float, motion: Float, speed: Float) -> Float:
+        """Compute the reading at the rate of the sensor, shape [sample, 3], [m/s^2]."""
+        if self._decimator is None:
+            signal = box_force(self.sensor.position, waves, motion, self._waves_late, self._number)
+        else:
+            signal = self._decimator.push(box_force(self.sensor.position, signals, motion, -1, self._number))
+        signal = self._held_back.push(signal)
+        if self._path is not None:
+            signal = self._path.push(signal)
+        if self._response is not None:
+            signal = self._response.push(signal)
+        if self._pickup is not None:
+            at = np.arange(len(signal)) * ((len(speed) - 1) / len(signal))
+            volts = self._pickup.push(np.interp(at, np.arange(len(speed)), speed))
+            signal = signal + self._pickup_held_back.push(volts[:, None]) / self.sensor.sensitivity
+        first = self.first(index)
+        skipped = max(0, -first)
+        signal[skipped:] = reading(
+            self.sensor, signal[skipped:], self.sensor.rate, self._noise, first + skipped
+        )
+        return signal
 
 
 def box_force(

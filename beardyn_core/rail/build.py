@@ -5,13 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.errors import InputError
+from beardyn_core.rail.background import background_force
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
 from beardyn_core.rail.low_pass import decimated, thinning_kernel
 from beardyn_core.rail.measured import replayed
+from beardyn_core.rail.roughness import roughness_height
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift, tilting_moment
 from beardyn_core.rail.vehicle import Ride, equivalent_displacement, quarter_vehicle, ride
+from beardyn_core.scene.background import Background, Roughness
 from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory, sampled_load
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
@@ -21,10 +25,13 @@ from beardyn_core.scene.operation import (
     SteppedOperation,
 )
 from beardyn_core.scene.running import distance_at, speed_at
+from beardyn_core.scene.scene import Scene
 
 SAMPLE_NS = 500_000
 # a strike of the wheel lasts about half a millisecond
 STRIKE_SAMPLE_NS = 100_000
+# what a background adds reaches 8 kHz
+BACKGROUND_SAMPLE_NS = 50_000
 # a flat of 35 mm at 400 km/h passes in a third of a millisecond
 RIDE_RATE = 40_000.0
 # the journal's tilt passes whole up to 270 Hz and not above 400: there boxes rock on their bearings
@@ -32,10 +39,17 @@ _TILT_FACTOR = 60
 FADE_IN = 0.2
 
 
-def load_history(operation: Operation, mounting: Mounting, duration: float, seed: int) -> LoadHistory:
+def load_history(
+    operation: Operation,
+    mounting: Mounting,
+    duration: float,
+    seed: int,
+    background: Background | None = None,
+    bearing: Bearing | None = None,
+) -> LoadHistory:
     """Compute load on the journal and shaft speed, from time 0 to the first sample at or after the end.
 
-    At 2 kHz; at 10 kHz when the wheel or the rail has defects or short waves.
+    At 2 kHz; at 10 kHz when the wheel or the rail has defects or short waves; at 20 kHz with a background.
 
     Parameters
     ----------
@@ -44,7 +58,11 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
     duration : float
         [s].
     seed : int
-        Of the irregularity.
+        Of the irregularity and the background.
+    background : Background, optional
+        What acts on the journal besides.
+    bearing : Bearing, optional
+        That of the other end of the axle, of which a background may speak.
 
     Raises
     ------
@@ -57,28 +75,45 @@ def load_history(operation: Operation, mounting: Mounting, duration: float, seed
     strikes = isinstance(operation, QuarterVehicleOperation) and (
         operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
     )
-    sample_ns = STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
+    if background is not None and not background.forces:
+        background = None
+    sample_ns = BACKGROUND_SAMPLE_NS if background else STRIKE_SAMPLE_NS if strikes else SAMPLE_NS
     rate = 1e9 / sample_ns
     count = int(np.ceil(round(duration * rate, 6))) + 1
     if isinstance(operation, ConstantOperation):
         wrench = np.tile(np.array([*operation.force, *operation.moment], dtype=np.float64), (count, 1))
         speed = np.full(count, float(operation.speed))
-        return sampled_load(wrench, speed, np.zeros((count, 3)), SAMPLE_NS)
-    if isinstance(operation, SteppedOperation):
-        return _stepped(operation, count, rate)
-    if isinstance(operation, QuarterVehicleOperation):
-        return _quarter_vehicle(operation, mounting, count, rate, seed)
-    return replayed(operation, count, rate)
+        history = sampled_load(wrench, speed, np.zeros((count, 3)), sample_ns)
+    elif isinstance(operation, SteppedOperation):
+        history = _stepped(operation, count, rate)
+    elif isinstance(operation, QuarterVehicleOperation):
+        roughness = background.roughness if background else None
+        history = _quarter_vehicle(operation, mounting, count, rate, seed, roughness)
+    else:
+        history = replayed(operation, count, rate)
+    if background is not None:
+        if bearing is None:
+            raise ValueError("a background needs the bearing")
+        time = np.arange(count) / rate
+        history.wrench[:, 2] += background_force(background, bearing, time, history.shaft_speed, seed)
+    return history
 
 
-def load_of_run(operation: Operation, mounting: Mounting, duration: float, seed: int) -> LoadHistory:
-    """Compute the load of a run, and what its last samples are interpolated from.
+def load_of_scene(scene: Scene, duration: float) -> LoadHistory:
+    """Compute the load of a scene with its background; see `load_history`."""
+    return load_history(
+        scene.operation, scene.mounting, duration, scene.seed, scene.background, scene.bearing
+    )
+
+
+def load_of_run(scene: Scene, duration: float) -> LoadHistory:
+    """Compute the load of a run [s], and what its last samples are interpolated from.
 
     A computed load goes on for `LOOK_AHEAD` samples, so that a run does not depend on where it ends; a
-    measured one has nothing to go on with. Arguments as of `load_history`.
+    measured one has nothing to go on with.
     """
-    computed = isinstance(operation, ConstantOperation | SteppedOperation | QuarterVehicleOperation)
-    return load_history(operation, mounting, duration + computed * LOOK_AHEAD * SAMPLE_NS * 1e-9, seed)
+    computed = isinstance(scene.operation, ConstantOperation | SteppedOperation | QuarterVehicleOperation)
+    return load_of_scene(scene, duration + computed * LOOK_AHEAD * SAMPLE_NS * 1e-9)
 
 
 def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistory:
@@ -87,7 +122,7 @@ def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistor
     signals = np.tile(levels[0], (count, 1))
     for step, change in zip(operation.steps[1:], np.diff(levels, axis=0), strict=True):
         signals += _rise(time - step.time, operation.ramp)[:, None] * change
-    return sampled_load(signals[:, :6], signals[:, 6], np.zeros((count, 3)), SAMPLE_NS)
+    return sampled_load(signals[:, :6], signals[:, 6], np.zeros((count, 3)), round(1e9 / rate))
 
 
 def _rise(time: Float, ramp: float) -> Float:
@@ -98,7 +133,11 @@ def _rise(time: Float, ramp: float) -> Float:
 
 
 def ride_steps(
-    operation: QuarterVehicleOperation, mounting: Mounting, steps: int, seed: int
+    operation: QuarterVehicleOperation,
+    mounting: Mounting,
+    steps: int,
+    seed: int,
+    roughness: Roughness | None = None,
 ) -> tuple[Ride, Running | None]:
     """Compute the motion of the rail model's bodies, and what acts besides the profile, at `RIDE_RATE`."""
     time = np.arange(steps) / RIDE_RATE
@@ -109,6 +148,8 @@ def ride_steps(
         radius = 0.5 * operation.wheel_diameter
         height = height + wheel_height(operation.wheel_defects, radius, position, patch)
         height += rail_height(operation.rail_defects, position, patch)
+    if roughness is not None:
+        height = height + roughness_height(roughness, operation, position, seed)
     fade = _rise(time, FADE_IN)
     height = (height - height[0]) * fade
     besides = running(operation, mounting, time, fade, seed)
@@ -117,7 +158,12 @@ def ride_steps(
 
 
 def _quarter_vehicle(
-    operation: QuarterVehicleOperation, mounting: Mounting, count: int, rate: float, seed: int
+    operation: QuarterVehicleOperation,
+    mounting: Mounting,
+    count: int,
+    rate: float,
+    seed: int,
+    roughness: Roughness | None,
 ) -> LoadHistory:
     """Compute the wheel-rail force, less the weight of the half wheelset, and the motion of the bogie.
 
@@ -132,7 +178,7 @@ def _quarter_vehicle(
     kernel = thinning_kernel(factor)
     # run past the end by what the filter looks ahead
     steps = (count - 1) * factor + 1 + len(kernel) // 2
-    response, besides = ride_steps(operation, mounting, steps, seed)
+    response, besides = ride_steps(operation, mounting, steps, seed, roughness)
     vehicle = quarter_vehicle(operation, mounting)
     force, bogie = np.zeros((count, 3)), np.zeros((count, 3))
     if besides is not None:

@@ -118,46 +118,66 @@ def _drawn(
     while period < distance:
         period *= 2.0
     shortest, longest = irregularity.shortest_wavelength, irregularity.longest_wavelength
-    points = _points(period, shortest, _SAMPLES_PER_WAVE)
+    points = grid_points(period, shortest, _SAMPLES_PER_WAVE)
     if irregularity.kind == "none":
         return RailProfile(period / points, np.zeros(points), np.zeros(points))
-    line, wavenumber = _lines(period, shortest, longest)
+    line, wavenumber = spectral_lines(period, shortest, longest)
     density = target_density(irregularity, wavenumber, direction)
     stream = [_STREAM, seed] if direction == "vertical" else [_STREAM, seed, _FURTHER[direction]]
     if direction == "vertical":
         density = density * patch_gain(wavenumber, patch) ** 2
-    return _random_phases(period, points, line, wavenumber, density, stream)
+    return random_phases(period, points, line, wavenumber, density, stream)
 
 
 def _short_waves(irregularity: Irregularity, seed: int, patch: float) -> RailProfile:
     """Compute the density that the spectrum lacks against that of the roughness limit."""
     period = _SHORT_WAVE_PERIOD
-    line, wavenumber = _lines(period, *SHORT_WAVE_BAND)
-    density = iso_3095_density(wavenumber)
+    line, wavenumber = spectral_lines(period, *SHORT_WAVE_BAND)
+    density = lacking_density(irregularity, wavenumber, iso_3095_density(wavenumber))
+    density = density * patch_gain(wavenumber, patch) ** 2
+    points = grid_points(period, SHORT_WAVE_BAND[0], _SAMPLES_PER_SHORT_WAVE)
+    return random_phases(period, points, line, wavenumber, density, [_STREAM, seed, _FURTHER["short_waves"]])
+
+
+def lacking_density(irregularity: Irregularity, wavenumber: Float, density: Float) -> Float:
+    """Compute what the spectrum of an irregularity lacks against a density of short waves."""
+    found = density.copy()
     if irregularity.kind not in ("csv", "none"):
         wavelength = 2.0 * np.pi / wavenumber
         there = (wavelength >= irregularity.shortest_wavelength) & (
             wavelength <= irregularity.longest_wavelength
         )
-        density[there] -= target_density(irregularity, wavenumber[there])
-    density = np.maximum(density, 0.0) * patch_gain(wavenumber, patch) ** 2
-    points = _points(period, SHORT_WAVE_BAND[0], _SAMPLES_PER_SHORT_WAVE)
-    return _random_phases(period, points, line, wavenumber, density, [_STREAM, seed, _FURTHER["short_waves"]])
+        found[there] -= target_density(irregularity, wavenumber[there])
+    return np.maximum(found, 0.0)
 
 
-def _points(period: float, shortest: float, samples_per_wave: int) -> int:
+def grid_points(period: float, shortest: float, samples_per_wave: int) -> int:
+    """Count the points of a grid with so many points on the shortest wave, a power of two."""
     return int(2 ** int(np.ceil(np.log2(period * samples_per_wave / shortest))))
 
 
-def _lines(period: float, shortest: float, longest: float) -> tuple[NDArray[np.int64], Float]:
+def spectral_lines(period: float, shortest: float, longest: float) -> tuple[NDArray[np.int64], Float]:
     """List the spectral lines of a period within a band of wavelengths, and their angular wavenumbers."""
     line = np.arange(int(np.ceil(period / longest)), int(np.floor(period / shortest)) + 1)
     return line, np.asarray(line * (2.0 * np.pi / period), dtype=np.float64)
 
 
-def _random_phases(
+def random_phases(
     period: float, points: int, line: NDArray[np.int64], wavenumber: Float, density: Float, stream: list[int]
 ) -> RailProfile:
+    """Draw a profile whose lines have a density [m^2 / (rad/m)], with random phases.
+
+    Parameters
+    ----------
+    period : float
+        Length after which it repeats, [m].
+    points : int
+        Of its grid.
+    line, wavenumber, density : arrays
+        See `spectral_lines`; one-sided density at each line.
+    stream : list of int
+        Seed.
+    """
     amplitude = np.sqrt(2.0 * density * (2.0 * np.pi / period))
     random = np.random.Generator(np.random.PCG64(np.random.SeedSequence(stream)))
     phase = random.uniform(0.0, 2.0 * np.pi, len(line))

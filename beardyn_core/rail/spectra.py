@@ -36,11 +36,124 @@ _CHINA_PIECES = {
     "vertical": ((1.0544e-5, 3.3891), (3.5588e-3, 1.9271), (1.9784e-2, 1.3643), (3.9488e-4, 3.4516)),
     "lateral": ((3.9513e-3, 1.8670), (1.1047e-2, 1.5354), (7.5633e-4, 2.8171)),
 }
-# ISO 3095:2013: limit of the rail roughness in third octaves, [dB re 1 um], from 40 cm to 1 cm
-_ISO_WAVELENGTH = 0.4 * 10.0 ** (-0.1 * np.arange(17))
-_ISO_LEVEL = np.array(
-    [17.1, 15.0, 13.0, 11.0, 9.0, 7.0, 4.9, 2.9, 0.9, -1.1, -3.2, -5.0, -5.6, -6.2, -6.8, -7.4, -8.0]
-)
+# CNOSSOS-EU (Directive (EU) 2015/996), table G-1: roughness in third octaves of the wavelength from 2 m to
+# 0.8 mm, [dB re 1 um]; those of the wheels to 0.01 dB, as in the tables of NoiseModelling 4 (Rail, 2020)
+_WAVELENGTH = 0.4 * 10.0 ** (-0.1 * np.arange(-7, 28))
+_LEVELS = {
+    "iso_3095": (
+        *(
+            17.1,
+            17.1,
+            17.1,
+            17.1,
+            17.1,
+            17.1,
+            17.1,
+            17.1,
+            15.0,
+            13.0,
+            11.0,
+            9.0,
+            7.0,
+            4.9,
+            2.9,
+            0.9,
+            -1.1,
+            -3.2,
+        ),
+        *(
+            -5.0,
+            -5.6,
+            -6.2,
+            -6.8,
+            -7.4,
+            -8.0,
+            -8.6,
+            -9.2,
+            -9.8,
+            -10.4,
+            -11.0,
+            -11.6,
+            -12.2,
+            -12.8,
+            -13.4,
+            -14.0,
+        ),
+        -14.0,
+    ),
+    "average_network": (
+        *(
+            35.0,
+            31.0,
+            28.0,
+            25.0,
+            23.0,
+            20.0,
+            17.0,
+            13.5,
+            10.5,
+            9.0,
+            6.5,
+            5.5,
+            5.0,
+            3.5,
+            2.0,
+            0.1,
+            -0.2,
+            -0.3,
+        ),
+        *(-0.8, -3.0, -5.0, -7.0, -8.0, -9.0, -10.0, -12.0, -13.0, -14.0, -15.0, -16.0, -17.0, -18.0, -19.0),
+        *(-19.0, -19.0),
+    ),
+    "cast_iron": (
+        *(2.17,) * 11,
+        *(
+            2.37,
+            0.61,
+            2.61,
+            5.76,
+            8.78,
+            11.11,
+            10.96,
+            9.79,
+            7.49,
+            5.15,
+            3.02,
+            1.29,
+            0.17,
+            -0.70,
+            -1.17,
+            -1.02,
+        ),
+        *(0.27, 0.24, 1.32, 3.10, 3.10, 3.10, 3.10, 3.10),
+    ),
+    "composite": (
+        *(-3.95,) * 14,
+        *(
+            -4.34,
+            -4.62,
+            -4.90,
+            -5.22,
+            -6.31,
+            -6.80,
+            -7.24,
+            -7.27,
+            -7.27,
+            -7.14,
+            -6.94,
+            -6.68,
+            -5.99,
+            -3.75,
+            -2.38,
+        ),
+        *(-2.59, -2.46, -2.46, -2.46, -2.46, -2.46),
+    ),
+    "disc_brake": (
+        *(-5.93,) * 9,
+        *(2.32, 2.82, 2.56, 1.22, 2.06, 0.92, -0.25, -1.57, -2.85, -4.94, -7.00, -8.58, -9.32, -9.51, -10.12),
+        *(-10.25, -10.33, -10.81, -10.91, -9.52, -9.52, -9.52, -9.52, -9.52, -9.52, -9.52),
+    ),
+}
 THIRD_OCTAVE = 10.0**0.05 - 10.0**-0.05
 SHORT_WAVE_BAND = (0.01, 0.5)
 
@@ -127,24 +240,31 @@ def _density_table(path: Path) -> dict[str, Float]:
     return read_table(path, DENSITY_LAYOUT)
 
 
-def iso_3095_density(wavenumber: Float) -> Float:
-    """Compute the density at wavenumbers [rad/m] of a rail that just meets the roughness limit, vertical.
+def roughness_density(level: str, wavenumber: Float) -> Float:
+    """Compute the density at wavenumbers [rad/m] of a wheel or rail with a roughness level by name.
 
-    In [m^2 / (rad/m)], zero outside `SHORT_WAVE_BAND`. The limit is a mean square per third octave of the
-    wavelength; here its density is continuous, the level linear over the logarithm of the wavelength, and
-    held above 40 cm.
+    In [m^2 / (rad/m)]. A level is a mean square per third octave of the wavelength; here its density is
+    continuous, the level linear over the logarithm of the wavelength, and held beyond its ends.
 
     References
     ----------
-    ISO 3095:2013, upper limit of the acoustic rail roughness of a reference track; the same figures are
-    those of well-maintained rail in CNOSSOS-EU (Directive (EU) 2015/996, table G-1).
+    Directive (EU) 2015/996 (CNOSSOS-EU), table G-1. `iso_3095` is the upper limit of the acoustic rail
+    roughness of a reference track in ISO 3095:2013.
     """
     wavenumber = np.asarray(wavenumber, dtype=np.float64)
     wavelength = 2.0 * np.pi / wavenumber
-    level = np.interp(-np.log(wavelength), -np.log(_ISO_WAVELENGTH), _ISO_LEVEL)
-    density = 1e-12 * 10.0 ** (0.1 * level) / (THIRD_OCTAVE * wavenumber)
+    found = np.interp(-np.log(wavelength), -np.log(_WAVELENGTH), np.array(_LEVELS[level]))
+    return np.asarray(1e-12 * 10.0 ** (0.1 * found) / (THIRD_OCTAVE * wavenumber))
+
+
+def iso_3095_density(wavenumber: Float) -> Float:
+    """Compute the density at wavenumbers [rad/m] of a rail at the limit of ISO 3095, as `roughness_density`.
+
+    Zero outside `SHORT_WAVE_BAND`.
+    """
+    wavelength = 2.0 * np.pi / np.asarray(wavenumber, dtype=np.float64)
     inside = (wavelength >= SHORT_WAVE_BAND[0] * (1 - 1e-9)) & (wavelength <= SHORT_WAVE_BAND[1] * (1 + 1e-9))
-    return np.asarray(np.where(inside, density, 0.0))
+    return np.asarray(np.where(inside, roughness_density("iso_3095", wavenumber), 0.0))
 
 
 def patch_gain(wavenumber: Float, patch: float) -> Float:

@@ -16,7 +16,8 @@ mounting          axlebox, journal, suspension and guidance of a vehicle
 defect            patches, roller diameter, worn pocket
 waviness          harmonics of raceways and rollers
 scatter           manufacturing scatter from a grade and a seed
-sensor            accelerometers
+sensor            accelerometers, their kinds, measured paths to them
+background        what they hear besides the bearing
 tier              which bodies move by their own equations of motion, how the full tier takes a time step
 scene             all of it, and what of it may be chosen
 trial             the matrix of scenes that a monitor is put to

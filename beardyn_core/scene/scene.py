@@ -11,6 +11,7 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.edge import INTERNAL, SEED, UNITS, At
 from beardyn_core.effects import EffectSet
+from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, Operation, SteppedOperation
@@ -81,6 +82,11 @@ class Scene:
         "what is asked of the run, when something is auto",
     ] = USUAL_QUANTITIES
     operation: A[Operation, "where load and speed come from"]
+    background: A[
+        Background | None,
+        At(reference=True),
+        "what the sensors hear besides the bearing: a shipped one, a path, or the keys of one",
+    ] = None
     mounting: A[Mounting, "axlebox on its suspension, and the journal in it"] = Mounting()
     rows: A[Literal[1, 2], "2, or 1 for row 0 (inboard) alone"] = 2
     missing_rollers: A[tuple[MissingRoller, ...], "rollers that are not there"] = ()
@@ -90,7 +96,7 @@ class Scene:
     sensors: A[tuple[Accelerometer, ...], At(size=(1, None)), "on the axlebox"] = (Accelerometer(),)
     numerics: A[Numerics, "discretisation of the run, or auto"] = Numerics()
     duration: A[float, At("s", gt=0.0, le=86400.0), "simulated time"] = 2.0
-    seed: A[int, SEED, "of irregularity and sensor noise"] = 1
+    seed: A[int, SEED, "of irregularity, background and sensor noise"] = 1
     # what has been chosen automatically, each with its reason
     chosen: A[tuple[str, ...], INTERNAL] = field(default=(), compare=False)
 

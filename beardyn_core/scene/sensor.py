@@ -1,15 +1,71 @@
-"""Sensors on the axlebox."""
+"""Sensors on the axlebox: what kind there is, where it sits, what is between the box and it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated as A
 
 from beardyn_core.edge import At, Vector
 
 RATES = (25_600.0, 51_200.0)  # [Hz]
 FINE_STEPS = 8  # fewest time steps per sample of 25.6 kHz that resolve the band of the faster rate
+AXES = ("x", "y", "z")
+
+_Noise = A[float, At("m_per_s2_per_sqrt_Hz", ge=0.0), "white noise of each axis, one-sided"]
+_Range = A[float, At("m_per_s2", gt=0.0), "clipping level of each axis"]
+_Sensitivity = A[float, At("mV_per_m_per_s2", gt=0.0), "of the signal that electrical pickup adds to"]
+_Resonance = A[
+    float | None,
+    At("Hz", gt=0.0, ge=500.0, le=100_000.0),
+    "of the accelerometer on its mounting (ISO 5348); rigid when left out",
+]
+_Damping = A[float, At(gt=0.0, ge=0.001, le=0.9, absent=True), "of critical; 0.02 when left out"]
+_LowPass = A[
+    float | None,
+    At("Hz", ge=10_000.0, le=200_000.0),
+    "3 dB corner of the amplifier's low pass of second order; none when left out. Anti-aliasing to the rate, "
+    "flat to 0.4 of it and 70 dB down from 0.6, is always there",
+]
+
+
+@dataclass(frozen=True)
+class SensorType:
+    """A kind of accelerometer, as its maker's data sheet has it; three axes alike."""
+
+    name: A[str, At(longest=80), "of the kind"]
+    description: A[str, At(usual=""), "what it is, in a few words"]
+    noise_density: _Noise
+    range: _Range
+    sensitivity: _Sensitivity
+    mounting_resonance: _Resonance = None
+    mounting_damping_ratio: _Damping = 0.02
+    low_pass: _LowPass = None
+    sources: tuple[tuple[str, str], ...] = ()
+
+    def rules(self) -> Iterator[str]:
+        """Check that a damping has a resonance to act on."""
+        yield from _damping_of_nothing(self)
+
+
+@dataclass(frozen=True)
+class MeasuredPath:
+    """A measured transfer path from the rigid box to a sensor, in place of a model of its structure.
+
+    Notes
+    -----
+    The ratio of the acceleration at the sensor to that of the rigid box at its place, over the frequency. It
+    is a filter behind the model: rollers and raceways do not feel it, so it is the cheaper and less true
+    kind of a structure.
+    """
+
+    path: A[
+        Path,
+        "relative to the scene file; CSV with frequency_Hz and real, imaginary or magnitude_dB, phase_deg, "
+        "or a Universal file (.uff, .unv) with one frequency response (data set 58)",
+    ]
+    axes: A[tuple[str, ...], At(one_of=AXES, size=(1, 3)), "of the sensor that it acts on"] = AXES
 
 
 @dataclass(frozen=True)
@@ -29,42 +85,46 @@ class Accelerometer:
 
     name: A[str, At(longest=80, pattern=r"^[A-Za-z][A-Za-z0-9_]*$"), "of the sensor"] = "axlebox_top"
     position: A[Vector, At("mm"), "from the bearing centre along x, y, z"] = (0.0, 0.0, 0.17)
-    noise_density: A[float, At("m_per_s2_per_sqrt_Hz", ge=0.0), "white noise of each axis, one-sided"] = 0.02
-    range: A[float, At("m_per_s2", gt=0.0), "clipping level of each axis"] = 5000.0
-    mounting_resonance: A[
-        float | None,
-        At("Hz", gt=0.0, ge=500.0, le=100_000.0),
-        "of the accelerometer on its mounting (ISO 5348); rigid when left out",
-    ] = None
-    mounting_damping_ratio: A[
-        float, At(gt=0.0, ge=0.001, le=0.9, absent=True), "of critical; 0.02 when left out"
-    ] = 0.02
+    # those of config/sensors/piezo_axlebox.yaml
+    noise_density: _Noise = 2.9e-4
+    range: _Range = 20_000.0
+    mounting_resonance: _Resonance = None
+    mounting_damping_ratio: _Damping = 0.02
     rate: A[
         float,
         At("kHz"),
         f"51.2 needs an even numerics.steps_per_sample of {FINE_STEPS} or more, its default then",
     ] = RATES[0]
+    type: A[
+        SensorType | None,
+        At(reference=True),
+        "a shipped kind, a path, or the keys of one; what the sensor gives itself takes its place",
+    ] = None
+    sensitivity: _Sensitivity = 0.01
+    low_pass: _LowPass = None
+    measured_paths: A[tuple[MeasuredPath, ...], "from the rigid box to the sensor"] = ()
 
     def rules(self) -> Iterator[str]:
         """Check that the rate is available, and that a damping has a resonance to act on."""
         if self.rate not in RATES:
             allowed = f"{RATES[0] / 1e3:g} or {RATES[1] / 1e3:g}"
             yield f"rate_kHz is {self.rate / 1e3:g}; allowed is {allowed}"
-        if self.mounting_damping_ratio != 0.02 and self.mounting_resonance is None:
-            yield (
-                f"mounting_damping_ratio is {self.mounting_damping_ratio:g}; it damps nothing without "
-                "mounting_resonance_Hz: give that too, or leave both out for a rigid mounting"
-            )
+        yield from _damping_of_nothing(self)
+        axes = [axis for path in self.measured_paths for axis in path.axes]
+        for axis in sorted({axis for axis in axes if axes.count(axis) > 1}):
+            yield f"measured_paths has axis {axis!r} twice; give one path for each axis"
+
+
+def _damping_of_nothing(sensor: Accelerometer | SensorType) -> Iterator[str]:
+    if sensor.mounting_damping_ratio != 0.02 and sensor.mounting_resonance is None:
+        yield (
+            f"mounting_damping_ratio is {sensor.mounting_damping_ratio:g}; it damps nothing without "
+            "mounting_resonance_Hz: give that too, or leave both out for a rigid mounting"
+        )
 
 
 def steps_do_not_fit(sensors: tuple[Accelerometer, ...], steps_per_sample: float) -> str | None:
     """Say why a time step does not fit the rates of the sensors; ``None`` when it does."""
-    resonant = [sensor.name for sensor in sensors if sensor.mounting_resonance is not None]
-    if resonant and steps_per_sample < 1:
-        return (
-            f"sensor {resonant[0]!r} with a mounting resonance needs numerics.steps_per_sample of at least "
-            f"1, not {steps_per_sample}"
-        )
     fast = [sensor.name for sensor in sensors if sensor.rate > RATES[0]]
     if not fast or (steps_per_sample >= FINE_STEPS and steps_per_sample % 2 == 0):
         return None

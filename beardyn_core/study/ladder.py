@@ -86,7 +86,7 @@ def plan_of(scene: Scene, duration: float | None = None, settling: float | None 
         duration = _usual_duration(scene, max(scene.duration - settling - _DELAY, 0.5 * scene.duration))
     block = Twin.block_ns * 1e-9
     block_count = math.ceil(round((settling + duration + _DELAY) / block, 6))
-    load = load_of_run(scene.operation, scene.mounting, block_count * block, scene.seed)
+    load = load_of_run(scene, block_count * block)
     edges, revolutions = window_edges(
         load.time_ns.astype(np.float64) * 1e-9,
         cage_speed_ratio(scene.bearing) * np.abs(load.shaft_speed),

@@ -11,7 +11,7 @@ import numpy as np
 from beardyn_core.choice import scene_from_text
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
-from beardyn_core.rail.build import load_history
+from beardyn_core.rail.build import load_of_scene
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from evidence.hard.case import HardCase, Point
@@ -54,7 +54,7 @@ def load_of(case: HardCase, scene: Scene) -> LoadHistory:
     """Load of the whole run and a little more."""
     if case.load:
         return history(case.load)
-    return load_history(scene.operation, scene.mounting, case.duration + 2.0 * _BLOCK_S, scene.seed)
+    return load_of_scene(scene, case.duration + 2.0 * _BLOCK_S)
 
 
 def history(points: tuple[Point, ...]) -> LoadHistory:

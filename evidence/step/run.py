@@ -13,7 +13,7 @@ from beardyn_core.integrate.status import chatter_index, describe
 from beardyn_core.model.build import SAMPLES_PER_BLOCK, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_TORQUE
 from beardyn_core.observe.resampling import Decimator
-from beardyn_core.rail.build import load_history
+from beardyn_core.rail.build import load_of_scene
 from beardyn_core.study.measures import third_octave_levels
 from beardyn_core.twin import Twin
 from evidence.step.cases import Method, Point, scene_of
@@ -87,7 +87,7 @@ def run_once(point: Point, method: Method, number: int, settling: float, duratio
     settled, blocks = round(settling / block_s), PARTS * max(1, round(duration / block_s / PARTS))
     twin.warm()
     scene = twin.scene
-    twin.start(load_history(scene.operation, scene.mounting, (settled + blocks + 1) * block_s, scene.seed))
+    twin.start(load_of_scene(scene, (settled + blocks + 1) * block_s))
     filtered = Decimator(method.steps, 1)
     moments, torque, housing = [], [], []
     begun, chatter, status = 0.0, 0.0, 0

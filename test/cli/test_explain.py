@@ -81,3 +81,20 @@ def test_explain_tells_what_the_scene_has_where_no_rule_offers_it(capsys: pytest
     assert "judged like" in by_name["rib"]["reason"]
     assert current["expected_error"]["torque"] == unknown
     assert not current["within_accuracy"]
+
+
+def test_explain_names_the_background_and_a_path_that_is_no_model(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "ratio.csv").write_text("frequency_Hz,real,imaginary\n10,1,0\n5000,1,0\n")
+    scene = tmp_path / "mine.yaml"
+    scene.write_text(
+        "scene: mine\nbearing: HS130x230\nlubricant: L055\n"
+        "operation: {kind: constant, force_kN: [0, 0, 60], speed_rpm: 600}\n"
+        "background: {name: rattling, knocks: {rate_Hz: 2, impulse_N_s: 0.5}}\n"
+        "sensors: [{name: top, measured_paths: [{path: ratio.csv, axes: [z]}]}]\n"
+    )
+    assert main(["explain", str(scene)]) == DONE
+    said = capsys.readouterr().out
+    assert "background rattling: knocks" in said
+    assert "sensor top: measured path ratio.csv on z, a filter behind the rigid box" in said

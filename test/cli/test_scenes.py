@@ -14,10 +14,12 @@ from beardyn_core.cli.main import BAD_INPUT, DONE, main
 from beardyn_core.cli.new import POSSIBLE
 from beardyn_core.cli.scenes import KINDS
 from beardyn_core.config import (
+    load_background,
     load_bearing,
     load_box,
     load_effects,
     load_lubricant,
+    load_sensor,
     load_vehicle,
     shipped_names,
 )
@@ -30,6 +32,8 @@ LOADERS: dict[str, Any] = {
     "effects": load_effects,
     "trials": load_trial,
     "structures": load_box,
+    "sensors": load_sensor,
+    "backgrounds": load_background,
 }
 
 
