@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+import beardyn_core as bd
 from beardyn_core.cli import main as command
 from beardyn_core.config import config_folder
 from beardyn_core.errors import InputError
@@ -92,6 +93,18 @@ def test_existing_files_are_replaced_only_with_force(
     assert {path.read_text() for path in [notes, *folder.iterdir()]} == {"of last week"}
     assert command.main(["view", str(recording), "--save", str(notes), "--force"]) == command.DONE
     assert notes.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("ending", ["csv", "db3", "PARQUET", "rrd"])
+def test_a_recording_takes_no_name_of_another_format(
+    ending: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / f"run.{ending}"
+    assert command.main(["simulate", "static_5kN", "-o", str(path), *SHORT]) == command.BAD_INPUT
+    assert f"--output {path}: a recording is an MCAP file, not .{ending}" in capsys.readouterr().err
+    with pytest.raises(InputError, match="a recording is an MCAP file"):
+        bd.simulate("static_5kN", duration=0.02, record=path, force=True)
+    assert not path.exists()
 
 
 def test_a_recording_is_never_replaced_by_what_is_made_of_it(
