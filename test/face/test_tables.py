@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import resource
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +15,7 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.tables import SIGNALS, columns_of, parts_of, signal_of
+from test.record.conftest import files_of_at_most
 from test.record.synthetic_run import SyntheticRun, description
 
 
@@ -87,26 +86,16 @@ def test_wav_is_the_vibration_in_si_units(run: Run, tmp_path: Path) -> None:
         run.to_wav(tmp_path / "force.wav", ["force"])
 
 
-@pytest.fixture
-def small_disk() -> Iterator[None]:
-    """Let no file grow beyond 4 kB: what a full disk does to a large one."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
-    yield
-    resource.setrlimit(resource.RLIMIT_FSIZE, before)
-
-
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.usefixtures("small_disk")
 def test_a_full_disk_leaves_no_part_of_a_file_and_what_was_there(run: Run, kind: str, tmp_path: Path) -> None:
     for library in {"parquet": ("pyarrow",), "h5": ("h5py",)}.get(kind, ()):
         pytest.importorskip(library)
     path = tmp_path / f"run.{kind}"
-    with pytest.raises(InputError, match="cannot be written"):
+    with files_of_at_most(4096), pytest.raises(InputError, match="cannot be written"):
         export(run, path)
     assert list(tmp_path.iterdir()) == []
     path.write_text("of last week")
-    with pytest.raises(InputError, match="cannot be written"):
+    with files_of_at_most(4096), pytest.raises(InputError, match="cannot be written"):
         export(run, path, force=True)
     assert [each.read_text() for each in tmp_path.iterdir()] == ["of last week"]
 
