@@ -17,6 +17,8 @@ try:
 except ImportError:  # a system without file locks
     fcntl = None  # type: ignore[assignment]
 
+# of files that are no recordings: `beardyn export` and other programs write or read them
+_OTHER_ENDINGS = (".csv", ".parquet", ".npz", ".h5", ".wav", ".rrd", ".db3", ".bag", ".yaml", ".json")
 _recorders: list[list[Path]] = []
 
 
@@ -80,6 +82,19 @@ def file_problems(
     if path.is_file() and not force:
         return [f"{where}: the file exists; --force replaces it (in Python force=True), or give another name"]
     return []
+
+
+def recording_problems(
+    option: str, path: Path | None, *, inputs: Iterable[Path] = (), force: bool = False
+) -> list[str]:
+    """List why a recording cannot be written: as `file_problems`, and the ending of another format."""
+    problems = file_problems(option, path, inputs=inputs, force=force)
+    if problems or path is None or path.suffix.lower() not in _OTHER_ENDINGS:
+        return problems
+    return [
+        f"{option} {path}".strip() + f": a recording is an MCAP file, not {path.suffix}; let its name end in "
+        ".mcap (beardyn export makes tables and WAV files of it)"
+    ]
 
 
 def folder_problems(
@@ -232,21 +247,27 @@ def _lock(handle: int, path: Path) -> None:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a text file so that it is there as a whole or not at all.
-
-    Parameters
-    ----------
-    path : Path
-        Replaced when it exists.
-
-    Raises
-    ------
-    OSError
-        The file is then as it was.
-    """
-    fresh = path.with_name(f".{path.name}.new")
-    try:
+    """Write a text file so that it is there as a whole or not at all; an existing one is replaced."""
+    with as_a_whole(path) as fresh:
         fresh.write_text(text, encoding="utf-8")
+
+
+@contextmanager
+def as_a_whole(path: Path) -> Iterator[Path]:
+    """Let a file be written so that it is there as a whole, or as it was before when that fails.
+
+    Yields
+    ------
+    Path
+        Where to write: a file beside it that takes its place at the end; a device or a pipe itself.
+    """
+    path = path.resolve()
+    if path.exists() and not path.is_file():
+        yield path
+        return
+    fresh = path.with_name(f".{path.name}.{os.getpid()}.new")
+    try:
+        yield fresh
         fresh.replace(path)
     except BaseException:
         with suppress(OSError):

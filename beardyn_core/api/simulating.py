@@ -18,8 +18,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
 from beardyn_core.observe.summary import RunSummary
-from beardyn_core.outputs import files_read
-from beardyn_core.record.exporting import refuse_to_write
+from beardyn_core.outputs import files_read, recording_problems
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import life_of
@@ -86,7 +85,8 @@ def simulate(
     memory = MemorySink()
     sinks: list[Sink] = [memory]
     if record is not None:
-        refuse_to_write([Path(record)], force=force, inputs=inputs)
+        if problems := recording_problems("", Path(record), inputs=inputs, force=force):
+            raise InputError(problems)
         sinks.append(McapSink(record, replace=force))
     for doubt in made.doubts:
         warnings.warn(doubt, stacklevel=2)

@@ -114,13 +114,10 @@ def biboulet_houpert_force(
     return force * contact.contact_modulus * contact.radius * contact.length
 
 
-def biboulet_houpert_line(contact: RollingContact) -> float:
+def biboulet_houpert_line(
+    contact: RollingContact, rigid_share: float = 1.0, elastic_share: float = 1.0
+) -> float:
     """Compute the rolling couple 2 F_R R of a line contact, [N m]; see `biboulet_houpert_force`."""
-    return starved_biboulet_houpert_line(contact, 1.0, 1.0)
-
-
-def starved_biboulet_houpert_line(contact: RollingContact, rigid_share: float, elastic_share: float) -> float:
-    """Compute the rolling couple with a share left of each regime's, [N m]."""
     return 2.0 * contact.radius * biboulet_houpert_force(contact, rigid_share, elastic_share)
 
 

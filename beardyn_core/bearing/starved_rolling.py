@@ -10,8 +10,8 @@ from beardyn_core.bearing.oil_layer import CoupleShares, layer_couple_shares, la
 from beardyn_core.bearing.rolling_resistance import (
     RollingContact,
     aihara_line,
+    biboulet_houpert_line,
     rigid_line,
-    starved_biboulet_houpert_line,
     zhou_hoeprich_line,
 )
 from beardyn_core.bearing.starvation import couple_shares
@@ -75,5 +75,5 @@ def rolling_couple(form: str, contact: RollingContact, supply: OilSupply = FLOOD
     """
     rigid, elastic = supply.shares(contact)
     if form == "biboulet_houpert":
-        return starved_biboulet_houpert_line(contact, rigid, elastic)
+        return biboulet_houpert_line(contact, rigid, elastic)
     return min(elastic * _POWER_LAWS[form](contact), rigid * rigid_line(contact))

@@ -44,7 +44,6 @@ class Circumstances:
     cases: A[tuple[LoadCase, ...], "the typical one first; those that are nearly the same are left out"]
     lightest: A[float, "force of the lightest case, [N]"]
     top_speed: A[float, "largest amount of the shaft speed, [rad/s]"]
-    changing: A[bool, "whether the load changes"]
     axial_low: A[float, "smallest axial force, [N]"]
     axial_high: A[float, "largest axial force, [N]"]
 
@@ -86,7 +85,6 @@ def circumstances(scene: Scene) -> Circumstances:
         tuple(cases),
         lightest=float(size[picks["lightest"]]),
         top_speed=float(np.abs(speed).max()),
-        changing=bool(np.ptp(wrench, axis=0).max() > _SAME * max(float(size.max()), 1.0)),
         axial_low=float(axial.min()),
         axial_high=float(axial.max()),
     )

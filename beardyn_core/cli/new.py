@@ -9,7 +9,7 @@ from typing import Any
 
 from beardyn_core.cli.scenes import KINDS
 from beardyn_core.errors import InputError
-from beardyn_core.outputs import file_problems
+from beardyn_core.outputs import as_a_whole, file_problems
 
 _NAME_KEY = {"scenes": "scene", "trials": "trial"}
 _HOW = {
@@ -77,10 +77,11 @@ def run(args: argparse.Namespace) -> int:
     _refuse(files, target, source, args.force)
     try:
         for path, content in files.items():
-            path.write_bytes(content)
+            with as_a_whole(path) as fresh:
+                fresh.write_bytes(content)
             print(f"{path} written")
     except OSError as error:
-        raise InputError(f"{error.filename}: cannot be written: {error.strerror or error}") from None
+        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
     print(_HOW[kind].format(file=_shown(target)))
     return 0
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from beardyn_core.cli.files import checked
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import file_problems
+from beardyn_core.outputs import recording_problems
 
 if TYPE_CHECKING:
     from beardyn_core.observe.block import Block
@@ -66,7 +66,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice import load_scene
 
-    with checked(lambda inputs: file_problems("--output", args.output, inputs=inputs, force=args.force)):
+    with checked(lambda inputs: recording_problems("--output", args.output, inputs=inputs, force=args.force)):
         scene = load_scene(
             args.scene,
             effects=args.effects,

@@ -14,17 +14,10 @@ class BackgroundFile:
 
     When more than `MOST_WAITING` bytes wait, `write` waits for the disk. What the disk refuses is raised by
     the next call.
-
-    Parameters
-    ----------
-    file : BinaryIO
-    most_waiting : int
-        Bytes.
     """
 
-    def __init__(self, file: BinaryIO, most_waiting: int = MOST_WAITING) -> None:
+    def __init__(self, file: BinaryIO) -> None:
         self._file = file
-        self._most_waiting = most_waiting
         self._queue: deque[bytes] = deque()
         self._waiting = 0
         self._position = 0
@@ -42,7 +35,7 @@ class BackgroundFile:
             self._changed.wait_for(
                 lambda: (
                     self._failure is not None
-                    or self._waiting + len(data) <= self._most_waiting
+                    or self._waiting + len(data) <= MOST_WAITING
                     # a piece larger than everything that may wait is taken alone
                     or not self._waiting
                 )

@@ -11,10 +11,10 @@ from beardyn_core.record.arrays import Signal, Turning
 LEAST_REVOLUTIONS = 4.0
 
 
-def envelope_order_spectrum(
-    vibration: Signal, shaft: Turning, highest_order: float, settings: MonitorSettings | None = None
-) -> OrderSpectrum | None:
+def envelope_order_spectrum(vibration: Signal, shaft: Turning, highest_order: float) -> OrderSpectrum | None:
     """Compute the spectrum of the band-passed envelope over all axes, resampled over the shaft angle.
+
+    Band and angular grid are those of the monitor.
 
     Parameters
     ----------
@@ -24,15 +24,13 @@ def envelope_order_spectrum(
         Tachometer.
     highest_order : float
         Where the result ends, [-].
-    settings : MonitorSettings, optional
-        Band and angular grid; by default those of the monitor.
 
     Returns
     -------
     OrderSpectrum or None
         ``None`` when the shaft makes fewer than four revolutions: nothing to resolve then.
     """
-    settings = settings or MonitorSettings()
+    settings = MonitorSettings()
     if len(vibration) < 1024 or len(shaft) < 2:
         return None
     # Samples outside the tachometer's span have no angle.

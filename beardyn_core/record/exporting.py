@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from beardyn_core.errors import InputError
-from beardyn_core.outputs import file_problems
+from beardyn_core.outputs import as_a_whole, file_problems, write_whole
 from beardyn_core.record import tables
 
 if TYPE_CHECKING:
@@ -75,17 +76,20 @@ def export(
         targets = {name: path.with_name(f"{path.stem}_{name}{path.suffix}") for name in names}
     beside = [path.with_name(f"{path.name}.json")] if kind in _BESIDE else []
     files = [*dict.fromkeys(targets.values()), *beside]
-    refuse_to_write(files, force=force, inputs=[] if run.path is None else [run.path])
+    inputs = [] if run.path is None else [run.path]
+    if problems := [each for file in files for each in file_problems("", file, inputs=inputs, force=force)]:
+        raise InputError(problems)
     try:
-        if kind == "npz":
-            _write_npz(run, path, names)
-        elif kind == "h5":
-            _write_hdf5(run, path, names)
-        else:
+        if kind in _TABLES:
+            write = {"parquet": _write_parquet, "csv": _write_csv, "wav": _write_wav}[kind]
             for name, target in targets.items():
-                {"parquet": _write_parquet, "csv": _write_csv, "wav": _write_wav}[kind](run, target, name)
+                with as_a_whole(target) as fresh:
+                    write(run, fresh, name)
+        else:
+            with as_a_whole(path) as fresh:
+                {"npz": _write_npz, "h5": _write_hdf5}[kind](run, fresh, names)
         for target in beside:
-            target.write_text(json.dumps(run.truth, indent=1) + "\n", encoding="utf-8")
+            write_whole(target, json.dumps(run.truth, indent=1) + "\n")
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
     return files
@@ -95,13 +99,6 @@ def _usual(run: Run, kind: str) -> tuple[str, ...]:
     known = tables.signal_names(run)
     names = known if kind not in _TABLES else tuple(name for name in known if name not in tables.SIGNALS[1:])
     return tuple(name for name in names if len(tables.signal_of(run, name))) or (tables.VIBRATION,)
-
-
-def refuse_to_write(files: Sequence[Path], *, force: bool, inputs: Sequence[Path] = ()) -> None:
-    """Raise `InputError` for files that exist, unless `force`, and for files that are an input."""
-    problems = [each for file in files for each in file_problems("", file, inputs=inputs, force=force)]
-    if problems:
-        raise InputError(problems)
 
 
 def _write_parquet(run: Run, path: Path, name: str) -> None:
@@ -133,7 +130,8 @@ def _write_npz(run: Run, path: Path, names: Sequence[str]) -> None:
 
 def _write_hdf5(run: Run, path: Path, names: Sequence[str]) -> None:
     h5py = tables.library("h5py", "HDF5")
-    with h5py.File(path, "w") as file:
+    memory = BytesIO()  # a disk that is full in between would leave HDF5 with handles it cannot close
+    with h5py.File(memory, "w") as file:
         for key, value in tables.labels_of(run).items():
             file.attrs[key] = value
         for name in names:
@@ -145,6 +143,7 @@ def _write_hdf5(run: Run, path: Path, names: Sequence[str]) -> None:
                 stored = group.create_dataset(part, data=array.values, compression="gzip", shuffle=True)
                 stored.attrs["unit"] = array.unit
                 stored.attrs["axes"] = ",".join(("time", *array.dims))
+    path.write_bytes(memory.getbuffer())
 
 
 def _write_wav(run: Run, path: Path, name: str) -> None:

@@ -14,6 +14,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import as_a_whole
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
 from beardyn_core.record.rerun_plots import bounds, log_plots
@@ -62,7 +63,7 @@ def live_stream(target: str, path: Path | None = None, port: int = 0) -> Iterato
         else:
             if path is None:
                 raise InputError("a live view into a file needs the path of an .rrd file")
-            _check_writable(path)
+            _check_writable(path, path)
             where = str(path)
             stream.save(where)
         try:
@@ -79,21 +80,28 @@ def rerun_file(path: Path, name: str, layout: Any) -> Iterator[rr.RecordingStrea
     Raises
     ------
     InputError
-        The file cannot be written.
+        The file cannot be written; then there is none of this name, or what was there before.
     """
-    _check_writable(path)
-    stream = rr.RecordingStream(APPLICATION, recording_id=name)
-    stream.save(path, default_blueprint=layout)
-    yield stream
-    stream.flush()
-    stream.disconnect()
+    with as_a_whole(path) as fresh:
+        _check_writable(fresh, path)
+        stream = rr.RecordingStream(APPLICATION, recording_id=name)
+        stream.save(fresh, default_blueprint=layout)
+        yield stream
+        try:
+            stream.flush()
+        except RuntimeError as error:  # its thread has ended, and does not say why
+            raise InputError(
+                f"{path}: the rerun file cannot be written to its end; is the disk full? Free space, or "
+                "choose another disk"
+            ) from error
+        stream.disconnect()
 
 
-def _check_writable(path: Path) -> None:
+def _check_writable(path: Path, name: Path) -> None:
     try:
         path.open("ab").close()
     except OSError as error:
-        raise InputError(f"{path}: cannot write the rerun file ({error.strerror})") from error
+        raise InputError(f"{name}: cannot write the rerun file ({error.strerror})") from error
 
 
 BACKGROUND = (16, 19, 26)

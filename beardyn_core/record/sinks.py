@@ -71,31 +71,23 @@ class McapSink:
 
     Parameters
     ----------
-    namespace : str
-        Of the topics.
-    frame : str
-        Of the headers.
     replace : bool
         Whether an existing file is replaced; otherwise `open` raises an `InputError`.
     """
 
-    def __init__(
-        self, path: Path | str, namespace: str = NAMESPACE, frame: str = FRAME, *, replace: bool = False
-    ) -> None:
+    def __init__(self, path: Path | str, *, replace: bool = False) -> None:
         self._path = Path(path)
         self._replace = replace
-        self._namespace = namespace
-        self._frame = frame
         self._writer: McapWriter | None = None
         self._load_written = 0
 
     def open(self, run: RunDescription) -> None:
         """Create the file; it holds the description from the first moment on."""
         self._run = run
-        self._encoder = BlockEncoder(run.roller_count, run.sensor_names, self._frame)
+        self._encoder = BlockEncoder(run.roller_count, run.sensor_names, FRAME)
         self._load_written = 0
         self._first = True
-        self._writer = McapWriter(self._path, self._namespace, replace=self._replace)
+        self._writer = McapWriter(self._path, NAMESPACE, replace=self._replace)
         self._writer.describe(run)
 
     def write(self, block: Block) -> None:
@@ -109,7 +101,7 @@ class McapSink:
             writer.add(name, stamp, cdr)
         if block.index % DIAGNOSTICS_EVERY == 0 or block.status != 0:
             status = block_diagnostic(block)
-            writer.add("/diagnostics", block.end_ns, encode_diagnostics(block.end_ns, self._frame, [status]))
+            writer.add("/diagnostics", block.end_ns, encode_diagnostics(block.end_ns, FRAME, [status]))
 
     def close(self, status: str = "") -> None:
         """Finish the file."""
@@ -129,6 +121,6 @@ class McapSink:
         last = min(int(np.searchsorted(load.time_ns, until_ns)) + 1, len(load))
         while self._load_written < last:
             part = load.part(self._load_written, min(self._load_written + LOAD_MESSAGE_SAMPLES, last))
-            cdr = encode_load(part, self._load_written, self._frame)
+            cdr = encode_load(part, self._load_written, FRAME)
             writer.add("load/blocks", int(part.time_ns[0]), cdr)
             self._load_written += len(part)

@@ -18,7 +18,7 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, encode_diagnostics
 from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink
-from beardyn_core.record.topics import FRAME, NAMESPACE
+from beardyn_core.record.topics import FRAME
 
 WAITING, HEALTHY = "waiting", "healthy"
 HOT_BOX = "hot_box"
@@ -166,8 +166,6 @@ class MonitoredRecording(McapSink):
         What the name plate says; the monitor gets nothing else of the scene.
     on_finding : callable, optional
         Told of every result.
-    algorithm : function, optional
-        In place of the reference chain.
     replace : bool
         Whether an existing file is replaced.
     """
@@ -177,21 +175,19 @@ class MonitoredRecording(McapSink):
         path: object,
         bearing: Bearing,
         on_finding: Callable[[Finding], None] | None = None,
-        algorithm: Algorithm = REFERENCE,
         *,
         replace: bool = False,
     ) -> None:
-        super().__init__(str(path), NAMESPACE, FRAME, replace=replace)
+        super().__init__(str(path), replace=replace)
         self._bearing = bearing
         self._on_finding = on_finding
-        self._algorithm = algorithm
         self.findings: list[Finding] = []
 
     def open(self, run: RunDescription) -> None:
         """Create the file and a fresh monitor."""
         super().open(run)
         orders, count = fault_frequencies(self._bearing), self._bearing.roller_count
-        self._monitor = Monitor(orders, count, run.sensor_rates[0], algorithm=self._algorithm)
+        self._monitor = Monitor(orders, count, run.sensor_rates[0])
         self.findings = []
 
     def write(self, block: Block) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+import beardyn_core as bd
 from beardyn_core.cli import main as command
 from beardyn_core.config import config_folder
 from beardyn_core.errors import InputError
@@ -19,7 +20,7 @@ from beardyn_core.outputs import file_problems, open_to_write, write_whole
 from beardyn_core.record.mcap_scanning import recover, recovered_name
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.sinks import McapSink
-from test.record.conftest import write_recording
+from test.record.conftest import files_of_at_most, write_recording
 from test.record.synthetic_run import SyntheticRun, description
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -92,6 +93,37 @@ def test_existing_files_are_replaced_only_with_force(
     assert {path.read_text() for path in [notes, *folder.iterdir()]} == {"of last week"}
     assert command.main(["view", str(recording), "--save", str(notes), "--force"]) == command.DONE
     assert notes.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("ending", ["csv", "db3", "PARQUET", "rrd"])
+def test_a_recording_takes_no_name_of_another_format(
+    ending: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / f"run.{ending}"
+    assert command.main(["simulate", "static_5kN", "-o", str(path), *SHORT]) == command.BAD_INPUT
+    assert f"--output {path}: a recording is an MCAP file, not .{ending}" in capsys.readouterr().err
+    with pytest.raises(InputError, match="a recording is an MCAP file"):
+        bd.simulate("static_5kN", duration=0.02, record=path, force=True)
+    assert not path.exists()
+
+
+def test_a_full_disk_ends_view_and_new_in_a_sentence_and_leaves_no_part_of_a_file(
+    tmp_path: Path, recording: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "full"
+    folder.mkdir()
+    view, copy = folder / "run.rrd", folder / "mine.yaml"
+    # where not even the blueprint fits, rerun's own `save` may wait for ever for its thread
+    for words, path, room in (
+        (["view", str(recording), "--save", str(view)], view, 100_000),
+        (["new", "cup_spall", "-o", str(copy)], copy, 512),
+    ):
+        with files_of_at_most(room):
+            assert command.main(words) == command.BAD_INPUT
+        said = capsys.readouterr().err
+        assert str(path) in said
+        assert "be written" in said
+        assert list(folder.iterdir()) == []
 
 
 def test_a_recording_is_never_replaced_by_what_is_made_of_it(

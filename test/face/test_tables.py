@@ -10,10 +10,12 @@ import pytest
 
 from beardyn_core.cli.main import main
 from beardyn_core.errors import InputError
+from beardyn_core.record.exporting import KINDS, export
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.tables import SIGNALS, columns_of, parts_of, signal_of
+from test.record.conftest import files_of_at_most
 from test.record.synthetic_run import SyntheticRun, description
 
 
@@ -82,6 +84,20 @@ def test_wav_is_the_vibration_in_si_units(run: Run, tmp_path: Path) -> None:
     assert json.loads(beside.read_text())["scene"] == "synthetic"
     with pytest.raises(InputError, match="only vibration can"):
         run.to_wav(tmp_path / "force.wav", ["force"])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_full_disk_leaves_no_part_of_a_file_and_what_was_there(run: Run, kind: str, tmp_path: Path) -> None:
+    for library in {"parquet": ("pyarrow",), "h5": ("h5py",)}.get(kind, ()):
+        pytest.importorskip(library)
+    path = tmp_path / f"run.{kind}"
+    with files_of_at_most(4096), pytest.raises(InputError, match="cannot be written"):
+        export(run, path)
+    assert list(tmp_path.iterdir()) == []
+    path.write_text("of last week")
+    with files_of_at_most(4096), pytest.raises(InputError, match="cannot be written"):
+        export(run, path, force=True)
+    assert [each.read_text() for each in tmp_path.iterdir()] == ["of last week"]
 
 
 def test_xarray_has_named_axes_and_the_truth(run: Run) -> None:

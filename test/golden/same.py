@@ -265,6 +265,8 @@ def main() -> int:
     parser.add_argument("--digests", action="store_true", help="print the digests and compare nothing")
     asked = parser.parse_args()
     after = digests_here(asked.only, asked.jobs)
+    if asked.only and not after:
+        parser.error(f"--only {asked.only}: nothing that is compared has this text in its name")
     if asked.digests:
         print(json.dumps(after))
         return 0

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 
 from beardyn_core.choice import load_scene
 from test.golden.same import RUNS, TIERS, _bytes_of, _canonical, compare, digest, digests_of_run
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def test_one_bit_of_a_state_is_seen() -> None:
@@ -41,3 +46,10 @@ def test_a_run_gives_the_same_digests_twice() -> None:
     first = digests_of_run(run)
     assert len(first) > 20
     assert compare(first, digests_of_run(run)) == []
+
+
+def test_a_filter_that_meets_nothing_is_no_proof() -> None:
+    words = [sys.executable, "-m", "test.golden.same", "HEAD", "--only", "no such name"]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "nothing that is compared has this text" in done.stderr
