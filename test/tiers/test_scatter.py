@@ -147,7 +147,7 @@ def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -
 
 @pytest.mark.slow
 def test_scatter_unevens_the_spacing_and_ties_the_whirl_to_the_cage() -> None:
-    """10 kN along the axle: identical rollers stay even while their cage goes round inside its play by itself.
+    """10 kN along the axle: identical rollers stay even while their cage goes round by itself in its play.
 
     They are looked at for 1.2 s. After 1.5 to 4 s their cage has come to its play. There it hits them, going
     round at 2.2 times its speed, and leaves them even to 1.2 um; or, in 2 of 14 runs from other places, its
