@@ -76,8 +76,6 @@ CASES = (
         load=steady((0.0, 0.0, 1.0), SPEED),
         duration=0.4,
         limits=NO_FORCE,
-        known_failure="a rattle that the start leaves dies within 0.2 s, later with half the step: its "
-        "torque changes by 18 % of 1 N m over 20 starts, against a band of 10 %",
     ),
     HardCase(
         "microload_skid",

@@ -57,8 +57,9 @@ verdict that a nanometre changes is a failure. `make hard ARGS="load --jobs 1"` 
 - **Half the step**: from the first start, what it changes in mean force, force scatter, mean torque, cage
   speed and largest roller load; the one that fills most of its band is shown. The band is the limit of
   convergence (0.5 % of the means, 20 % of the scatter) and the scatter between blocks, at most 5 %. The
-  bearing is chaotic: where two runs differ, five of each step, begun a nanometre of end play apart,
-  decide, and the band is that between runs.
+  bearing is chaotic: where two runs differ, five of each step, whose rollers begin up to a micrometre from
+  the middle of their pockets, decide, and the band is that between runs. Starts a nanometre apart would
+  not do: they share their first strikes, and a band between them is too narrow by half.
 
 """
 

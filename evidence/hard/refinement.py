@@ -1,8 +1,10 @@
 """Statistics of a run against those of the same run with half the step.
 
 The bearing is chaotic: two runs share statistics, not trajectories. The blocks of both are compared in pairs
-first. Where that finds a difference, runs begun a nanometre of end play apart tell what the same step makes
-of the same scene, and only a difference beyond that band counts.
+first. Where that finds a difference, runs whose rollers begin up to a micrometre from the middle of their
+pockets tell what the same step makes of the same scene, and only a difference beyond that band counts. A
+nanometre of end play is not enough for that: identical rollers strike all at once at first, alike in all runs
+of one step for 20 ms, and what luck that leaves in a lightly loaded bearing lives for 0.2 s.
 """
 
 from __future__ import annotations
@@ -13,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from beardyn_core.model.layout import ANGLE
+from beardyn_core.twin import Twin
 from evidence.hard.watch import STATISTICS
 
 Float = NDArray[np.float64]
@@ -26,7 +30,8 @@ _COARSEST = {"force": 0.05, "force_scatter": 0.2, "torque": 0.05, "cage_speed": 
 _FLOORS = {"force": 1000.0, "force_scatter": 200.0, "torque": 1.0, "cage_speed": 1.0, "roller_load": 500.0}
 _SETTLING_BLOCKS = 2
 REPEATS = 5
-APART = 1.0e-9  # of end play, between runs that should be the same [m]
+APART = 1.0e-9  # of end play, between the starts of a case [m]
+_DISPLACED = 1.0e-6  # rollers along the pitch circle, between runs that should share statistics [m]
 
 
 @dataclass(frozen=True)
@@ -90,6 +95,20 @@ def changes_of_runs(coarse: list[Float], fine: list[Float]) -> tuple[Change, ...
         change = float(ours[:, index].mean() - theirs[:, index].mean()) / scale
         found.append(Change(name, change, _LIMITS[name] + float(noise[index]) / scale, len(ours)))
     return tuple(found)
+
+
+def displace(twin: Twin, number: int) -> None:
+    """Move each roller of a started twin at random along the pitch circle; 0 leaves all where they are.
+
+    Only in tier full; the others hold their rollers where the cage has them.
+    """
+    if number == 0 or twin.scene.tier != "full":
+        return
+    start = twin.snapshot()
+    angle = start.state.rollers[:, ANGLE]
+    most = 2.0 * _DISPLACED / twin.scene.bearing.pitch_diameter
+    angle += np.random.default_rng(number).uniform(-most, most, angle.shape)
+    twin.restore(start)
 
 
 def run_means(rows: Float) -> Float:

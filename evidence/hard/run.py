@@ -22,7 +22,7 @@ from evidence.hard.case import WITHOUT_STARTS, HardCase
 from evidence.hard.case_scene import history, load_of, scene_of
 from evidence.hard.coarse_step import coarse_run
 from evidence.hard.explicit_contact import step_roller
-from evidence.hard.refinement import APART, REPEATS, Change, Float, changes, changes_of_runs
+from evidence.hard.refinement import REPEATS, Change, Float, changes, changes_of_runs, displace
 from evidence.hard.verdict import SKIPPED, Finding, Outcome, judged, over_starts
 from evidence.hard.watch import Measures, Watch
 
@@ -89,16 +89,15 @@ def _run(case: HardCase, checkpoint: Path | None) -> Finding:
     try:
         return Finding(watch.measures(), _refined(scene, load, case.duration, watch.statistics()))
     except _EndedError as ended:
-        return Finding(watch.measures(), sentence=f"with half the step or a nanometre apart: {ended}")
+        return Finding(watch.measures(), sentence=f"with half the step or displaced rollers: {ended}")
 
 
 def _refined(scene: Scene, load: LoadHistory, duration: float, first: Float) -> tuple[Change, ...]:
     """Measure what half the step changes; run further only where the first two differ."""
 
     def statistics(steps_per_sample: float, number: int) -> Float:
-        numerics = replace(scene.numerics, steps_per_sample=steps_per_sample)
-        apart = replace(scene, numerics=numerics, end_play=scene.end_play + number * APART)
-        return _watched(apart, load, duration, None).statistics()
+        stepped = replace(scene, numerics=replace(scene.numerics, steps_per_sample=steps_per_sample))
+        return _watched(stepped, load, duration, None, number).statistics()
 
     usual = scene.numerics.steps_per_sample
     coarse, fine = [first], [statistics(2 * usual, 0)]
@@ -119,14 +118,17 @@ class _EndedError(Exception):
         self.watch = watch
 
 
-def _watched(scene: Scene, load: LoadHistory, duration: float, checkpoint: Path | None) -> Watch:
-    """Run to the end; go on from the checkpoint when there is one."""
+def _watched(
+    scene: Scene, load: LoadHistory, duration: float, checkpoint: Path | None, number: int = 0
+) -> Watch:
+    """Run to the end; go on from the checkpoint when there is one. ``number``: as in `displace`."""
     twin, watch = Twin(scene), Watch(scene)
     if checkpoint is not None and checkpoint.exists():
         snapshot, watch = pickle.loads(checkpoint.read_bytes())
         twin.restore(snapshot)
     else:
         twin.start(load)
+        displace(twin, number)
     kept = time.monotonic()
     while watch.blocks < round(duration * 1e9 / twin.block_ns):
         before = twin.snapshot()

@@ -16,7 +16,7 @@ from beardyn_core.twin import Twin
 from evidence.hard import battery, run
 from evidence.hard.battery import run_battery
 from evidence.hard.case import RUN_AS, HardCase, Limit, steady
-from evidence.hard.case_scene import merged
+from evidence.hard.case_scene import load_of, merged, scene_of
 from evidence.hard.catalogue import CASES
 from evidence.hard.explicit_contact import hidden_chatter, largest_explicit_step, step_roller
 from evidence.hard.refinement import changes, changes_of_runs
@@ -231,6 +231,19 @@ def test_band_between_runs_decides_for_several_runs() -> None:
     assert torque_inside(changes_of_runs(wide, [rows(torque) for torque in (4.4, 5.4, 6.4)]))
     narrow = [rows(torque) for torque in (4.99, 5.0, 5.01)]
     assert not torque_inside(changes_of_runs(narrow, [rows(torque) for torque in (5.39, 5.4, 5.41)]))
+
+
+def test_runs_of_displaced_rollers_share_no_strike_and_runs_a_nanometre_apart_do() -> None:
+    case = replace(next(case for case in CASES if case.name == "microload_1_N"), duration=0.02)
+    torques: dict[bool, list[float]] = {False: [], True: []}
+    for displaced, found in torques.items():
+        for number in range(1, 5):
+            apart = replace(case, start=0 if displaced else number)
+            scene = scene_of(apart)
+            pattern = number if displaced else 0
+            rows = run._watched(scene, load_of(apart, scene), case.duration, None, pattern).statistics()
+            found.append(float(rows[0, STATISTICS.index("torque")]))
+    assert np.std(torques[True]) > 5.0 * np.std(torques[False]) > 0.0  # 20 times
 
 
 # --- data

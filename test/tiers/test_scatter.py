@@ -147,15 +147,20 @@ def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -
 
 @pytest.mark.slow
 def test_scatter_unevens_the_spacing_and_ties_the_whirl_to_the_cage() -> None:
-    """10 kN along the axle for 4 s: identical rollers stay even to 1 um, their cage goes round by itself."""
+    """10 kN along the axle: identical rollers stay even while their cage goes round by itself in its play.
+
+    They are looked at for 1.2 s. After 1.5 to 4 s their cage has come to its play. There it hits them, going
+    round at 2.2 times its speed, and leaves them even to 1.2 um; or, in 2 of 14 runs from other places, its
+    centre turns with itself, lies on the same rollers and has pushed them 11 um apart after 4 s. That goes on
+    alike with 1, 2 and 4 times the usual steps; which of the two a run comes to is chance. Rollers as made
+    take 400 revolutions, 10 s, to settle; at 4 s their cage turns at 1.00 to 1.24 of itself.
+    """
     scene = load_scene("static_80kN")
     scene = replace(scene, effects=replace(scene.effects, gravity=None))
     case = [WhirlCase(240.0, 1e4)]
-    even, made = (
-        cage_whirl(replace(scene, scatter=scatter), case, duration=4.0, settled=2.0)
-        for scatter in (None, Scatter("G2", 1))
-    )
-    assert even.spacing[0] < 1e-6
+    even = cage_whirl(scene, case, duration=1.2, settled=0.6)
+    made = cage_whirl(replace(scene, scatter=Scatter("G2", 1)), case, duration=10.0, settled=7.5)
+    assert even.spacing[0] < 1e-7
     assert made.spacing[0] > 1e-5
-    assert made.frequency[0] == pytest.approx(1.0, abs=0.02)
+    assert made.frequency[0] == pytest.approx(1.0, abs=0.005)
     assert abs(even.frequency[0] - 1.0) > 0.02
