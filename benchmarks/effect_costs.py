@@ -26,6 +26,7 @@ from typing import Any
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.costs import COST_FILE
 from beardyn_core.config import load_effects
+from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import (
     Cage,
     CoulombTraction,
@@ -36,6 +37,7 @@ from beardyn_core.effects import (
     LandGuidance,
     LineFilm,
     LoadSharingTraction,
+    ModalStructure,
     PocketFilm,
     Rib,
     RibMixedFilm,
@@ -92,6 +94,15 @@ def _sets() -> dict[str, EffectSet]:
     return found
 
 
+def _in_box(scene: Scene) -> Scene:
+    """Put the bearing into the box `high_speed`, with all its modes."""
+    effects = replace(scene.effects, structure=ModalStructure("high_speed"))
+    modes = modes_of_effects(effects)
+    assert modes is not None
+    mounting = mounting_of(modes, scene.mounting, scene.bearing)
+    return replace(scene, effects=effects, mounting=mounting)
+
+
 def _with_faults(scene: Scene) -> Scene:
     return replace(scene, defects=load_scene("cup_spall").defects)
 
@@ -113,6 +124,7 @@ def _in_tier(name: str, laminae: int = 6) -> Callable[[Scene], Scene]:
 
 
 CHANGES: dict[str, Callable[[Scene], Scene]] = {
+    "+ structure modes": _in_box,
     "+ faults": _with_faults,
     "+ waviness": _wavy,
     "laminae 2": _with_laminae(2),

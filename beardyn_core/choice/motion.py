@@ -11,7 +11,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_or_off, percent
-from beardyn_core.effects import LaminaCoupling
+from beardyn_core.effects import LaminaCoupling, ModalStructure
 
 _LAMINAE = 20
 _DEPTH = 1.0e-5  # of a working load [m]
@@ -95,7 +95,8 @@ def structure(evidence: Evidence) -> Rule:
         f"bending of the box changes the deflection by {percent(change.deflection)} and the largest roller "
         f"load by {percent(change.roller_load)}, the torque by {percent(influence['torque'])}"
     )
-    cost = evidence.costs.extra("structure")
+    kind = "structure modes" if isinstance(effect, ModalStructure) else "structure"
+    cost = evidence.costs.extra(kind)
     return on_or_off("structure", effect, reason, influence, cost)
 
 
