@@ -22,7 +22,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.modes import FIELDS, Modes
 
 WAVES_SEEN = 6  # of a table: those with 7 and 8 waves change what yields to one roller by up to 0.2 % of it
-_RESOLVED = 2.5  # rate of a mode times the step up to which its motion is exact
+_RESOLVED = 0.5 * math.pi  # rate of a mode times the step up to which its motion is exact: four steps a turn
 _RADIAL, _TANGENTIAL, _AXIAL = range(len(FIELDS))
 
 
@@ -199,15 +199,16 @@ def exact_oscillators(rate: Float, damping_ratio: Float, step: float) -> tuple[F
     -----
     With velocities half a step after positions and the damper in the middle, q obeys q+ = q + (q - q-) r^2 -
     k (q - F/w^2) for the roots z = r exp(+-i t) when k = 1 + r^2 - 2 r cos(t): r = exp(-d x) and t =
-    x sqrt(1 - d^2), x = w h, are the exact ones, and a constant force F moves the mode by F/w^2. A step that
-    does not resolve a mode (x above 2.5) takes the spring implicitly instead: right at rest, stable, late.
+    x sqrt(1 - d^2), x = w h, are the exact ones, and a constant force F moves the mode by F/w^2. A mode with
+    less than four steps a turn gets the mass x^2 / 2 and rings with four: right at rest, late, and far enough
+    from the limit k = 4 that contacts, which add to it, leave it stable.
     """
     x, ratio = rate * step, np.minimum(damping_ratio, 1.0)
     resolved = x < _RESOLVED
     x = np.where(resolved, x, 1.0)
     decay = np.exp(-2.0 * ratio * x)
     turn = 1.0 + decay - 2.0 * np.sqrt(decay) * np.cos(x * np.sqrt(1.0 - ratio**2))
-    inertia = np.where(resolved, x**2 / turn, 1.0 + ratio * rate * step + 0.25 * (rate * step) ** 2)
+    inertia = np.where(resolved, x**2 / turn, ratio * rate * step + 0.5 * (rate * step) ** 2)
     half = np.where(resolved, inertia * 0.5 * (1.0 - decay), ratio * rate * step)
     return inertia - half, 2.0 * half / step, inertia
 

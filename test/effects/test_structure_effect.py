@@ -219,7 +219,7 @@ def test_modes_move_by_the_force_they_get() -> None:
     assert spent == pytest.approx(float((h * p.damping * middle**2).sum()), rel=1e-9)
 
 
-@pytest.mark.parametrize("x", [1e-3, 0.3, 1.0, 2.4])
+@pytest.mark.parametrize("x", [1e-3, 0.3, 1.0, 1.5])
 @pytest.mark.parametrize("ratio", [0.0, 0.02, 0.3])
 def test_free_motion_of_a_mode_is_exact(x: float, ratio: float) -> None:
     """Place after 1000 steps that were started on the solution of q'' + 2 d w q' + w^2 q = 0, to rounding."""
