@@ -63,7 +63,7 @@ def begin_step(bodies, direction, p):
 
 
 @inline
-def finish_step(bodies, flex, drive, wrenches, box, load_before, load, signal, energy, response, p):
+def finish_step(lanes, bodies, flex, drive, wrenches, box, load_before, load, signal, energy, response, p):
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
     ``bodies`` [2 + row, BODY_STATES], ``flex`` [2, mode]: changed; ``wrenches`` [2 + row, 6],
@@ -85,7 +85,7 @@ def finish_step(bodies, flex, drive, wrenches, box, load_before, load, signal, e
     bodies[layout.CONE_BODY, layout.RATE] = load[LOAD_SPEED]
     for body in range(layout.CAGE_BODY, bodies.shape[0]):
         bodies[body, layout.RATE] = k.cage_ratio * load[LOAD_SPEED]
-    add_response(bodies, flex, before, signal, box, response, p)
+    add_response(lanes, bodies, flex, before, signal, box, response, p)
 
 
 @inline

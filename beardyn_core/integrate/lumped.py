@@ -71,10 +71,10 @@ def advance_lumped(lanes, state, work, loads, output, p):
         if due:
             torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
-            hold_stiffness(sums, direction, response, p, bending)
+            hold_stiffness(lanes, sums, direction, response, p, bending)
         finish_step(
-            bodies, flex, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
-            energy, response, p,
+            lanes, bodies, flex, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1],
+            signals[step], energy, response, p,
         )  # fmt: skip
         if shown:
             for i, value in enumerate((turns[0], speeds[0], speeds[1])):

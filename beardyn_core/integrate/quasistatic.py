@@ -167,10 +167,10 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         rib = lane_total(sums, RIB_SUM)
         if due:
             losses = held_losses(sums, speeds, rib, p)
-            hold_stiffness(sums, direction, response, p, bending)
+            hold_stiffness(lanes, sums, direction, response, p, bending)
         finish_step(
-            bodies, flex, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
-            energy, response, p,
+            lanes, bodies, flex, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1],
+            signals[step], energy, response, p,
         )  # fmt: skip
         if shown:
             for block in range(rollers.shape[0]):

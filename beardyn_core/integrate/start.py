@@ -14,8 +14,7 @@ from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model import layout
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
 from beardyn_core.model.parameters import Parameters
-from beardyn_core.model.mounting import MountingParams
-from beardyn_core.model.tier_bending import BendingParams, openings_at_pockets
+from beardyn_core.model.tier_bending import openings_at_pockets
 from beardyn_core.model.tier_parameters import LumpedParameters
 
 _ITERATIONS = 60
@@ -100,13 +99,14 @@ def at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
 
 
 def settle_lumped(
-    p: LumpedParameters, pose: Float, bent: Float, load: Float, cage_rate: float
+    p: LumpedParameters, pose: Float, bent: Float, load: Float, modal_load: Float, cage_rate: float
 ) -> tuple[Float, Float]:
     """Find the pose of the cone and the bending of the box in the static equilibrium of the lumped tier.
 
     ``pose`` [5]: displacement and tilt about x and z to start from [m], [rad]; ``bent`` [mode]: amplitudes to
     start from [m sqrt(kg)]; ``load`` [5] or [3]: force on the cup and, with a free tilt, moment about x and z
-    [N], [N m]; ``cage_rate``: [rad/s].
+    [N], [N m]; ``modal_load`` [mode]: what else but rollers pushes the modes [N/sqrt(kg)]; ``cage_rate``:
+    [rad/s].
 
     Raises
     ------
@@ -118,12 +118,11 @@ def settle_lumped(
     sides = np.broadcast_to(p.sides[0, 0], counted.shape)
     springs = np.zeros(len(load))
     springs[1] = p.base.mounting.prop_stiffness
-    held = len(load)
-    opening = np.zeros((*counted.shape, 0))
+    held, opening = len(load), np.zeros((*counted.shape, 0))
     if p.bending is not None:
         opening = openings_at_pockets(p.bending, p.base, len(np.unique(sides)))
-        springs = np.concatenate([springs, p.bending.stiffness])
-        load = np.concatenate([load, _load_at_seats(p.base.mounting, p.bending, bent)])
+        springs = np.concatenate([springs, p.bending.stiffness / p.bending.inverse])
+        load = np.concatenate([load, modal_load])
     idle = spring.idle * p.kinematic.centrifugal * cage_rate**2
     rows, gaps = [], []
     for side in np.unique(sides):
@@ -164,11 +163,3 @@ def settle_lumped(
     else:
         raise ValidityError("the lumped tier found no static equilibrium under the first load")
     return np.concatenate([found[:held], pose[held:]]), found[held:]
-
-
-def _load_at_seats(mounting: MountingParams, bending: BendingParams, bent: Float) -> Float:
-    """Work out what the suspension at rest pushes each mode with, shape [mode], [N/sqrt(kg)]."""
-    if bending.suspension is None or mounting.coupling is None:
-        return np.zeros_like(bent)
-    force = mounting.preload - mounting.coupling.stiffness @ (bending.suspension @ bent)
-    return np.asarray(force @ bending.suspension)

@@ -114,11 +114,19 @@ def _start_lumped(
     state = _start_rolling(scene, arrangement, parameters, static, load)
     free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
     carried = np.array([load[0], load[1], load[2] - parameters.kinematic.rolling_weight, load[3], load[5]])
+    bent, modal_load, fitted = state.flex[0], np.zeros(0), step_body(scene, parameters.step)
+    box = parameters.base.mounting.coupling
+    if fitted is not None:
+        modal_load = np.zeros(len(bent))
+        if fitted.body.suspension is not None:
+            seats = fitted.body.suspension
+            modal_load += (parameters.base.mounting.preload - box.stiffness @ (seats @ bent)) @ seats
     pose, state.flex[0] = settle_lumped(
         parameters,
         np.array([*static.displacement, *static.tilt]),
-        state.flex[0],
+        bent,
         carried if free else carried[:3],
+        modal_load,
         cage_speed(scene.bearing, load[6]),
     )
     state.bodies[CONE_BODY, POSITION : POSITION + 3] = pose[:3]

@@ -120,12 +120,12 @@ def hold_response(sums, direction, work, p):
 
 
 @inline
-def hold_stiffness(sums, direction, work, p, bending):
+def hold_stiffness(lanes, sums, direction, work, p, bending):
     """Work out and keep the response of rigid rings, `hold_response`, or of all modes, `hold_bending`."""
     if bending is None:
         hold_response(sums, direction, work, p)
         return
-    hold_bending(direction, bending)
+    hold_bending(lanes, direction, bending)
 
 
 @inline
@@ -136,7 +136,7 @@ def journal_velocity(bodies):
 
 
 @inline
-def add_response(bodies, flex, before, signal, box, work, p):
+def add_response(lanes, bodies, flex, before, signal, box, work, p):
     """Add the wrench of `hold_response` to a step that has been taken without it, and move the modes.
 
     Cup and cone get opposite wrenches. The channels get the dampers' part only: what they say is force and
@@ -153,7 +153,9 @@ def add_response(bodies, flex, before, signal, box, work, p):
     about_x = (after[3] - before[3]) * motion.rate - signal[layout.SIGNAL_ACCELERATION + 3]
     about_z = (after[4] - before[4]) * motion.rate - signal[layout.SIGNAL_ACCELERATION + 5]
     more = (x, y, z, about_x, about_z)
-    force_x, force_y, force_z, moment_x, moment_z = _held_wrench(flex, more, signal, box, work, p, p.bending)
+    force_x, force_y, force_z, moment_x, moment_z = _held_wrench(
+        lanes, flex, more, signal, box, work, p, p.bending
+    )
     wrench = (force_x, force_y, force_z, moment_x, 0.0, moment_z)
     push, turn = p.step * motion.journal_push, p.step * motion.journal_turn
     bodies[layout.CONE_BODY, layout.LINEAR] = after[0] - push * wrench[0]
@@ -168,11 +170,11 @@ def add_response(bodies, flex, before, signal, box, work, p):
 
 
 @inline
-def _held_wrench(flex, more, signal, box, work, p, bending):
+def _held_wrench(lanes, flex, more, signal, box, work, p, bending):
     if bending is None:
         rows = (_row(work, 0, more), _row(work, 1, more), _row(work, 2, more), _row(work, 3, more))
         return rows[0], rows[1], rows[2], rows[3], _row(work, 4, more)
-    return kick_modes(flex, more, box, signal, p.step, bending)
+    return kick_modes(lanes, flex, more, box, signal, p.step, bending)
 
 
 @inline
