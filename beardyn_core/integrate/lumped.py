@@ -30,7 +30,6 @@ from beardyn_core.kernels.spring_roller import (
     sum_rollers,
     torque_and_stiffness,
 )
-from beardyn_core.kernels.structure import drift_flex
 from beardyn_core.model.layout import ANGLE, POCKET_ANGLE, RADIUS, ROLLER_FIELDS, VELOCITY
 from beardyn_core.model.tier_parameters import LumpedParameters
 
@@ -59,8 +58,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
-        drift_flex(flex, p.step, bending)
-        show_openings(lanes, flex, direction, box, bending)
+        show_openings(lanes, flex, direction, box, p.step, bending)
         due, shown = step % stride == 0, (step + 1) % stride == 0
         trend = roller_trend[step // stride]
         motion = relative_cone(bodies)

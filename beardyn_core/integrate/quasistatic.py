@@ -44,7 +44,6 @@ from beardyn_core.kernels.kinematic_rollers import (
     sliding_torque,
 )
 from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
-from beardyn_core.kernels.structure import drift_flex
 from beardyn_core.kernels.vectors import add_scaled
 from beardyn_core.model import layout
 
@@ -149,8 +148,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
-        drift_flex(flex, p.step, bending)
-        show_openings(lanes, flex, direction, box, bending)
+        show_openings(lanes, flex, direction, box, p.step, bending)
         due, shown = step % stride == 0, (step + 1) % stride == 0
         balance_rollers(
             lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p

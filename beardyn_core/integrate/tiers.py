@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -102,10 +102,12 @@ def _start_rolling(
     scene: Scene, arrangement: Arrangement, parameters: Any, static: StaticSolution, load: Float
 ) -> State:
     orbit = cage_speed(scene.bearing, load[6])
+    state = initial_state(scene.bearing, arrangement, parameters.base, static, load[6], orbit)
     fitted = step_body(scene, parameters.step)
+    flex = np.zeros((2, 0 if fitted is None else len(fitted.share)))
     if fitted is not None:
-        static = replace(static, bending=fitted.share @ static.bending)
-    return initial_state(scene.bearing, arrangement, parameters.base, static, load[6], orbit)
+        flex[0] = fitted.share @ static.bending
+    return state._replace(flex=flex)
 
 
 def _start_lumped(

@@ -7,9 +7,7 @@ waves at the pockets never change.
 
 The stiffness of many rollers on a mode is as large as its own. The step takes it as `kinematic_rings` does
 for rigid rings, with the same motion of all: ``(M + B) a = F`` for rings and modes together, where
-``B = (h C/2 + h^2 K/8)`` acts on the series of the approach: an eighth instead of a twelfth, for with these
-modes a twelfth leaves no margin for rollers that have become stiffer since K was held. A loaded mode is up to
-0.7 % low at 4 kHz. With the compliance D of rings and modes,
+``B = (h C/2 + h^2 K/12)`` acts on the series of the approach. With the compliance D of rings and modes,
 ``R = (1 + B D)^-1 B`` turns the acceleration of the approach without it into forces on the series. R is built
 up roller by roller: another spring k at the waves b adds ``k u u^T / (1 + k b^T D u)`` with
 ``u = (1 - R D) b``, a positive pivot whatever the rollers are.
@@ -46,11 +44,11 @@ def _multiply(lanes, matrix, first, vector, product, page):
 
 
 @inline
-def show_openings(lanes, flex, direction, box, bending):
-    """Write the openings of both raceways for every lane, and the motion of the suspension's seats."""
+def show_openings(lanes, flex, direction, box, step, bending):
+    """Move the modes, and write the openings of both raceways for every lane and the suspension's seats."""
     if bending is None:
         return
-    _see(lanes, flex, bending)
+    _see(lanes, flex, step, bending)
     seen, shown = bending.seen_row, bending.shown
     openings = bending.rigid.shape[0]
     for i in range(bending.forces.shape[0] - openings):
@@ -73,10 +71,11 @@ def show_openings(lanes, flex, direction, box, bending):
 
 
 @inline
-def _see(lanes, flex, bending):
-    """Read the modes: places, speeds, and what their own springs and dampers take from these."""
+def _see(lanes, flex, step, bending):
+    """Move the modes and read them: places, speeds, and what their springs and dampers take from these."""
     shapes, seen, draw = bending.shapes, bending.seen, bending.draw
     for m in range(draw.shape[0]):
+        flex[PLACE, m] += step * flex[SPEED, m]
         draw[m] = bending.stiffness[m] * flex[PLACE, m] + bending.damping[m] * flex[SPEED, m]
     for block in range(shapes.shape[0]):
         place, speed, drawn = lanes.constant(0.0), lanes.constant(0.0), lanes.constant(0.0)

@@ -18,14 +18,11 @@ from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.structure import ModalBody, body_of, exact_oscillators
 from beardyn_core.scene.scene import Scene
 
-# Rate of a mode times the step up to which it moves by itself, 10 kHz at one step a sample. The lumped tier,
-# which lives from its speed, carries half of that, 5.1 kHz.
-RESOLVED = {"lumped": 1.25, "quasistatic": 2.5}
-# The same of those that stand for all others: as quick as twice the stiffness of all rollers allows.
-_STATIC_TURN = {"lumped": 2.6, "quasistatic": 3.2}
-# Share of the squared step by which the rollers' springs are in the inertia. 1/12 is of fourth order and has
-# hardly any margin: a spring that has grown by a third since it was held makes the step unstable.
-_SPRING_SHARE = 1.0 / 8.0
+# Rate of a mode times the step up to which it moves by itself: 6.4 kHz at one step a sample. The lumped tier,
+# which lives from its speed, carries those to 5.1 kHz.
+RESOLVED = {"lumped": 1.25, "quasistatic": 0.5 * math.pi}
+# The same of those that stand for all others; it only scales their shapes.
+_STATIC_TURN = 4.0
 _LEFT_OUT = 1e-3  # of the compliance of raceways and seats, by the directions that these leave out
 _LEFT_OUT_WAVES = 2e-4  # likewise of the raceways, by the highest waves; 2e-3 cost 1.6 % of roller load
 
@@ -92,7 +89,7 @@ def _kept_shares(body: ModalBody, step: float, tier: str) -> tuple[Float, Float,
     _, sizes, vectors = np.linalg.svd(shapes[rest].T, full_matrices=False)
     left = (shapes**2).sum() * _LEFT_OUT
     count = int(np.count_nonzero(np.cumsum(sizes[::-1] ** 2)[::-1] > left))
-    rate = _STATIC_TURN[tier] / step
+    rate = _STATIC_TURN / step
     still = np.zeros((count, len(body.rate)))
     still[:, rest] = vectors[:count] * (body.rate[rest] / rate)
     rates = np.concatenate([body.rate[kept], np.full(count, rate)])
@@ -138,7 +135,7 @@ def bending_params(
     if fitted is None:
         return None
     body, opening = fitted.body, fitted.opening
-    _, damping, inertia = exact_oscillators(body.rate, body.damping_ratio, base.step)
+    damping, inertia = _oscillators(body, base.step)
     modes, openings = opening.shape
     series = openings // scene.rows
     rigid = np.zeros((openings, 5))
@@ -152,14 +149,14 @@ def bending_params(
     read, sensor_give = acting, None
     if fitted.sensors is not None:
         # unit modal masses: what a step of a resolved mode is short of is in its inertia
-        true = np.where(body.rate * base.step < RESOLVED[scene.tier], inertia, 1.0)
+        true = np.where(body.rate * base.step < 0.99 * _STATIC_TURN, inertia, 1.0)
         sensors = fitted.sensors * true[:, None]
         read = np.concatenate([acting, sensors], axis=1)
         sensor_give = np.ascontiguousarray((sensors.T / inertia) @ opening)
     modal_give = (read.T / inertia) @ acting
     contacts = base.effects.damping
     dampers = 0.0 if contacts is None else 0.5 * base.step * contacts.time_constant
-    lag = _SPRING_SHARE * base.step**2 + dampers
+    lag = base.step**2 / 12.0 + dampers
     blocks, width = base.rollers.shape[0], base.rollers.shape[2]
     read_blocks, open_blocks, mode_blocks = (-(-n // width) for n in (read.shape[1], openings, modes))
     seen = aligned_zeros(1, 3 * read_blocks, width)
@@ -190,6 +187,19 @@ def bending_params(
         pushed_row=pushed.reshape(-1),
         draw=np.zeros(modes),
     )
+
+
+def _oscillators(body: ModalBody, step: float) -> tuple[Float, Float]:
+    """Find damping [1/s] and inertia of the step: exact motion, and for those that stand for others x^2 / 2.
+
+    With that these are at four steps a turn and as far from the limit of stability as their own stiffness is
+    large: right at rest, late in motion.
+    """
+    turn, ratio = body.rate * step, body.damping_ratio
+    still = turn > 0.99 * _STATIC_TURN
+    _, damping, inertia = exact_oscillators(np.where(still, 1.0 / step, body.rate), ratio, step)
+    half = ratio * turn
+    return np.where(still, 2.0 * half / step, damping), np.where(still, 0.5 * turn**2 + half, inertia)
 
 
 def _in_lanes(matrix: Float, width: int) -> Float:
