@@ -89,6 +89,8 @@ def fast_steps(scene: Scene, long: bool = True) -> StepChoice:
 def _sudden(scene: Scene) -> str:
     """Name the excitation that is too sudden for steps longer than a sample; empty when there is none."""
     operation = scene.operation
+    if scene.effects.structure is not None:
+        return "modes of the box"
     if scene.defects or scene.waviness:
         return "faults"
     if scene.scattered is not None:

@@ -63,10 +63,11 @@ def begin_step(bodies, direction, p):
 
 
 @inline
-def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy, response, p):
+def finish_step(lanes, bodies, flex, drive, wrenches, box, load_before, load, signal, energy, response, p):
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
-    ``bodies`` [2 + row, BODY_STATES]: changed; ``wrenches`` [2 + row, 6], ``box`` [12]: work space;
+    ``bodies`` [2 + row, BODY_STATES], ``flex`` [2, mode]: changed; ``wrenches`` [2 + row, 6],
+    ``box`` [BOX_FIELDS]: work space;
     ``load_before``, ``load`` [10]: rows at the beginning and at the end of the step; ``signal``
     [SIGNAL_CHANNELS]: written; ``energy``: not kept by these tiers, but a coupled box adds to it;
     ``response``: the work space of `kernels.kinematic_rings`.
@@ -84,7 +85,7 @@ def finish_step(bodies, drive, wrenches, box, load_before, load, signal, energy,
     bodies[layout.CONE_BODY, layout.RATE] = load[LOAD_SPEED]
     for body in range(layout.CAGE_BODY, bodies.shape[0]):
         bodies[body, layout.RATE] = k.cage_ratio * load[LOAD_SPEED]
-    add_response(bodies, before, signal, response, p)
+    add_response(lanes, bodies, flex, before, signal, box, response, p)
 
 
 @inline

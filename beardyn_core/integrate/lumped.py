@@ -20,7 +20,8 @@ from beardyn_core.integrate.kinematic_step import (
     finish_step,
 )
 from beardyn_core.jit import entry
-from beardyn_core.kernels.kinematic_rings import hold_response
+from beardyn_core.kernels.kinematic_bending import show_openings, turn_reaction
+from beardyn_core.kernels.kinematic_rings import hold_stiffness
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, held_losses, relative_cone
 from beardyn_core.kernels.spring_roller import (
     TREND_EXTRAS,
@@ -39,11 +40,12 @@ _ORBIT_FIELDS = VELOCITY + 2
 def advance_lumped(lanes, state, work, loads, output, p):
     """Advance the lumped tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    Rings are rigid and the energy balance is not kept. The first page of the work space's rings is that of
+    The energy balance is not kept. The first page of the work space's rings is that of
     `kernels.kinematic_rings`. The trend of the rollers [trend, block + TREND_EXTRAS, 1, lane] has the loads,
     from which `show_lumped` makes the rollers.
     """
-    rollers, bodies, energy = state.rollers, state.bodies, state.energy
+    rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
+    bending = p.bending
     sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
     roller_trend, body_trend = output.rollers, output.bodies
     steps = signals.shape[0]
@@ -56,19 +58,21 @@ def advance_lumped(lanes, state, work, loads, output, p):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
+        show_openings(lanes, flex, direction, box, p.step, bending)
         due, shown = step % stride == 0, (step + 1) % stride == 0
         trend = roller_trend[step // stride]
         motion = relative_cone(bodies)
         load_rollers(lanes, rollers, sums[0], motion, direction, turns, speeds, trend, p)
         totals, rib = sum_rollers(sums, speeds, p)
+        turn_reaction(sums, direction, bending)
         wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
         if due:
             torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
-            hold_response(sums, direction, response, p)
+            hold_stiffness(lanes, sums, direction, response, p, bending)
         finish_step(
-            bodies, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
-            energy, response, p,
+            lanes, bodies, flex, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1],
+            signals[step], energy, response, p,
         )  # fmt: skip
         if shown:
             for i, value in enumerate((turns[0], speeds[0], speeds[1])):

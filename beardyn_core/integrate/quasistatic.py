@@ -14,7 +14,17 @@ from beardyn_core.integrate.kinematic_step import (
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
 from beardyn_core.kernels.exchange import load_vector, store_vector
-from beardyn_core.kernels.kinematic_rings import add_stiffness, hold_response, store_stiffness
+from beardyn_core.kernels.kinematic_bending import (
+    PLACE,
+    SPEED,
+    add_reaction,
+    clear_reaction,
+    keep_tangent,
+    less_opening,
+    show_openings,
+    turn_reaction,
+)
+from beardyn_core.kernels.kinematic_rings import add_stiffness, hold_stiffness, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_AXIAL,
     LOAD_COSINE,
@@ -64,6 +74,7 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
     loads, moments = (zero, zero, zero), (zero, zero, zero)
     rib_sum, rolling, sliding = zero, zero, zero
     stiff = (zero, zero, zero, zero, zero, zero)
+    clear_reaction(lanes, sums, p.bending)
     for block in range(rollers.shape[0]):
         pocket_cosine = lanes.load(p.pockets, block, layout.POCKET_COSINE)
         pocket_sine = lanes.load(p.pockets, block, layout.POCKET_SINE)
@@ -76,7 +87,13 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
         oversize = lanes.load(p.base.rollers, block, layout.OVERSIZE)
         azimuths = (azimuth, azimuth - turns[1], lanes.constant(turns[2]), oversize)
         view = cone_view(lanes, motion, cosine, sine, speeds[1], side)
-        move, cup, cone, rib, lever, deepest = balance(lanes, block, place, axis, view, azimuths, inertia, p)
+        opening = (
+            less_opening(lanes, block, PLACE, zero, p.bending),
+            less_opening(lanes, block, SPEED, zero, p.bending),
+        )
+        move, cup, cone, rib, lever, deepest = balance(
+            lanes, block, place, axis, view, azimuths, inertia, opening, p
+        )
         place = (place[0] + move[0], place[1] + move[1])
         axis = turned_axis(axis, move[2])
         lanes.store(rollers, block, layout.RADIUS, place[0])
@@ -90,12 +107,14 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
         loads = add_scaled(loads, cup[0], waves)
         moments = add_scaled(moments, lever[0] * cup[0] + lever[1] * cup[1], waves)
         rib_sum = rib_sum + counted * rib
+        add_reaction(lanes, sums, block, counted * cup[0], p.bending)
         forces = (cup[0], cone[0], rib)
         if due:
             rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
             sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
+            keep_tangent(lanes, block, tangent, p.bending)
         if shown:
             centres = (cup[1] / at_least(cup[0], _SMALLEST_LOAD), cone[1] / at_least(cone[0], _SMALLEST_LOAD))
             show_roller(lanes, rollers, block, place, axis, (turns[0], speeds[1]), angle, p)
@@ -112,10 +131,11 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
 def advance_quasistatic(lanes, state, work, loads, output, p):
     """Advance the quasistatic tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    Rings are rigid and the energy balance is not kept. The first page of the work space's rings is that of
+    The energy balance is not kept. The first page of the work space's rings is that of
     `kernels.kinematic_rings`.
     """
-    rollers, bodies, energy = state.rollers, state.bodies, state.energy
+    rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
+    bending = p.bending
     sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
     roller_trend, body_trend = output.rollers, output.bodies
     steps = signals.shape[0]
@@ -128,10 +148,12 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
+        show_openings(lanes, flex, direction, box, p.step, bending)
         due, shown = step % stride == 0, (step + 1) % stride == 0
         balance_rollers(
             lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p
         )
+        turn_reaction(sums, direction, bending)
         totals = (
             lane_total(sums, LOAD_COSINE),
             lane_total(sums, LOAD_SINE),
@@ -143,10 +165,10 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         rib = lane_total(sums, RIB_SUM)
         if due:
             losses = held_losses(sums, speeds, rib, p)
-            hold_response(sums, direction, response, p)
+            hold_stiffness(lanes, sums, direction, response, p, bending)
         finish_step(
-            bodies, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1], signals[step],
-            energy, response, p,
+            lanes, bodies, flex, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1],
+            signals[step], energy, response, p,
         )  # fmt: skip
         if shown:
             for block in range(rollers.shape[0]):

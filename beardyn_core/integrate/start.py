@@ -14,6 +14,7 @@ from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model import layout
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
 from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.tier_bending import openings_at_pockets
 from beardyn_core.model.tier_parameters import LumpedParameters
 
 _ITERATIONS = 60
@@ -98,11 +99,15 @@ def at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
     )  # fmt: skip
 
 
-def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: float) -> Float:
-    """Find the pose of the cone in the static equilibrium of the lumped tier.
+def settle_lumped(
+    p: LumpedParameters, pose: Float, bent: Float, load: Float, modal_load: Float, cage_rate: float
+) -> tuple[Float, Float]:
+    """Find the pose of the cone and the bending of the box in the static equilibrium of the lumped tier.
 
-    ``pose`` [5]: displacement and tilt about x and z to start from [m], [rad]; ``load`` [5] or [3]: force on
-    the cup and, with a free tilt, moment about x and z [N], [N m]; ``cage_rate``: [rad/s].
+    ``pose`` [5]: displacement and tilt about x and z to start from [m], [rad]; ``bent`` [mode]: amplitudes to
+    start from [m sqrt(kg)]; ``load`` [5] or [3]: force on the cup and, with a free tilt, moment about x and z
+    [N], [N m]; ``modal_load`` [mode]: what else but rollers pushes the modes [N/sqrt(kg)]; ``cage_rate``:
+    [rad/s].
 
     Raises
     ------
@@ -114,6 +119,11 @@ def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: floa
     sides = np.broadcast_to(p.sides[0, 0], counted.shape)
     springs = np.zeros(len(load))
     springs[1] = p.base.mounting.prop_stiffness
+    held, opening = len(load), np.zeros((*counted.shape, 0))
+    if p.bending is not None:
+        opening = openings_at_pockets(p.bending, p.base, len(np.unique(sides)))
+        springs = np.concatenate([springs, p.bending.stiffness / p.bending.inverse])
+        load = np.concatenate([load, modal_load])
     idle = spring.idle * p.kinematic.centrifugal * cage_rate**2
     rows, gaps = [], []
     for side in np.unique(sides):
@@ -124,16 +134,18 @@ def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: floa
         )
         order = np.argsort(azimuth)
         azimuth = azimuth[order]
+        bends = opening[there][order]
         gaps.append(cup.gap - 2.0 * thicker[order])  # a thicker roller is pressed on both sides
         outward = np.stack([np.sin(azimuth), np.cos(azimuth)])
         lean = np.full(azimuth.size, -side * cup.sine)
         tilt_x, tilt_z = spring.lever * side * outward[1], -spring.lever * side * outward[0]
-        rows.append(
-            np.stack([cup.cosine * outward[0], lean, cup.cosine * outward[1], tilt_x, tilt_z], axis=1)
-        )
-    normal, gap = np.concatenate(rows)[:, : len(load)], np.concatenate(gaps)
-    found = np.array(pose[: len(load)], dtype=float)
-    scale = np.array([1.0, 1.0, 1.0, spring.lever, spring.lever])[: len(load)]
+        pose_of = np.stack([cup.cosine * outward[0], lean, cup.cosine * outward[1], tilt_x, tilt_z], axis=1)
+        rows.append(np.concatenate([pose_of[:, :held], -bends], axis=1))
+    normal, gap = np.concatenate(rows), np.concatenate(gaps)
+    found = np.concatenate([pose[:held], bent])
+    scale = np.array([1.0, 1.0, 1.0, spring.lever, spring.lever])[:held]
+    # modes count as far as they open a raceway
+    scale = np.concatenate([scale, np.maximum(np.sqrt((normal[:, held:] ** 2).mean(axis=0)), 1e-3)])
     terms = np.arange(len(spring.series))
     for _ in range(_ITERATIONS):
         approach = normal @ found - gap
@@ -151,4 +163,4 @@ def settle_lumped(p: LumpedParameters, pose: Float, load: Float, cage_rate: floa
         found = found + change * min(1.0, 2e-5 / float(np.abs(change * scale).max()))
     else:
         raise ValidityError("the lumped tier found no static equilibrium under the first load")
-    return np.concatenate([found, pose[len(load) :]])
+    return np.concatenate([found[:held], pose[held:]]), found[held:]

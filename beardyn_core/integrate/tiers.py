@@ -21,6 +21,7 @@ from beardyn_core.model import tier_parameters
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import CONE_BODY, POSITION, TILT
 from beardyn_core.model.parameters import Parameters
+from beardyn_core.model.tier_bending import bending_params, step_body
 from beardyn_core.scene.scene import Scene
 
 
@@ -52,33 +53,40 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
         tier_parameters.ring_motion_params(base),
         spring_params(scene.bearing, scene.numerics.laminae),
     )
+    response = tier_parameters.ring_response_params(base, motion, spring.lever)
+    sides = tier_parameters.row_sides(base, scene.rows)
     return tier_parameters.LumpedParameters(
         step=base.step,
         base=tier_parameters.without_roller_dynamics(base),
         kinematic=tier_parameters.kinematic_params(scene),
         motion=motion,
-        response=tier_parameters.ring_response_params(base, motion, spring.lever),
+        response=response,
         spring=spring,
         pockets=tier_parameters.pocket_directions(base),
-        sides=tier_parameters.row_sides(base, scene.rows),
+        sides=sides,
         faults=tier_parameters.faults_or_none(base),
+        bending=bending_params(scene, base, response.give, response.lever, sides),
     )
 
 
 def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.QuasistaticParameters:
     """Build the kernel parameters of the quasistatic tier."""
     motion = tier_parameters.ring_motion_params(base)
+    lever, sides = (
+        tier_parameters.lever_of_cup(scene.bearing),
+        tier_parameters.row_sides(base, scene.rows),
+    )
+    response = tier_parameters.ring_response_params(base, motion, lever)
     return tier_parameters.QuasistaticParameters(
         step=base.step,
         base=tier_parameters.without_roller_dynamics(base),
         kinematic=tier_parameters.kinematic_params(scene),
         motion=motion,
-        response=tier_parameters.ring_response_params(
-            base, motion, tier_parameters.lever_of_cup(scene.bearing)
-        ),
+        response=response,
         tangent=tier_parameters.roller_tangent(scene.bearing),
         pockets=tier_parameters.pocket_directions(base),
-        sides=tier_parameters.row_sides(base, scene.rows),
+        sides=sides,
+        bending=bending_params(scene, base, response.give, response.lever, sides),
     )
 
 
@@ -94,7 +102,12 @@ def _start_rolling(
     scene: Scene, arrangement: Arrangement, parameters: Any, static: StaticSolution, load: Float
 ) -> State:
     orbit = cage_speed(scene.bearing, load[6])
-    return initial_state(scene.bearing, arrangement, parameters.base, static, load[6], orbit)
+    state = initial_state(scene.bearing, arrangement, parameters.base, static, load[6], orbit)
+    fitted = step_body(scene, parameters.step)
+    flex = np.zeros((2, 0 if fitted is None else len(fitted.share)))
+    if fitted is not None:
+        flex[0] = fitted.share @ static.bending
+    return state._replace(flex=flex)
 
 
 def _start_lumped(
@@ -103,10 +116,19 @@ def _start_lumped(
     state = _start_rolling(scene, arrangement, parameters, static, load)
     free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
     carried = np.array([load[0], load[1], load[2] - parameters.kinematic.rolling_weight, load[3], load[5]])
-    pose = settle_lumped(
+    bent, modal_load, fitted = state.flex[0], np.zeros(0), step_body(scene, parameters.step)
+    box = parameters.base.mounting.coupling
+    if fitted is not None:
+        modal_load = np.zeros(len(bent))
+        if fitted.body.suspension is not None:
+            seats = fitted.body.suspension
+            modal_load += (parameters.base.mounting.preload - box.stiffness @ (seats @ bent)) @ seats
+    pose, state.flex[0] = settle_lumped(
         parameters,
         np.array([*static.displacement, *static.tilt]),
+        bent,
         carried if free else carried[:3],
+        modal_load,
         cage_speed(scene.bearing, load[6]),
     )
     state.bodies[CONE_BODY, POSITION : POSITION + 3] = pose[:3]

@@ -195,12 +195,13 @@ def settled(force, stiffness, normal, by_tilt, factor, move, reach):
 
 
 @inline
-def balance(lanes, block, place, axis, views, azimuths, loads, p):
+def balance(lanes, block, place, axis, views, azimuths, loads, opening, p):
     """Take one Newton step of a block of rollers towards balance.
 
     ``views`` (4 vectors): origin and axis of the cone, velocity of its origin and angular velocity, in the
     orbit frame and against it; ``azimuths`` (3 numbers): on cup and cone, and of the roller in its pocket
-    [rad]; ``loads`` (2 numbers): centrifugal force and gyroscopic moment [N], [N m]. Returns ``move`` (3
+    [rad]; ``loads`` (2 numbers): centrifugal force and gyroscopic moment [N], [N m]; ``opening`` (2 numbers):
+    how far and how fast the bent cup closes in along its normal [m], [m/s]. Returns ``move`` (3
     numbers): radially, axially, in tilt [m], [m], [rad]; ``cup``, ``cone`` (2 numbers): load and its first
     moment along the roller [N], [N m]; ``rib``: [N]; ``lever`` (2 numbers): arm of the cup's load about the
     bearing centre, affine in the abscissa [m]; ``deepest``: approach on the cup at the centre of mass [m].
@@ -212,7 +213,7 @@ def balance(lanes, block, place, axis, views, azimuths, loads, p):
     cup_approach, cup_tilt, lever = cup_line(place, axis, radius, base.cup, roller)
     cup_wave = wave_gap(lanes, block, azimuths[0], faults.cup_waves)[0]
     cup_wave = cup_wave + wave_gap(lanes, block, -azimuths[2], faults.roller_waves)[0]
-    cup_approach = (cup_approach[0] - cup_wave, cup_approach[1])
+    cup_approach = (_closed(cup_approach[0] - cup_wave, opening[0], p.bending), cup_approach[1])
     crown = crown_bend(lanes, block, faults.crowns)
     azimuths_on_cup = (azimuths[0], -azimuths[2])
     cup = cup_springs(
@@ -241,7 +242,8 @@ def balance(lanes, block, place, axis, views, azimuths, loads, p):
         (hold, zero, zero, hold, zero, hold * (roller.half_length * roller.half_length)),
         (loads[0] + zero, zero, loads[1] + zero),
     )
-    system = add_raceway(system, cup[0], cup[1], cup_normal, cup_tilt, factor)
+    cup_force = _pushed(cup, opening[1], effects.damping, p.bending)
+    system = add_raceway(system, cup_force, cup[1], cup_normal, cup_tilt, factor)
     system = add_raceway(system, cone_force, cone[1], cone_normal, cone_tilt, factor)
     rib_only = (rib_stiffness, zero, zero)
     system = add_raceway(system, (rib_force, zero), rib_only, rib_way, (rib_way[2], zero), factor)
@@ -253,11 +255,25 @@ def balance(lanes, block, place, axis, views, azimuths, loads, p):
     shorter = _LONGEST_MOVE / at_least(longest, _LONGEST_MOVE)
     move = (shorter * step[0], shorter * step[1], shorter * step[2])
     reach = roller.half_length
-    cup_load = settled(cup[0], cup[1], cup_normal, cup_tilt, factor, move, reach)
+    cup_load = settled(cup_force, cup[1], cup_normal, cup_tilt, factor, move, reach)
     cone_load = settled(cone_force, cone[1], cone_normal, cone_tilt, factor, move, reach)
     rib_deeper = rib_way[0] * move[0] + rib_way[1] * move[1] + rib_way[2] * move[2]
     rib_load = at_least(rib_force + factor * rib_stiffness * rib_deeper, 0.0)
     return move, cup_load, cone_load, rib_load, lever, cup_approach[0]
+
+
+@inline
+def _closed(approach, closing, bending):
+    if bending is None:
+        return approach
+    return approach + closing
+
+
+@inline
+def _pushed(springs, rate, damping, bending):
+    if bending is None:
+        return springs[0]
+    return damped(springs, (rate, 0.0 * rate), damping)
 
 
 @inline

@@ -5,6 +5,7 @@ from __future__ import annotations
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import body_vector
 from beardyn_core.kernels.exchange import store_vector
+from beardyn_core.kernels.kinematic_bending import hold_bending, kick_modes
 from beardyn_core.kernels.kinematic_rollers import row_totals
 from beardyn_core.model import layout
 
@@ -119,6 +120,15 @@ def hold_response(sums, direction, work, p):
 
 
 @inline
+def hold_stiffness(lanes, sums, direction, work, p, bending):
+    """Work out and keep the response of rigid rings, `hold_response`, or of all modes, `hold_bending`."""
+    if bending is None:
+        hold_response(sums, direction, work, p)
+        return
+    hold_bending(lanes, direction, bending)
+
+
+@inline
 def journal_velocity(bodies):
     """Take the velocity and tilt rate of the journal, 5 floats."""
     x, y, z = body_vector(bodies, layout.CONE_BODY, layout.LINEAR)
@@ -126,14 +136,14 @@ def journal_velocity(bodies):
 
 
 @inline
-def add_response(bodies, before, signal, work, p):
-    """Add the wrench of `hold_response` to a step that has been taken without it.
+def add_response(lanes, bodies, flex, before, signal, box, work, p):
+    """Add the wrench of `hold_response` to a step that has been taken without it, and move the modes.
 
     Cup and cone get opposite wrenches. The channels get the dampers' part only: what they say is force and
     acceleration of the instant itself.
 
     ``before`` (5 numbers): `journal_velocity` before the step; ``signal`` [SIGNAL_CHANNELS]: changed: force
-    and acceleration.
+    and acceleration; ``flex``, ``box``: see `kick_modes`.
     """
     motion, response = p.motion, p.response
     after = journal_velocity(bodies)
@@ -143,20 +153,35 @@ def add_response(bodies, before, signal, work, p):
     about_x = (after[3] - before[3]) * motion.rate - signal[layout.SIGNAL_ACCELERATION + 3]
     about_z = (after[4] - before[4]) * motion.rate - signal[layout.SIGNAL_ACCELERATION + 5]
     more = (x, y, z, about_x, about_z)
-    wrench = (
-        _row(work, 0, more), _row(work, 1, more), _row(work, 2, more), _row(work, 3, more), 0.0,
-        _row(work, 4, more),
-    )  # fmt: skip
+    force_x, force_y, force_z, moment_x, moment_z = _held_wrench(
+        lanes, flex, more, signal, box, work, p, p.bending
+    )
+    wrench = (force_x, force_y, force_z, moment_x, 0.0, moment_z)
     push, turn = p.step * motion.journal_push, p.step * motion.journal_turn
     bodies[layout.CONE_BODY, layout.LINEAR] = after[0] - push * wrench[0]
     bodies[layout.CONE_BODY, layout.LINEAR + 1] = after[1] - push * wrench[1]
     bodies[layout.CONE_BODY, layout.LINEAR + 2] = after[2] - push * wrench[2]
     bodies[layout.CONE_BODY, layout.ANGULAR] = after[3] - turn * wrench[3]
     bodies[layout.CONE_BODY, layout.ANGULAR + 2] = after[4] - turn * wrench[5]
-    share = response.damper_share
+    share = _damper_share(response, p.bending)
     for i in range(6):
         signal[layout.SIGNAL_FORCE + i] += share * wrench[i]
     _push_box(bodies, wrench, signal, share, p, p.base.mounting.coupling)
+
+
+@inline
+def _held_wrench(lanes, flex, more, signal, box, work, p, bending):
+    if bending is None:
+        rows = (_row(work, 0, more), _row(work, 1, more), _row(work, 2, more), _row(work, 3, more))
+        return rows[0], rows[1], rows[2], rows[3], _row(work, 4, more)
+    return kick_modes(lanes, flex, more, box, signal, p.step, bending)
+
+
+@inline
+def _damper_share(response, bending):
+    if bending is None:
+        return response.damper_share
+    return bending.damper_share
 
 
 @inline

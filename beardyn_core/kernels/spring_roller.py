@@ -5,6 +5,14 @@ from __future__ import annotations
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
 from beardyn_core.kernels.exchange import load_vector
+from beardyn_core.kernels.kinematic_bending import (
+    PLACE,
+    SPEED,
+    add_reaction,
+    clear_reaction,
+    keep_tangent,
+    less_opening,
+)
 from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
@@ -143,21 +151,26 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     idle = idle_load(speeds[1], p)
     zero = lanes.constant(0.0)
     loads = (zero, zero, zero)  # sums: plain, times cosine, times sine
+    clear_reaction(lanes, sums, p.bending)
     for block in range(rollers.shape[0]):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
         approach = approach_wave[0] * cosine + (approach_wave[1] * sine + approach_wave[2])
         # a thicker roller is pressed on both sides
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
+        approach = less_opening(lanes, block, PLACE, approach, p.bending)
         angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
         load = lanes.constant(idle)
         # most rollers outside the load zone cost no more than this look
         if any_positive(approach):
             rate = rate_wave[0] * cosine + (rate_wave[1] * sine + rate_wave[2])
+            rate = less_opening(lanes, block, SPEED, rate, p.bending)
             pressed = faulted_load(lanes, block, approach, rate, angle, turns, p.faults, p)
             load = at_least(pressed + 0.5 * idle, idle)
             deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
             lanes.store(rollers, block, PENETRATION, deepest)
-        loads = add_scaled(loads, load, load_vector(lanes, p.pockets, block, COUNTED))
+        waves = load_vector(lanes, p.pockets, block, COUNTED)
+        loads = add_scaled(loads, load, waves)
+        add_reaction(lanes, sums, block, waves[0] * load, p.bending)
         lanes.store(trend, block, 0, load)
     lanes.store(sums, 0, LOAD_COSINE, loads[1])
     lanes.store(sums, 0, LOAD_SINE, loads[2])
@@ -180,10 +193,12 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         sliding = sliding + counted * sliding_torque(loads[2], speeds, p, effects.rib)
         approach = wave[0] * cosine + (wave[1] * sine + wave[2])
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
+        approach = less_opening(lanes, block, PLACE, approach, p.bending)
         approach = _spring_depth(approach, load - 0.5 * idle, p.spring, p.faults)
         tangent = 10.0 / 9.0 * (load - 0.5 * idle) / at_least(approach, _SMALLEST_APPROACH)
         tangent = counted * where_greater(load, idle, tangent, zero)
         stiff = add_stiffness(stiff, tangent, cosine, sine)
+        keep_tangent(lanes, block, tangent, p.bending)
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     store_stiffness(lanes, sums, stiff)

@@ -15,6 +15,7 @@ from beardyn_core.model.faults import FaultParams
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.scatter import mean_crown
+from beardyn_core.model.tier_bending import BendingParams
 from beardyn_core.scene.scene import Scene
 
 
@@ -85,6 +86,7 @@ class LumpedParameters(NamedTuple):
     pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
     faults: FaultParams | None
+    bending: BendingParams | None
 
 
 class QuasistaticParameters(NamedTuple):
@@ -98,6 +100,7 @@ class QuasistaticParameters(NamedTuple):
     tangent: float  # stiffness of a pressed roller over the tenth root of its load [N^0.9/m]
     pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
+    bending: BendingParams | None
 
 
 def without_roller_dynamics(base: Parameters) -> Parameters:

@@ -30,7 +30,7 @@ class TierLimits:
 _FAST = frozenset(
     {
         *("contact_damping", "film", "rib", "rolling_resistance", "drag", "seal", "gravity"),
-        *("faults", "waviness", "scatter"),
+        *("faults", "waviness", "scatter", "structure"),
     }
 )
 _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
