@@ -1,0 +1,11 @@
+"""What a sensor hears when rollers pass a spall: one crossing, trends over width, speed and load.
+
+======== ==============================================================
+module   responsibility
+======== ==============================================================
+cases    the runs: surface, size of the spall, speed, load
+study    one run, and what is measured of its signal
+crossing entry and exit of single crossings, at every step
+page     docs/impact.md
+======== ==============================================================
+"""
