@@ -40,6 +40,8 @@ class Case:
     load: A[float, "on the bearing, upwards on the journal, [N]"] = 8e4
     on: A[str, "surface of the spall"] = "cup"
     length: A[float, "of the spall along the roller, [m]"] = HALF
+    flattening: A[float, "half width over which the roller's path is evened in a test, [m]"] = 0.0
+    caged: A[bool, "with cages; without, the rollers keep their distance by themselves"] = True
     damping: A[float | None, "time of the contact damping, that of the standard set if None, [s]"] = None
 
     def scene(self) -> Scene:
@@ -48,8 +50,10 @@ class Case:
         effects = replace(scene.effects, structure=ModalStructure(BOX))
         if self.damping is not None:
             effects = replace(effects, contact_damping=ContactDamping(self.damping))
+        if not self.caged:
+            effects = replace(effects, cage=None)
         modes = modes_of_effects(effects)
-        assert modes is not None and scene.bearing.name == BEARING
+        assert modes is not None
         patch = Patch(
             on=self.on, row=0, azimuth=0.0, width=self.width, depth=DEPTH, length=self.length
         )  # fmt: skip
@@ -92,9 +96,17 @@ def over_area(speed: float) -> tuple[Case, ...]:
     return tuple(Case(width, speed, length=length) for width, length in SQUARES)
 
 
-def across(speed: float) -> tuple[Case, ...]:
+FLATTENED = 0.18e-3  # half width of the Hertz contact of a roller under 10 kN on the cup [m]
+
+
+def narrow(speed: float) -> tuple[Case, ...]:
+    """List narrow spalls at a speed [km/h] with the path of the roller evened over its contact."""
+    return tuple(Case(width, speed, flattening=FLATTENED) for width in (1e-3, 2e-3))
+
+
+def across(speed: float, damping: float | None = None) -> tuple[Case, ...]:
     """List spalls over the whole contact, which unload a roller altogether, at a speed [km/h]."""
-    return tuple(Case(width, speed, length=WHOLE) for width in WIDTHS if width >= 6e-3)
+    return tuple(Case(width, speed, length=WHOLE, damping=damping) for width in WIDTHS if width >= 6e-3)
 
 
 def every() -> list[Case]:
@@ -104,6 +116,9 @@ def every() -> list[Case]:
     found += OVER_SPEED
     for speed in BOTH:
         found += [*over_width(speed), *over_load(speed), *over_area(speed), *across(speed)]
+        found += narrow(speed)
         found += [Case(speed=speed, on=part) for part in PARTS]
     found += [Case(10e-3, length=WHOLE, damping=time) for time in TIMES]
+    found += [case for speed in BOTH for case in across(speed, TIMES[0])]
+    found.append(replace(healthy(90.0), caged=False))
     return list(dict.fromkeys(found))

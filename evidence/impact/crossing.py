@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 from typing import Annotated as A
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.signal import find_peaks, hilbert
 
 from beardyn_core.arrays import Float
 from beardyn_core.model.faults import surface_radius
 from evidence.impact.cases import Case
 from evidence.impact.study import RINGING, STEP_RATE, passed, run
+
+Bool = NDArray[np.bool_]
 
 BEFORE, AFTER = 1.5e-3, 6e-3  # of the crossing's middle, beyond half the width over the speed, [s]
 EVENT = 1.5e-3  # an event is sought this far inside of its edge, [m]
@@ -44,6 +48,7 @@ class Crossing:
         return self.exit - self.entry
 
 
+@cache
 def crossing(case: Case) -> Crossing:
     """Cut the crossings out of a run over a cup spall at the top of the cup."""
     made = run(case)
@@ -79,11 +84,11 @@ def crossing(case: Case) -> Crossing:
     )  # fmt: skip
 
 
-def _ratio(values: Float, ends: Float, begins: Float) -> float:
+def _ratio(values: Float, ends: Bool, begins: Bool) -> float:
     return float(np.median(values[:, ends].max(axis=1) / values[:, begins].max(axis=1)))
 
 
-def _pulses(force: Float, ends: Float) -> int:
+def _pulses(force: Float, ends: Bool) -> int:
     swing = float(np.abs(force - np.median(force)).max())
     return len(find_peaks(force[ends], prominence=PULSE * swing)[0])
 
