@@ -120,12 +120,12 @@ Runs that remove the cause stand beside.
 """
 
 ENDING = """
-- **A sound bearing is not Gaussian at low speed**: kurtosis {sound} at
-  {speeds} km/h, from strikes of less than 1 g that nothing covers. At 90 km/h without cages it is {uncaged}: rollers strike their pockets. From 5
-  to 16 kHz it is {ringing} even then; for that no cause was found.
-- **The power above 5 kHz** is {high} of all of a cup spall of 6 mm at {both} km/h, and {whole} of one over
-  the whole contact. Axleboxes with faults of a race are said to ring mostly there; no figure of one was
-  found.
+- **A sound bearing is not Gaussian at low speed**: kurtosis {sound} at {speeds} km/h, from strikes of less
+  than 1 g that nothing covers. At 90 km/h without cages it is {uncaged}: rollers strike their pockets. From
+  5 to 16 kHz it is {ringing} even then; for that no cause was found.
+- **The power above 5 kHz** is {high} of all of a cup spall of 6 mm at {both} km/h,
+  and {whole} of one over the whole contact. Axleboxes with faults of a race are said to ring
+  mostly there; no figure of one was found.
 - **The raw spectrum shows the fault line, too**, other than on trains: there is no background here, and
   strikes are as regular as the jitter says.
 - **The kurtogram chooses bands that touch the Nyquist frequency**, as on measured records: it has no upper
