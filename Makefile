@@ -20,7 +20,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step light damping service heat structure ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step light damping service heat structure impact ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -71,6 +71,9 @@ heat: $(VENV)/.ready-test ## set up, then torque and steady temperatures beside 
 
 structure: $(VENV)/.ready-test ## set up, then the modes of a box beside its finite elements: docs/structure.md
 	@$(BIN)/python -m evidence.structure.page $(ARGS)
+
+impact: $(VENV)/.ready-test ## set up, then impacts of spalls in a ringing box beside published ones: docs/impact.md
+	@$(BIN)/python -m evidence.impact.page $(ARGS)
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)

@@ -12,6 +12,7 @@ from evidence.validation import (
     losses,
     rail,
     skid,
+    spalls,
     statics,
     trends,
     wheelset,
@@ -30,9 +31,17 @@ ANCHORS: tuple[Anchor, ...] = (
     *dynamics.ANCHORS,
     *rail.ANCHORS,
     *wheelset.ANCHORS,
+    *spalls.ANCHORS,
 )
 
-TRENDS: tuple[Trend, ...] = (*dynamics.TRENDS, *trends.TRENDS, *whirl.TRENDS, *skid.TRENDS, *wheelset.TRENDS)
+TRENDS: tuple[Trend, ...] = (
+    *dynamics.TRENDS,
+    *trends.TRENDS,
+    *whirl.TRENDS,
+    *skid.TRENDS,
+    *wheelset.TRENDS,
+    *spalls.TRENDS,
+)
 
 UNREACHED: tuple[tuple[str, str], ...] = (
     (

@@ -1,0 +1,124 @@
+"""The runs of the study: a ringing box at constant speed and load, with one spall or none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Annotated as A
+
+from beardyn_core.choice import load_scene
+from beardyn_core.config import load_bearing
+from beardyn_core.config.structure import modes_of_effects, mounting_of
+from beardyn_core.effects import ContactDamping, ModalStructure
+from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.operation import ConstantOperation
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import RATES, Accelerometer
+
+BOX = "high_speed"
+BEARING = "HS130x230"
+WHEEL_RADIUS = 0.46  # of emu_300, [m]
+HALF = 25e-3  # length of the spall in `cup_spall`, half of the contact, [m]
+WHOLE = load_bearing(BEARING).effective_length
+DEPTH = 100e-6
+# a charge amplifier behind a piezoelectric accelerometer: 0.05 pC rms (Ono Sokki, CH-1200A) over an assumed
+# band of 30 kHz, at 1 pC per m/s^2; range of Bruel & Kjaer type 4391
+NOISE, RANGE = 2.9e-4, 20_000.0
+
+WIDTHS = tuple(1e-3 * each for each in (1.0, 2.0, 3.0, 4.0, 6.0, 10.0, 15.0))
+SPEEDS = (40.0, 90.0, 200.0, 300.0)
+LOADS = tuple(1e3 * each for each in (40.0, 80.0, 120.0))
+BOTH = (90.0, 200.0)  # speeds at which everything but the speed is varied, [km/h]
+SQUARES = tuple((1e-3 * w, 1e-3 * length) for w, length in ((3.0, 10.0), (6.0, 20.0), (15.0, 50.0)))
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run; a width of 0 is a healthy bearing."""
+
+    width: A[float, "of the spall in rolling direction, [m]"] = 6e-3
+    speed: A[float, "of the train, [km/h]"] = 200.0
+    load: A[float, "on the bearing, upwards on the journal, [N]"] = 8e4
+    on: A[str, "surface of the spall"] = "cup"
+    length: A[float, "of the spall along the roller, [m]"] = HALF
+    flattening: A[float, "half width over which the roller's path is evened in a test, [m]"] = 0.0
+    caged: A[bool, "with cages; without, the rollers keep their distance by themselves"] = True
+    damping: A[float | None, "time of the contact damping, that of the standard set if None, [s]"] = None
+
+    def scene(self) -> Scene:
+        """Make the scene of the run, from `cup_spall` with its scatter of grade G1."""
+        scene = load_scene("cup_spall", tier="full")
+        effects = replace(scene.effects, structure=ModalStructure(BOX))
+        if self.damping is not None:
+            effects = replace(effects, contact_damping=ContactDamping(self.damping))
+        if not self.caged:
+            effects = replace(effects, cage=None)
+        modes = modes_of_effects(effects)
+        assert modes is not None
+        patch = Patch(
+            on=self.on, row=0, azimuth=0.0, width=self.width, depth=DEPTH, length=self.length
+        )  # fmt: skip
+        return replace(
+            scene,
+            name=f"{self.on} {1e3 * self.width:g} mm",
+            effects=effects,
+            mounting=mounting_of(modes, scene.mounting, scene.bearing),
+            operation=ConstantOperation(
+                force=(0.0, 0.0, self.load), speed=self.speed / 3.6 / WHEEL_RADIUS
+            ),
+            defects=(patch,) if self.width > 0.0 else (),
+            sensors=(Accelerometer(noise_density=NOISE, range=RANGE, rate=RATES[1]),),
+            numerics=replace(scene.numerics, steps_per_sample=8),
+        )  # fmt: skip
+
+
+def over_width(speed: float) -> tuple[Case, ...]:
+    """List the widths of a cup spall at a speed [km/h]."""
+    return tuple(Case(width, speed) for width in WIDTHS)
+
+
+def healthy(speed: float, load: float = 8e4) -> Case:
+    """Give the run of a sound bearing beside those at a speed [km/h] and load [N]."""
+    return Case(0.0, speed, load)
+
+
+OVER_SPEED = tuple(Case(speed=speed) for speed in SPEEDS)
+PARTS = ("cup", "cone", "roller")
+TIMES = (2.5e-6, 5e-6, 12e-6, 25e-6)  # of the contact damping, its quoted range
+
+
+def over_load(speed: float) -> tuple[Case, ...]:
+    """List the loads of a cup spall at a speed [km/h]."""
+    return tuple(Case(speed=speed, load=load) for load in LOADS)
+
+
+def over_area(speed: float) -> tuple[Case, ...]:
+    """List spalls that grow in both directions, as those of a rig do, at a speed [km/h]."""
+    return tuple(Case(width, speed, length=length) for width, length in SQUARES)
+
+
+FLATTENED = 0.18e-3  # half width of the Hertz contact of a roller under 10 kN on the cup [m]
+
+
+def narrow(speed: float) -> tuple[Case, ...]:
+    """List narrow spalls at a speed [km/h] with the path of the roller evened over its contact."""
+    return tuple(Case(width, speed, flattening=FLATTENED) for width in (1e-3, 2e-3))
+
+
+def across(speed: float, damping: float | None = None) -> tuple[Case, ...]:
+    """List spalls over the whole contact, which unload a roller altogether, at a speed [km/h]."""
+    return tuple(Case(width, speed, length=WHOLE, damping=damping) for width in WIDTHS if width >= 6e-3)
+
+
+def every() -> list[Case]:
+    """List all runs, each once, those first that share kernels."""
+    found = [healthy(speed) for speed in SPEEDS]
+    found += [healthy(speed, load) for speed in BOTH for load in LOADS]
+    found += OVER_SPEED
+    for speed in BOTH:
+        found += [*over_width(speed), *over_load(speed), *over_area(speed), *across(speed)]
+        found += narrow(speed)
+        found += [Case(speed=speed, on=part) for part in PARTS]
+    found += [Case(10e-3, length=WHOLE, damping=time) for time in TIMES]
+    found += [case for speed in BOTH for case in across(speed, TIMES[0])]
+    found.append(replace(healthy(90.0), caged=False))
+    return list(dict.fromkeys(found))

@@ -1,0 +1,70 @@
+"""A spalled bearing in a ringing box: two events a crossing, more impulsive than a sound one."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from beardyn_core.config import load_bearing
+from evidence.impact.cases import BEARING, Case, across, every, healthy
+from evidence.impact.crossing import BURST, crossing
+from evidence.impact.elastic import PLACE, approach, cup_radius, sink
+from evidence.impact.page import cases_heard, cases_of_crossings
+from evidence.impact.study import RATE, heard, over_noise
+
+
+def test_every_case_of_the_page_is_run_once() -> None:
+    cases = every()
+    assert len(cases) == len(set(cases))
+    assert {*cases_heard(), *cases_of_crossings()} <= set(cases)
+
+
+def test_a_line_stands_out_of_noise_by_its_own_power() -> None:
+    """A tone a has N a^2 / 4 S over a mean density of S, two thirds of it with a Hann window."""
+    count = 1 << 16
+    noise = np.random.default_rng(1).standard_normal(count)
+    tone = 0.1 * np.sin(2.0 * np.pi * 200.0 * np.arange(count) / RATE)
+    expected = 10.0 * np.log10(count * 0.1**2 / 4.0 / 1.5 / np.log(2.0))
+    assert over_noise(noise + tone, 200.0) == pytest.approx(expected, abs=1.5)
+    assert over_noise(noise, 200.0) < 12.0
+
+
+@pytest.mark.parametrize("per_length", [1e5, 4e5])
+def test_a_roller_on_a_sound_plane_approaches_as_hertz_says(per_length: float) -> None:
+    """Johnson (1985), 2.25b under his 4.44: the middle of a Hertz contact, lengths in metres."""
+    bearing = load_bearing(BEARING)
+    modulus = 0.5 * bearing.material.contact_modulus
+    half_width = math.sqrt(4.0 * per_length * cup_radius(bearing) / (math.pi * modulus))
+    expected = 2.0 * per_length / (math.pi * modulus) * (math.log(2.0 / half_width) + 0.5)
+    found = approach(bearing, np.ones(len(PLACE), bool), per_length)
+    assert found == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_light_roller_bridges_a_slot_like_a_rigid_one_and_a_loaded_one_is_softer() -> None:
+    bearing, width = load_bearing(BEARING), 1e-3
+    rigid = [(0.5 * width - arc) ** 2 / (2.0 * cup_radius(bearing)) for arc in (0.0, 2e-4)]
+    light = [sink(bearing, width, arc, 100.0) for arc in (0.0, 2e-4)]
+    assert light == pytest.approx(rigid, rel=0.06)
+    loaded = [sink(bearing, width, arc, 1e4) for arc in (0.0, 2e-4)]
+    assert loaded[0] - loaded[1] < 0.7 * (rigid[0] - rigid[1])
+    assert sink(bearing, width, 5.5e-4, 1e4) > 1e-7
+
+
+@pytest.mark.slow
+def test_a_roller_that_is_unloaded_altogether_strikes_harder_than_it_left() -> None:
+    case = across(200.0)[1]
+    found = crossing(case)
+    assert heard(case).status == "fine"
+    assert found.louder > 2.0
+    assert found.spacing == pytest.approx(case.width, rel=0.25)
+    assert found.power.max() * BURST > np.median(found.power)
+
+
+@pytest.mark.slow
+def test_a_spall_is_more_impulsive_than_a_sound_bearing() -> None:
+    spalled, sound = heard(Case()), heard(healthy(200.0))
+    assert spalled.kurtosis > 2.0 * sound.kurtosis
+    assert spalled.ringing > 2.0 * sound.ringing
+    assert spalled.line > sound.line + 10.0
