@@ -381,7 +381,8 @@ class _Reading:
         numerics = valid(Numerics, self.data.get("numerics", {}))
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.rib is not None
-            found = contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample)
+            steps, bends = numerics.steps_per_sample, effects.structure is not None
+            found = contradictions(tier, has_rib, numerics.laminae, steps, bends)
             if free.tier:
                 found = [f"auto may have to take the tier {tier!r}: {problem}" for problem in found]
             self._complain(("tier",), found)

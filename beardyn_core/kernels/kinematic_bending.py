@@ -241,7 +241,7 @@ def kick_modes(lanes, flex, more, box, signal, step, bending):
 
 @inline
 def _shake_sensors(given, extra, draw, signal, bending, sensor_give):
-    """Write the seats' acceleration, with the dampers' part of what is held: see `add_response`."""
+    """Write the seats' acceleration; of what is held the part that `add_response` shows too."""
     if sensor_give is None:
         return
     first = bending.forces.shape[0]
@@ -249,4 +249,4 @@ def _shake_sensors(given, extra, draw, signal, bending, sensor_give):
         held = 0.0
         for k in range(sensor_give.shape[1]):
             held += sensor_give[i, k] * extra[k]
-        signal[SIGNAL_CHANNELS + i] = given[first + i] - draw[first + i] + bending.damper_share * held
+        signal[SIGNAL_CHANNELS + i] = given[first + i] - draw[first + i] + held

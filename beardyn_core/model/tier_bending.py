@@ -43,7 +43,7 @@ class BendingParams(NamedTuple):
     rigid: Any  # [opening, 5], approach of the raceways by motion of the cone, as of `relative_cone`
     give: Any  # [block of openings, opening, lane], acceleration by forces, modes and rings [1/kg]
     modal_give: Any  # [block of reads, force, lane], the part of the modes
-    sensor_give: Any  # [3 x sensor, opening], of the sensors' seats, or None
+    sensor_give: Any  # [3 x sensor, opening], of the sensors' seats by what is held, or None
     lag: float  # share of the rollers' springs and dampers in the inertia of the step [s^2]
     damper_share: float  # of the dampers in that
     basis: Any  # [block, series, lane], one, cosines and sines at the pocket angles
@@ -147,16 +147,18 @@ def bending_params(
         rigid[row * series + 1 + series // 2, [0, 4]] = cup.cosine, -side * lever
     acting = opening if body.suspension is None else np.concatenate([opening, body.suspension.T], axis=1)
     read, sensor_give = acting, None
-    if fitted.sensors is not None:
-        # unit modal masses: what a step of a resolved mode is short of is in its inertia
-        true = np.where(body.rate * base.step < 0.99 * _STATIC_TURN, inertia, 1.0)
-        sensors = fitted.sensors * true[:, None]
-        read = np.concatenate([acting, sensors], axis=1)
-        sensor_give = np.ascontiguousarray((sensors.T / inertia) @ opening)
-    modal_give = (read.T / inertia) @ acting
     contacts = base.effects.damping
     dampers = 0.0 if contacts is None else 0.5 * base.step * contacts.time_constant
     lag = base.step**2 / 12.0 + dampers
+    if fitted.sensors is not None:
+        # The acceleration of the instant of a resolved mode is that of its force: what the step is short of
+        # is in its inertia and in what is held for the springs. Modes that follow forces move as these do.
+        resolved = body.rate * base.step < 0.99 * _STATIC_TURN
+        sensors = fitted.sensors * np.where(resolved, inertia, 1.0)[:, None]
+        read = np.concatenate([acting, sensors], axis=1)
+        held = np.where(resolved, dampers / lag, 1.0)
+        sensor_give = np.ascontiguousarray((sensors.T * (held / inertia)) @ opening)
+    modal_give = (read.T / inertia) @ acting
     blocks, width = base.rollers.shape[0], base.rollers.shape[2]
     read_blocks, open_blocks, mode_blocks = (-(-n // width) for n in (read.shape[1], openings, modes))
     seen = aligned_zeros(1, 3 * read_blocks, width)

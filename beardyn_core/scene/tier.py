@@ -75,7 +75,9 @@ def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
     return () if represented is None else tuple(name for name in effects if name not in represented)
 
 
-def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1) -> list[str]:
+def contradictions(
+    tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1, bends: bool = False
+) -> list[str]:
     """List the reasons why a tier cannot run a scene, with what is allowed."""
     limits, found = TIERS[tier], []
     if limits.needs_rib and not has_rib:
@@ -94,6 +96,11 @@ def contradictions(tier: str, has_rib: bool, laminae: int, steps_per_sample: flo
         found.append(
             f"numerics.steps_per_sample {steps_per_sample} does not go with tier {tier!r}: "
             f"allowed is {allowed}"
+        )
+    elif steps_per_sample < 1 and bends:
+        found.append(
+            f"numerics.steps_per_sample {steps_per_sample} does not go with effects.structure: rollers that "
+            "come into contact push modes of the box over in steps longer than a sample; take 1 or more"
         )
     return found
 

@@ -1,0 +1,380 @@
+"""Bending of the box in the fast tiers: naive sums, static solution, eigenproblem and full tier beside it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from beardyn_core.choice.fast_step import fast_steps
+from beardyn_core.config.structure import modes_of_effects, mounting_of
+from beardyn_core.effects import ModalStructure, RingStructure
+from beardyn_core.integrate.roller_contacts import ConePose, contact_model
+from beardyn_core.integrate.roller_equilibrium import load_of_approach, solve_rollers
+from beardyn_core.integrate.state import Output, State
+from beardyn_core.integrate.static import solve
+from beardyn_core.kernels.box import FORCE
+from beardyn_core.model.layout import (
+    CAGE_BODY,
+    CONE_BODY,
+    CUP_BODY,
+    LINEAR,
+    POSITION,
+    RATE,
+    SIGNAL_CHANNELS,
+    SIGNAL_FORCE,
+    TURN,
+)
+from beardyn_core.model.structure import ModalBody, body_of
+from beardyn_core.model.tier_bending import step_body
+from beardyn_core.model.tier_parameters import lever_of_cup
+from beardyn_core.run import start
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+from test.tiers.runs import FAST, blocks_of, scene_of
+
+Float = NDArray[np.float64]
+KINDS = {"rings": RingStructure(), "modes": ModalStructure("high_speed")}
+STRIDE = 8  # steps between two looks at the state
+
+
+@cache
+def bent_scene(tier: str, kind: str, name: str = "static_80kN") -> Scene:
+    """A shipped scene with a box that bends, one step a sample in the fast tiers."""
+    scene = scene_of(name, tier)
+    effects = replace(scene.effects, structure=KINDS[kind])
+    modes, mounting = modes_of_effects(effects), scene.mounting
+    if modes is not None:
+        mounting = mounting_of(modes, mounting, scene.bearing)
+    steps = 4 if tier == "full" else 1
+    numerics = replace(scene.numerics, steps_per_sample=steps)
+    return replace(scene, effects=effects, mounting=mounting, numerics=numerics)
+
+
+def suspended(tier: str, kind: str) -> Scene:
+    """The same with the box on its springs."""
+    scene = bent_scene(tier, kind)
+    return replace(scene, mounting=replace(scene.mounting, cup="suspended"))
+
+
+def started(scene: Scene) -> Twin:
+    """A twin at rest under the first load."""
+    return start(scene, 0.1).twin
+
+
+def stepped(twin: Twin, steps: int, speed: float | None = None) -> tuple[Float, Float]:
+    """Signals and rollers of some steps under the first load, the shaft at another speed [rad/s].
+
+    What a run holds for a while is worked out anew in every one of them.
+    """
+    state = twin._state
+    assert state is not None
+    loads = np.repeat(twin._loads(0, 20_000_000, 512)[:1], steps + 1, axis=0)
+    if speed is not None:
+        loads[:, 6] = speed
+        state.bodies[CAGE_BODY:, RATE] *= speed
+    signals = np.zeros((steps, twin._channels))
+    rollers = np.zeros((steps, *twin._tier.trend_shape(state.rollers.shape)))
+    output = Output(signals, rollers, np.zeros((steps, *state.bodies.shape)), twin._audit)
+    twin._tier.advance(twin._lanes, state, twin._work, loads, output, twin._kernel_parameters)
+    return signals, rollers
+
+
+def shapes_at(twin: Twin, azimuth: Float) -> Float:
+    """Opening of the raceways by each mode of the step, by plain sums, shape [row, place, mode]."""
+    fitted = step_body(twin.scene, twin._parameters.step)
+    assert fitted is not None
+    return math.cos(twin.scene.bearing.cup_angle) * fitted.body.openings(azimuth)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_rollers_and_modes_push_each_other_through_the_same_shapes(kind: str) -> None:
+    """One step of the lumped tier, roller by roller: approach, load, and what it does to every mode."""
+    twin = started(suspended("lumped", kind))
+    assert twin._state is not None
+    p, state = twin._kernel_parameters, twin._state
+    state.flex[1] = np.random.default_rng(1).normal(0.0, 1e-3, state.flex.shape[1])
+    stepped(twin, 8)  # turned on, and bent by some more
+    before = state.copy()
+    bearing = twin.scene.bearing
+    _, rollers = stepped(twin, 1)
+    flex = before.flex[0] + p.step * before.flex[1]
+    azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
+    azimuth = azimuth + state.bodies[CAGE_BODY, TURN]
+    # fine waves that the tier leaves out weigh 2e-4 of the compliance, a hundredth of an amplitude
+    shapes = shapes_at(twin, azimuth)
+    seen = np.einsum("rpm,m->rp", shapes, flex)
+    series, width = p.bending.basis.shape[1], 8
+    found = np.zeros_like(seen)
+    cup_load = np.zeros_like(seen)
+    for block in range(p.bending.basis.shape[0]):
+        for lane in range(width):
+            row, place = lane * 2 // width, block * width // 2 + lane % (width // 2)
+            if place < bearing.roller_count:
+                found[row, place] = p.bending.shown[0, :series, lane] @ p.bending.basis[block, :, lane]
+                cup_load[row, place] = rollers[0, block, 0, lane]
+    assert np.abs(found - seen).max() < 0.02 * np.abs(seen).max()
+    assert np.abs(seen).max() > 1e-6
+    push = np.einsum("rpm,rp->m", shapes, cup_load)
+    forces = p.bending.forces.copy()
+    openings = len(p.bending.rigid)
+    forces[:openings] -= p.bending.rows[2, :openings]  # what is held for the step comes on top
+    matrix = np.moveaxis(p.bending.pushes, 1, 2).reshape(-1, len(forces))[: len(flex), :openings]
+    kernel = matrix @ forces[:openings]
+    assert np.abs(kernel - push).max() < 0.02 * np.abs(push).max()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_held_response_is_the_direct_solution(kind: str) -> None:
+    """Built up roller by roller as ``(1 + B D)^-1 B`` with a linear solver, B from all rollers at once."""
+    twin = started(suspended("lumped", kind))
+    stepped(twin, 1, 0.0)  # nothing turns: the pockets are where they began
+    bending = twin._kernel_parameters.bending
+    openings, series = len(bending.rigid), bending.basis.shape[1]
+    springs = np.zeros((openings, openings))
+    for block, _, lane in np.argwhere(bending.tangents > 0.0):
+        waves, row = np.zeros(openings), lane // 4
+        waves[row * series : (row + 1) * series] = bending.basis[block, :, lane]
+        springs += bending.lag * bending.tangents[block, 0, lane] * np.outer(waves, waves)
+    give = np.moveaxis(bending.give, 1, 2).reshape(-1, openings)[:openings]
+    expected = np.linalg.solve(np.eye(openings) + springs @ give, springs)
+    found = np.moveaxis(bending.response, 1, 2).reshape(-1, openings)[:openings]
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9 * np.abs(expected).max())
+    assert np.linalg.eigvals(springs @ give).real.max() > 0.1  # it does matter
+
+
+@pytest.mark.parametrize("tier", FAST)
+@pytest.mark.parametrize("kind", KINDS)
+def test_box_and_journal_exchange_their_momentum(tier: str, kind: str) -> None:
+    """The modes take none: together both change by what springs, load and weight push them with."""
+    twin = started(suspended(tier, kind))
+    assert twin._state is not None
+    twin._state.flex[1] = np.random.default_rng(2).normal(0.0, 1e-3, twin._state.flex.shape[1])
+    stepped(twin, 8)
+    before = twin._state.copy()
+    p, bodies = twin._kernel_parameters, twin._state.bodies
+    stepped(twin, 1)
+    load = twin._loads(0, 20_000_000, 512)[0]
+    mounting = p.base.mounting
+    change = (bodies - before.bodies)[:2, LINEAR : LINEAR + 6]
+    journal = mounting.journal_mass * change[CONE_BODY, :3]
+    if mounting.coupling is None:
+        box = mounting.box_mass * change[CUP_BODY, :3]
+        spring = mounting.stiffness[:3] * bodies[CUP_BODY, POSITION : POSITION + 3]
+        spring = spring + mounting.damping[:3] * before.bodies[CUP_BODY, LINEAR : LINEAR + 3]
+        # the free box takes half a step of its dampers implicitly
+        box = box + 0.5 * p.step * mounting.damping[:3] * change[CUP_BODY, :3]
+        outside = p.motion.steady[:3] - spring
+    else:
+        box = mounting.coupling.mass[:3] @ change[CUP_BODY]
+        outside = twin._work.box[FORCE : FORCE + 3] - signals_wrench(twin)
+    outside = outside + load[:3] - [0.0, 0.0, p.kinematic.rolling_weight]
+    scale = p.step * 8e4
+    np.testing.assert_allclose((box + journal)[[0, 2]], p.step * outside[[0, 2]], atol=1e-9 * scale)
+
+
+def signals_wrench(twin: Twin) -> Float:
+    """The rollers' force on the box in the last step, [N]."""
+    return np.asarray(twin._work.wrenches[CUP_BODY, :3])
+
+
+@pytest.mark.parametrize("tier", FAST)
+@pytest.mark.parametrize("kind", KINDS)
+def test_deflection_and_largest_load_are_those_of_the_static_solution(tier: str, kind: str) -> None:
+    """80 kN, set beforehand: 1 % of means over the pitch of the rollers."""
+    scene = bent_scene(tier, kind)
+    bearing, body = scene.bearing, body_of(scene)
+    carried = 9.80665 * 2 * (bearing.roller_count * bearing.roller_mass + bearing.cage.mass)
+    found = [
+        solve(
+            bearing, (0.0, 0.0, 8e4 - carried), end_play=scene.end_play, laminae=scene.numerics.laminae,
+            speed=122.0, roller_phase=2.0 * np.pi * phase / 6 / bearing.roller_count, body=body,
+        )
+        for phase in range(6)
+    ]  # fmt: skip
+    displacement = np.mean([each.displacement[2] for each in found])
+    largest = np.mean([each.cup_load.max() for each in found])
+    deflection, load = _means(scene)
+    assert deflection == pytest.approx(displacement, rel=0.01)
+    assert load == pytest.approx(largest, rel=0.01)
+
+
+@cache
+def _means(scene: Scene) -> tuple[float, float]:
+    """Mean deflection [m] and largest cup load [N] over the second half of 0.3 s."""
+    blocks = blocks_of(scene, 0.3)[7:]
+    assert not any(block.status for block in blocks)
+    pose = np.concatenate([block.body_pose[:, :2, 2] for block in blocks])
+    cup = np.concatenate([np.linalg.norm(block.contacts[..., 0, 3:6], axis=-1) for block in blocks])
+    return float((pose[:, 1] - pose[:, 0]).mean()), float(cup.max(axis=(1, 2)).mean())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tier", FAST)
+@pytest.mark.parametrize("kind", KINDS)
+def test_deflection_and_largest_load_are_those_of_the_full_tier(tier: str, kind: str) -> None:
+    """80 kN with the same structure, set beforehand: 1 %."""
+    np.testing.assert_allclose(_means(bent_scene(tier, kind)), _means(bent_scene("full", kind)), rtol=0.01)
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_frequencies_of_the_loaded_box_are_those_of_an_independent_eigenproblem(tier: str) -> None:
+    """Mass and stiffness of rings, all modes of the table and contact springs, up to 4 kHz: within 1 %.
+
+    The kernel starts on one eigenvector after the other; its phase after 40 calls, against a run without,
+    tells the frequency. Springs of the contacts are those of the static solution, for the lumped tier slopes
+    of its law of a single roller.
+    """
+    scene = bent_scene(tier, "modes", "static_5kN")
+    # preloaded: of a roller at the edge of a load zone a nanometre decides whether it is a spring
+    scene = replace(scene, end_play=-1e-4, mounting=replace(scene.mounting, cup="suspended"))
+    body, h = body_of(scene), 1.0 / 25600.0
+    assert body is not None
+    twin = started(scene)
+    p = twin._kernel_parameters
+    stepped(twin, 3200, 0.0)  # settled without turning
+    assert twin._state is not None
+    rest = twin._state.copy()
+    motion = rest.bodies[CONE_BODY, POSITION : POSITION + 6] - rest.bodies[CUP_BODY, POSITION : POSITION + 6]
+    fitted = step_body(scene, h)
+    assert fitted is not None
+    bent = np.linalg.pinv(fitted.share) @ rest.flex[0]
+    springs = _springs if tier == "lumped" else _laminae
+    # cup (6), journal (3), modes of the table
+    relative = np.zeros((5 + len(body.rate), 9 + len(body.rate)))
+    relative[range(5), [0, 1, 2, 3, 5]] = -1.0
+    relative[range(3), [6, 7, 8]] = 1.0
+    relative[5:, 9:] = np.eye(len(body.rate))
+    stiffness = relative.T @ springs(scene, body, motion[[0, 1, 2, 3, 5]], bent) @ relative
+    box = p.base.mounting.coupling
+    mass = np.eye(9 + len(body.rate))
+    mass[:6, :6] = box.mass
+    mass[6:9, 6:9] *= p.base.mounting.journal_mass
+    assert body.suspension is not None
+    stretch = np.concatenate([np.eye(6), np.zeros((6, 3)), body.suspension], axis=1)
+    stiffness += stretch.T @ box.stiffness @ stretch
+    stiffness[9:, 9:] += np.diag(body.rate**2)
+    root = np.linalg.cholesky(mass)
+    inner = np.linalg.solve(root, np.linalg.solve(root, stiffness).T)
+    squares, vectors = np.linalg.eigh(0.5 * (inner + inner.T))
+    vectors = np.linalg.solve(root.T, vectors)
+    rates = np.sqrt(np.maximum(squares, 0.0))
+    tested = np.flatnonzero((rates > 2e3) & (rates < 2.0 * np.pi * (4e3 if tier == "quasistatic" else 2e3)))
+    assert len(tested) > 5
+    errors = [
+        _frequency(twin, rest, vectors[:, index], mass, rates[index], fitted.share, h) for index in tested
+    ]
+    assert np.abs(errors).max() < 0.01, errors
+
+
+def _springs(scene: Scene, body: ModalBody, pose: Float, bent: Float) -> Float:
+    """Stiffness of rollers as single springs against pose and modes, shape [5 + mode, 5 + mode]."""
+    bearing = scene.bearing
+    approach, load = load_of_approach(bearing, scene.numerics.laminae)
+    order = np.argsort(approach)
+    slope = np.gradient(load[order], approach[order])
+    azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
+    angle, lever, side = bearing.cup_angle, lever_of_cup(bearing), np.array([[-1.0], [1.0]])
+    across, along = np.sin(azimuth) + 0.0 * side, np.cos(azimuth) + 0.0 * side
+    rigid = [math.cos(angle) * across, -math.sin(angle) * side + 0.0 * along, math.cos(angle) * along]
+    normal = np.stack([*rigid, side * lever * along, -side * lever * across], axis=2)
+    normal = np.concatenate([normal, -math.cos(angle) * body.openings(azimuth)], axis=2)
+    normal = normal.reshape(-1, normal.shape[2])
+    depth = normal @ np.concatenate([pose, bent]) - 0.5 * scene.end_play * math.sin(angle)
+    spring = np.where(depth > 0.0, np.interp(depth, approach[order], slope), 0.0)
+    return np.asarray((normal.T * spring) @ normal)
+
+
+def _laminae(scene: Scene, body: ModalBody, pose: Float, bent: Float) -> Float:
+    """The same of rollers in balance with their laminae, from the static solution."""
+    model = contact_model(scene.bearing, scene.end_play, scene.numerics.laminae, 0.0, 0.0, body=body)
+    about_x, about_z = pose[3:]
+    turn = np.array([[1.0, -about_z, 0.0], [about_z, 1.0, -about_x], [0.0, about_x, 1.0]])
+    return solve_rollers(model, ConePose(pose[:3], turn, bent), None).cone_stiffness
+
+
+def _frequency(
+    twin: Twin, rest: State, vector: Float, mass: Float, rate: float, share: Float, h: float
+) -> float:
+    """Relative error of the frequency of a loaded mode in the running kernel."""
+    size, back = 1e-8, np.linalg.pinv(share)
+    state = rest.copy()
+    # velocities half a step later than places
+    speed = -rate * math.sin(0.5 * rate * h)
+    state.bodies[CUP_BODY, POSITION : POSITION + 6] += size * vector[:6]
+    state.bodies[CONE_BODY, POSITION : POSITION + 3] += size * vector[6:9]
+    state.bodies[CUP_BODY, LINEAR : LINEAR + 6] += size * speed * vector[:6]
+    state.bodies[CONE_BODY, LINEAR : LINEAR + 3] += size * speed * vector[6:9]
+    state.flex[0] += size * share @ vector[9:]
+    state.flex[1] += size * speed * share @ vector[9:]
+    phases, other = [], rest.copy()
+    for _ in range(40):
+        twin._state = state
+        stepped(twin, STRIDE, 0.0)
+        twin._state = other
+        stepped(twin, STRIDE, 0.0)
+
+        def amount(field: int, flex: int) -> float:
+            cup = (state.bodies - other.bodies)[CUP_BODY, field : field + 6]
+            cone = (state.bodies - other.bodies)[CONE_BODY, field : field + 3]
+            bent = back @ (state.flex - other.flex)[flex]
+            return float(vector @ mass @ np.concatenate([cup, cone, bent])) / size
+
+        place, speed = amount(POSITION, 0), amount(LINEAR, 1) / rate
+        lag = 0.5 * rate * h  # place at t, speed at t + h / 2
+        phases.append(math.atan2(-(speed + math.sin(lag) * place) / math.cos(lag), place))
+    times = STRIDE * h * np.arange(1, 41)
+    late = np.unwrap(np.array(phases) - rate * times)
+    return float(np.polyfit(times, late, 1)[0]) / rate
+
+
+@pytest.mark.parametrize("tier", FAST)
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_run_begins_bent_and_quiet(tier: str, kind: str) -> None:
+    """The first millisecond of a bearing that stands still: modes stay where the static solution put them."""
+    twin = started(suspended(tier, kind))
+    assert twin._state is not None
+    begin = twin._state.flex[0].copy()
+    signals, _ = stepped(twin, 32, 0.0)
+    shapes = shapes_at(twin, np.linspace(0.0, 2.0 * np.pi, 16))
+    assert np.abs(shapes @ begin).max() > 2e-6
+    assert np.abs(shapes @ (twin._state.flex[0] - begin)).max() < 0.02 * np.abs(shapes @ begin).max()
+    assert np.abs(signals[:, SIGNAL_FORCE + 2] / 8e4 - 1.0).max() < 0.01
+
+
+def test_sensors_hear_the_modes_at_their_seats() -> None:
+    """The channel behind the others is the acceleration of the seat: place times squared rate, 0.2 dB."""
+    scene = bent_scene("quasistatic", "modes", "cup_spall")
+    twin = started(scene)
+    fitted = step_body(scene, 1.0 / 25600.0)
+    assert twin._state is not None
+    assert fitted is not None
+    assert fitted.sensors is not None
+    stepped(twin, 1, 0.0)
+    rest = fitted.sensors[:, 2] @ twin._state.flex[0]
+    twin._state.flex[1, :24] += 1e-3 * np.sign(fitted.sensors[:24, 2])
+    places, found = np.zeros(1024), np.zeros(1024)
+    for step in range(1024):
+        # places are those that the step finds, forces and acceleration belong to them
+        signals, _ = stepped(twin, 1, 0.0)
+        places[step] = fitted.sensors[:, 2] @ twin._state.flex[0] - rest
+        found[step] = signals[0, SIGNAL_CHANNELS + 2]
+    window = np.hanning(1024)
+    heard, moved = np.abs(np.fft.rfft(found * window)), np.abs(np.fft.rfft(places * window))
+    rate = 2.0 * np.pi * np.fft.rfftfreq(1024, 1.0 / 25600.0)
+    bands = [(500.0, 1000.0), (1000.0, 2000.0), (2000.0, 4000.0)]
+    for low, high in bands:
+        band = (rate > 2.0 * np.pi * low) & (rate < 2.0 * np.pi * high)
+        expected = np.linalg.norm((rate**2 * moved)[band])
+        assert np.linalg.norm(heard[band]) == pytest.approx(expected, rel=0.02), (low, high)
+
+
+def test_a_box_that_bends_takes_no_step_longer_than_a_sample() -> None:
+    """Springs of rollers that come and go push stiff modes over: three samples a step ended in no number."""
+    rigid = scene_of("static_80kN", "lumped")
+    assert fast_steps(rigid).steps_per_sample < 1.0
+    assert fast_steps(bent_scene("lumped", "rings")).steps_per_sample == 1.0
