@@ -53,7 +53,8 @@ def crossing(case: Case) -> Crossing:
     """Cut the crossings out of a run over a cup spall at the top of the cup."""
     made = run(case)
     radius = surface_radius(case.scene().bearing, "cup")
-    speed = radius * float(np.polyfit(np.arange(len(made.orbit)) / STEP_RATE, made.orbit[:, 0], 1)[0])
+    begin, end = made.orbit[[0, STEP_RATE // 4], 0]
+    speed = radius * float(end - begin) / (STEP_RATE // 4 / STEP_RATE)
     turns = made.orbit / (2.0 * math.pi)
     middles = np.sort(np.nonzero(np.diff(np.floor(turns), axis=0) > 0.0)[0])
     half = int(0.5 * case.width / speed * STEP_RATE)

@@ -32,7 +32,7 @@ SETTLED = 0.1  # first part of a run that is not looked at, [s]
 STRIKES = 20  # at least, of a cup spall in a run
 CAGE_TURNS = 8  # at least, with a spall elsewhere
 RATE = RATES[1]
-STEP_RATE = 8 * RATES[0]
+STEP_RATE = 8 * int(RATES[0])
 VERTICAL = 2
 BESIDE = 0.3  # lines of the background lie within this part of a fault line's frequency
 FAULTS = {"cup": ("bpfo", 1), "cone": ("bpfi", 1), "roller": ("bsf", 2)}
@@ -63,23 +63,26 @@ def run(case: Case) -> Run:
     with evened_paths(case.flattening):
         twin = Twin(scene)
         twin.start(load_history(scene.operation, scene.mounting, 0.02 * blocks, scene.seed))
-    signal, motion, force, orbit, status = [], [], [], [], 0
+    signal, motion, force, orbit, times, status = [], [], [], [], [], 0
     speed = 2.0 * math.pi * rate
     for _ in range(blocks):
         block = twin.advance()
         status |= int(block.status)
+        orbit.append(block.roller_angle[:, 0])
+        times.append(block.trend_time_ns)
         if block.start_ns < SETTLED * 1e9 - 1.0:
             continue
         signal.append(block.vibration[0].acceleration[:, VERTICAL])
         steps = twin.step_signals
         motion.append(steps[:, SIGNAL_CHANNELS + VERTICAL].copy())
         force.append(steps[:, SIGNAL_FORCE + VERTICAL].copy())
-        orbit.append(_azimuths(block.roller_angle[:, 0], block.trend_time_ns, block.start_ns, len(steps)))
     heard = np.concatenate(signal)
     angle = np.asarray(speed * np.arange(len(heard)) / RATE, np.float64)
+    moved = np.concatenate(motion)
+    azimuths = _azimuths(np.concatenate(orbit), np.concatenate(times), len(moved))
     return Run(
-        case, heard - heard.mean(), angle, np.concatenate(motion),
-        np.concatenate(force), np.concatenate(orbit), describe(status),
+        case, heard - heard.mean(), angle, moved,
+        np.concatenate(force), azimuths, describe(status),
     )  # fmt: skip
 
 
@@ -110,15 +113,11 @@ def evened_paths(half_width: float) -> Iterator[None]:
         faults.roller_path = rigid
 
 
-def _azimuths(angles: Float, times_ns: Int, start_ns: int, count: int) -> Float:
-    """Take the azimuths of rollers [trend, roller] to every step of a block; they turn evenly within it."""
-    wanted = start_ns + 1e9 * (np.arange(count) + 1.0) / STEP_RATE
+def _azimuths(angles: Float, times_ns: Int, count: int) -> Float:
+    """Take azimuths of rollers [trend, roller] to steps; after the last known one they stand still."""
+    wanted = 1e9 * (SETTLED + (np.arange(count) + 1.0) / STEP_RATE)
     turned = np.unwrap(angles, axis=0)
-    found = np.empty((count, angles.shape[1]))
-    for roller in range(angles.shape[1]):
-        slope, start = np.polyfit(times_ns - float(start_ns), turned[:, roller], 1)
-        found[:, roller] = start + slope * (wanted - start_ns)
-    return found
+    return np.stack([np.interp(wanted, times_ns, each) for each in turned.T], axis=1)
 
 
 @dataclass(frozen=True)
