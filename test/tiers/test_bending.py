@@ -38,7 +38,7 @@ from beardyn_core.twin import Twin
 from test.tiers.runs import FAST, blocks_of, scene_of
 
 Float = NDArray[np.float64]
-KINDS = {"rings": RingStructure(), "modes": ModalStructure("high_speed")}
+KINDS: dict[str, RingStructure | ModalStructure] = {"rings": RingStructure(), "modes": ModalStructure("high_speed")}
 STRIDE = 8  # steps between two looks at the state
 
 
