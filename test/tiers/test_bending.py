@@ -34,11 +34,15 @@ from beardyn_core.model.tier_bending import step_body
 from beardyn_core.model.tier_parameters import lever_of_cup
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import contradictions
 from beardyn_core.twin import Twin
 from test.tiers.runs import FAST, blocks_of, scene_of
 
 Float = NDArray[np.float64]
-KINDS = {"rings": RingStructure(), "modes": ModalStructure("high_speed")}
+KINDS: dict[str, RingStructure | ModalStructure] = {
+    "rings": RingStructure(),
+    "modes": ModalStructure("high_speed"),
+}
 STRIDE = 8  # steps between two looks at the state
 
 
@@ -378,3 +382,7 @@ def test_a_box_that_bends_takes_no_step_longer_than_a_sample() -> None:
     rigid = scene_of("static_80kN", "lumped")
     assert fast_steps(rigid).steps_per_sample < 1.0
     assert fast_steps(bent_scene("lumped", "rings")).steps_per_sample == 1.0
+    problems = contradictions("lumped", True, 6, 0.5, bends=True)
+    assert len(problems) == 1
+    assert "effects.structure" in problems[0]
+    assert not contradictions("lumped", True, 6, 0.5)
