@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from beardyn_core.kernels.box import BOX_FIELDS
-from beardyn_core.kernels.structure import SHOWN
 from beardyn_core.model.arrangement import Arrangement, aligned_copy, aligned_zeros
 from beardyn_core.model.layout import CAGE_BODY, RING_FIELDS, SUM_FIELDS
 from beardyn_core.model.structure import StructureParams
@@ -30,7 +29,7 @@ class BendSpace(NamedTuple):
     """How the box bends and what bends it; all that is read of the modes, empty without a structure."""
 
     bent: Any  # float64 [2, read], places and speeds
-    lanes: Any  # float64 [group, 1, SHOWN x series, lane], series around the raceways
+    lanes: Any  # float64 [group, 1, 2 x (series + slips), lane], opening; speeds of all series
     forces: Any  # float64 [read]
     change: Any  # float64 [mode], of the speeds over the step
     seats: Any  # float64 [6 + 3 x sensor], of the speeds of the seats
@@ -40,7 +39,7 @@ class WorkSpace(NamedTuple):
     """Arrays that a step writes before it reads them."""
 
     rings: Any  # float64 [group, 3, RING_FIELDS, lane]
-    sums: Any  # float64 [group, 1, SUM_FIELDS + 3 x series, lane]
+    sums: Any  # float64 [group, 1, SUM_FIELDS + series + 2 x slips, lane]
     wrenches: Any  # float64 [2 + row, 6]
     box: Any  # float64 [BOX_FIELDS]
     bend: BendSpace
@@ -59,15 +58,15 @@ def work_space(arrangement: Arrangement, structure: StructureParams | None = Non
     """Make the work space for the rollers' arrangement and the structure."""
     groups, width = arrangement.group_count, arrangement.width
     modes, reads = (0, 0) if structure is None else structure.shapes.shape
-    series = 0 if structure is None else structure.series
+    series, slips = (0, 0) if structure is None else (structure.series, structure.slips)
     return WorkSpace(
         aligned_zeros(groups, 3, RING_FIELDS, width),
-        aligned_zeros(groups, 1, SUM_FIELDS + 3 * series, width),
+        aligned_zeros(groups, 1, SUM_FIELDS + series + 2 * slips, width),
         np.zeros((CAGE_BODY + arrangement.rows, 6)),
         np.zeros(BOX_FIELDS),
         BendSpace(
             np.zeros((2, reads)),
-            aligned_zeros(groups, 1, SHOWN * series, width),
+            aligned_zeros(groups, 1, 2 * (series + slips), width),
             np.zeros(reads),
             np.zeros(modes),
             np.zeros(0 if structure is None else len(structure.seats)),

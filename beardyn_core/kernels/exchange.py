@@ -16,7 +16,7 @@ class Here(NamedTuple):
     lanes: Any
     block: int
     rollers: Any  # [block, ROLLER_FIELDS, lane], state and outputs
-    sums: Any  # [1, SUM_FIELDS + 3 x series, lane], added to
+    sums: Any  # [1, SUM_FIELDS + series + 2 x slips, lane], added to
     mask: Any  # 1 for a roller, 0 for a lane that shadows one
     cosine: Any  # of the orbit azimuth
     sine: Any

@@ -27,7 +27,7 @@ from beardyn_core.kernels.rib import prepare_rib, push_rib, settle_rib, stiffen_
 from beardyn_core.kernels.rolling import prepare_rolling, push_rolling, settle_rolling
 from beardyn_core.kernels.solve import inertia_matrix, solve
 from beardyn_core.kernels.stage_timer import mark
-from beardyn_core.kernels.structure import SHOWN, about_rigid_cup, bend_cup, bent_cup
+from beardyn_core.kernels.structure import about_rigid_cup, bend_cup, bent_cup
 from beardyn_core.kernels.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in
 from beardyn_core.model import layout
 from beardyn_core.model.stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
@@ -117,7 +117,7 @@ def step_rollers(lanes, block, rollers, rings, sums, bends, p):
     mark(timers, SOLVE)
 
     on_cup = raceway.settle_raceway(layout.CUP, cup, change, here, p)
-    bend_cup(on_cup.force, here, bends.shape[1] // SHOWN, effects.structure)
+    bend_cup(on_cup.force, here, effects.structure)
     on_cone = raceway.settle_raceway(layout.CONE, cone, change, here, p)
     total = Wrench(add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment))
     mark(timers, SETTLE)

@@ -9,8 +9,9 @@ the orbit: that gives its gap, the slope of its normal and the shifted contact p
 the angle alpha an axial displacement u counts in the gap as -u tan(alpha) outwards, so w is the radial
 displacement less that. The slope is what makes the normal force conservative, so the energy audit closes.
 
-Series stand as in a table of modes: mean, cosines, sines; of each row the radial, the tangential and the
-axial one, towards the outer side of the row.
+Series stand as in a table of modes: mean, cosines, sines; of each row that of the opening w, then with fewer
+waves those of the slip: around, and along the cone, named by its axial part u towards the outer side of the
+row (radially it is u tan(alpha)). The normal force works on w alone, and only friction on the slip.
 """
 
 from __future__ import annotations
@@ -32,7 +33,6 @@ from beardyn_core.model.layout import (
 )
 
 PLACE, SPEED = 0, 1
-SHOWN = 4  # series of each lane: the gap's place, then the three speeds
 
 # sums may be taken in any order here, so that they go into vectors
 _sums_in_any_order = partial(entry, flags=(*FASTMATH, "reassoc"))
@@ -99,19 +99,16 @@ def show_structure(lanes, flex, box, step, bend, structure):
     if structure is None:
         return
     _bend(structure.shapes, flex, step, bend.bent)
-    series = bend.lanes.shape[2] // SHOWN
-    other = 3 * series * (structure.rows - 1)
+    series, count = structure.series, structure.series + 2 * structure.slips
+    other = count * (structure.rows - 1)
     for group in range(bend.lanes.shape[0]):
         target = bend.lanes[group]
         near, far = lanes.load(structure.sides, group, 0), lanes.load(structure.sides, group, 1)
         for k in range(series):
-            axial, radial = k + 2 * series, k
-            one = bend.bent[PLACE, radial] - structure.taper * bend.bent[PLACE, axial]
-            two = bend.bent[PLACE, other + radial] - structure.taper * bend.bent[PLACE, other + axial]
-            lanes.store(target, 0, k, near * one + far * two)
-        for k in range(3 * series):
+            lanes.store(target, 0, k, near * bend.bent[PLACE, k] + far * bend.bent[PLACE, other + k])
+        for k in range(count):
             lanes.store(target, 0, series + k, near * bend.bent[SPEED, k] + far * bend.bent[SPEED, other + k])
-    first = other + 3 * series
+    first = other + count
     for i in range(6):
         box[SEAT_PLACE + i] = bend.bent[PLACE, first + i]
         box[SEAT_SPEED + i] = bend.bent[SPEED, first + i]
@@ -129,11 +126,12 @@ def bent_cup(lanes, bends, view, radius, cosine, sine, structure):
     zero = lanes.constant(0.0)
     if structure is None:
         return view, (zero, zero, zero)
-    series = bends.shape[1] // SHOWN
-    waves = series // 2
+    series, slips = structure.series, structure.slips
+    waves, few = series // 2, slips // 2
+    first, second = 2 * series, 2 * series + slips
     deflection, slope = lanes.load(bends, 0, 0), zero
-    speed, around = lanes.load(bends, 0, series), lanes.load(bends, 0, 2 * series)
-    along = lanes.load(bends, 0, 3 * series)
+    speed, around = lanes.load(bends, 0, series), lanes.load(bends, 0, first)
+    along = lanes.load(bends, 0, second)
     cosine_before, sine_before = lanes.constant(1.0), zero
     cosine_n, sine_n = cosine, sine
     for n in range(1, waves + 1):
@@ -142,10 +140,11 @@ def bent_cup(lanes, bends, view, radius, cosine, sine, structure):
         slope = slope + float(n) * (b * cosine_n - a * sine_n)
         a, b = lanes.load(bends, 0, series + n), lanes.load(bends, 0, series + waves + n)
         speed = speed + (a * cosine_n + b * sine_n)
-        a, b = lanes.load(bends, 0, 2 * series + n), lanes.load(bends, 0, 2 * series + waves + n)
-        around = around + (a * cosine_n + b * sine_n)
-        a, b = lanes.load(bends, 0, 3 * series + n), lanes.load(bends, 0, 3 * series + waves + n)
-        along = along + (a * cosine_n + b * sine_n)
+        if n <= few:
+            a, b = lanes.load(bends, 0, first + n), lanes.load(bends, 0, first + few + n)
+            around = around + (a * cosine_n + b * sine_n)
+            a, b = lanes.load(bends, 0, second + n), lanes.load(bends, 0, second + few + n)
+            along = along + (a * cosine_n + b * sine_n)
         cosine_next = 2.0 * cosine * cosine_n - cosine_before
         sine_next = 2.0 * cosine * sine_n - sine_before
         cosine_before, sine_before = cosine_n, sine_n
@@ -154,7 +153,7 @@ def bent_cup(lanes, bends, view, radius, cosine, sine, structure):
     # energy, to second order: to the first alone a static bend of 0.1 mm feeds 1e-4 of the losses
     ahead = slope * (1.0 - deflection / radius)
     shift = (deflection + 0.5 * ahead * ahead / radius, ahead, zero)
-    moving = add(view.velocity, (speed, around, along))
+    moving = add(view.velocity, (speed + structure.taper * along, around, along))
     return View(add(view.origin, shift), view.axis, moving, view.omega), shift
 
 
@@ -168,28 +167,32 @@ def about_rigid_cup(contact, shift, structure):
 
 
 @inline
-def bend_cup(force, here, series, structure):
+def bend_cup(force, here, structure):
     """Add the work that the rollers' reaction does on a unit of each term of the series to the sums.
 
-    ``force``: of the cup on the roller [N]; ``series``: terms of each.
+    ``force``: of the cup on the roller [N].
     """
     if structure is None:
         return
-    waves = series // 2
-    radial, around, along = here.mask * force[0], here.mask * force[1], here.mask * force[2]
-    accumulate(here, SUM_FIELDS, 0.0 - radial)
-    accumulate(here, SUM_FIELDS + series, 0.0 - around)
-    accumulate(here, SUM_FIELDS + 2 * series, 0.0 - along)
+    waves, few = structure.series // 2, structure.slips // 2
+    first = SUM_FIELDS + structure.series
+    second = first + structure.slips
+    against = 0.0 - here.mask
+    opening, around = against * force[0], against * force[1]
+    along = against * (force[2] + structure.taper * force[0])
+    accumulate(here, SUM_FIELDS, opening)
+    accumulate(here, first, around)
+    accumulate(here, second, along)
     cosine_before, sine_before = here.lanes.constant(1.0), here.lanes.constant(0.0)
     cosine_n, sine_n = here.cosine, here.sine
     for n in range(1, waves + 1):
-        first = SUM_FIELDS + n
-        accumulate(here, first, 0.0 - radial * cosine_n)
-        accumulate(here, first + waves, 0.0 - radial * sine_n)
-        accumulate(here, first + series, 0.0 - around * cosine_n)
-        accumulate(here, first + series + waves, 0.0 - around * sine_n)
-        accumulate(here, first + 2 * series, 0.0 - along * cosine_n)
-        accumulate(here, first + 2 * series + waves, 0.0 - along * sine_n)
+        accumulate(here, SUM_FIELDS + n, opening * cosine_n)
+        accumulate(here, SUM_FIELDS + waves + n, opening * sine_n)
+        if n <= few:
+            accumulate(here, first + n, around * cosine_n)
+            accumulate(here, first + few + n, around * sine_n)
+            accumulate(here, second + n, along * cosine_n)
+            accumulate(here, second + few + n, along * sine_n)
         cosine_next = 2.0 * here.cosine * cosine_n - cosine_before
         sine_next = 2.0 * here.cosine * sine_n - sine_before
         cosine_before, sine_before = cosine_n, sine_n
@@ -224,7 +227,7 @@ def kick_structure(flex, sums, box, signal, energy, step, bend, structure):
     """
     if structure is None:
         return 0.0
-    count = 3 * (bend.lanes.shape[2] // SHOWN)
+    count = structure.series + 2 * structure.slips
     _collect_forces(sums, bend.forces, structure.rows, count)
     for i in range(6):
         bend.forces[count * structure.rows + i] = box[SUSPENSION + i]

@@ -22,6 +22,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.modes import FIELDS, Modes
 
 WAVES_SEEN = 6  # of a table: those with 7 and 8 waves change what yields to one roller by up to 0.2 % of it
+WAVES_OF_SLIP = 3  # of what friction works on, around and along the cone
 _RESOLVED = 0.5 * math.pi  # rate of a mode times the step up to which its motion is exact: four steps a turn
 _RADIAL, _TANGENTIAL, _AXIAL = range(len(FIELDS))
 
@@ -29,11 +30,12 @@ _RADIAL, _TANGENTIAL, _AXIAL = range(len(FIELDS))
 class StructureParams(NamedTuple):
     """Modes with unit modal mass, whose free motion is exact from step to step."""
 
-    # [mode, read], series around the raceways by row and field, axial outwards, then motion of the bearing
-    # centre that stretches the springs alike [1/sqrt(kg)]; zeros fill up to multiples of 4 and 8
+    # [mode, read], of each row the series of the opening, around and along the cone, axial outwards, then motion
+    # of the bearing centre that stretches the springs alike [1/sqrt(kg)]; zeros fill up to multiples of 4 and 8
     shapes: Any
     rows: int
-    series: int
+    series: int  # terms of the opening
+    slips: int  # terms around, and as many along
     taper: float  # tangent of the cup's cone angle
     stiffness: Any  # [mode], square of the rate [1/s^2]
     damping: Any  # [mode], [1/s]
@@ -104,7 +106,7 @@ def _body(
     return ModalBody(
         2.0 * math.pi * modes.frequency,
         modes.damping_ratio,
-        _first_waves(raceway),
+        _first_waves(raceway, WAVES_SEEN),
         math.tan(bearing.cup_angle),
         _suspension(modes) if suspended else None,
         modes,
@@ -143,12 +145,14 @@ def structure_params(
     """Work out the parameters of a modal body for a time step [s]."""
     if body is None:
         return None
-    count, rows, fields, series = body.raceway.shape
-    modes, reads = -(-count // 4) * 4, -(-(rows * fields * series + 6) // 8) * 8
-    shapes = np.zeros((modes, reads))
-    shapes[:count, : rows * fields * series] = body.raceway.reshape(count, -1)
-    if body.suspension is not None:
-        shapes[:count, rows * fields * series : rows * fields * series + 6] = body.suspension.T
+    slip = _first_waves(body.raceway[:, :, 1:], WAVES_OF_SLIP)
+    count, rows, _, slips = slip.shape
+    parts = [np.concatenate([body.opening, slip.reshape(count, rows, -1)], axis=2).reshape(count, -1)]
+    parts.append(np.zeros((count, 6)) if body.suspension is None else body.suspension.T)
+    reads = np.concatenate(parts, axis=1)
+    modes = -(-count // 4) * 4
+    shapes = np.zeros((modes, -(-reads.shape[1] // 8) * 8))
+    shapes[:count, : reads.shape[1]] = reads
 
     def filled(values: Float, rest: float = 0.0) -> Float:
         return np.concatenate([values, np.full(modes - count, rest)])
@@ -169,7 +173,8 @@ def structure_params(
     return StructureParams(
         shapes,
         rows,
-        series,
+        body.raceway.shape[-1],
+        slips,
         body.taper,
         filled(body.stiffness),
         filled(damping),
@@ -239,10 +244,10 @@ def _suspension(modes: Modes) -> Float:
     return np.asarray((shapes @ share).T)
 
 
-def _first_waves(raceway: Float) -> Float:
-    """Leave out waves beyond those that matter, and the highest ones where nothing has them."""
+def _first_waves(raceway: Float, seen: int) -> Float:
+    """Leave out waves beyond the first ones, and the highest ones where nothing has them."""
     waves = raceway.shape[-1] // 2
     there = np.abs(raceway).max(axis=(0, 1, 2), initial=0.0) > 0.0
-    most = max((n for n in range(1, WAVES_SEEN + 1) if there[n] or there[waves + n]), default=0)
+    most = max((n for n in range(1, min(seen, waves) + 1) if there[n] or there[waves + n]), default=0)
     columns = [*range(most + 1), *range(waves + 1, waves + 1 + most)]
     return np.ascontiguousarray(raceway[..., columns])

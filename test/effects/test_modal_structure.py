@@ -191,7 +191,7 @@ def test_a_blow_on_the_raceway_reaches_the_sensor_as_the_modes_say() -> None:
     assert p is not None
     series = p.series
     forces = np.zeros(p.shapes.shape[1])
-    forces[: 1 + series // 2] = 1.0  # inboard, radial, at the top
+    forces[: 1 + series // 2] = 1.0  # inboard, normal to the cone, radially 1, at the top
     flex, change = np.zeros((2, len(p.shapes))), np.zeros(len(p.shapes))
     shown, count = np.zeros((2, p.shapes.shape[1])), 2**16
     seen = np.zeros(count)
@@ -204,6 +204,7 @@ def test_a_blow_on_the_raceway_reaches_the_sensor_as_the_modes_say() -> None:
     found = np.fft.rfft(seen)[lines]
     top = np.zeros(modes.reads.shape[0])
     top[: 1 + series // 2] = 1.0
+    top[2 * (2 * WAVES + 1) :][: 1 + series // 2] = p.taper
     sensor = np.zeros_like(top)
     seat = seat_of(scene.sensors[0], modes)
     sensor[2 * 3 * (2 * WAVES + 1) + 3 * list(modes.seats).index(seat) + 2] = 1.0
