@@ -15,7 +15,7 @@ from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_la
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.choice.rule import Verdict, percent
-from beardyn_core.choice.usual_step import served
+from beardyn_core.choice.usual_step import served, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
@@ -135,8 +135,11 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
     more steps for its rate gets them.
     """
     loads, scene = evidence.loads, evidence.scene
+    band = AUDIBLE_BAND if vibration else 0.0
     if tier != "full":
-        return served(fast_steps(replace(scene, tier=tier), long=False), scene.sensors)
+        there = replace(scene, tier=tier)
+        found = fast_steps(there, long=False)
+        return served(with_modes(found, there, band), scene.sensors)
     radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
     found = choose_steps(
         scene.bearing,
@@ -147,9 +150,9 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         axial=loads.axial_high,
         end_play=scene.end_play,
         mounting=scene.mounting,
-        band=AUDIBLE_BAND if vibration else 0.0,
+        band=band,
     )
-    return served(found, scene.sensors)
+    return served(with_modes(found, replace(scene, effects=effects), band), scene.sensors)
 
 
 def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import math
+
+from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.integrate.friction_steps import StepChoice, usual_steps
+from beardyn_core.integrate.step_choice import AUDIBLE_BAND
+from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 from beardyn_core.scene.tier import TIERS
+
+# Free motion of a mode is exact with four; where contacts shift it by 5 %, five leave 0.8 % of its frequency
+STEPS_PER_TURN = 5
 
 
 def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
@@ -24,7 +32,20 @@ def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
         from beardyn_core.choice.fast_step import fast_steps  # brings the model along
 
         found = fast_steps(scene, long=not outside_load)
-    return served(found, scene.sensors)
+    return served(with_modes(found, scene, AUDIBLE_BAND), scene.sensors)
+
+
+def with_modes(choice: StepChoice, scene: Scene, band: float) -> StepChoice:
+    """Refine a choice of the step where the modes of the box up to ``band`` [Hz] need it."""
+    modes = None if "structure" in scene.missing_effects else modes_of_effects(scene.effects)
+    if modes is None:
+        return choice
+    highest = max((float(each) for each in modes.frequency[: modes.free_count] if each <= band), default=0.0)
+    if highest == 0.0:
+        return choice
+    steps = max(choice.steps_per_sample, math.ceil(STEPS_PER_TURN * highest / WAVEFORM_RATE))
+    turn = f"modes of the box up to {1e-3 * highest:.3g} kHz have {steps * WAVEFORM_RATE / highest:.1f} steps a turn"
+    return StepChoice(steps, turn if steps > choice.steps_per_sample else f"{choice.reason}; {turn}")
 
 
 def served(choice: StepChoice, sensors: tuple[Accelerometer, ...]) -> StepChoice:

@@ -22,7 +22,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.modes import FIELDS, Modes
 
 WAVES_SEEN = 6  # of a table: those with 7 and 8 waves change what yields to one roller by up to 0.2 % of it
-WAVES_OF_SLIP = 3  # of what friction works on, around and along the cone
+WAVES_OF_SLIP = 2  # around and along the cone, where only friction works: a third wave brings no more
 _RESOLVED = 0.5 * math.pi  # rate of a mode times the step up to which its motion is exact: four steps a turn
 _RADIAL, _TANGENTIAL, _AXIAL = range(len(FIELDS))
 
@@ -30,8 +30,9 @@ _RADIAL, _TANGENTIAL, _AXIAL = range(len(FIELDS))
 class StructureParams(NamedTuple):
     """Modes with unit modal mass, whose free motion is exact from step to step."""
 
-    # [mode, read], of each row the series of the opening, around and along the cone, axial outwards, then motion
-    # of the bearing centre that stretches the springs alike [1/sqrt(kg)]; zeros fill up to multiples of 4 and 8
+    # [mode, read], of each row the series of the opening, around and along the cone, axial outwards, then
+    # motion of the bearing centre that stretches the springs alike [1/sqrt(kg)]; zeros fill up to multiples
+    # of 4 and 8
     shapes: Any
     rows: int
     series: int  # terms of the opening

@@ -15,6 +15,8 @@ from beardyn_core.config.yaml_text import read_file, scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
 from beardyn_core.kernels.structure import _bend, _kick
+from beardyn_core.model import structure
+from beardyn_core.model.layout import SIGNAL_CHANNELS
 from beardyn_core.model.structure import ModalBody, body_of, structure_params
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
@@ -24,7 +26,7 @@ from beardyn_core.structure.modes import WAVES, Modes
 from beardyn_core.structure.table import ROWS, read_table
 from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
 from test.effects.test_structure_effect import frictionless, looked_at
-from test.kernels.rig import LOAD_80_KN, Rig, constant_load, scene_with, started
+from test.kernels.rig import LOAD_80_KN, Float, Rig, constant_load, scene_with, started
 from test.kernels.test_step import shaken
 
 BOXES = ("freight_adapter", "freight_y25", "high_speed", "metro")
@@ -57,6 +59,34 @@ def bent(seed: int) -> Rig:
     rig.state.flex[0, :count] += rng.normal(0.0, 2e-6, count)
     rig.state.flex[1, :count] = rng.normal(0.0, 0.01, count)
     return rig
+
+
+def rms(signals: Float) -> Float:
+    return np.asarray(np.sqrt(np.mean(signals**2, axis=0)))
+
+
+def test_two_waves_of_slip_are_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Against all six: push on the modes 0.9 %, forces 0.6 %, seats 5.5 % (0.5 dB) after 4 ms (found).
+
+    What is left is friction of a box that is struck; later on, where friction sticks decides.
+    """
+    push, signals = {}, {}
+    for waves in (structure.WAVES_OF_SLIP, structure.WAVES_SEEN):
+        monkeypatch.setattr(structure, "WAVES_OF_SLIP", waves)
+        shaken_box = bent(3)
+        shaken_box.run(1)
+        p = shaken_box.parameters.effects.structure
+        assert p is not None
+        assert p.slips == 2 * waves + 1
+        push[waves] = p.shapes @ shaken_box.work.bend.forces
+        signals[waves] = Rig.at_equilibrium(modal_scene(cup="suspended")).run(400)[0]
+    few, every = signals.values()
+    few_push, every_push = push.values()
+    assert np.abs(few_push - every_push).max() < 0.02 * np.abs(every_push).max()
+    forces, seats = slice(0, 3), slice(SIGNAL_CHANNELS, None)
+    moving = every[:, forces] - every[:, forces].mean(axis=0)
+    assert (rms((few - every)[:, forces]) < 0.02 * rms(moving)).all()
+    assert (rms((few - every)[:, seats]) < 0.1 * rms(every[:, seats])).all()
 
 
 @pytest.mark.parametrize("name", BOXES)
