@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -46,7 +47,14 @@ def add_parser(subparsers: Any) -> None:
         type=int,
         help="residual modes answer loads of up to N waves around a row, 1 to 8; default 3",
     )
-    parser.add_argument("--force", action="store_true", help="replace a file that exists; default refuse")
+    parser.add_argument(
+        "--save",
+        metavar="FILE.rrd",
+        type=Path,
+        help="write the first modes in motion as a rerun file; default none",
+    )
+    parser.add_argument("--view", action="store_true", help="show the first modes in motion in a window")
+    parser.add_argument("--force", action="store_true", help="replace files that exist; default refuse")
     parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
     parser.set_defaults(run=run)
 
@@ -55,21 +63,30 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config.load import load_bearing, load_box
     from beardyn_core.outputs import file_problems, open_to_write
+    from beardyn_core.record.viewer import require_display
     from beardyn_core.structure.box import Box
-    from beardyn_core.structure.build import HIGHEST, MESH, RESIDUAL_WAVES, modes_of
+    from beardyn_core.structure.build import HIGHEST, MESH, modes_of
     from beardyn_core.structure.imported import ModeFile, modes_of_file
+    from beardyn_core.structure.modes import RESIDUAL_WAVES
     from beardyn_core.structure.table import table_text
 
     with checked(
         lambda inputs: [
             *_problems(args),
             *file_problems("--output", args.output, inputs=inputs, force=args.force),
+            *file_problems("--save", args.save, inputs=inputs, force=args.force),
         ]
     ):
         box = load_box(args.box)
         bearing = load_bearing(box.bearing)
         if isinstance(box, ModeFile) and {args.mesh, args.highest, args.waves} != {None}:
             raise InputError(f"{args.box} has its modes: leave --mesh, --highest and --waves out")
+        if isinstance(box, ModeFile) and (args.save or args.view):
+            raise InputError(
+                f"{args.box} has modes at nodes and no mesh, so no surface: leave --save and --view out"
+            )
+        if args.view:
+            require_display()
     built: Built | None = None
     with may_be_left(), last_words(lambda: "nothing has been written"):
         if isinstance(box, Box):
@@ -90,11 +107,25 @@ def run(args: argparse.Namespace) -> int:
                 file.write(table_text(modes).encode())
         except OSError as error:
             raise InputError(f"--output {args.output}: cannot be written: {error.strerror}") from error
+    if built is not None and (args.save or args.view):
+        _show(built, args.save, args.view)
     if args.json:
         print(json_text("structure", json_object(modes, built, args.output)))
     else:
         print(text(modes, built, args.output))
     return 0
+
+
+def _show(built: Built, target: Path | None, window: bool) -> None:
+    from beardyn_core.record.rerun_modes import save_modes
+    from beardyn_core.record.viewer import open_window
+
+    with tempfile.TemporaryDirectory(prefix="beardyn-modes-") as folder:
+        file = save_modes(built, target or Path(folder) / "modes.rrd")
+        if target is not None:
+            print(f"beardyn: {target} written; open it with: rerun {target}", file=sys.stderr)
+        if window:
+            open_window(file)
 
 
 def _problems(args: argparse.Namespace) -> list[str]:

@@ -60,7 +60,7 @@ class ModalStructure:
     highest: A[
         float | None,
         At("Hz", gt=0.0),
-        "free modes above are left out, residual ones stay; all when left out",
+        "what lies above becomes residual modes with the same static bending; all modes when left out",
     ] = None
 
 

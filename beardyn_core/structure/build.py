@@ -15,12 +15,11 @@ from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.elastic import Elastic, elastic_body, stacked
 from beardyn_core.structure.mesh import mesh_of
-from beardyn_core.structure.modes import WAVES, Modes
+from beardyn_core.structure.modes import RESIDUAL_WAVES, WAVES, Modes
 from beardyn_core.structure.reduction import reduced
 
 MESH = 0.015
 HIGHEST = 12_800.0
-RESIDUAL_WAVES = 3
 _ZONE = 0.35 * np.pi  # half of a usual load zone
 
 
@@ -32,6 +31,7 @@ class Built:
     body: Elastic
     elements: A[int, "tetrahedra with ten nodes"]
     unknowns: int
+    shapes: A[Float, "shape [free mode, corner, 3], of the body's surface, [1/sqrt(kg)]"]
     yielding: A[tuple[float, float], "of the raceway under a load zone: finite elements, modes, [m/N]"]
 
     @property
@@ -89,7 +89,7 @@ def modes_of(
         float(inertia[0, 0]),
         _centre(inertia),
         (float(inertia[3, 3]), float(inertia[4, 4]), float(inertia[5, 5])),
-        found.free_count,
+        found.free.shape[1],
         (float(inertia[3, 4]), float(inertia[3, 5]), float(inertia[4, 5])),
         tuple(seat.name for seat in box.suspension),
         digest(box, bearing),
@@ -98,7 +98,12 @@ def modes_of(
     loads = stacked(body, names).T @ zone
     exact = float(loads @ body.bent(loads[:, None])[:, 0])
     return Built(
-        modes, body, len(tetrahedra.elements), body.stiffness.shape[0], (exact, modes.yielding(zone, zone))
+        modes,
+        body,
+        len(tetrahedra.elements),
+        body.stiffness.shape[0],
+        np.moveaxis(found.free[body.surface.unknowns], 2, 0),
+        (exact, modes.yielding(zone, zone)),
     )
 
 

@@ -10,6 +10,7 @@ from typing import Annotated as A
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csc_matrix, spmatrix
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
@@ -27,6 +28,17 @@ _PASSES = 8
 
 
 @dataclass(frozen=True)
+class Surface:
+    """Skin of a meshed body: flat triangles between the corners of its tetrahedra."""
+
+    places: A[Float, "shape [corner, 3], [m]"]
+    triangles: A[NDArray[np.int64], "shape [triangle, 3], corners, anticlockwise as seen from outside"]
+    unknowns: A[
+        NDArray[np.int64], "shape [corner, 3], where x, y and z of each stand in a motion of the body"
+    ]
+
+
+@dataclass(frozen=True)
 class Elastic:
     """Matrices of a free body, and what is read off its motion."""
 
@@ -39,6 +51,7 @@ class Elastic:
         "and axial displacement around the raceway, averaged along the rollers",
     ]
     seats: A[dict[str, Float], "name -> shape [3, unknown], displacement of a sensor or spring"]
+    surface: Surface
 
     @property
     def rigid_mass(self) -> Float:
@@ -155,7 +168,19 @@ def elastic_body(box: Box, bearing: Bearing, mesh: Mesh) -> Elastic:
         _rigid_motion(places, axis),
         _raceway(skfem, body, basis.elem, bearing),
         {seat.name: _at(seat, places, axis) for seat in (*box.sensors, *box.suspension)},
+        _surface(body, basis.nodal_dofs.T),
     )
+
+
+def _surface(body: Any, unknowns: NDArray[np.int64]) -> Surface:
+    outside = body.boundary_facets()
+    faces = body.facets[:, outside]
+    inner = body.t[:, body.f2t[0, outside]].sum(axis=0) - faces.sum(axis=0)
+    first, second, third, behind = (body.doflocs[:, each].T for each in (*faces, inner))
+    inwards = np.einsum("fi,fi->f", np.cross(second - first, third - first), behind - first) > 0.0
+    faces[:, inwards] = faces[::-1, inwards]
+    used, triangles = np.unique(faces, return_inverse=True)
+    return Surface(body.doflocs[:, used].T, triangles.reshape(3, -1).T, unknowns[used])
 
 
 def _curved(skfem: Any, mesh: Mesh) -> Any:

@@ -10,7 +10,9 @@ import numpy as np
 from beardyn_core.arrays import Float
 
 WAVES = 8  # most waves around a raceway
+RESIDUAL_WAVES = 3  # around a row, of the loads that residual modes answer
 FIELDS = ("radial", "tangential", "axial")
+_DEPENDENT = 1e-8  # of the largest: directions that other loads have given already
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,16 +54,38 @@ class Modes:
         )
 
     def below(self, highest: float) -> Modes:
-        """Leave out free modes above a frequency [Hz]; residual modes stay, so that the rest still yields."""
-        kept = (self.frequency <= highest) | (np.arange(len(self.frequency)) >= self.free_count)
+        """Condense what lies above a frequency [Hz] to residual modes with the same static bending.
+
+        The loads are those that residual modes of a table answer: on the raceways with up to
+        `RESIDUAL_WAVES` waves around, thrust, and at the seats.
+        """
+        kept = (self.frequency <= highest) & (np.arange(len(self.frequency)) < self.free_count)
+        squares = (2.0 * np.pi * self.frequency[~kept]) ** 2
+        static = self._loads()[~kept] / squares[:, None]
+        static = static[:, np.abs(static).max(axis=0, initial=0.0) > 0.0]
+        turn, size, _ = np.linalg.svd(static / np.linalg.norm(static, axis=0), full_matrices=False)
+        turn = turn[:, size > _DEPENDENT * size.max(initial=0.0)]
+        turn = turn @ np.linalg.eigh(turn.T @ (squares[:, None] * turn))[1]
+        mix = np.zeros((len(kept), turn.shape[1]))
+        mix[~kept] = turn
+        count = int(np.count_nonzero(kept))
+        return replace(self._of(np.concatenate([np.eye(len(kept))[:, kept], mix], axis=1)), free_count=count)
+
+    def _of(self, mix: Float) -> Modes:
+        """Mix modes to others with unit modal mass, shape [mode, new]."""
         return replace(
             self,
-            frequency=self.frequency[kept],
-            damping_ratio=self.damping_ratio[kept],
-            raceway=self.raceway[kept],
-            seats={name: shape[kept] for name, shape in self.seats.items()},
-            free_count=int(np.count_nonzero(kept[: self.free_count])),
+            frequency=np.sqrt(self.frequency**2 @ mix**2),
+            damping_ratio=self.damping_ratio @ mix**2,
+            raceway=np.tensordot(mix.T, self.raceway, 1),
+            seats={name: mix.T @ shape for name, shape in self.seats.items()},
         )
+
+    def _loads(self) -> Float:
+        """Give the forces of unit loads on raceways and seats on each mode, shape [mode, load]."""
+        series = [0, *range(1, RESIDUAL_WAVES + 1), *range(WAVES + 1, WAVES + RESIDUAL_WAVES + 1)]
+        radial = self.raceway[:, :, 0, series].reshape(len(self.frequency), -1)
+        return np.concatenate([radial, self.raceway[:, :, 2, 0], *self.seats.values()], axis=1)
 
     def yielding(self, one: Float, other: Float) -> float:
         """Compute how far the place of a unit load yields under another, without rigid motion, [m/N].

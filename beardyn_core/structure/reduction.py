@@ -25,7 +25,7 @@ class Reduced:
 
     frequency: A[Float, "shape [mode], [Hz]"]
     seen: A[Float, "shape [read, mode], what the functionals read of each, [1/sqrt(kg)]"]
-    free_count: A[int, "of them are free modes, the first"]
+    free: A[Float, "shape [unknown, free mode], shapes of the free modes, which are the first"]
 
 
 def reduced(body: Elastic, names: tuple[str, ...], highest: float, waves: int) -> Reduced:
@@ -59,7 +59,7 @@ def reduced(body: Elastic, names: tuple[str, ...], highest: float, waves: int) -
     return Reduced(
         np.concatenate([frequency, np.sqrt(squares) / (2.0 * np.pi)]),
         read @ np.concatenate([shapes, residual], axis=1),
-        len(frequency),
+        shapes,
     )
 
 

@@ -4,6 +4,8 @@
 module   responsibility
 ======== =====================================================
 study    the same questions put to finite elements and to modes
+number   how many modes are enough, and what they cost
+pictures those of the page
 page     docs/structure.md
 ======== =====================================================
 """

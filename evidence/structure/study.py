@@ -16,6 +16,7 @@ from beardyn_core.config import load_bearing, load_box
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.build import Built, load_zone, modes_of
 from beardyn_core.structure.elastic import factored, stacked
+from beardyn_core.structure.modes import Modes
 
 BOX = "high_speed"
 MESHES = (0.036, 0.025, 0.018)  # largest edges, [m]
@@ -55,9 +56,10 @@ def meshes() -> Iterator[Meshed]:
         yield Meshed(mesh, modes_of(box, bearing, mesh=mesh, highest=HIGHEST))
 
 
-def _unit(built: Built, name: str, axis: int) -> Float:
-    names = list(built.modes.seats)
-    found = np.zeros(built.modes.reads.shape[0])
+def unit(modes: Modes, name: str, axis: int) -> Float:
+    """Give what reads a seat along an axis, [share of each functional]."""
+    names = list(modes.seats)
+    found = np.zeros(len(modes.reads))
     found[len(found) - 3 * (len(names) - names.index(name)) + axis] = 1.0
     return found
 
@@ -66,7 +68,7 @@ def answers(built: Built) -> Answer:
     """Shake a box by its raceways, with finite elements and with modes; structural damping in both."""
     body, modes = built.body, built.modes
     read = stacked(body, tuple(modes.seats))
-    zone, vertical = load_zone(len(read)), _unit(built, "axlebox_top", 2)
+    zone, vertical = load_zone(len(read)), unit(modes, "axlebox_top", 2)
     load = read.T @ zone
     balanced = load - body.mass @ body.rigid @ np.linalg.solve(body.rigid_mass, body.rigid.T @ load)
     exact = []
