@@ -44,7 +44,8 @@ def with_modes(choice: StepChoice, scene: Scene, band: float) -> StepChoice:
     if highest == 0.0:
         return choice
     steps = max(choice.steps_per_sample, math.ceil(STEPS_PER_TURN * highest / WAVEFORM_RATE))
-    turn = f"modes of the box up to {1e-3 * highest:.3g} kHz have {steps * WAVEFORM_RATE / highest:.1f} steps a turn"
+    turns = steps * WAVEFORM_RATE / highest
+    turn = f"modes of the box up to {1e-3 * highest:.3g} kHz have {turns:.1f} steps a turn"
     return StepChoice(steps, turn if steps > choice.steps_per_sample else f"{choice.reason}; {turn}")
 
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 import yaml
 
 from beardyn_core.choice import explain_scene, load_scene, scene_from_text
+from beardyn_core.choice.usual_step import with_modes
 from beardyn_core.config import scene_text
 from beardyn_core.errors import InputError
+from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.scene.scene import Scene
 
 AUTO = {"steps_per_sample": "auto"}
@@ -87,3 +90,18 @@ def test_a_fast_sensor_keeps_what_friction_needs() -> None:
     )
     assert alone.numerics.steps_per_sample == 11
     assert heard.numerics.steps_per_sample == 12
+
+
+BOX = {"preset": "standard", "structure": {"kind": "modes", "table": "high_speed"}}
+
+
+@pytest.mark.parametrize(("steps", "needed", "turns"), [(1, 2, "5.1"), (4, 4, "10.2")])
+def test_modes_of_the_box_get_five_steps_a_turn(steps: int, needed: int, turns: str) -> None:
+    """The highest free one below 10 kHz; none where none is heard, the box is rigid or the tier has none."""
+    boxed, given = scene({}, effects=BOX, mounting=SUSPENDED), StepChoice(steps, "as given")
+    found = with_modes(given, boxed, 1e4)
+    assert found.steps_per_sample == needed
+    assert f"modes of the box up to 10 kHz have {turns} steps a turn" in found.reason
+    assert with_modes(given, boxed, 100.0) == given
+    assert with_modes(given, scene({}), 1e4) == given
+    assert with_modes(given, replace(boxed, tier="lumped"), 1e4) == given

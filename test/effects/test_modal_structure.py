@@ -66,7 +66,7 @@ def rms(signals: Float) -> Float:
 
 
 def test_two_waves_of_slip_are_enough(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Against all six: push on the modes 0.9 %, forces 0.6 %, seats 5.5 % (0.5 dB) after 4 ms (found).
+    """Against all six: push on the modes 0.9 %, forces 0.8 %, seats 5.5 % (0.5 dB) after 4 ms (found).
 
     What is left is friction of a box that is struck; later on, where friction sticks decides.
     """
