@@ -121,8 +121,8 @@ def without(scene: Scene) -> Scene:
 
 def apart(one: Float, other: Float, highest: float = np.inf) -> float:
     """Give the largest difference of levels in bands from `LOWEST_BAND` to `highest` [Hz], [dB]."""
-    compared = (BAND_CENTRES > 0.99 * LOWEST_BAND) & (BAND_CENTRES <= 1.01 * highest)
-    return float(np.max(np.abs(one - other)[compared]))
+    low, high = np.searchsorted(BAND_CENTRES, (0.99 * LOWEST_BAND, 1.01 * highest))
+    return float(np.max(np.abs(one - other)[low:high]))
 
 
 def first(modes: Modes, count: int) -> Modes:

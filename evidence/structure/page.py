@@ -40,7 +40,7 @@ Everything here is of the box `{box}`.
 ![The first eight modes](pictures/structure_modes.png)
 
 The surface in its first eight free modes, far exaggerated, blue where it rests and red where it goes farthest
-(third mesh). `beardyn structure {box} --view` shows them in motion, `--save modes.rrd` keeps that for rerun.
+(first mesh). `beardyn structure {box} --view` shows them in motion, `--save modes.rrd` keeps that for rerun.
 
 ## Three meshes
 
@@ -78,17 +78,17 @@ NUMBER = """
 `highest_Hz` of the effect leaves out the free modes above it: they and the residual modes of the table become
 residual modes with the same static bending. Beside all modes of the shipped table: what the raceway yields,
 the largest change of the sensor's answer at 800 frequencies from 0.2 to 8 kHz, and of third octaves, all
-axes, from {lowest:g} Hz up in a run of `cup_spall` in this box (tier `full`, {duration:g} s of which the first {settled:g} s
-are left out, no sensor noise).
+axes, from {lowest:g} Hz up in a run of `cup_spall` in this box (tier `full`, {duration:g} s, of which the
+first {settled:g} s are left out, no sensor noise).
 
 | kHz | free + residual | yield | answer dB | run to 8 kHz dB | run to 10 kHz dB | energy | momentum |
 |--:|--:|--:|--:|--:|--:|--:|--:|
 {rows}
 
 The same run with the end play a nanometre wider changes by {luck:.2f} dB, in a rigid box by {rigid:.1f} dB.
-Answer and third octaves stay **within 1 dB to 8 kHz from {enough} kHz upwards ({free} free modes)**, third octaves
-to 10 kHz from {whole} kHz upwards ({whole_free}). *Energy* is the residual of the audit over the losses,
-*momentum* the largest residual in a block of 20 ms over load times time.
+Answer and third octaves stay **within 1 dB to 8 kHz from {enough} kHz upwards ({free} free modes)**, third
+octaves to 10 kHz from {whole} kHz upwards ({whole_free}). *Energy* is the residual of the audit over the
+losses, *momentum* the largest residual in a block of 20 ms over load times time.
 
 ![Modes left out](pictures/structure_number.png)
 
@@ -175,7 +175,7 @@ def main() -> int:
     coarse, middle, fine = found
     answer = answers(coarse.built)
     draw_answer(answer)
-    draw_modes(fine.built)
+    draw_modes(coarse.built)
     tenth = [each.built.modes.frequency[:10] for each in (middle, fine)]
     modes = fine.built.modes
     text = HEAD.format(box=BOX) + "\n".join(row(each) for each in found) + "\n"

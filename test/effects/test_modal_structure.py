@@ -21,7 +21,7 @@ from beardyn_core.model.structure import ModalBody, body_of, structure_params
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.structure.box import Box
-from beardyn_core.structure.build import digest
+from beardyn_core.structure.build import digest, load_zone
 from beardyn_core.structure.modes import WAVES, Modes
 from beardyn_core.structure.table import ROWS, read_table
 from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
@@ -285,3 +285,16 @@ def test_python_is_told_of_a_box_that_is_not_that_of_the_table() -> None:
 def test_a_sensor_sits_on_the_nearest_seat() -> None:
     beside = replace(Accelerometer(), position=(0.002, 0.098, 0.0))
     assert seat_of(beside, table()) == "axlebox_cover"
+
+
+@pytest.mark.parametrize("highest", [500.0, 4000.0, 1e6])
+def test_modes_left_out_keep_the_static_bending(highest: float) -> None:
+    modes = table()
+    fewer = modes.below(highest)
+    zone = load_zone(len(modes.reads))
+    assert fewer.yielding(zone, zone) == pytest.approx(modes.yielding(zone, zone), rel=1e-3)
+    seats = np.eye(len(zone))[-3 * len(modes.seats) :]
+    found = [fewer.yielding(seat, seat) / modes.yielding(seat, seat) for seat in seats]
+    assert found == pytest.approx(np.ones(len(found)), rel=1e-6)
+    assert len(fewer.frequency) <= len(modes.frequency)
+    assert (fewer.frequency[fewer.free_count :] > highest).all() or highest > modes.frequency.max()
