@@ -6,8 +6,6 @@ import math
 
 from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.integrate.friction_steps import StepChoice, usual_steps
-from beardyn_core.integrate.step_choice import AUDIBLE_BAND
-from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 from beardyn_core.scene.tier import TIERS
@@ -32,14 +30,18 @@ def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
         from beardyn_core.choice.fast_step import fast_steps  # brings the model along
 
         found = fast_steps(scene, long=not outside_load)
-    return served(with_modes(found, scene, AUDIBLE_BAND), scene.sensors)
+    return served(with_modes(found, scene), scene.sensors)
 
 
-def with_modes(choice: StepChoice, scene: Scene, band: float) -> StepChoice:
-    """Refine a choice of the step where the modes of the box up to ``band`` [Hz] need it."""
+def with_modes(choice: StepChoice, scene: Scene, band: float | None = None) -> StepChoice:
+    """Refine a choice of the step where modes of the box up to ``band`` [Hz], usually all audible, need it."""
     modes = None if "structure" in scene.missing_effects else modes_of_effects(scene.effects)
     if modes is None:
         return choice
+    from beardyn_core.integrate.step_choice import AUDIBLE_BAND  # brings the model along
+    from beardyn_core.model.build import WAVEFORM_RATE
+
+    band = AUDIBLE_BAND if band is None else band
     highest = max((float(each) for each in modes.frequency[: modes.free_count] if each <= band), default=0.0)
     if highest == 0.0:
         return choice

@@ -58,6 +58,7 @@ stage_timer       where the time of a step goes
 balanced_roller   a roller in balance, its laminae as springs (quasistatic tier)
 kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
 kinematic_rings   rings of the fast tiers on the springs of all rollers
+kinematic_bending bending of the axlebox in the fast tiers
 spring_roller     a roller as one spring (lumped tier)
 ================= ============================================================
 """

@@ -20,5 +20,6 @@ structure        bending of the axlebox: rings or modes of a table
 heat             nodes of the thermal network and where losses go
 build            a scene to parameters; how much of a spring a step takes in
 tier_parameters  parameters of the tiers without roller dynamics
+tier_bending     bending of the axlebox in these tiers
 ================ ===========================================================
 """

@@ -29,7 +29,7 @@ from test.effects.test_structure_effect import frictionless, looked_at
 from test.kernels.rig import LOAD_80_KN, Float, Rig, constant_load, scene_with, started
 from test.kernels.test_step import shaken
 
-BOXES = ("freight_adapter", "freight_y25", "high_speed", "metro")
+BOXES = ("freight_adapter", "freight_box", "high_speed", "metro")
 MODES = replace(EffectSet(), structure=ModalStructure("high_speed"))
 
 
