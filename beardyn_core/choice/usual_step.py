@@ -34,7 +34,7 @@ def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
 
 
 def with_modes(choice: StepChoice, scene: Scene, band: float | None = None) -> StepChoice:
-    """Refine a choice of the step where modes of the box up to ``band`` [Hz], usually all audible, need it."""
+    """Refine a choice of the step where modes of the box to ``band`` [Hz], or all audible ones, need it."""
     modes = None if "structure" in scene.missing_effects else modes_of_effects(scene.effects)
     if modes is None:
         return choice

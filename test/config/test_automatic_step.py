@@ -97,7 +97,7 @@ BOX = {"preset": "standard", "structure": {"kind": "modes", "table": "high_speed
 
 @pytest.mark.parametrize(("steps", "needed", "turns"), [(1, 2, "5.1"), (4, 4, "10.2")])
 def test_modes_of_the_box_get_five_steps_a_turn(steps: int, needed: int, turns: str) -> None:
-    """The highest free one below 10 kHz; none where none is heard, the box is rigid or the tier has none."""
+    """The highest free one below 10 kHz; none where none is heard or the box is rigid."""
     boxed, given = scene({}, effects=BOX, mounting=SUSPENDED), StepChoice(steps, "as given")
     found = with_modes(given, boxed, 1e4)
     assert found.steps_per_sample == needed
