@@ -156,7 +156,7 @@ class LoadFeed:
             while not twin.covered():
                 twin.feed(self._line.go_on(held))
             return 0.0
-        begin = time.monotonic()
+        waited = 0.0  # to hand over what is there is work, not waiting
         while not twin.covered():
             part = self.gate.take_through(twin.wanted_ns + self.begin_ns)
             if part is not None:
@@ -169,7 +169,7 @@ class LoadFeed:
                 if twin.covered():
                     break
                 return None
-            timeout = self._options.load_timeout
+            timeout, begin = self._options.load_timeout, time.monotonic()
             if not self._load_comes(
                 lambda: self.gate.waiting > 0 or self.gate.ended or bool(self.gate.failure), timeout
             ):
@@ -178,7 +178,8 @@ class LoadFeed:
                     f"t = {(twin.wanted_ns + self.begin_ns) / 1e9:.3f} s is missing{self._last_refusal()}",
                     EXIT_LOAD_LOST,
                 )
-        return time.monotonic() - begin - self.slept_s
+            waited += time.monotonic() - begin
+        return waited - self.slept_s
 
     def _load_comes(self, ready: Callable[[], bool], timeout: float) -> bool:
         """Wait for load; False after `timeout` seconds (0: for ever) that no knowing pause explains."""

@@ -62,7 +62,7 @@ def fast_steps(scene: Scene, long: bool = True) -> StepChoice:
 
     Steps longer than a waveform sample end the band of the waveforms at 0.4 of the step rate. A healthy
     bearing under a load without strikes has nothing to say beyond (docs/model.md has the levels); edges of
-    faults, strikes of wheel and rail, measured loads and accelerometers with a resonance of their own do.
+    faults, strikes of wheel and rail, measured loads, background forces and boxes that bend do.
     The scene's own numerics do not matter.
     """
     limits = TIERS[scene.tier]

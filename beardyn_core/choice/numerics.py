@@ -137,7 +137,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
     loads, scene = evidence.loads, evidence.scene
     band = AUDIBLE_BAND if vibration else 0.0
     if tier != "full":
-        there = replace(scene, tier=tier)
+        there = replace(scene, tier=tier, effects=effects)
         found = fast_steps(there, long=False)
         return served(with_modes(found, there, band), scene.sensors)
     radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]

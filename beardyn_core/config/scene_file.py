@@ -351,6 +351,11 @@ class SceneFile(FileModel):
             raise NounError("structure", problems) from error
         problems += box_problems(self.mounting.model_fields_set, mounting, taken, modes.name)  # type: ignore[attr-defined]
         for index, sensor in enumerate(given["sensors"]):
+            if sensor.measured_paths:
+                twice = (
+                    "the box rings by its modes: a measured path behind them would hear each of them twice"
+                )
+                problems.append(Problem(f"{twice}; leave one out", ("sensors", index, "measured_paths")))
             try:
                 seat_of(sensor, modes)
             except InputError as error:

@@ -52,10 +52,11 @@ def _lines(
     random: np.random.Generator,
 ) -> Float:
     force = np.zeros_like(angle)
+    turning = np.minimum(np.abs(speed) / (2.0 * pi), 1.0)  # nothing meshes at rest
     for order, amplitude in orders:
         phase = random.uniform(0.0, 2.0 * pi)
         heard = order * np.abs(speed) * step < 0.8 * pi
-        force += np.where(heard, amplitude * np.cos(order * angle + phase), 0.0)
+        force += np.where(heard, turning * amplitude * np.cos(order * angle + phase), 0.0)
     return force
 
 

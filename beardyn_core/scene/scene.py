@@ -154,6 +154,9 @@ class Scene:
                 forces[f"operation.steps[{index}].force_kN"] = step.force
         loads = {key: load_doubts(self.bearing, force)[1] for key, force in forces.items()}
         told = [f"{key}: {doubt}" for key, doubt in loads.items() if doubt]
+        effects = self.effects
+        if effects.structure and not (effects.traction or effects.rib or effects.cage):
+            told.append("effects: structure without cage, rib and traction; `preset: standard` brings them")
         return (*told, *doubts_about(self.defects, self.bearing))
 
     @property

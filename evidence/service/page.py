@@ -55,7 +55,7 @@ bearing:
 - `drive`: gear mesh and motor orders. `other_bearing`: rollers that pass in the bearing at the other end
   of the axle, and strokes of its fault. `knocks`: a Poisson process of lognormal impulses. Their levels
   are **assumed**; no published ones were found. All act vertically, and lines are as strong at every
-  speed.
+  speed above a turn a second.
 - `pickup`: side bands of the inverter's switching, in millivolts in the sensors' cables; levels assumed.
 
 A background with forces samples the load at 20 kHz instead of 2 or 10, and needs steps of a sample or
@@ -71,8 +71,8 @@ Parts:
 SERVICE = """
 ## Service scenes
 
-Vertical reading; rms, m/s². The monitor is the shipped one; its analyses by verdict. The box is rigid in
-these scenes: what they hold for is the background, not yet the ringing of a box.
+Vertical reading; rms, m/s². The monitor is the shipped one; its analyses by verdict. The box has the
+modes of its class (effect `structure`), and the load's background is there.
 """
 
 

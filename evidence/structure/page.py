@@ -85,7 +85,7 @@ first {settled:g} s are left out, no sensor noise).
 |--:|--:|--:|--:|--:|--:|--:|--:|
 {rows}
 
-The same run with the end play a nanometre wider changes by {luck:.2f} dB, in a rigid box by {rigid:.1f} dB.
+The same run with the end play a nanometre wider differs by {luck:.2f} dB, one in a rigid box by {rigid:.1f}.
 Answer and third octaves stay **within 1 dB to 8 kHz from {enough} kHz upwards ({free} free modes)**, third
 octaves to 10 kHz from {whole} kHz upwards ({whole_free}). *Energy* is the residual of the audit over the
 losses, *momentum* the largest residual in a block of 20 ms over load times time.

@@ -177,7 +177,7 @@ ANCHORS = (
     *(
         Anchor(
             TOPIC,
-            f"way between entry and exit over the width of a cup spall, 4 to 15 mm, {speed:g} km/h",
+            f"slope of the way from entry to exit over the width of a cup spall, 4 to 15 mm, {speed:g} km/h",
             1.0,
             "",
             SAWALHI,
