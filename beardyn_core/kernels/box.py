@@ -1,7 +1,7 @@
 """The axlebox, with its centre of mass and its springs at the bearing centre or beside it.
 
 The springs act at seats that give way when the box bends: as much as the bearing centre would have to move
-for the same stretch, which `structure.show_seats` writes into the work space.
+for the same stretch, which `structure` and `kinematic_bending` write into the work space.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 
 import numpy as np
@@ -101,8 +102,9 @@ def share_beside_the_model(scene: Scene) -> float:
     assert expected | {LOAD, OBSERVE, SINKS, REST} <= set(found)
     assert (KERNEL in found) == (scene.tier == "lumped")
     whole = sum(found.values())
-    assert summary.wall_time < whole < began_to_end
-    assert ends[-1] - ends[0] < whole
+    assert whole < began_to_end
+    if max(summary.wall_time, ends[-1] - ends[0]) > whole:
+        return math.inf  # the machine stood still between two stages
     return (found[SINKS] + found[REST]) / whole
 
 
