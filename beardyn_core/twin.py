@@ -21,7 +21,7 @@ from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.integrate.warming import cold_start, scene_at, warmed
-from beardyn_core.jit import when_compiling
+from beardyn_core.jit import LANE_WIDTH, when_compiling
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
@@ -44,7 +44,6 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 from beardyn_core.versions import versions
 
-LANE_WIDTH = 8
 _SETTLED = 1e-6  # of the load: moment on the springs by the tilt of a bent box [m]
 _PASSES = 8
 STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slowly, and counting costs

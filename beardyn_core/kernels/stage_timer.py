@@ -53,6 +53,19 @@ def _read_counter(builder: Any) -> Any:
     return builder.uitofp(count, ir.DoubleType())
 
 
+def _await(builder: Any, value: Any) -> None:
+    """Do nothing, but not before the value is ready: in pairs, for which every x86-64 has registers."""
+    pairs = [value]
+    if isinstance(value.type, ir.VectorType):
+        pair = ir.VectorType(ir.IntType(32), 2)
+        pairs = [
+            builder.shuffle_vector(value, value, ir.Constant(pair, [lane, lane + 1]))
+            for lane in range(0, value.type.count, 2)
+        ]
+    for part in pairs:
+        builder.asm(ir.FunctionType(ir.VoidType(), [part.type]), "", "x", [part], True)
+
+
 @_typed_intrinsic
 def _mark(_typing: Any, timers: Any, stage: Any, result: Any) -> Any:
     """Emit `mark_result` with an unlikely branch, which keeps the registers for the other side."""
@@ -64,8 +77,7 @@ def _mark(_typing: Any, timers: Any, stage: Any, result: Any) -> Any:
         row = builder.load(builder.gep(data, [_INT(_OWN_ROW)]))
         with cgutils.if_unlikely(builder, builder.fcmp_ordered(">", row, ir.Constant(_DOUBLE, 0.0))):
             if isinstance(result, VectorType | types.Float):
-                needs = ir.FunctionType(ir.VoidType(), [args[2].type])
-                builder.asm(needs, "", "x", [args[2]], True)  # nothing, but its operand must be ready
+                _await(builder, args[2])
             now = _read_counter(builder)
             last = builder.gep(data, [_INT(_OWN_LAST)])
             stage_slot = builder.add(builder.fptosi(row, _INT), args[1])

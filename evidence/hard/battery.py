@@ -23,9 +23,9 @@ import numpy as np
 import beardyn_core
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.tiers import TIERS
+from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.twin import LANE_WIDTH
 from evidence.hard.case import HardCase
 from evidence.hard.case_scene import scene_of
 from evidence.hard.run import keep, run_case

@@ -10,12 +10,12 @@ from beardyn_core.integrate.start import initial_state
 from beardyn_core.integrate.state import Output, work_space
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.status import assess, chatter_index
+from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters, spring_time
 from beardyn_core.model.layout import ENERGY_TERMS, PENETRATION, SIGNAL_CHANNELS
 from beardyn_core.scene.scene import Scene
-from beardyn_core.twin import LANE_WIDTH
 from evidence.hard.case import Point
 from evidence.hard.watch import Measures
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.status import chatter_index
+from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import (
     ANGLE,
@@ -28,7 +29,7 @@ from beardyn_core.model.layout import (
 )
 from beardyn_core.observe.block import Block
 from beardyn_core.scene.scene import Scene
-from beardyn_core.twin import LANE_WIDTH, Snapshot, Twin
+from beardyn_core.twin import Snapshot, Twin
 
 Float = NDArray[np.float64]
 

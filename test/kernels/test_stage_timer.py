@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import platform
+import subprocess
+import sys
+from pathlib import Path
 from typing import Any
 
 import numba
@@ -120,3 +124,36 @@ def body(dispatcher: Any, *arguments: Any) -> list[str]:
     compiled(*arguments)
     listing = "\n".join(compiled.inspect_asm().values())
     return [line.split()[0] for line in listing.splitlines() if line.startswith("\t") and line[1] != "."]
+
+
+_MARKED = """
+import numpy as np
+from beardyn_core.jit import entry
+from beardyn_core.kernels.lanes import Lanes
+from beardyn_core.kernels.stage_timer import mark_result
+from beardyn_core.model.stages import FILM, new_timers
+
+@entry
+def marked(lanes, values, timers):
+    mark_result(timers, FILM, lanes.load(values, 0, 0))
+
+marked(Lanes(8), np.ones((1, 1, 8)), new_timers())
+print("marked")
+"""
+
+
+@pytest.mark.parametrize("processor", ["x86-64", "x86-64-v3"])
+def test_results_wider_than_a_register_can_be_marked(processor: str, tmp_path: Path) -> None:
+    """A processor without AVX-512 holds eight lanes in two registers or four."""
+    environment = {
+        **os.environ,
+        "NUMBA_CPU_NAME": processor,
+        "NUMBA_CPU_FEATURES": "",
+        "BEARDYN_CACHE_DIR": str(tmp_path),
+    }
+    source = tmp_path / "marked.py"
+    source.write_text(_MARKED)
+    done = subprocess.run(
+        [sys.executable, source], env=environment, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "marked\n", "")
