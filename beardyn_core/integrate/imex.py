@@ -107,7 +107,7 @@ def advance(lanes, state, work, loads, output, p):
     boundaries; ``work``: a `WorkSpace`.
     """
     rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
-    rings, sums, wrenches, box, bend = work
+    rings, sums, wrenches, box, bend, _ = work
     signals, audit = output.signals, output.audit
     align_stack(lanes)
     steps = signals.shape[0]

@@ -40,9 +40,8 @@ _ORBIT_FIELDS = VELOCITY + 2
 def advance_lumped(lanes, state, work, loads, output, p):
     """Advance the lumped tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    The energy balance is not kept. The first page of the work space's rings is that of
-    `kernels.kinematic_rings`. The trend of the rollers [trend, block + TREND_EXTRAS, 1, lane] has the loads,
-    from which `show_lumped` makes the rollers.
+    The energy balance is not kept. The trend of the rollers [trend, block + TREND_EXTRAS, 1, lane] has the
+    loads, from which `show_lumped` makes the rollers.
     """
     rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
     bending = p.bending
@@ -53,7 +52,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
     begin_advance(rollers)
     direction = cage_direction(bodies)
     losses = (0.0, 0.0)
-    response = work.rings[0]
+    response = work.response
     for step in range(steps):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time

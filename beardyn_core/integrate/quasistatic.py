@@ -131,8 +131,7 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
 def advance_quasistatic(lanes, state, work, loads, output, p):
     """Advance the quasistatic tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    The energy balance is not kept. The first page of the work space's rings is that of
-    `kernels.kinematic_rings`.
+    The energy balance is not kept.
     """
     rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
     bending = p.bending
@@ -143,7 +142,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
     begin_advance(rollers)
     direction = cage_direction(bodies)
     losses = (0.0, 0.0)
-    response = work.rings[0]
+    response = work.response
     for step in range(steps):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time

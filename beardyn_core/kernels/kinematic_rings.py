@@ -45,7 +45,7 @@ def store_stiffness(lanes, sums, stiff):
 def spring_matrix(sums, direction, work, p):
     """Work out the tangent stiffness of all rollers against displacement and tilt of the cone, world axes.
 
-    ``sums`` [1, 1, SUM_FIELDS, lane]: with what `store_stiffness` has stored; ``work`` [3, 13, lane]
+    ``sums`` [1, 1, SUM_FIELDS, lane]: with what `store_stiffness` has stored; ``work`` [3, 5, 5]
     gets the matrix of x, y, z, tilt about x and about z at ``STIFFNESS``.
     """
     for i in range(5):
