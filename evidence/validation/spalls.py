@@ -198,6 +198,7 @@ ANCHORS = (
             tolerance=0.1,
             misses=POCKETS if speed < 100.0 else "",
             slow=True,
+            measured=True,
         )
         for speed in BOTH
     ),

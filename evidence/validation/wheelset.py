@@ -41,6 +41,15 @@ LINES = (
     "Vibration characteristics and PSD of axle boxes of high-speed trains, Noise Vib. Control 2024 (6): five "
     "Chinese lines, from the abstract"
 )
+P2 = (
+    "Abnormal vibration of axle boxes above 350 km/h, Adv. Mech. Eng. 2025, 10.1177/16878132251320693, abstract: "
+    "measured, mainly around 40 Hz, where the eccentricity of wheels meets the P2 resonance"
+)
+SQUATS = (
+    "Molodova, Li, Nunez, Dollevoet 2013, IEEE ITSC, 1316, abstract: measured power of axlebox acceleration "
+    "over squats of Dutch track; 1060 to 1160 Hz, too, where our rail on spread seats has no mode"
+)
+SQUATS_HZ = 300.0
 SENSOR_HEIGHT = 0.17
 SECONDS, SETTLED = 4.0, 0.5
 FREIGHT = replace(Mounting(), journal_mass=675.0, box_mass=80.0)
@@ -136,22 +145,42 @@ def first_torsion() -> float:
     return float(torsion(half).frequency[0])
 
 
-def hardest_wave() -> float:
-    """Return where waves of the wheel meet a resonance of emu_300 above 400 Hz: peak of the force, [Hz]."""
-    vehicle = quarter_vehicle(RUNS[300].operation, Mounting())
+def wave_peaks(speed_kmh: int, low: float, high: float) -> list[tuple[float, float]]:
+    """List the peaks of the wheel-rail force over waves of wheel or rail of a run, [Hz] and [N/m].
+
+    Between two frequencies [Hz], where they are highest first.
+    """
+    vehicle = quarter_vehicle(RUNS[speed_kmh].operation, Mounting())
     assert vehicle.bending is not None
     pushed = np.zeros(len(vehicle.mass))
     pushed[WHEEL], pushed[4:] = 1.0, vehicle.bending.wheel
     pressed = 1.5 * vehicle.static_force ** (1.0 / 3.0) / vehicle.contact_flexibility
-    frequencies = np.arange(400.0, 900.0)
+    frequencies = np.arange(low, high)
     force = []
     for frequency in frequencies:
         omega = 2.0 * np.pi * frequency
         dynamic = vehicle.stiffness + 1j * omega * vehicle.damping - omega**2 * np.diag(vehicle.mass)
         gives = 1.0 / pressed + vehicle.rail.receptance(frequency) + pushed @ np.linalg.solve(dynamic, pushed)
-        force.append(abs(1.0 / gives))
+        force.append(float(abs(1.0 / gives)))
     peaks, _ = find_peaks(force)
-    return float(frequencies[peaks[np.argmax(np.array(force)[peaks])]])
+    return sorted(((float(frequencies[at]), force[at]) for at in peaks), key=lambda peak: -peak[1])
+
+
+def hardest_wave() -> float:
+    """Return where waves of the wheel meet a resonance of emu_300 above 400 Hz: peak of the force, [Hz]."""
+    return wave_peaks(300, 400.0, 900.0)[0][0]
+
+
+def lowest_wave() -> float:
+    """Return where the wheelset of emu_300 bounces on its track: peak of the force below 100 Hz, [Hz]."""
+    found = wave_peaks(300, 15.0, 100.0)
+    return found[0][0] if found else float("nan")
+
+
+def wave_of_squats() -> float:
+    """Return the peak of the force of passenger_coach that is next to 300 Hz, [Hz]."""
+    found = [frequency for frequency, _ in wave_peaks(120, 150.0, 900.0)]
+    return min(found, key=lambda frequency: abs(frequency - SQUATS_HZ)) if found else float("nan")
 
 
 def standard_level(low: float, high: float) -> float:
@@ -209,6 +238,28 @@ ANCHORS = (
         POLYGONS,
         hardest_wave,
         absolute=25.5,
+        measured=True,
+    ),
+    # "around": a tenth of the figure and half as much again for the track, which neither source tells
+    Anchor(
+        "axlebox resonance",
+        "bounce on the track, emu_300",
+        40.0,
+        "Hz",
+        P2,
+        lowest_wave,
+        tolerance=0.15,
+        measured=True,
+    ),
+    Anchor(
+        "axlebox resonance",
+        "peak over squats, passenger_coach",
+        SQUATS_HZ,
+        "Hz",
+        SQUATS,
+        wave_of_squats,
+        tolerance=0.15,
+        measured=True,
     ),
     *(
         Anchor(
@@ -222,6 +273,7 @@ ANCHORS = (
             absolute=14.0,
             misses=SMOOTH_RAIL if (speed, sideways) in MISSES and not worn else "",
             beside=sideways,
+            measured=True,
         )
         for speed, sideways in LEVELS
         for worn in ((False, True) if (speed, sideways) in MISSES else (False,))
