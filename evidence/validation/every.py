@@ -78,19 +78,19 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     ),
     (
         "cage slip measured on rigs (Smith 1962, Harris 1966, Guo and Keller 2020)",
-        "no source found gives slip, load, speed, oil and the inside of a bearing of tapered rollers together",
+        "no source found gives slip, load, speed, oil and the inside of a tapered bearing together",
     ),
     (
         "levels of impacts measured on axleboxes and rigs (Tarawneh and others, Pueblo 1999)",
         "no source found gives level, sensor, bearing and spall together; relations are on docs/impact.md",
     ),
     (
-        "torque of a LM12700 (Zhou and Hoeprich 1991), HM801349 (Cruz et al. 2021), 32208 (Machines 2025, 13, 910)",
-        "measured, but without the viscosity, with a load worked back from a starting torque, without the oil",
+        "torque of a LM12700 (Zhou and Hoeprich 1991), HM801349 (Cruz et al. 2021), 32208 (Machines 13:910)",
+        "measured, but the viscosity, the load (worked back from a starting torque) and the oil are not told",
     ),
     (
         "torque and stiffness of the bearings of a disc cutter (Lubricants 2025, 13, 160, Tables 5 and 6)",
-        "measured from 5 to 60 kN, but the torque is that of breaking loose, and the number of rollers is not told",
+        "measured from 5 to 60 kN, but the torque is that of breaking loose, the number of rollers not told",
     ),
     (
         "ranking of steady temperatures",

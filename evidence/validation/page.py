@@ -75,7 +75,8 @@ def totals(agree: Sequence[bool], held: int) -> str:
     return (
         f"{sum(agree)} of {len(agree)} numbers agree within their tolerance; "
         f"{held} of {len(TRENDS)} published trends are reproduced.\nOf the numbers {len(measured)} were "
-        f"measured; {sum(measured)} of these agree. The others are formulas, catalogue values and other models.\n\n"
+        f"measured; {sum(measured)} of these agree. The others are formulas, catalogue values and other "
+        "models.\n\n"
     )
 
 

@@ -42,8 +42,8 @@ LINES = (
     "Chinese lines, from the abstract"
 )
 P2 = (
-    "Abnormal vibration of axle boxes above 350 km/h, Adv. Mech. Eng. 2025, 10.1177/16878132251320693, abstract: "
-    "measured, mainly around 40 Hz, where the eccentricity of wheels meets the P2 resonance"
+    "Adv. Mech. Eng. 2025, 10.1177/16878132251320693, abstract: axleboxes above 350 km/h were measured to "
+    "shake mainly around 40 Hz, where the eccentricity of wheels meets the P2 resonance"
 )
 SQUATS = (
     "Molodova, Li, Nunez, Dollevoet 2013, IEEE ITSC, 1316, abstract: measured power of axlebox acceleration "
