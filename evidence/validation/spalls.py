@@ -44,8 +44,8 @@ MBA = (
 )
 DYER = "Dyer and Stewart 1978, J. Mech. Des. 100, 229, from memory: 3 for any sound bearing"
 CREST = (
-    "Jain and Bhosle 2022, Int. J. Adv. Technol. Eng. Explor. 9(90): 4.22 to 5.59 of sound ball bearings of a "
-    "motor at four speeds, as quoted by a public review (nebulax, rail_phm)"
+    "Jain and Bhosle 2022, Int. J. Adv. Technol. Eng. Explor. 9(90): 4.22 to 5.59 of sound ball bearings of "
+    "a motor at four speeds, as quoted by a public review (nebulax, rail_phm)"
 )
 TARAWNEH = (
     "Tarawneh and others, University of Texas: rms against spall area of freight axlebox bearings on a rig, "

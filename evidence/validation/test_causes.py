@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from evidence.heat.cases import SUMMER, State
-from evidence.validation.heat import SERVICE_TOLERANCE, grease_celsius
+from evidence.validation import wheelset
+from evidence.validation.heat import FLEET, SERVICE_TOLERANCE, grease_celsius, in_train
 from evidence.validation.rigs import (
     COMBINED_MISSES,
     COMBINED_TOLERANCE,
@@ -84,3 +85,28 @@ def test_a_rigid_cup_little_axial_force_and_the_cold_play_together_load_as_many_
 )
 def test_summer_or_a_smaller_box_warms_the_grease_to_what_is_reported(state: State) -> None:
     assert grease_celsius(320.0, state) == pytest.approx(100.0, abs=SERVICE_TOLERANCE)
+
+
+SHELTERED = (("air_speed", 0.1),)
+IN_TRAIN = {
+    ("first place", 200.0): State("sheltered", thermal=SHELTERED),
+    ("first place", 300.0): State("seals of 0.6 N m", seal_torque=0.6),
+    ("second place", 200.0): State("sheltered, seals of 0.6 N m", seal_torque=0.6, thermal=SHELTERED),
+    ("second place", 300.0): State("seals of 1.2 N m", seal_torque=1.2),
+}
+
+
+@pytest.mark.parametrize(("place", "speed", "air", "coolest", "warmest"), FLEET)
+def test_surroundings_and_seals_bring_boxes_into_the_span_of_the_train_at_one_speed(
+    place: str, speed: float, air: float, coolest: float, warmest: float
+) -> None:
+    assert coolest <= in_train(speed, air, IN_TRAIN[place, speed]) <= warmest
+
+
+def test_smooth_rails_bring_the_level_on_a_chinese_line_to_the_measured_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run = wheelset.RUNS[300]
+    smooth = replace(run.operation.irregularity, short_waves=None)
+    monkeypatch.setitem(wheelset.RUNS, 0, replace(run, operation=replace(run.operation, irregularity=smooth)))
+    assert wheelset.level_in_china(0) == pytest.approx(8.8, rel=wheelset.CHINA_TOLERANCE)

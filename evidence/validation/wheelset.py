@@ -51,11 +51,15 @@ SQUATS = (
 )
 SQUATS_HZ = 300.0
 CHINA = (
-    "Veh. Syst. Dyn. 2019, 58(10), 10.1080/00423114.2019.1645340: rms on the axlebox of a Chinese train at 300 "
-    "km/h, as quoted by a public review (nebulax, rail_phm); the band is not told"
+    "Veh. Syst. Dyn. 2019, 58(10), 10.1080/00423114.2019.1645340: rms on the axlebox of a Chinese train at "
+    "300 km/h, as quoted by a public review (nebulax, rail_phm); the band is not told"
 )
 # Of a level whose band is not told.
 CHINA_TOLERANCE: float = 0.3
+CHINA_MISSES = (
+    "the roughness of a test track by ISO 3095, heard from 300 Hz on: without it ours is 8.6 m/s2, and up to "
+    "300 Hz alone 8.9"
+)
 SENSOR_HEIGHT = 0.17
 SECONDS, SETTLED = 4.0, 0.5
 FREIGHT = replace(Mounting(), journal_mass=675.0, box_mass=80.0)
@@ -220,9 +224,9 @@ def bands_against_the_standard() -> Finding:
     )
 
 
-def level_in_china() -> float:
-    """Return the vertical level of emu_300 at 300 km/h on a Chinese line, 10 to 500 Hz, [m/s^2]."""
-    frequency, up, _ = spectra(300, line="china_ballastless")
+def level_in_china(speed_kmh: int = 300) -> float:
+    """Return the vertical level of a run on a Chinese line instead of its own, 10 to 500 Hz, [m/s^2]."""
+    frequency, up, _ = spectra(speed_kmh, line="china_ballastless")
     return float(np.sqrt(up[(frequency >= 10.0) & (frequency < 500.0)].sum()))
 
 
@@ -305,6 +309,7 @@ ANCHORS = (
         CHINA,
         level_in_china,
         tolerance=CHINA_TOLERANCE,
+        misses=CHINA_MISSES,
         measured=True,
     ),
 )
