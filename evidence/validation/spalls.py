@@ -56,6 +56,10 @@ FEW_PULSES = (
     "the assumed damping of the contacts, 5 us: at 2.5 us, the lower end of its quoted range, every spall "
     "has more than two"
 )
+STRUCK = (
+    "rollers strike the pockets of their cages: without cages it is 4.0, as of noise alone, and no "
+    "background lies under it"
+)
 POCKETS = (
     "rollers strike the pockets of their cages with less than 1 g, and no background covers it: without "
     "cages it is 2.9 (docs/impact.md)"
@@ -221,6 +225,7 @@ ANCHORS = (
             CREST,
             partial(sound_crest, speed),
             absolute=0.7,
+            misses=STRUCK if speed < 100.0 else "",
             slow=True,
             measured=True,
         )
