@@ -84,8 +84,8 @@ FLEET = (
     ("second place", 300.0, 25.0, 59.57, 71.39),
 )
 FLEET_SOURCE = (
-    "Lubricants 2025, 13, 19, Table 1, measured in eight cars of a Chinese high-speed train, as quoted by a "
-    "public review (nebulax, rail_phm); middle and half the span of the cars"
+    "Lubricants 2025, 13, 19, Table 1, measured in eight cars of a Chinese high-speed train, as quoted in "
+    "github.com/bersamin12/nebulax (rail_phm.md); middle and half the span of the cars"
 )
 # a share of the body and half of the wheelset's share of the bogie of emu_300
 BOTH_SPEEDS = (

@@ -45,7 +45,7 @@ MBA = (
 DYER = "Dyer and Stewart 1978, J. Mech. Des. 100, 229, from memory: 3 for any sound bearing"
 CREST = (
     "Jain and Bhosle 2022, Int. J. Adv. Technol. Eng. Explor. 9(90): 4.22 to 5.59 of sound ball bearings of "
-    "a motor at four speeds, as quoted by a public review (nebulax, rail_phm)"
+    "a motor at four speeds, as quoted in github.com/bersamin12/nebulax (rail_phm.md)"
 )
 TARAWNEH = (
     "Tarawneh and others, University of Texas: rms against spall area of freight axlebox bearings on a rig, "
@@ -57,8 +57,8 @@ FEW_PULSES = (
     "has more than two"
 )
 STRUCK = (
-    "rollers strike the pockets of their cages: without cages it is 4.0, as of noise alone, and no "
-    "background lies under it"
+    "rollers strike the pockets of their cages: without cages it is 4.0, just below, as of "
+    "noise alone, and no background lies under it"
 )
 POCKETS = (
     "rollers strike the pockets of their cages with less than 1 g, and no background covers it: without "
