@@ -1,7 +1,8 @@
 """Torque of whole axlebox bearings, and their temperature, as published.
 
 Ours comes from losses by source and the thermal network, `beardyn_core.choice.steady_heat`, with settled
-grease in air of 20 °C; docs/heat.md has the tables.
+grease in air of 20 °C; docs/heat.md has the tables. Those of healthy boxes at 200 and 300 km/h were known
+before the rows of boxes in a train were written.
 """
 
 from __future__ import annotations
@@ -87,7 +88,7 @@ FLEET_SOURCE = (
     "Lubricants 2025, 13, 19, Table 1, measured in eight cars of a Chinese high-speed train, as quoted in "
     "github.com/bersamin12/nebulax (rail_phm.md); middle and half the span of the cars"
 )
-# a share of the body and half of the wheelset's share of the bogie of emu_300
+# an eighth of the body and a quarter of a bogie of emu_300
 BOTH_SPEEDS = (
     "; from 200 to 300 km/h the train's boxes lose 4 K above the air, ours gain 10, and no cause was found "
     "that serves both"
