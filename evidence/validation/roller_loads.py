@@ -3,9 +3,9 @@
 Zhao et al. (2026) ran HS130x230 under 80 kN radial and 15 kN axial at 2000 rpm, seven places of either row
 instrumented, and moved the load outwards along the axle. Conditions, what counts as loaded, and tolerances
 were written before the first run; known was that none of the 18 combinations of the trend in `trends` has the
-published counts. Ours is the static equilibrium of the scene of `posture`: the box held
-against tilt by its rig, rings that bend, end play closed by the temperature; the load is moved towards the
-row that the axial force presses, as on the rig.
+published counts. Ours is the static equilibrium of the scene of `posture`: the box held against tilt by its
+rig, rings that bend, end play closed by the temperature; the load is moved towards the row that the axial
+force presses, as on the rig.
 """
 
 from __future__ import annotations

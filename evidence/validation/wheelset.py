@@ -3,9 +3,10 @@
 Vehicles, smooth tracks and tolerances were chosen before the first run: the shipped vehicles on the better
 line of ERRI B176 from 200 km/h on, else on the worse one, all with the rail roughness of ISO 3095. The worn
 line, with a corrugation of its own, was chosen after the levels on smooth rails had been seen, the Chinese
-line before its run. Levels are those of a sensor 170 mm above the bearing's centre, 10 to 500 Hz, as the rail model moves box and journal.
-Upright the twin's sensor reads the same; sideways it does not, for the shipped scenes hold the journal's tilt
-(0.4 m/s^2 at 300 km/h; 6.6 with `journal_tilt: free`), so those rows are not counted.
+line before its run. Levels are those of a sensor 170 mm above the bearing's centre, 10 to 500 Hz, as the rail
+model moves box and journal. Upright the twin's sensor reads the same; sideways it does not, for the shipped
+scenes hold the journal's tilt (0.4 m/s^2 at 300 km/h; 6.6 with `journal_tilt: free`), so those rows are not
+counted.
 """
 
 from __future__ import annotations
