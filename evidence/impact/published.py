@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from evidence.impact.cases import BOTH, OVER_SPEED, Case, across, healthy, over_area, over_width
 from evidence.impact.crossing import crossing
 from evidence.impact.study import Heard, heard
@@ -9,8 +11,9 @@ from evidence.impact.study import Heard, heard
 TITLE = """
 ## Published, and ours
 
-*Abstract*: the text that was read; *from memory*: the source was not at hand. No source found gives a
-level, a bearing and a spall together that could be run as they are, so what is compared are relations.
+*Abstract*: the text that was read; *quoted*: measured figures quoted in
+github.com/bersamin12/nebulax (rail_phm.md); *from memory*: the source was not at hand. No source found gives
+a level, a bearing and a spall together that could be run as they are, so what is compared are relations.
 
 | source and conditions | what it says | ours |
 |---|---|---|
@@ -19,6 +22,11 @@ level, a bearing and a spall together that could be run as they are, so what is 
 
 def _span(values: list[float], form: str) -> str:
     return f"{min(values):{form}} to {max(values):{form}}"
+
+
+def _power(values: list[float]) -> float:
+    """Fit a power of the speed through values of `OVER_SPEED`."""
+    return float(np.polyfit(np.log([case.speed for case in OVER_SPEED]), np.log(values), 1)[0])
 
 
 def _all(cases: list[Case]) -> list[Heard]:
@@ -90,6 +98,23 @@ def published() -> str:
             "kurtosis 3 of sound bearings, above 3 of damaged ones",
             f"{heard(healthy(90.0)).kurtosis:.1f} and {heard(healthy(200.0)).kurtosis:.1f} sound at 90 and "
             f"200 km/h; {_span([each.kurtosis for each in spalled], '.0f')} from 4 mm on",
+        ),
+        (
+            "Jain and Bhosle 2022, Int. J. Adv. Technol. Eng. Explor. 9(90); ball bearings of a motor at "
+            "29 Hz (quoted)",
+            "sound: kurtosis 2.76 to 2.96; spalls of the inner race from 0.2 to 0.7 mm: 5.6, 21.7, 8.1, 3.3",
+            "sound as above; cup spalls from 1 to 15 mm "
+            + " and ".join(
+                f"{', '.join(f'{heard(case).kurtosis:.0f}' for case in over_width(speed))} at {speed:g} km/h"
+                for speed in BOTH
+            ),
+        ),
+        (
+            "Saruhan and others 2014, J. Appl. Res. Technol. 12, 384; spalled races of a small rig, 17 to "
+            "41 Hz (quoted)",
+            "peaks grow with the speed to the power of 1.0 to 1.3",
+            "6 mm, 40 to 300 km/h: peak to the power of "
+            f"{_power([heard(case).peak for case in OVER_SPEED]):.1f}, rms of {_power(levels):.1f}",
         ),
         (
             "Tandon and Choudhury 1999, Tribol. Int. 32, 469, review (from memory)",

@@ -5,12 +5,14 @@ module           responsibility
 ================ ===================================================================
 anchor           a published number or trend, and ours
 statics          load zones, static equilibrium, stiffness, roller bounce
+roller_loads     how many rollers of an axlebox bearing carry on a rig
 zhang            the bearing and the model of Zhang et al. (2023)
 load_zone        load-zone integrals of one row under rigid rings
 ball_contact     films, rolling couples and curvatures of ball contacts
 contact          closed-form contact points against a search
 films            film thickness, mixed friction, inlet heating, traction
 losses           rolling resistance, torque, power loss
+rigs             torque of single rows on rigs
 heat             torque and temperature of whole axlebox bearings
 catalogue_values load ratings, fault frequencies, viscosities
 life             rating life

@@ -17,6 +17,7 @@ class Anchor:
     `topic` begins the row on the validation page; `tolerance` is relative, `absolute` adds to it; `misses`
     says why ours is known to lie outside; `slow` rows are dynamic runs. `beside`: ours is a formula of the
     literature that stands in `evidence` alone, or what the twin's sensors do not read; it does not count.
+    `measured`: the reference comes from an instrument, not from a formula, a catalogue or another model.
     """
 
     topic: str
@@ -30,6 +31,7 @@ class Anchor:
     misses: str = ""
     slow: bool = False
     beside: bool = False
+    measured: bool = False
 
     @property
     def allowed(self) -> float:

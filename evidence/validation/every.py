@@ -11,6 +11,8 @@ from evidence.validation import (
     life,
     losses,
     rail,
+    rigs,
+    roller_loads,
     skid,
     spalls,
     statics,
@@ -22,9 +24,11 @@ from evidence.validation.anchor import Anchor, Trend
 
 ANCHORS: tuple[Anchor, ...] = (
     *statics.ANCHORS,
+    *roller_loads.ANCHORS,
     *contact.ANCHORS,
     *films.ANCHORS,
     *losses.ANCHORS,
+    *rigs.ANCHORS,
     *heat.ANCHORS,
     *catalogue_values.ANCHORS,
     *life.ANCHORS,
@@ -66,6 +70,27 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     (
         "published vibration data sets (CWRU, BJTU-RAO, SWJTU)",
         "their bearings' internals are not published; kinematic frequencies are compared, amplitudes are not",
+    ),
+    (
+        "Hou et al. 2024, Rail. Eng. Sci. 32, 444, roller loads of an axlebox bearing in service",
+        "its figures were not at hand; from the same method the number of loaded rollers is compared, "
+        "Zhao et al. 2026",
+    ),
+    (
+        "cage slip measured on rigs (Smith 1962, Harris 1966, Guo and Keller 2020)",
+        "no source found gives slip, load, speed, oil and the inside of a tapered bearing together",
+    ),
+    (
+        "levels of impacts measured on axleboxes and rigs (Tarawneh and others, Pueblo 1999)",
+        "no source found gives level, sensor, bearing and spall together; relations are on docs/impact.md",
+    ),
+    (
+        "torque of a LM12700 (Zhou and Hoeprich 1991), HM801349 (Cruz et al. 2021), 32208 (Machines 13:910)",
+        "measured, but the viscosity, the load (worked back from a starting torque) and the oil are not told",
+    ),
+    (
+        "torque and stiffness of the bearings of a disc cutter (Lubricants 2025, 13, 160, Tables 5 and 6)",
+        "measured from 5 to 60 kN, but the torque is that of breaking loose, the number of rollers not told",
     ),
     (
         "ranking of steady temperatures",

@@ -172,6 +172,7 @@ ANCHORS = (
             partial(torque_32216, rpm),
             tolerance=0.15,
             misses=misses,
+            measured=True,
         )
         for rpm, measured, misses in ((500, 1.30, TOO_HIGH), (2000, 2.95, TOO_HIGH), (4000, 3.75, ""))
     ),
@@ -184,6 +185,7 @@ ANCHORS = (
             WINGERTSZAHN,
             partial(lambda fast, slow: torque_32216(fast) / torque_32216(slow), fast, slow),
             tolerance=0.08,
+            measured=True,
         )
         for fast, slow, measured in ((2000, 500, 2.95 / 1.30), (4000, 2000, 3.75 / 2.95))
     ),

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Sequence
 
 from evidence.pages import DOCS, PICTURES
 from evidence.validation.anchor import HOLDS_FROM, Anchor, Finding, Trend
@@ -35,6 +36,8 @@ BESIDE = (
     "They are not counted above."
 )
 
+COUNTED = [anchor for anchor in ANCHORS if not anchor.beside]
+UNREACHED_HEAD = "## Not compared"
 OTHERS = "## Formulas that the simulator does not use"
 TRENDS_HEAD = (
     "",
@@ -64,6 +67,22 @@ def allowed(anchor: Anchor) -> str:
 def reference_cells(anchor: Anchor) -> tuple[str, str, str]:
     """List the cells of a row that need no computing."""
     return anchor.topic, anchor.quantity, f"{number(anchor.reference)} {anchor.unit}".strip()
+
+
+def totals(agree: Sequence[bool], held: int) -> str:
+    """Count what agrees of all rows that count, of the measured ones among them, and of the trends."""
+    measured = [right for anchor, right in zip(COUNTED, agree, strict=True) if anchor.measured]
+    return (
+        f"{sum(agree)} of {len(agree)} numbers agree within their tolerance; "
+        f"{held} of {len(TRENDS)} published trends are reproduced.\nOf the numbers {len(measured)} were "
+        f"measured; {sum(measured)} of these agree. The others are formulas, catalogue values and other "
+        "models.\n\n"
+    )
+
+
+def unreached_lines() -> list[str]:
+    """Write the section of what is not compared."""
+    return [UNREACHED_HEAD, "", *(unreached_line(label, why) for label, why in UNREACHED)]
 
 
 def unreached_line(label: str, why: str) -> str:
@@ -113,20 +132,17 @@ def rewrite(topics: list[str]) -> None:
     begin, end, after = lines.index(TABLE[1]) + 1, lines.index("## Trends") - 1, lines.index(OTHERS)
     known = lines[begin:end]
     rows = []
-    for anchor in ANCHORS:
-        if anchor.beside:
-            continue
+    for anchor in COUNTED:
         start = "| " + " | ".join(reference_cells(anchor)) + " | "
         kept = [line for line in known if line.startswith(start)]
         rows.append(row(anchor)[0] if anchor.topic in topics or not kept else kept[0])
         if anchor.topic in topics:
             print(rows[-1], flush=True)
-    good = sum("**misses**" not in each for each in rows)
     trends, held = trends_anew(lines[end:after], topics)
-    text = "\n".join([*lines[:begin], *rows, *trends, *lines[after:]]) + "\n"
-    text = re.sub(r"^\d+ of \d+ numbers", f"{good} of {len(rows)} numbers", text, flags=re.M)
-    counted = f"{held} of {len(TRENDS)} published trends"
-    PAGE.write_text(re.sub(r"\d+ of \d+ published trends", counted, text), encoding="utf-8")
+    others = lines[after : lines.index(UNREACHED_HEAD)]
+    text = "\n".join([*lines[:begin], *rows, *trends, *others, *unreached_lines()]) + "\n"
+    told = totals(["**misses**" not in each for each in rows], held)
+    PAGE.write_text(re.sub(r"^\d+ of \d+ numbers agree[^#]*\n\n", told, text, flags=re.M), encoding="utf-8")
     for name in {trend.picture for trend in TRENDS if trend.topic in topics and trend.picture}:
         DRAWINGS[name](PICTURES / name)
 
@@ -156,8 +172,7 @@ def main() -> None:
     rows = {anchor: row(anchor) for anchor in ANCHORS}
     for text, _ in rows.values():
         print(text, flush=True)
-    counted = [anchor for anchor in ANCHORS if not anchor.beside]
-    lines = [*TABLE, *(rows[anchor][0] for anchor in counted)]
+    lines = [*TABLE, *(rows[anchor][0] for anchor in COUNTED)]
     others = [OTHERS, "", BESIDE, "", *TABLE]
     others += [rows[anchor][0] for anchor in ANCHORS if anchor.beside]
     trends = list(TRENDS_HEAD)
@@ -169,15 +184,9 @@ def main() -> None:
         print(trend.topic, finding.holds, finding.sentence, flush=True)
     for name, draw in DRAWINGS.items():
         draw(PICTURES / name)
-    unreached = ["## Not compared", ""]
-    unreached += [unreached_line(label, why) for label, why in UNREACHED]
-    good = sum(rows[anchor][1] for anchor in counted)
-    total = (
-        f"{good} of {len(counted)} numbers agree within their tolerance; "
-        f"{held} of {len(TRENDS)} published trends are reproduced.\n\n## Numbers\n\n"
-    )
+    told = totals([rows[anchor][1] for anchor in COUNTED], held) + "## Numbers\n\n"
     PAGE.write_text(
-        HEAD + total + "\n".join([*lines, *trends, *others, "", *unreached]) + "\n", encoding="utf-8"
+        HEAD + told + "\n".join([*lines, *trends, *others, "", *unreached_lines()]) + "\n", encoding="utf-8"
     )
 
 

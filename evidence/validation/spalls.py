@@ -26,7 +26,7 @@ from evidence.impact.cases import (
     over_width,
 )
 from evidence.impact.crossing import crossing
-from evidence.impact.study import heard
+from evidence.impact.study import heard, run
 from evidence.validation.anchor import HOLDS_FROM, Anchor, Finding, Trend, rises
 
 TOPIC = "impact"
@@ -43,6 +43,10 @@ MBA = (
     "roller bearing's outer race, the duration from memory"
 )
 DYER = "Dyer and Stewart 1978, J. Mech. Des. 100, 229, from memory: 3 for any sound bearing"
+CREST = (
+    "Jain and Bhosle 2022, Int. J. Adv. Technol. Eng. Explor. 9(90): 4.22 to 5.59 of sound ball bearings of "
+    "a motor at four speeds, as quoted in github.com/bersamin12/nebulax (rail_phm.md)"
+)
 TARAWNEH = (
     "Tarawneh and others, University of Texas: rms against spall area of freight axlebox bearings on a rig, "
     "from memory; Rail. Eng. Sci. 2021, abstract: defects below 12.9 cm2 found by vibration thresholds"
@@ -51,6 +55,10 @@ TANDON = "Tandon and Choudhury 1999, Tribol. Int. 32, 469, review of measurement
 FEW_PULSES = (
     "the assumed damping of the contacts, 5 us: at 2.5 us, the lower end of its quoted range, every spall "
     "has more than two"
+)
+STRUCK = (
+    "rollers strike the pockets of their cages: without cages it is 4.0, just below, as of "
+    "noise alone, and no background lies under it"
 )
 POCKETS = (
     "rollers strike the pockets of their cages with less than 1 g, and no background covers it: without "
@@ -73,6 +81,12 @@ def way_per_width(speed: float) -> float:
 def sound_kurtosis(speed: float) -> float:
     """Return the kurtosis of a sound bearing at a speed [km/h]."""
     return heard(healthy(speed)).kurtosis
+
+
+def sound_crest(speed: float) -> float:
+    """Return the crest factor of a sound bearing at a speed [km/h]."""
+    signal = run(healthy(speed)).signal
+    return float(np.abs(signal).max() / np.sqrt(np.mean(signal**2)))
 
 
 def shown(values: Sequence[float], form: str = ".3g") -> str:
@@ -198,6 +212,22 @@ ANCHORS = (
             tolerance=0.1,
             misses=POCKETS if speed < 100.0 else "",
             slow=True,
+            measured=True,
+        )
+        for speed in BOTH
+    ),
+    *(
+        Anchor(
+            TOPIC,
+            f"crest factor of a sound bearing, {speed:g} km/h",
+            4.9,
+            "",
+            CREST,
+            partial(sound_crest, speed),
+            absolute=0.7,
+            misses=STRUCK if speed < 100.0 else "",
+            slow=True,
+            measured=True,
         )
         for speed in BOTH
     ),

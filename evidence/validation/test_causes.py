@@ -1,0 +1,112 @@
+"""Causes that the validation page gives for measured rows that miss: a run without each comes within."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from evidence.heat.cases import SUMMER, State
+from evidence.validation import wheelset
+from evidence.validation.heat import FLEET, SERVICE_TOLERANCE, grease_celsius, in_train
+from evidence.validation.rigs import (
+    COMBINED_MISSES,
+    COMBINED_TOLERANCE,
+    COMBINED_TORQUES,
+    GHENT_MISSES,
+    GHENT_TOLERANCE,
+    GHENT_TORQUES,
+    RIB_FILM,
+    WARMER,
+    combined,
+    ghent,
+    torque,
+    warmed,
+)
+from evidence.validation.roller_loads import counts
+
+COLD_PLAY = 2.0e-4
+MEASURED_32216 = {(celsius, speed): measured for celsius, speed, measured in COMBINED_TORQUES}
+MEASURED_32008 = {
+    (supplied, speed): measured
+    for speed, *both in GHENT_TORQUES
+    for supplied, measured in zip((55.0, 65.0), both, strict=True)
+}
+
+
+def because(cause: str) -> list[tuple[float, float]]:
+    return [where for where, why in GHENT_MISSES.items() if why.startswith(cause)]
+
+
+@pytest.mark.parametrize(("celsius", "speed"), COMBINED_MISSES)
+def test_less_oil_at_the_inlets_brings_the_32216_to_the_measured_torque_or_below(
+    celsius: float, speed: float
+) -> None:
+    starved = torque(replace(combined(celsius), supply="fresh"), speed)
+    measured = MEASURED_32216[celsius, speed]
+    below = (1.0 - COMBINED_TOLERANCE) * measured
+    assert starved < (1.0 + COMBINED_TOLERANCE) * measured
+    assert (starved > below) is ("between" not in COMBINED_MISSES[celsius, speed])
+
+
+@pytest.mark.parametrize(("supplied", "speed"), because(WARMER))
+def test_oil_warmed_by_the_measured_torque_brings_the_32008_to_it(supplied: float, speed: float) -> None:
+    measured = MEASURED_32008[supplied, speed]
+    ours = torque(warmed(ghent(supplied), speed, measured), speed)
+    assert ours == pytest.approx(measured, rel=GHENT_TOLERANCE)
+
+
+@pytest.mark.parametrize(("supplied", "speed"), because(RIB_FILM))
+def test_film_friction_of_the_source_at_the_ribs_brings_the_32008_to_the_measured_torque(
+    supplied: float, speed: float
+) -> None:
+    ours = torque(replace(ghent(supplied), rib_film_friction=0.002), speed)
+    assert ours == pytest.approx(MEASURED_32008[supplied, speed], rel=GHENT_TOLERANCE)
+
+
+def test_higher_ribs_serve_the_32008_at_200_rpm_and_not_at_400() -> None:
+    rig = ghent(65.0)
+    higher = replace(rig, bearing=replace(rig.bearing, rib_contact_height=1.3e-3, rib_height=2.6e-3))
+    off = {speed: torque(higher, speed) / MEASURED_32008[65.0, speed] - 1.0 for speed in (200.0, 400.0)}
+    assert abs(off[200.0]) < GHENT_TOLERANCE < off[400.0]
+
+
+def test_a_rigid_cup_little_axial_force_and_the_cold_play_together_load_as_many_rollers_as_measured() -> None:
+    assert counts(0.0, 3.0, True, COLD_PLAY) == (5.0, 5.0)
+    assert counts(40.0, 3.0, True, COLD_PLAY) == (7.0, 5.0)
+    for alone in ({"axial": 3.0}, {"rigid": True}, {"end_play": COLD_PLAY}):
+        assert max(counts(0.0, **alone)) > 6.0
+
+
+@pytest.mark.parametrize(
+    "state",
+    [State("summer", thermal=(("ambient", SUMMER),)), State("small box", thermal=(("box_area", 0.4),))],
+    ids=lambda state: state.name,
+)
+def test_summer_or_a_smaller_box_warms_the_grease_to_what_is_reported(state: State) -> None:
+    assert grease_celsius(320.0, state) == pytest.approx(100.0, abs=SERVICE_TOLERANCE)
+
+
+SHELTERED = (("air_speed", 0.1),)
+IN_TRAIN = {
+    ("first place", 200.0): State("sheltered", thermal=SHELTERED),
+    ("first place", 300.0): State("seals of 0.6 N m", seal_torque=0.6),
+    ("second place", 200.0): State("sheltered, seals of 0.6 N m", seal_torque=0.6, thermal=SHELTERED),
+    ("second place", 300.0): State("seals of 1.2 N m", seal_torque=1.2),
+}
+
+
+@pytest.mark.parametrize(("place", "speed", "air", "coolest", "warmest"), FLEET)
+def test_surroundings_and_seals_bring_boxes_into_the_span_of_the_train_at_one_speed(
+    place: str, speed: float, air: float, coolest: float, warmest: float
+) -> None:
+    assert coolest <= in_train(speed, air, IN_TRAIN[place, speed]) <= warmest
+
+
+def test_smooth_rails_bring_the_level_on_a_chinese_line_to_the_measured_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run = wheelset.RUNS[300]
+    smooth = replace(run.operation.irregularity, short_waves=None)
+    monkeypatch.setitem(wheelset.RUNS, 0, replace(run, operation=replace(run.operation, irregularity=smooth)))
+    assert wheelset.level_in_china(0) == pytest.approx(8.8, rel=wheelset.CHINA_TOLERANCE)
