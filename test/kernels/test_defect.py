@@ -99,17 +99,22 @@ def test_roller_sinks_into_a_spall_as_geometry_says(lanes: Any) -> None:
 
 
 def test_contact_is_softer_near_the_edges_of_a_spall_and_as_a_sound_one_in_its_middle(lanes: Any) -> None:
-    """Against the same law by a root search: 3 % of the greatest, in the 13 um cell where the floor bears."""
+    """Against the same law by a root search, to 1 % of the greatest.
+
+    5 % where the floor or both edges take over: there it falls to nothing within three cells of 13 um.
+    """
     bearing = scene_with().bearing
     azimuth = 0.3 + np.linspace(-0.032, 0.032, 161)
+    arcs = (azimuth - 0.3) * CUP_RADIUS
     for patch in (FULL, replace(FULL, width=1e-3)):
         found = springs(lanes, azimuth, patch)
         for lamina in (0, 5):
-            exact = np.array(
-                [naive.edge_softness((a - 0.3) * CUP_RADIUS, patch, RADII[lamina], bearing) for a in azimuth]
-            )
+            radius = RADII[lamina]
+            exact = np.array([naive.edge_softness(arc, patch, radius, bearing) for arc in arcs])
+            sinks = np.array([naive.spall_sink(arc, 0.5 * patch.width, patch.depth, radius) for arc in arcs])
+            tolerance = exact.max() * np.where(sinks > 0.9 * sinks.max(), 0.05, 0.01)
             assert exact.max() > 0.25
-            np.testing.assert_allclose(found[:, lamina, 4], exact, atol=0.03 * exact.max())
+            assert np.all(np.abs(found[:, lamina, 4] - exact) < tolerance)
     np.testing.assert_array_equal(springs(lanes, azimuth, replace(FULL, kind="dent"))[..., 4], 0.0)
 
 
