@@ -181,7 +181,8 @@ def joint_depth(lanes, depth, lamina, count, damage, exponent):
 
     ``depth``: of its sound part [m]; ``damage``: springs of the contact from
     `find_damage`. The share of the sound part becomes the slope of the joint depth, with which the lamina
-    presses; that of the damaged part how far it gives way with the gap; ``exponent``: of the part that stands
+    presses; that of the damaged part how far it gives way with the gap, and its slopes take in what its
+    firmness loses with the azimuth; ``exponent``: of the part that stands
     higher [-].
     """
     if damage is None:
