@@ -21,7 +21,7 @@ of the higher part, both are to store::
 each part where it touches. The whole lamina joins the others at the depth D, so that forces stay the
 gradient of an energy. With n = 1 this is Palmgren's law for each part. Beside a hole the surface sinks away,
 and a short part carries more than its length of it: n < 1. r keeps the mean gap, which counts where both
-touch.
+touch. Near a sharp edge of the patch the kernels multiply the term of the patch's part by its firmness.
 """
 
 from __future__ import annotations

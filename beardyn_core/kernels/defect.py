@@ -1,7 +1,9 @@
-"""Patches of raceways and rollers as gaps under the laminae.
+"""Patches of raceways and rollers as gaps under the laminae, soft at sharp edges.
 
 Far from every patch a contact costs one distance a patch. Near one, each lamina becomes two springs, its
-sound and its damaged part, the damaged one with the gap from the path of the roller over the patch.
+sound and its damaged part, the damaged one with the gap from the path of the roller over the patch. Near a
+sharp edge it is softer than a sound one; what it presses with is the slope of its energy over the depth, and
+what it leans with that over the arc.
 """
 
 from __future__ import annotations
@@ -13,6 +15,10 @@ from beardyn_core.model import layout
 
 _LAST = layout.PATCH_POINTS - 2.0
 _SPRINGS = 0  # the work space has one page
+# of a contact, by which softness counts beside a gap where several patches meet [m]
+_USUAL_DEPTH = 5e-6
+# an energy goes with the 19/9th power of the depth, its force with the 10/9th
+_ENERGY = 9.0 / 19.0
 
 
 @inline
@@ -51,7 +57,7 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
     A patch that covers a part of a lamina leaves the rest as a spring of its own, so that forces are
     continuous in the place and length of a patch. Where several patches meet on one lamina their gaps add;
     when they cover different shares of it, one damaged spring stands for all of them, with the mean share
-    (by gap) and the mean gap of the lamina kept.
+    (by sink) and the mean gap and softness of the lamina kept.
     """
     if damage is None:
         return False
@@ -65,6 +71,7 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
         lanes.store(springs, _SPRINGS, field, zero)
     add_patches(lanes, block, azimuths[0], count, layout.SPRING_RING_SLOPE, surfaces[0], springs)
     add_patches(lanes, block, azimuths[1], count, layout.SPRING_ROLLER_SLOPE, surfaces[1], springs)
+    one = lanes.constant(1.0)
     for k in range(count):
         sound, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
         first = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_SHARE)
@@ -74,8 +81,12 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
         lanes.store(springs, _SPRINGS, sound + layout.SPRING_SHARE, 1.0 - share)
         lanes.store(springs, _SPRINGS, damaged + layout.SPRING_SHARE, share)
         for field in (layout.SPRING_GAP, layout.SPRING_RING_SLOPE, layout.SPRING_ROLLER_SLOPE):
-            mean = weight * lanes.load(springs, _SPRINGS, damaged + field)
-            lanes.store(springs, _SPRINGS, damaged + field, mean)
+            _scale(lanes, springs, damaged + field, weight)
+        firmness = 1.0 / (1.0 + weight * lanes.load(springs, _SPRINGS, damaged + layout.SPRING_FIRMNESS))
+        lanes.store(springs, _SPRINGS, damaged + layout.SPRING_FIRMNESS, firmness)
+        lanes.store(springs, _SPRINGS, sound + layout.SPRING_FIRMNESS, one)
+        for field in (layout.SPRING_RING_SOFTENING, layout.SPRING_ROLLER_SOFTENING):
+            _scale(lanes, springs, damaged + field, _ENERGY * weight * firmness)
     return True
 
 
@@ -83,8 +94,9 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
 def add_patches(lanes, block, azimuth, count, slope_field, surface, springs):
     """Add the moments of the gaps of one surface's patches to the springs of a contact.
 
-    Into the fields of the damaged spring go the sums of ``c |g|`` (share), ``c g`` (gap) and ``c dg/dtheta``
-    (slope), c the cover; into the share of the sound one that of ``|g|``.
+    Into the fields of the damaged spring go the sums of ``c w`` (share), ``c g`` (gap), ``c s`` (firmness),
+    ``c dg/dtheta`` (slope) and ``c ds/dtheta`` (softening), c the cover, s the softness and w the sink
+    ``|g|`` and s times a usual depth; into the share of the sound one that of w.
     """
     if surface is None:
         return
@@ -104,16 +116,27 @@ def add_patches(lanes, block, azimuth, count, slope_field, surface, springs):
                 low = lanes.gather(surface.paths, cell + begin)
                 high = lanes.gather(surface.paths, cell + (begin + 1))
                 gap = present * (low + part * (high - low))
+                firm = lanes.gather(surface.softness, cell + begin)
+                soft = lanes.gather(surface.softness, cell + (begin + 1))
+                softness = present * (firm + part * (soft - firm))
                 cover = surface.cover[patch, k]
-                _increase(lanes, springs, damaged + layout.SPRING_SHARE, cover * magnitude(gap))
-                _increase(lanes, springs, sound + layout.SPRING_SHARE, magnitude(gap))
+                sink = magnitude(gap) + _USUAL_DEPTH * softness
+                _increase(lanes, springs, damaged + layout.SPRING_SHARE, cover * sink)
+                _increase(lanes, springs, sound + layout.SPRING_SHARE, sink)
                 _increase(lanes, springs, damaged + layout.SPRING_GAP, cover * gap)
+                _increase(lanes, springs, damaged + layout.SPRING_FIRMNESS, cover * softness)
                 _increase(lanes, springs, damaged + slope_field, cover * climb * (high - low))
+                _increase(lanes, springs, damaged + slope_field + 1, cover * climb * (soft - firm))
 
 
 @inline
 def _increase(lanes, springs, field, value):
     lanes.store(springs, _SPRINGS, field, lanes.load(springs, _SPRINGS, field) + value)
+
+
+@inline
+def _scale(lanes, springs, field, factor):
+    lanes.store(springs, _SPRINGS, field, factor * lanes.load(springs, _SPRINGS, field))
 
 
 @inline
@@ -142,8 +165,18 @@ def spring_damage(lanes, spring, damage):
 
 
 @inline
+def soften(lanes, tangent, spring, damage):
+    """Take off a stiffness what the edges of patches give way under a spring."""
+    if damage is None:
+        return tangent
+    return tangent * lanes.load(
+        damage.springs, _SPRINGS, layout.SPRING_FIELDS * spring + layout.SPRING_FIRMNESS
+    )
+
+
+@inline
 def gap_moments(lanes, near, lamina, count, damage):
-    """Work out the mean gap [m] and mean squared gap [m^2] along one lamina."""
+    """Work out the mean gap [m] and mean squared gap [m^2] along one lamina; neglects softness of edges."""
     zero = lanes.constant(0.0)
     if damage is None:
         return zero, zero
@@ -156,13 +189,17 @@ def gap_moments(lanes, near, lamina, count, damage):
 
 
 @inline
-def spring_slopes(lanes, spring, damage):
-    """Take the slope of a spring's gap near a patch over the ring's and the roller's azimuth, [m/rad]."""
-    field = layout.SPRING_FIELDS * spring
-    return (
-        lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_RING_SLOPE),
-        lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_ROLLER_SLOPE),
-    )
+def spring_slopes(lanes, spring, depth, damage):
+    """Work out how far a spring near a patch gives way with the ring's and the roller's azimuth, [m/rad].
+
+    That is the slope of its gap, and where its firmness changes what its force wants for the energy at a
+    ``depth`` [m], not negative, to go with it.
+    """
+    springs, field = damage.springs, layout.SPRING_FIELDS * spring
+    ring = lanes.load(springs, _SPRINGS, field + layout.SPRING_RING_SLOPE)
+    roller = lanes.load(springs, _SPRINGS, field + layout.SPRING_ROLLER_SLOPE)
+    ring = ring + depth * lanes.load(springs, _SPRINGS, field + layout.SPRING_RING_SOFTENING)
+    return ring, roller + depth * lanes.load(springs, _SPRINGS, field + layout.SPRING_ROLLER_SOFTENING)
 
 
 @inline

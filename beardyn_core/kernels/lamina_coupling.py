@@ -181,7 +181,8 @@ def joint_depth(lanes, depth, lamina, count, damage, exponent):
 
     ``depth``: of its sound part [m]; ``damage``: springs of the contact from
     `find_damage`. The share of the sound part becomes the slope of the joint depth, with which the lamina
-    presses; that of the damaged part how far it gives way with the gap; ``exponent``: of the part that stands
+    presses; that of the damaged part how far it gives way with the gap, and its slopes take in what its
+    firmness loses with the azimuth; ``exponent``: of the part that stands
     higher [-].
     """
     if damage is None:
@@ -198,8 +199,11 @@ def joint_depth(lanes, depth, lamina, count, damage, exponent):
     higher = depth - at_most(gap, 0.0)
     lower = at_least(higher - reach * magnitude(gap), 0.0)
     higher = at_least(higher, 0.0)
-    higher_force = held * higher * ninth_root(at_least(higher, _SMALLEST))
-    lower_force = loose * lower * ninth_root(at_least(lower, _SMALLEST))
+    firmness = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_FIRMNESS)
+    on_higher = where_greater(0.0 * gap, gap, firmness, 1.0)
+    on_lower = where_greater(0.0 * gap, gap, 1.0, firmness)
+    higher_force = held * on_higher * higher * ninth_root(at_least(higher, _SMALLEST))
+    lower_force = loose * on_lower * lower * ninth_root(at_least(lower, _SMALLEST))
     energy = higher_force * higher + lower_force * lower
     pressed = at_least(energy, _NO_ENERGY)
     force = higher_force + lower_force
@@ -212,6 +216,13 @@ def joint_depth(lanes, depth, lamina, count, damage, exponent):
     lanes.store(
         springs, _SPRINGS, damaged + layout.SPRING_SHARE, where_greater(partly, _NO_ENERGY, with_gap, cover)
     )
+    softened = where_greater(0.0 * gap, gap, higher_force * higher, lower_force * lower)
+    softened = softened / at_least(with_gap * force, _NO_ENERGY)
+    for slope in (layout.SPRING_RING_SLOPE, layout.SPRING_ROLLER_SLOPE):
+        further = softened * lanes.load(springs, _SPRINGS, damaged + slope + 1)
+        lanes.store(
+            springs, _SPRINGS, damaged + slope, lanes.load(springs, _SPRINGS, damaged + slope) + further
+        )
     apart = at_most(depth - cover * gap, 0.0)
     joint = where_greater(energy, _NO_ENERGY, joint, apart)
     return where_greater(cover, 0.0, joint, depth)

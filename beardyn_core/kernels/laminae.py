@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import spring_damage, spring_slopes, springs_of
+from beardyn_core.kernels.defect import soften, spring_damage, spring_slopes, springs_of
 from beardyn_core.kernels.film import log2_film_thickness, log2_load
 from beardyn_core.kernels.lamina_coupling import (
     DEPTH,
@@ -127,7 +127,7 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)
         touching = at_least(depth, SMALLEST_APPROACH)
         energy = energy + stored
-        slopes = _slopes_of(lanes, k, count, damage, effects.coupling)
+        slopes = _slopes_of(lanes, k, touching, count, damage, effects.coupling)
         gap_rate = _gap_rate(slopes, raceway.turning, damage)
         rate = _less_gap_rate(slip.rate[0] + x * slip.rate[1], gap_rate, damage)
         pressing = _within_the_step(touching, depth, rate, raceway.times)
@@ -250,7 +250,7 @@ def contact_spring(lanes, approach, k, laminae, damage, coupling):
         depth = _geometric_depth(approach, gap, k, laminae)
         touching = at_least(depth, SMALLEST_APPROACH)
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
-        tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+        tangent = soften(lanes, where_greater(depth, 0.0, tangent, 0.0 * depth), k, damage)
         return share, depth, tangent, share * tangent * touching * touching * (0.9 * 9.0 / 19.0)
     work = coupling.work
     share, energy = joint_share(lanes, k, damage), lanes.load(work, FORCE, k)
@@ -324,10 +324,10 @@ def _add_gap(gap, tangent, x, slopes, gap_rate, damage):
 
 
 @inline
-def _slopes_of(lanes, k, count, damage, coupling):
-    """Take by how much a spring gives way with the azimuth in ring and in roller, [m/rad]."""
+def _slopes_of(lanes, k, depth, count, damage, coupling):
+    """Take by how much a spring gives way with the azimuth in ring and in roller at a depth [m], [m/rad]."""
     if damage is None:
         return 0.0, 0.0
     if coupling is None:
-        return spring_slopes(lanes, k, damage)
+        return spring_slopes(lanes, k, depth, damage)
     return joint_slopes(lanes, k, count, damage)

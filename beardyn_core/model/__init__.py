@@ -14,7 +14,8 @@ losses           rolling resistance, drag and seals
 ribs             ribs at both roller ends
 cage             pockets, lands and cheaper cages
 scatter          scatter as numbers of each roller
-faults           patches and the path of a roller over one, waviness, wear and size errors
+patch_path       path of a roller over a patch, and how its sharp edges give way
+faults           patches, waviness, wear and size errors
 mounting         rings, suspension
 structure        bending of the axlebox: rings or modes of a table
 heat             nodes of the thermal network and where losses go

@@ -11,7 +11,8 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model import layout
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.laminae import for_springs, lamina_places
+from beardyn_core.model.laminae import equivalent_radius, for_springs, lamina_places
+from beardyn_core.model.patch_path import PATH_CELLS, edge_softness, reach_of, roller_path
 from beardyn_core.model.scatter import added_clearance, crown_errors, scattered_oversize
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
@@ -25,6 +26,7 @@ class SurfaceParams(NamedTuple):
     present: Any  # [block, patch, lane], 1 where the lane's roller meets the patch
     cover: Any  # [patch, lamina], share of the lamina's length
     paths: Any  # [patch x lamina x PATCH_POINTS], gap over even arcs from the centre to the reach [m]
+    softness: Any  # there, what sharp edges add to the compliance of the contact [-]
 
 
 class DamageParams(NamedTuple):
@@ -60,7 +62,6 @@ class FaultParams(NamedTuple):
 SURFACES = ("cup", "cone", "roller")
 
 _SMALLEST_PART = 1.0e-9  # of a lamina
-PATH_CELLS = 256
 
 
 def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> FaultParams:
@@ -97,7 +98,7 @@ def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfacePa
             there = there & (arrangement.roller == patch.roller)
         present[:, index] = there
     cover = np.array([lamina_cover(scene.bearing, patch, count) for patch in patches])
-    surface = SurfaceParams(places, present, cover, paths.reshape(-1))
+    surface = SurfaceParams(places, present, cover, paths.reshape(-1), np.zeros(paths.size))
     for index, patch in enumerate(patches):
         _write_patch(surface, index, patch, scene, 0.0)
     return surface
@@ -114,9 +115,8 @@ def grow(faults: FaultParams, scene: Scene, time: float) -> None:
 def _write_patch(surface: SurfaceParams, index: int, patch: Patch, scene: Scene, time: float) -> None:
     bearing, count = scene.bearing, scene.numerics.laminae
     size = patch.size_at(time)
-    radii = (bearing.apex_distance + lamina_places(bearing, count)) * math.tan(bearing.half_angle)
-    half_width = max(0.5 * size[0], 1e-9)
-    reach = max(reach_of(half_width, size[2], patch.rim_width, radius) for radius in radii)
+    radii = contact_radii(bearing, patch.on, count)
+    reach = max(reach_of(patch, size, radius, bearing) for radius in radii)
     repeats = bearing.roller_count if patch.kind == "brinelling" else 1
     radius = surface_radius(bearing, patch.on)
     place = surface.places[index]
@@ -127,8 +127,24 @@ def _write_patch(surface: SurfaceParams, index: int, patch: Patch, scene: Scene,
     place[layout.PLACE_REACH] = reach
     place[layout.PLACE_SCALE] = PATH_CELLS / reach
     paths = surface.paths.reshape(-1, count, layout.PATCH_POINTS)
-    for lamina, roller_radius in enumerate(radii):
-        paths[index, lamina, : PATH_CELLS + 1] = roller_path(patch, size, roller_radius, reach)
+    softness = surface.softness.reshape(paths.shape)
+    for lamina, contact_radius in enumerate(radii):
+        path = roller_path(patch, size, contact_radius, reach)
+        paths[index, lamina, : PATH_CELLS + 1] = path
+        softness[index, lamina, : PATH_CELLS + 1] = edge_softness(
+            patch, size, contact_radius, reach, path, bearing
+        )
+
+
+def contact_radii(bearing: Bearing, on: str, count: int) -> Float:
+    """Take radii of cylinders on a plane in place of the laminae's contacts with a surface, [lamina], [m].
+
+    A patch of a roller meets both rings: there a radius is the roller's own.
+    """
+    places = lamina_places(bearing, count)
+    if on == "roller":
+        return np.asarray((bearing.apex_distance + places) * math.tan(bearing.half_angle))
+    return equivalent_radius(bearing, places, on)
 
 
 def surface_radius(bearing: Bearing, on: str) -> float:
@@ -220,67 +236,3 @@ def _one_turn(wave: Waviness, roller: int, points: int) -> Float:
     lines = np.zeros(points // 2 + 1, np.complex128)
     np.add.at(lines, list(wave.orders), np.array(wave.amplitudes) * np.exp(1j * wave.phases(roller)))
     return np.fft.irfft(0.5 * points * lines, points)
-
-
-# --- the path of a rigid roller over a patch
-
-
-def floor_of(kind: str, arc: Float, half_width: float, depth: float) -> Float:
-    """Work out the depth of the bare surface at arcs from the centre, 0 outside of the patch, [m]."""
-    u = np.clip(np.abs(arc) / half_width, 0.0, 1.0)
-    shape = {
-        "spall": np.ones_like(u),
-        "rectangular": np.ones_like(u),
-        "half_sine": np.cos(0.5 * math.pi * u),
-        "elliptic": np.sqrt(1.0 - u * u),
-        "brinelling": np.sqrt(1.0 - u * u),
-        "dent": np.cos(0.5 * math.pi * u) ** 2,
-    }[kind]
-    return np.asarray(np.where(np.abs(arc) < half_width, depth * shape, 0.0))
-
-
-def rim_of(arc: Float, half_width: float, height: float, width: float) -> Float:
-    """Work out the height of the raised shoulder at arcs from the centre, [m]."""
-    if height == 0.0:
-        return np.zeros_like(arc)
-    along = (np.abs(arc) - half_width) / width
-    return np.where((along > 0.0) & (along < 1.0), height * np.sin(math.pi * along) ** 2, 0.0)
-
-
-def reach_of(half_width: float, rim_height: float, rim_width: float, radius: float) -> float:
-    """Work out the arc from the centre beyond which a roller of a radius does not feel the patch, [m]."""
-    if rim_height == 0.0:
-        return half_width
-    skirt = math.sqrt(2.0 * radius * rim_height)
-    return half_width + 0.5 * rim_width + max(0.5 * rim_width, skirt)
-
-
-def roller_path(patch: Patch, size: tuple[float, float, float], radius: float, reach: float) -> Float:
-    """Take the gap under a roller at even arcs from 0 to `reach` off the centre, shape [PATH_CELLS + 1], [m].
-
-    A rigid roller of radius r at arc s rests on the surface point t that holds it highest: its gap is the
-    least of ``z(t) + r - sqrt(r^2 - (s - t)^2)``, z the depth of the surface. Over a flat floor with sharp
-    edges that is about e^2 / (2 r) at distance e inside of the nearer edge, and never more than the depth.
-
-    ``size``: width, depth and rim height [m]; ``radius``: of the roller [m]; ``reach``: from
-    `reach_of` or more [m].
-
-    Notes
-    -----
-    Neglects the curvature of the raceway, which makes the sink 13 % less on the cup and as much more on
-    the cone, and the elastic flattening of edges and rims.
-
-    References
-    ----------
-    Geometric bridging h = r - sqrt(r^2 - x^2): Sawalhi and Randall (2008).
-    """
-    width, depth, rim_height = size
-    half = max(0.5 * width, 1e-9)
-    place = np.linspace(0.0, reach, PATH_CELLS + 1)
-    # half is symmetric: no point on the far side holds the roller higher than its mirror image
-    touched = np.union1d(place, [half])
-    bare = floor_of(patch.kind, touched, half, depth) - rim_of(touched, half, rim_height, patch.rim_width)
-    aside = np.minimum(np.abs(place[:, None] - touched), radius)
-    path = (bare + radius - np.sqrt(radius**2 - aside**2)).min(axis=1)
-    path[-1] = 0.0
-    return np.asarray(path)

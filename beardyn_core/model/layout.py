@@ -109,8 +109,11 @@ PATCH_FIELDS = 6
 PATCH_POINTS = 258  # of a path: 256 cells and one point beyond
 
 # --- springs near a patch (sound or damaged part of a lamina) [0, spring x field, lane]
-SPRING_SHARE, SPRING_GAP, SPRING_RING_SLOPE, SPRING_ROLLER_SLOPE = range(4)
-SPRING_FIELDS = 4
+# firmness is that of the sound surface under a patch's sharp edges, the softening its relative loss
+SPRING_SHARE, SPRING_GAP, SPRING_FIRMNESS = range(3)
+SPRING_RING_SLOPE, SPRING_RING_SOFTENING = 3, 4
+SPRING_ROLLER_SLOPE, SPRING_ROLLER_SOFTENING = 5, 6
+SPRING_FIELDS = 7
 
 # --- directions of the pockets [block, field, lane]; the mask of the rollers, alone and times these
 POCKET_COSINE, POCKET_SINE, COUNTED, COUNTED_COSINE, COUNTED_SINE = range(5)

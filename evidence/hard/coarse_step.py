@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from beardyn_core.bearing.kinematics import cage_speed
@@ -9,7 +11,7 @@ from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.start import initial_state
 from beardyn_core.integrate.state import Output, work_space
 from beardyn_core.integrate.static import solve
-from beardyn_core.integrate.status import assess, chatter_index
+from beardyn_core.integrate.status import Status, assess, chatter_index
 from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
@@ -23,7 +25,11 @@ STEPS = 500
 
 
 def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
-    """Make 500 steps under one load with the scene's step times `factor`."""
+    """Make 500 steps under one load with the scene's step times `factor`.
+
+    Of a run that is not finite at its end nothing is measured: its largest penetration is that of a roller
+    on its way to infinity.
+    """
     bearing, arrangement = scene.bearing, Arrangement(scene.bearing.roller_count, LANE_WIDTH)
     parameters = build_parameters(scene, arrangement, np.zeros(6))
     step = parameters.step * factor
@@ -43,10 +49,11 @@ def coarse_run(scene: Scene, point: Point, factor: float) -> Measures:
     output = Output(signals, *trends, np.zeros(ENERGY_TERMS))
     advance(Lanes(LANE_WIDTH), state, work, np.repeat(load[None], STEPS + 1, axis=0), output, parameters)
     status = assess(state, STEPS, bearing.large_end_radius, parameters.effects.rib)
-    return Measures(
-        simulated=STEPS * parameters.step,
-        status=int(status),
-        finite=bool(np.isfinite(signals).all()),
+    made = Measures(STEPS * parameters.step, int(status), bool(np.isfinite(signals).all()))
+    if status & Status.NOT_FINITE:
+        return made
+    return replace(
+        made,
         penetration=float(state.rollers[:, PENETRATION].max()),
         chatter_index=float(chatter_index(state, STEPS).max()),
         mean_force=float(np.linalg.norm(signals[STEPS // 2 :, :3].mean(axis=0))),

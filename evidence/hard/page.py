@@ -51,7 +51,8 @@ verdict that a nanometre changes is a failure. `make hard ARGS="load --jobs 1"` 
 - **Frame error**: largest deviation of a roller axis or a quaternion from length 1; at most 1e-12.
 - **Momentum residual**: change of the momentum of journal, rollers and cages in a block that load, weight
   and the force on the cup do not account for, over force times time; at most 1e-9.
-- **Status**: bits 1 not finite, 2 penetration, 4 chatter, 8 off the rib, 16 film out of range, 32 rib edge.
+- **Status**: bits 1 not finite, 2 penetration, 4 chatter, 8 off the rib, 16 film out of range, 32 rib edge,
+  of all starts. Of a coarse step that ends in numbers that are not finite nothing else is shown.
 - **Starts**: how many starts a nanometre of end play apart came to the verdict; the numbers beside it are
   the largest of them. What is refused before anything runs has one.
 - **Half the step**: from the first start, what it changes in mean force, force scatter, mean torque, cage

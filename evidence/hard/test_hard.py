@@ -191,6 +191,15 @@ def test_the_largest_measure_of_all_starts_is_shown() -> None:
     assert over_starts(CASE, found, 1.0).measures.energy_residual == 2e-3
 
 
+def test_the_status_of_every_start_is_shown() -> None:
+    chatters, ended = (
+        Outcome("steady", REPORTS, (), replace(GOOD_MEASURES, status=int(bit)))
+        for bit in (Status.CHATTER, Status.NOT_FINITE)
+    )
+    shown = over_starts(CASE, [chatters, ended], 1.0).measures
+    assert shown.status == int(Status.CHATTER | Status.NOT_FINITE)
+
+
 @pytest.mark.parametrize("name", ["pocket_clearance_2_mm", "axial_load_through_0.8_mm"])
 def test_what_held_by_chance_holds_from_every_start(name: str) -> None:
     case = next(case for case in CASES if case.name == name)

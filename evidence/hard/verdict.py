@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from beardyn_core.integrate.status import SENTENCES, Status
 from evidence.hard.case import HardCase
@@ -98,11 +99,14 @@ def over_starts(case: HardCase, found: Sequence[Outcome], wall: float) -> Outcom
             reasons.append(f"begun {start} nm apart: {outcome.verdict}")
     held = sum(outcome.verdict in GOOD and outcome.verdict == first.verdict for outcome in found)
     verdict = first.verdict if not reasons else KNOWN if case.known_failure else FAILED
-    worst = {}
+    worst: dict[str, Any] = {}
     for name in _WORST:
         values = [value for outcome in found if (value := getattr(outcome.measures, name)) is not None]
         if values:
             worst[name] = max(values, key=lambda value: (math.isnan(value), value))
+    # with the bits of every start: the largest value may be that of a start that says so
+    for outcome in found:
+        worst["status"] = worst.get("status", 0) | outcome.measures.status
     measures = replace(first.measures, **worst)
     return replace(
         first, verdict=verdict, reasons=tuple(reasons), measures=measures, wall=wall, starts=len(found),

@@ -40,7 +40,6 @@ class Case:
     load: A[float, "on the bearing, upwards on the journal, [N]"] = 8e4
     on: A[str, "surface of the spall"] = "cup"
     length: A[float, "of the spall along the roller, [m]"] = HALF
-    flattening: A[float, "half width over which the roller's path is evened in a test, [m]"] = 0.0
     caged: A[bool, "with cages; without, the rollers keep their distance by themselves"] = True
     damping: A[float | None, "time of the contact damping, that of the standard set if None, [s]"] = None
 
@@ -96,14 +95,6 @@ def over_area(speed: float) -> tuple[Case, ...]:
     return tuple(Case(width, speed, length=length) for width, length in SQUARES)
 
 
-FLATTENED = 0.18e-3  # half width of the Hertz contact of a roller under 10 kN on the cup [m]
-
-
-def narrow(speed: float) -> tuple[Case, ...]:
-    """List narrow spalls at a speed [km/h] with the path of the roller evened over its contact."""
-    return tuple(Case(width, speed, flattening=FLATTENED) for width in (1e-3, 2e-3))
-
-
 def across(speed: float, damping: float | None = None) -> tuple[Case, ...]:
     """List spalls over the whole contact, which unload a roller altogether, at a speed [km/h]."""
     return tuple(Case(width, speed, length=WHOLE, damping=damping) for width in WIDTHS if width >= 6e-3)
@@ -116,7 +107,6 @@ def every() -> list[Case]:
     found += OVER_SPEED
     for speed in BOTH:
         found += [*over_width(speed), *over_load(speed), *over_area(speed), *across(speed)]
-        found += narrow(speed)
         found += [Case(speed=speed, on=part) for part in PARTS]
     found += [Case(10e-3, length=WHOLE, damping=time) for time in TIMES]
     found += [case for speed in BOTH for case in across(speed, TIMES[0])]

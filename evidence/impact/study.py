@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated as A
@@ -16,12 +14,10 @@ from scipy.signal import butter, sosfiltfilt
 from beardyn_core.arrays import Float, Int
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.integrate.status import describe
-from beardyn_core.model import faults
 from beardyn_core.model.layout import SIGNAL_CHANNELS, SIGNAL_FORCE
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import by_kurtogram
 from beardyn_core.rail.build import load_history
-from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.sensor import RATES
 from beardyn_core.twin import Twin
 from evidence.impact.cases import Case
@@ -60,9 +56,8 @@ def run(case: Case) -> Run:
     # a spall of a roller or the cone passes the load zone once a turn of the cage or the shaft
     least = STRIKES / orders.bpfo if case.on == "cup" else CAGE_TURNS / orders.ftf
     blocks = math.ceil((SETTLED + max(0.5, least / rate)) / 0.02)
-    with evened_paths(case.flattening):
-        twin = Twin(scene)
-        twin.start(load_history(scene.operation, scene.mounting, 0.02 * blocks, scene.seed))
+    twin = Twin(scene)
+    twin.start(load_history(scene.operation, scene.mounting, 0.02 * blocks, scene.seed))
     signal, motion, force, orbit, times, status = [], [], [], [], [], 0
     speed = 2.0 * math.pi * rate
     for _ in range(blocks):
@@ -84,33 +79,6 @@ def run(case: Case) -> Run:
         case, heard - heard.mean(), angle, moved,
         np.concatenate(force), azimuths, describe(status),
     )  # fmt: skip
-
-
-@contextmanager
-def evened_paths(half_width: float) -> Iterator[None]:
-    """Even the paths of rollers over patches with the pressure of a Hertz contact of a half width [m].
-
-    A test of a cause, not a model: the twin's roller is rigid on the edges of a patch, a real one rests on
-    all of its contact.
-    """
-    rigid = faults.roller_path
-
-    def evened(patch: Patch, size: tuple[float, float, float], radius: float, reach: float) -> Float:
-        path = rigid(patch, size, radius, reach)
-        cell = reach / (len(path) - 1)
-        beside = np.arange(-math.ceil(half_width / cell), math.ceil(half_width / cell) + 1)
-        weight = np.sqrt(np.maximum(1.0 - (beside * cell / half_width) ** 2, 0.0))
-        around = np.concatenate([path[::-1], path[1:], np.zeros(len(beside))])  # from -reach on
-        mean = np.convolve(around, weight / weight.sum(), "same")[len(path) - 1 :][: len(path)]
-        mean[-1] = 0.0
-        return np.asarray(mean)
-
-    if half_width > 0.0:
-        faults.roller_path = evened
-    try:
-        yield
-    finally:
-        faults.roller_path = rigid
 
 
 def _azimuths(angles: Float, times_ns: Int, count: int) -> Float:

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from beardyn_core.config import load_bearing
-from evidence.impact.cases import BEARING, Case, across, every, healthy
+from evidence.impact.cases import BEARING, BOTH, Case, across, every, healthy, over_width
 from evidence.impact.crossing import BURST, crossing
+from evidence.impact.edges import LAWS, load_of, sinks, sound_depth, strike
 from evidence.impact.elastic import PLACE, approach, cup_radius, sink
 from evidence.impact.page import cases_heard, cases_of_crossings
 from evidence.impact.study import RATE, heard, over_noise
@@ -50,6 +51,51 @@ def test_a_light_roller_bridges_a_slot_like_a_rigid_one_and_a_loaded_one_is_soft
     loaded = [sink(bearing, width, arc, 1e4) for arc in (0.0, 2e-4)]
     assert loaded[0] - loaded[1] < 0.7 * (rigid[0] - rigid[1])
     assert sink(bearing, width, 5.5e-4, 1e4) > 1e-7
+
+
+@pytest.mark.parametrize("width", [0.3e-3, 0.5e-3, 1e-3, 2e-3, 6e-3])
+def test_edges_of_the_twin_give_way_as_an_elastic_half_space(width: float) -> None:
+    """2 to 20 kN: the sink to a fifth and a tenth of the depth e of a sound contact, the force to 11 %.
+
+    The sink of the twin is linear in e, which the elastic one is not over a slot narrower than the contact;
+    the force is that at e on a held roller, over that of a sound contact.
+    """
+    bearing, loads = load_bearing(BEARING), np.array([2e3, 5e3, 1e4, 2e4])
+    depth = sound_depth(bearing, loads)
+    for arc in np.linspace(max(0.5 * width - 7e-4, 0.0), 0.5 * width + 3e-4, 7):
+        rigid, ours, elastic = (sinks(bearing, law, width, float(arc), loads) for law in LAWS)
+        assert np.all(np.abs(ours - elastic) < 0.2 * elastic + 0.1 * depth)
+        assert np.all(ours >= rigid)
+        force = [load_of(bearing, law, width, float(arc)) for law in ("ours", "elastic")]
+        at_depth = np.array([[law(float(each)) for each in depth] for law in force])
+        assert np.all(np.abs(at_depth[0] - at_depth[1]) < 0.11 * loads)
+
+
+@pytest.mark.slow
+def test_narrow_spalls_strike_a_held_roller_as_elastic_edges_do_and_less_than_rigid_ones() -> None:
+    """Of 10 kN, at 90 km/h; a spall of 1 mm strikes harder than one of 2 mm on a half-space, too."""
+    rigid, ours, elastic = (
+        np.array([strike(law, width, 1e4, 90.0) for width in (1e-3, 2e-3)]) for law in LAWS
+    )
+    assert ours == pytest.approx(elastic, rel=0.05)
+    assert np.all(ours < 0.85 * rigid)
+    assert elastic[0] > 1.5 * elastic[1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed", BOTH)
+def test_spalls_of_every_width_from_3_mm_are_more_impulsive_than_a_sound_bearing(speed: float) -> None:
+    sound = heard(healthy(speed)).kurtosis
+    for case in over_width(speed):
+        assert heard(case).status == "fine"
+        if case.width >= 3e-3:
+            assert heard(case).kurtosis > sound
+
+
+@pytest.mark.slow
+def test_a_spall_of_3_mm_is_as_loud_as_one_of_2_mm_or_louder_at_90_km_h() -> None:
+    two, three = (heard(Case(width, 90.0)).peak for width in (2e-3, 3e-3))
+    assert two <= three
 
 
 @pytest.mark.slow

@@ -5,7 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import entry, inline
-from beardyn_core.kernels.defect import find_damage, pocket_length, pocket_wear, spring_damage, spring_slopes
+from beardyn_core.kernels.defect import (
+    find_damage,
+    pocket_length,
+    pocket_wear,
+    soften,
+    spring_damage,
+    spring_slopes,
+)
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.laminae import released_power
 from beardyn_core.kernels.orbit import Body, View
@@ -18,22 +25,25 @@ from test.kernels.entries import pocket_of
 
 @entry
 def patch_springs(
-    lanes: Any, azimuths: Any, out: Any, block: Any, count: Any, surfaces: Any, damage: Any
+    lanes: Any, cases: Any, out: Any, block: Any, count: Any, surfaces: Any, damage: Any
 ) -> None:
-    """Damaged springs of a contact at azimuths in ring and roller, all cases seen by one block.
+    """Damaged springs of a contact at azimuths in ring and roller and a depth, all cases seen by one block.
 
-    Outputs by lamina: share, gap, slope over the ring's and over the roller's azimuth; zeros elsewhere.
+    Outputs by lamina: share, gap, slope over the ring's and over the roller's azimuth, share of the
+    stiffness lost; zeros elsewhere.
     """
-    for case in range(azimuths.shape[0]):
-        both = (lanes.load(azimuths, case, 0), lanes.load(azimuths, case, 1))
+    for case in range(cases.shape[0]):
+        both, depth = (lanes.load(cases, case, 0), lanes.load(cases, case, 1)), lanes.load(cases, case, 2)
         near = 1.0 if find_damage(lanes, block, both, count, surfaces, damage) else 0.0
         for k in range(count):
             share, gap = spring_damage(lanes, count + k, damage)
-            ring_slope, roller_slope = spring_slopes(lanes, count + k, damage)
-            lanes.store(out, case, 4 * k, share * near)
-            lanes.store(out, case, 4 * k + 1, gap * near)
-            lanes.store(out, case, 4 * k + 2, ring_slope * near)
-            lanes.store(out, case, 4 * k + 3, roller_slope * near)
+            ring_slope, roller_slope = spring_slopes(lanes, count + k, depth, damage)
+            firmness = soften(lanes, lanes.constant(1.0), count + k, damage)
+            lanes.store(out, case, 5 * k, share * near)
+            lanes.store(out, case, 5 * k + 1, gap * near)
+            lanes.store(out, case, 5 * k + 2, ring_slope * near)
+            lanes.store(out, case, 5 * k + 3, roller_slope * near)
+            lanes.store(out, case, 5 * k + 4, (1.0 - firmness) * near)
 
 
 @entry
