@@ -86,14 +86,25 @@ def _mm(place: tuple[float, float, float]) -> list[float]:
     return [round(1e3 * each, 1) for each in place]
 
 
+def require_cup(modes: Modes, bearing: Bearing) -> None:
+    """Raise `InputError` where modes were made with another cup than that of the bearing."""
+    differences = ", ".join(modes.cup.differences(bearing))
+    if differences:
+        raise InputError(
+            f"the box {modes.name} was made with the cup of {modes.cup.bearing}: {differences}; take a table "
+            "made with this bearing (`beardyn structure`)"
+        )
+
+
 def mounting_of(modes: Modes, mounting: Mounting, bearing: Bearing) -> Mounting:
     """Put the box of a table into a mounting: mass, centre of mass and inertia without the cup.
 
     Raises
     ------
     InputError
-        When the box is lighter than the cup that it should hold.
+        When the box was made with another cup, or is lighter than the cup that it should hold.
     """
+    require_cup(modes, bearing)
     mass = modes.mass - bearing.cup_mass
     inertia = np.array(modes.inertia) - np.array(bearing.cup_inertia)
     if mass <= 0.0 or inertia.min() <= 0.0:

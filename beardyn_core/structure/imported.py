@@ -16,6 +16,7 @@ from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.edge import At, Vector, refuse
 from beardyn_core.errors import InputError
 from beardyn_core.structure.box import Seat
+from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.mesh import EXTRA, row_places
 from beardyn_core.structure.modes import WAVES, Modes
 
@@ -23,6 +24,7 @@ _AXIS = At(one_of=("x", "-x", "y", "-y", "z", "-z"))
 _NODES, _SHAPES, _NORMAL_MODE = (15, 2411), 55, 2
 _RIGID_HZ = 1.0
 _SAME_PLACE = np.radians(3.0)
+_ROUNDING = 0.01  # of moments of inertia as one writes them
 _CONDITION = 10.0  # of the fit: how much it makes of what is not in the shapes
 
 
@@ -35,6 +37,12 @@ class ModeFile:
     modes: A[Path, "Universal file with nodes (15 or 2411) and normal modes (55), relative to this file"]
     mass: A[float, At("kg", gt=0.0), "of box and cup"]
     inertia: A[Vector, At("kg_m2", gt=0.0), "of box and cup about x, y, z through the bearing centre"]
+    products: A[
+        Vector,
+        At("kg_m2"),
+        "xy, xz, yz of the same matrix of inertia: minus the sum of mass times x y and so on; no file has "
+        "them, and 0 is for a box that is its own mirror image",
+    ]
     sensors: A[tuple[Seat, ...], "where accelerometers may sit"]
     description: A[str, At(usual=""), "what it is, in a few words"] = ""
     centre: A[Vector, At("mm"), "of mass, from the bearing centre along x, y, z"] = (0.0, 0.0, 0.0)
@@ -62,6 +70,19 @@ class ModeFile:
             yield (
                 f"forward, left and up are {self.forward}, {self.left}, {self.up}; they must be three axes "
                 "of the file that follow each other as x, y and z do"
+            )
+        xy, xz, yz = self.products
+        about = np.diag(self.inertia) + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
+        about -= self.mass * (
+            np.dot(self.centre, self.centre) * np.eye(3) - np.outer(self.centre, self.centre)
+        )
+        least, middle, most = np.linalg.eigvalsh(about)
+        if least <= 0.0 or least + middle < (1.0 - _ROUNDING) * most:
+            shown = ", ".join(f"{each:.3g}" for each in (least, middle, most))
+            yield (
+                "inertia_kg_m2, products_kg_m2 and centre_mm are of no body: about the centre of mass its "
+                f"principal moments are {shown} kg m^2; none may be 0 or less, or more than the sum of the "
+                "others"
             )
 
     @property
@@ -179,6 +200,8 @@ def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
         box.centre,
         box.inertia,
         len(bending),
+        Cup.of(bearing),
+        box.products,
         suspension=tuple(seat.name for seat in box.suspension),
     )
 
