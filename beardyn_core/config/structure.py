@@ -15,18 +15,24 @@ from beardyn_core.config.folders import closest, config_folder
 from beardyn_core.edge import Problem, places, written_value
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
+from beardyn_core.packed import unpacked
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.structure.modes import Modes
-from beardyn_core.structure.table import read_table
+from beardyn_core.structure.table import modes_of_text, read_table
 
 SEAT_REACH = 5e-3  # a sensor this close to a seat sits on it [m]
 BOX_KEYS = ("box_mass_kg", "box_centre_mm", "box_inertia_kg_m2")
 
 
+def is_path(table: str) -> bool:
+    """Tell whether a table is given by its path; else it is the name of a shipped box."""
+    return table.lower().endswith(".csv")
+
+
 def table_path(name: str) -> Path:
     """Find the table of a shipped box, or that of a path, which ends in ``.csv``."""
-    if name.endswith(".csv"):
+    if is_path(name):
         return Path(name)
     folder = config_folder() / "structures"
     if not (path := folder / f"{name}.csv").is_file():
@@ -51,6 +57,8 @@ def modes_of_effects(effects: EffectSet) -> Modes | None:
     structure = effects.structure
     if not isinstance(structure, ModalStructure):
         return None
+    if structure.content:
+        return _unpacked(structure.content, structure.table, structure.highest)
     path = table_path(structure.table)
     try:
         written = path.stat().st_mtime_ns
@@ -62,6 +70,12 @@ def modes_of_effects(effects: EffectSet) -> Modes | None:
 @lru_cache(maxsize=8)
 def _read(path: Path, _written: int, highest: float | None) -> Modes:
     modes = read_table(path)
+    return modes if highest is None else modes.below(highest)
+
+
+@lru_cache(maxsize=8)
+def _unpacked(content: str, label: str, highest: float | None) -> Modes:
+    modes = modes_of_text(unpacked(content, label), label)
     return modes if highest is None else modes.below(highest)
 
 

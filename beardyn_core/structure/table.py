@@ -22,6 +22,7 @@ import yaml
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import note_read
 from beardyn_core.structure.cup import DIMENSIONS, Cup
 from beardyn_core.structure.modes import FIELDS, WAVES, Modes
 
@@ -71,11 +72,16 @@ def read_table(path: Path | str) -> Modes:
     InputError
         With every mistake in the file.
     """
+    return modes_of_text(table_text_of(path), str(path))
+
+
+def table_text_of(path: Path | str) -> str:
+    """Read the text of a table, mistakes and all; raises `InputError` where there is none."""
+    note_read(path)
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        return Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: cannot be read ({error})") from error
-    return modes_of_text(text, str(path))
 
 
 def modes_of_text(text: str, label: str) -> Modes:

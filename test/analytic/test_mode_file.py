@@ -125,7 +125,8 @@ def test_modes_come_back_in_the_axlebox_frame(tmp_path: Path) -> None:
 def test_the_command_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(tmp_path / "modes.unv", unit=1.0)
     (tmp_path / "mine.yaml").write_text(
-        "name: mine\nbearing: HS130x230\nmodes: modes.unv\nmass_kg: 70\ninertia_kg_m2: [2, 2, 3]\nproducts_kg_m2: [0.1, 0, -0.2]\n"
+        "name: mine\nbearing: HS130x230\nmodes: modes.unv\n"
+        "mass_kg: 70\ninertia_kg_m2: [2, 2, 3]\nproducts_kg_m2: [0.1, 0, -0.2]\n"
         "forward: z\nleft: x\nup: y\norigin_mm: [500, -200, 100]\n"
         "sensors: [{name: top, position_mm: [0, 0, 170], radius_mm: 5}]\n"
     )

@@ -267,7 +267,7 @@ def test_the_box_of_a_scene_is_that_of_the_table() -> None:
         ({"mounting": {"box_mass_kg": 100}}, "the box high_speed of effects.structure has 72"),
         ({"sensors": [{"name": "a", "position_mm": [0, 0, 90]}]}, "sits on no seat of the box high_speed"),
         ({"effects": {"structure": {"kind": "modes", "table": "hi_speed"}}}, "did you mean high_speed?"),
-        ({"bearing": "METRO120x220"}, "high_speed was made with the cup of HS130x230: outer_diameter 230 mm,"),
+        ({"bearing": "METRO120x220"}, "high_speed was made with the cup of HS130x230: outer_diameter 230"),
         ({"effects": {"structure": {"kind": "modes", "table": "none.csv"}}}, "none.csv: cannot be read"),
         (
             {"sensors": [{"name": "a", "position_mm": [0, 0, 170], "measured_paths": [{"path": "a.csv"}]}]},
