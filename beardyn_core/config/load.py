@@ -126,7 +126,8 @@ def load_box(name: str | Path) -> Box | ModeFile:
     noun = ModeFile if "modes" in data else Box
     box: Box | ModeFile = read_noun(noun, data, str(path))
     if isinstance(box, ModeFile):
-        box = replace(box, modes=path.parent / box.modes)
+        grid = None if box.grid is None else path.parent / box.grid
+        box = replace(box, modes=path.parent / box.modes, grid=grid)
     if box.bearing not in shipped_names("bearings"):
         box = replace(box, bearing=str(find("bearings", box.bearing, path.parent)))
     return box
