@@ -16,6 +16,7 @@ from beardyn_core.config.structure import modes_of_effects, table_path
 from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
+from beardyn_core.packed import packed
 from beardyn_core.rail.transfer_path import path_read, read_transfer_path
 from beardyn_core.scene.scene import Scene
 
@@ -91,6 +92,13 @@ def test_the_table_of_a_file_of_effects_lies_beside_that_file(tmp_path: Path) ->
         assert len(frequencies(scene)) > 90
     modes = modes_of_effects(load_effects(library / "effects.yaml"))
     assert modes is not None
+    # content of the table before goes with it
+    recorded = {**MODES, "content": packed(table_path("metro").read_text())}
+    (library / "effects.yaml").write_text(yaml.safe_dump({"name": "mine", "structure": recorded}))
+    changed = {"preset": "../library/effects.yaml", "structure": {"table": "high_speed"}}
+    assert len(frequencies(read_scene(written(tmp_path / "scenes", effects=changed)).scene)) == len(
+        modes.frequency
+    )
     # a table that the scene names lies beside the scene
     beside = {"preset": "../library/effects.yaml", "structure": {"table": "none.csv"}}
     with pytest.raises(InputError, match=r"scenes/none\.csv: cannot be read"):
