@@ -14,10 +14,10 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.cage_watch import CageWatch
+from beardyn_core.integrate.rest import rest_under, weight_on_cone
 from beardyn_core.integrate.snapshot import Snapshot
 from beardyn_core.integrate.start import at_rest, initial_state
 from beardyn_core.integrate.state import Output, State, work_space
-from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.integrate.warming import cold_start, scene_at, warmed
@@ -25,10 +25,8 @@ from beardyn_core.jit import LANE_WIDTH, when_compiling
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
-from beardyn_core.model.faults import grow, roller_oversize
+from beardyn_core.model.faults import grow
 from beardyn_core.model.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
-from beardyn_core.model.mounting import tilt_restraint
-from beardyn_core.model.scatter import crown_errors
 from beardyn_core.model.stages import stage_cycles
 from beardyn_core.model.structure import body_of
 from beardyn_core.observe.absence import absence_of
@@ -44,8 +42,6 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 from beardyn_core.versions import versions
 
-_SETTLED = 1e-6  # of the load: moment on the springs by the tilt of a bent box [m]
-_PASSES = 8
 STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slowly, and counting costs
 
 COMPILING = "compiling the kernels of these effects: once, about a minute"
@@ -169,76 +165,23 @@ class Twin:
             raise ValidityError(self.load.reason)
         scene = self.scene
         first = self._loads(0, BLOCK_NS, 1)[0]
-        static, preload = self._at_rest(first)
-        self._parameters = build_parameters(scene, self._arrangement, preload)
+        static, springs = rest_under(
+            scene,
+            self._structure,
+            first[:6],
+            float(first[6]),
+            laminae=scene.numerics.laminae,
+            coupling=scene.effects.lamina_coupling,
+        )
+        self._parameters = build_parameters(scene, self._arrangement, springs)
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._state = self._tier.start(scene, self._arrangement, self._kernel_parameters, static, first)
         rest = np.zeros(self._channels)
         rest[SIGNAL_FORCE : SIGNAL_FORCE + 3] = first[:3]
         rest[SIGNAL_FORCE + 1] -= scene.mounting.axial_prop_stiffness * static.displacement[1]
-        rest[SIGNAL_FORCE + 2] -= self._weight_of_rollers_and_cages()
+        rest[SIGNAL_FORCE + 2] -= weight_on_cone(scene)
         self._observer = Observer(scene, self._arrangement, self._parameters, rest)
         self._observer.first_instant(*self._complete(self._state.rollers, self._state.bodies), first[:6])
-
-    def _at_rest(self, first: Float) -> tuple[StaticSolution, Float]:
-        """Solve the static equilibrium under a load row, and the suspension's force on the box, [6]."""
-        scene, body, restraint = self.scene, self._structure, self._tilt_restraint
-        free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
-        moment = np.array([first[3], 0.0, first[5]])
-        props, tilt = 0.0, np.zeros(2)
-        seats = None if body is None else body.suspension
-        for _ in range(_PASSES):
-            preload = self._suspension_force(first, moment, props, restraint * tilt)
-            static = solve(
-                scene.bearing,
-                first[:3],
-                moment if free else np.zeros(3),
-                end_play=scene.end_play,
-                tilt="free" if free else "locked",
-                laminae=scene.numerics.laminae,
-                speed=first[6],
-                coupling=scene.effects.lamina_coupling,
-                oversize=roller_oversize(scene),
-                crown=crown_errors(scene),
-                body=body,
-                modal_load=() if seats is None else preload @ seats,
-                tilt_stiffness=restraint,
-                axial_stiffness=scene.mounting.axial_prop_stiffness,
-                rows=scene.rows,
-                missing=scene.missing_places,
-            )
-            props = scene.mounting.axial_prop_stiffness * float(static.displacement[1])
-            settled = np.abs(restraint * (static.tilt - tilt)).max() < _SETTLED * np.abs(first[:3]).max()
-            tilt = static.tilt
-            if seats is None or settled:
-                break
-        preload = self._suspension_force(first, moment, props, restraint * tilt)
-        box = self._parameters.mounting.coupling
-        if seats is not None and box is not None:
-            preload += box.stiffness @ (seats @ static.bending)
-        return static, preload
-
-    def _suspension_force(self, first: Float, moment: Float, prop: float, tilted: Float) -> Float:
-        """Balance the box under a load row, less what prop [N] and restraint of the tilt [N m] take, [6]."""
-        force = np.concatenate([-first[:3], -moment])
-        force[1] += prop
-        force[[3, 5]] += tilted
-        force[2] += self._weight_of_rollers_and_cages()
-        force[2] += self._free_fall * self._parameters.mounting.box_mass
-        box = self._parameters.mounting.coupling
-        if box is not None:
-            force[3:] -= self._free_fall * box.weight[3:]
-        return force
-
-    @property
-    def _free_fall(self) -> float:
-        return self.scene.effects.gravity.acceleration if self.scene.effects.gravity else 0.0
-
-    def _weight_of_rollers_and_cages(self) -> float:
-        """Compute the weight that the cone carries on top of the cup's force, [N]."""
-        scene, bearing = self.scene, self.scene.bearing
-        cages = scene.rows * bearing.cage.mass if scene.effects.cage else 0.0
-        return self._free_fall * (scene.roller_total * bearing.roller_mass + cages)
 
     def feed(self, load: LoadHistory) -> bool:
         """Append load samples; False when they were refused (`load.reason` says why)."""
@@ -319,11 +262,6 @@ class Twin:
         loads = self.load.at_steps(start_ns, end_ns, steps, blocks)
         loads[:, :6] = self.scene.mounting.about_bearing_centre(loads[:, :6])
         return loads
-
-    @property
-    def _tilt_restraint(self) -> Float:
-        """Stiffness of the suspension against tilt of the bearing about x and z, [N m/rad]."""
-        return tilt_restraint(self.scene.mounting, self._parameters.mounting)
 
     @property
     def _seat_channels(self) -> int:

@@ -70,7 +70,7 @@ def twin_diagnostic(
     if report.state == STOPPED:
         level = ERROR
     else:
-        told = list(standing.warnings)
+        told = [*standing.warnings, *filter(None, [report.load_lacks])]
         lags = standing.mode == "live" and report.lag_s > LONGEST_LIVE_LAG_S
         if lags and not ended:
             told.append(f"the run is {report.lag_s:.2f} s behind the wall clock")

@@ -7,6 +7,9 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
+from beardyn_core.rail.build import BACKGROUND_SAMPLE_NS
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.held_load import LiveLoad
 from beardyn_ros.live_line import LiveLine
@@ -21,6 +24,29 @@ class StoppedError(Exception):
     def __init__(self, sentence: str, exit_code: int) -> None:
         super().__init__(sentence)
         self.exit_code = exit_code
+
+
+def missing_background(name: str, load: LoadHistory, live: bool) -> str:
+    """Say that a load cannot have the forces of a background, which only a load node of the scene adds.
+
+    Parameters
+    ----------
+    name : str
+        Of a background with forces; empty without one.
+    load : LoadHistory
+        The first load of a run.
+    live : bool
+        Whether it is a held and filtered value.
+    """
+    rate = 1e9 / float(np.diff(load.time_ns).max()) if len(load) > 1 else 0.0
+    if not name or (rate > 0.9e9 / BACKGROUND_SAMPLE_NS and not live):
+        return ""
+    came = "live load is filtered" if live else f"this load has {rate:.0f} samples a second"
+    return (
+        f"the forces of the background {name!r} are not in the load: the load node of the scene adds them, "
+        f"at {1e9 / BACKGROUND_SAMPLE_NS:.0f} samples a second, and {came}; "
+        "of it the sensors hear at most its pickup"
+    )
 
 
 class LoadFeed:

@@ -34,10 +34,13 @@ class Rig:
     twin : beardyn_core.twin.Twin
         Or anything that keeps its contract.
     description : RunDescription
+    background : str
+        Name of a background with forces on the journal, which come with the load; empty without one.
     """
 
     twin: Any
     description: RunDescription
+    background: str = ""
 
 
 def scene_rig(scene_name: str, tier: str = SCENE_TIER) -> Callable[[], Rig]:
@@ -55,9 +58,11 @@ def scene_rig(scene_name: str, tier: str = SCENE_TIER) -> Callable[[], Rig]:
 
     scene = load_scene(scene_name, tier=None if tier == SCENE_TIER else tier, outside_load=True)
 
+    forces = scene.background.name if scene.background is not None and scene.background.forces else ""
+
     def build() -> Rig:
         twin = Twin(scene)
-        return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names))
+        return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names), forces)
 
     return build
 
@@ -161,6 +166,8 @@ class SessionReport:
         The same of the latest of all blocks, [s].
     waveform_samples : int
         Waveform samples delivered since the start of the run.
+    load_lacks : str
+        What the load of this run has not, though the scene speaks of it; a sentence, or empty.
     """
 
     state: str = IDLE
@@ -183,4 +190,5 @@ class SessionReport:
     lag_s: float = 0.0
     worst_lag_s: float = 0.0
     waveform_samples: int = 0
+    load_lacks: str = ""
     recent: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=50))

@@ -19,7 +19,7 @@ from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import encode_string
-from beardyn_ros.load_feed import LoadFeed, StoppedError
+from beardyn_ros.load_feed import LoadFeed, StoppedError, missing_background
 from beardyn_ros.pacer import Pacer
 from beardyn_ros.run_state import (
     COMPILING,
@@ -218,6 +218,9 @@ class TwinSession:
         description = replace(description, truth={**description.truth, "run_id": run_id})
         self._put(Outgoing((("truth", encode_string(description.to_json())),)))
         first = self.feed.first(twin.block_ns)
+        lacks = missing_background(rig.background, first, self.options.mode == "live")
+        with self._condition:
+            self._report.load_lacks = lacks
         self._set_state(EQUILIBRIUM, "solving the static equilibrium under the first load")
         twin.start(first)
         self._set_state(RUNNING, "running")

@@ -88,7 +88,7 @@ class TwinNode(LifecycleNode):
         self._session: TwinSession | None = None
         self._consumed_ns: int | None = None
         self._clock_ns = 0
-        self._announced = ""
+        self._announced = self._load_lacks = ""
         self._readers_ignored_until = 0.0
         self._blocks_unconfirmed = 0
         self._out = TopicPublishers(self, "truth", *SIGNAL_TOPICS, "load/consumed", "/diagnostics")
@@ -268,6 +268,10 @@ class TwinNode(LifecycleNode):
         report = self._session.report()
         for outgoing in self._session.collect():
             self._publish(outgoing)
+        if report.load_lacks != self._load_lacks:
+            self._load_lacks = report.load_lacks
+            if report.load_lacks:
+                self.get_logger().warning(report.load_lacks)
         sentence = f"{report.state}: {report.sentence}"
         if needs_attention(report) and sentence != self._announced:
             if self._session.exit_code:

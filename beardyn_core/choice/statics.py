@@ -9,13 +9,10 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.integrate.equilibria import equilibrium
+from beardyn_core.integrate.rest import rest_under
 from beardyn_core.integrate.roller_equilibrium import spring_params
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.faults import roller_oversize
-from beardyn_core.model.mounting import moved
-from beardyn_core.model.scatter import crown_errors
 from beardyn_core.model.structure import body_of
 from beardyn_core.scene.scene import Scene
 
@@ -55,37 +52,12 @@ class Statics:
     def _solved(
         self, case: LoadCase, laminae: int, coupling: LaminaCoupling | None, bending: bool
     ) -> StaticSolution | None:
-        scene = self.scene
-        free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
-        moment = (case.moment[0], 0.0, case.moment[2]) if free else (0.0, 0.0, 0.0)
+        body = self._body if bending else None
+        wrench = [*case.force, *case.moment]
         try:
-            return equilibrium(
-                scene.bearing,
-                case.force,
-                moment,
-                end_play=scene.end_play,
-                tilt="free" if free else "locked",
-                laminae=laminae,
-                speed=case.speed,
-                coupling=coupling,
-                oversize=roller_oversize(scene),
-                crown=crown_errors(scene),
-                body=self._body if bending else None,
-                tilt_stiffness=self._restraint(),
-                axial_stiffness=scene.mounting.axial_prop_stiffness,
-                rows=scene.rows,
-                missing=scene.missing_places,
-            )
+            return rest_under(self.scene, body, wrench, case.speed, laminae=laminae, coupling=coupling).static
         except (InputError, ValidityError):
             return None
-
-    def _restraint(self) -> tuple[float, float]:
-        """Compute the stiffness of the suspension against tilt of the bearing about x and z, [N m/rad]."""
-        mounting = self.scene.mounting
-        if mounting.cup == "held" or mounting.journal_tilt == "free":
-            return (0.0, 0.0)
-        springs = moved([*mounting.stiffness, *mounting.rotational_stiffness], mounting.suspension_centre)
-        return float(springs[3, 3]), float(springs[5, 5])
 
     def lumped(self, case: LoadCase, laminae: int) -> tuple[float, float] | None:
         """Compute the deflection [m] and largest roller load [N] of the springs of the lumped tier."""

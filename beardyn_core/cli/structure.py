@@ -27,7 +27,7 @@ def add_parser(subparsers: Any) -> None:
         help="compute the modes of an axlebox by finite elements, or read them",
         description="Mesh an axlebox with the cup in it, compute its free modes and the residual modes that "
         "make its static bending right, check them against the finite elements and write them as a table; or "
-        "read the modes of a Universal file that BOX names and write them as the same table. "
+        "read the modes of a Universal file, or of Nastran, that BOX names and write them as the same table. "
         "Needs pip install beardyn[structure].",
     )
     parser.add_argument("box", metavar="BOX", help="name of a shipped box or path of a YAML file")

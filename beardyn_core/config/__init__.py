@@ -7,6 +7,7 @@ folders      where configuration lies; a name becomes a file
 yaml_text    YAML text to a mapping, and a scene back to YAML
 file_model   base of the models: unknown keys explained, all mistakes kept
 structure    modes of a box by name, and the mounting that goes with them
+content      files that a scene is computed from, put into the scene
 keys         from an annotated noun to the model of its file
 scene_file   what the parts of a scene say otherwise than their nouns; presets of effects
 problems     refusals to sentences with file, key, value, what is allowed

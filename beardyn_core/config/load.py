@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Annotated as A
 from typing import Any
@@ -16,6 +17,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.automatic import take_auto
+from beardyn_core.config.content import located_table, self_contained, with_table
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.keys import keys_of, valid
 from beardyn_core.config.missing import entries_of, missing_problems
@@ -29,7 +31,7 @@ from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
 from beardyn_core.rail.table import read_table
-from beardyn_core.rail.transfer_path import read_transfer_path
+from beardyn_core.rail.transfer_path import path_read
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.excitation import MEASURED, WheelDefect
@@ -124,7 +126,8 @@ def load_box(name: str | Path) -> Box | ModeFile:
     noun = ModeFile if "modes" in data else Box
     box: Box | ModeFile = read_noun(noun, data, str(path))
     if isinstance(box, ModeFile):
-        box = replace(box, modes=path.parent / box.modes)
+        grid = None if box.grid is None else path.parent / box.grid
+        box = replace(box, modes=path.parent / box.modes, grid=grid)
     if box.bearing not in shipped_names("bearings"):
         box = replace(box, bearing=str(find("bearings", box.bearing, path.parent)))
     return box
@@ -142,7 +145,9 @@ def load_background(name: str | Path) -> Background:
 
 def load_effects(name: str | Path) -> EffectSet:
     """Load the effects of a shipped preset or of a file; raises `InputError` with every mistake."""
-    return _load(EffectSet, find("effects", str(name)))
+    path = find("effects", str(name))
+    effects: EffectSet = read_noun(EffectSet, located_table(read_file(path), path.parent), str(path))
+    return with_table(effects)
 
 
 def read_trial(name: str | Path, *, tier: str | None = None, seed: int | None = None) -> tuple[Trial, Path]:
@@ -207,7 +212,6 @@ class _Reading:
         self.data.setdefault("effects", "standard")
         free = take_auto(self.data)
         self._inline_effects()
-        self._locate_table()
         self._inline_sensors()
         operation = self.data.get("operation")
         if isinstance(operation, dict):
@@ -223,7 +227,7 @@ class _Reading:
         self._check_integrator(free)
         if self.problems or scene is None:
             raise InputError(list(dict.fromkeys(self.problems)))
-        return OpenScene(scene, free, "steps_per_sample" in self.data.get("numerics", {}))
+        return OpenScene(self_contained(scene), free, "steps_per_sample" in self.data.get("numerics", {}))
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = located(place, self.origins)
@@ -254,7 +258,8 @@ class _Reading:
             self._complain(place, error.problems)
             return
         try:
-            owner[key] = read_file(path)
+            found = read_file(path)
+            owner[key] = located_table(found, path.parent) if kind == "effects" else found
             self.origins.append(Origin(place, str(path)))
         except InputError as error:
             self.problems += error.problems
@@ -271,10 +276,10 @@ class _Reading:
             if isinstance(paths, list | tuple):
                 sensor["measured_paths"] = [dict(each) if isinstance(each, dict) else each for each in paths]
                 for _, path in entries_of(sensor, "measured_paths"):
-                    self._locate(path, "path", read_transfer_path)
+                    self._locate(path, "path", partial(path_read, path.get("content")))
 
     def _inline_effects(self) -> None:
-        given = self.data["effects"]
+        given = self.data["effects"] = located_table(self.data["effects"], self.folder)
         if isinstance(given, dict) and isinstance(given.get("preset"), str):
             preset = {"effects": given["preset"]}
             self._inline(preset, "effects", "effects", ())
@@ -304,14 +309,6 @@ class _Reading:
             profile = irregularity["kind"] == "csv"
             layout = RAIL_LAYOUT if profile else DENSITY_LAYOUT
             self._locate(irregularity, "path", lambda path: read_table(path, layout))
-
-    def _locate_table(self) -> None:
-        """Make the path of a table of modes absolute; names of shipped ones stay."""
-        effects = self.data["effects"]
-        structure = effects.get("structure") if isinstance(effects, dict) else None
-        if isinstance(structure, dict) and str(structure.get("table", "")).endswith(".csv"):
-            table = str((self.folder / structure["table"]).resolve())
-            self.data["effects"] = {**effects, "structure": {**structure, "table": table}}
 
     def _locate(self, owner: dict[str, Any], key: str, read: Callable[[Path], object]) -> None:
         path = owner.get(key)

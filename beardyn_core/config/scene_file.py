@@ -273,6 +273,8 @@ def overlay(preset: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
             and isinstance(base, dict)
             and change.get("kind", base.get("kind")) == base.get("kind")
         ):
+            if "table" in change:  # the content is that of the table before
+                base = {name: value for name, value in base.items() if name != "content"}
             merged[key] = {**base, **change}
         elif change is True and isinstance(base, dict):
             merged[key] = base

@@ -15,18 +15,24 @@ from beardyn_core.config.folders import closest, config_folder
 from beardyn_core.edge import Problem, places, written_value
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
+from beardyn_core.packed import unpacked
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.structure.modes import Modes
-from beardyn_core.structure.table import read_table
+from beardyn_core.structure.table import modes_of_text, read_table
 
 SEAT_REACH = 5e-3  # a sensor this close to a seat sits on it [m]
 BOX_KEYS = ("box_mass_kg", "box_centre_mm", "box_inertia_kg_m2")
 
 
+def is_path(table: str) -> bool:
+    """Tell whether a table is given by its path; else it is the name of a shipped box."""
+    return table.lower().endswith(".csv")
+
+
 def table_path(name: str) -> Path:
     """Find the table of a shipped box, or that of a path, which ends in ``.csv``."""
-    if name.endswith(".csv"):
+    if is_path(name):
         return Path(name)
     folder = config_folder() / "structures"
     if not (path := folder / f"{name}.csv").is_file():
@@ -51,6 +57,8 @@ def modes_of_effects(effects: EffectSet) -> Modes | None:
     structure = effects.structure
     if not isinstance(structure, ModalStructure):
         return None
+    if structure.content:
+        return _unpacked(structure.content, structure.table, structure.highest)
     path = table_path(structure.table)
     try:
         written = path.stat().st_mtime_ns
@@ -62,6 +70,12 @@ def modes_of_effects(effects: EffectSet) -> Modes | None:
 @lru_cache(maxsize=8)
 def _read(path: Path, _written: int, highest: float | None) -> Modes:
     modes = read_table(path)
+    return modes if highest is None else modes.below(highest)
+
+
+@lru_cache(maxsize=8)
+def _unpacked(content: str, label: str, highest: float | None) -> Modes:
+    modes = modes_of_text(unpacked(content, label), label)
     return modes if highest is None else modes.below(highest)
 
 
@@ -86,14 +100,25 @@ def _mm(place: tuple[float, float, float]) -> list[float]:
     return [round(1e3 * each, 1) for each in place]
 
 
+def require_cup(modes: Modes, bearing: Bearing) -> None:
+    """Raise `InputError` where modes were made with another cup than that of the bearing."""
+    differences = ", ".join(modes.cup.differences(bearing))
+    if differences:
+        raise InputError(
+            f"the box {modes.name} was made with the cup of {modes.cup.bearing}: {differences}; take a table "
+            "made with this bearing (`beardyn structure`)"
+        )
+
+
 def mounting_of(modes: Modes, mounting: Mounting, bearing: Bearing) -> Mounting:
     """Put the box of a table into a mounting: mass, centre of mass and inertia without the cup.
 
     Raises
     ------
     InputError
-        When the box is lighter than the cup that it should hold.
+        When the box was made with another cup, or is lighter than the cup that it should hold.
     """
+    require_cup(modes, bearing)
     mass = modes.mass - bearing.cup_mass
     inertia = np.array(modes.inertia) - np.array(bearing.cup_inertia)
     if mass <= 0.0 or inertia.min() <= 0.0:

@@ -134,7 +134,7 @@ def write_mapping(data: dict[str, Any]) -> str:
 
 
 def scene_text(scene: Scene) -> str:
-    """Write a scene as YAML: edge units, every reference resolved, every number.
+    """Write a scene as YAML: edge units, every reference resolved, every file.
 
     Returns
     -------
@@ -142,4 +142,6 @@ def scene_text(scene: Scene) -> str:
         `beardyn_core.choice.scene_from_text` makes the same scene of it. A number of which no decimal in edge
         units is the exact value in SI comes back as its neighbour.
     """
-    return write_mapping(written(scene))
+    from beardyn_core.config.content import self_contained  # brings numpy along
+
+    return write_mapping(written(self_contained(scene)))

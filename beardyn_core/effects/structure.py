@@ -56,12 +56,19 @@ class ModalStructure:
         source="Rubin (1975), AIAA J. 13, 995, for the residual modes; finite elements in docs/structure.md",
     )
 
-    table: A[str, At(longest=400), "name of a shipped box, or path of a table, ending in .csv"]
+    table: A[
+        str,
+        At(longest=400),
+        "name of a shipped box, or path of a table, ending in .csv, relative to the file that names it",
+    ]
     highest: A[
         float | None,
         At("Hz", gt=0.0),
         "what lies above becomes residual modes with the same static bending; all modes when left out",
     ] = None
+    content: A[
+        str, At(absent=True), "the table itself, packed, as a recording has it; goes before the file"
+    ] = ""
 
 
 Structure = RingStructure | ModalStructure

@@ -7,6 +7,7 @@ roller_contacts    contacts of resting rollers, with tangents
 roller_equilibrium every roller in balance, and one as a spring
 static             the double row in balance
 equilibria         equilibria that are solved once
+rest               bearing, box and springs at rest under a load
 torque             running torque under static loads
 step_choice        the coarsest step that is converged
 friction_steps     the step that friction asks for, without an equilibrium

@@ -13,7 +13,7 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
-from beardyn_core.config.structure import modes_of_effects, seat_of
+from beardyn_core.config.structure import modes_of_effects, require_cup, seat_of
 from beardyn_core.effects import RingStructure, Structure
 from beardyn_core.errors import InputError
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
@@ -95,6 +95,7 @@ def _body(
     if isinstance(structure, RingStructure):
         return rings(bearing, structure, rows)
     assert modes is not None
+    require_cup(modes, bearing)
     here = mounting.box_mass + bearing.cup_mass
     if abs(here - modes.mass) > 1e-3 * modes.mass:
         raise InputError(

@@ -18,8 +18,9 @@ _MOST_ERROR = 0.5  # dB, where the path is not 20 dB under its peak
 def response_of(path: TransferPath, rate: float) -> Float:
     """Compute the impulse response of a measured path; the cause stands at sample `PATH_LOOKAHEAD`.
 
-    Linear between the measured frequencies and down to 1 at rest, where box and sensor move together; from
-    the last frequency on it fades to nothing over a tenth of it.
+    Linear between the measured frequencies and down to 1 at rest, where box and sensor stand in the same
+    gravity: a row at 0 Hz, which no accelerometer of a box measures, is not used. From the last frequency on
+    it fades to nothing over a tenth of it.
 
     Raises
     ------
@@ -27,9 +28,9 @@ def response_of(path: TransferPath, rate: float) -> Float:
         When the response is longer than the filter, or comes before its cause.
     """
     grid = np.fft.rfftfreq(4 * _LENGTH, 1.0 / rate)
-    frequency, ratio = path.frequency, path.ratio
-    if frequency[0] > 0.0:
-        frequency, ratio = np.concatenate([[0.0], frequency]), np.concatenate([[1.0 + 0.0j], ratio])
+    moving = path.frequency > 0.0
+    frequency = np.concatenate([[0.0], path.frequency[moving]])
+    ratio = np.concatenate([[1.0 + 0.0j], path.ratio[moving]])
     wanted = np.interp(grid, frequency, ratio.real) + 1j * np.interp(grid, frequency, ratio.imag)
     beyond = np.clip((grid / frequency[-1] - 1.0) / (_FADE - 1.0), 0.0, 1.0)
     wanted *= 0.5 + 0.5 * np.cos(np.pi * beyond)

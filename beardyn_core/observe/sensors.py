@@ -15,7 +15,7 @@ from beardyn_core.observe.block import Vibration
 from beardyn_core.observe.path_filter import PATH_LOOKAHEAD, PathFilter
 from beardyn_core.observe.pickup import PickupStream
 from beardyn_core.observe.resampling import DELAY, Decimator
-from beardyn_core.rail.transfer_path import read_transfer_path
+from beardyn_core.rail.transfer_path import path_read
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import AXES, RATES, Accelerometer, steps_do_not_fit
 
@@ -116,7 +116,7 @@ class _Chain:
         self._path: PathFilter | None = None
         if sensor.measured_paths:
             paths = {
-                AXES.index(axis): read_transfer_path(each.path)
+                AXES.index(axis): path_read(each.content, each.path)
                 for each in sensor.measured_paths
                 for axis in each.axes
             }

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
+from beardyn_core.packed import packed, unpacked
 from beardyn_core.rail.table import Column, Layout, read_table
 
 _PAIRS = (("real", "imaginary"), ("magnitude_dB", "phase_deg"))
@@ -57,6 +58,24 @@ def read_transfer_path(path: Path) -> TransferPath:
     one, two = (table[name] for name in whole[0])
     ratio = one + 1j * two if whole[0] == _PAIRS[0] else 10.0 ** (one / 20.0) * np.exp(1j * np.deg2rad(two))
     return _checked(path, table["frequency_Hz"], np.asarray(ratio, dtype=np.complex128))
+
+
+def path_read(content: str | None, path: Path) -> TransferPath:
+    """Read a measured path from what a recording has of it, or else from its file."""
+    if not content:
+        return read_transfer_path(path)
+    try:
+        rows = [line.split(",") for line in unpacked(content, str(path)).splitlines()]
+        frequency, real, imaginary = np.array(rows, dtype=np.float64).T
+    except ValueError as error:
+        raise InputError(f"{path}: content is no measured path ({error})") from error
+    return _checked(path, frequency, real + 1j * imaginary)
+
+
+def content_of(path: TransferPath) -> str:
+    """Pack a path so that `path_read` gives the same numbers: frequency, real, imaginary."""
+    rows = zip(path.frequency.tolist(), path.ratio.tolist(), strict=True)
+    return packed("\n".join(f"{hertz!r},{ratio.real!r},{ratio.imag!r}" for hertz, ratio in rows))
 
 
 def _checked(path: Path, frequency: Float, ratio: NDArray[np.complex128]) -> TransferPath:

@@ -22,6 +22,7 @@ from beardyn_core.record.run import Run
 from beardyn_core.record.viewer import require_display, web_viewer
 
 APPLICATION = "beardyn"
+_SHOWN = 200  # of a line of the scene
 
 
 @dataclass(frozen=True)
@@ -230,5 +231,7 @@ def about(run: Run) -> str:
     results = [s.message for _, statuses in run.results[-1:] for s in statuses]
     if results:
         lines += ["## Monitor", *(f"- {message}" for message in results)]
-    lines += ["## Scene", "```yaml", run.scene_text.rstrip(), "```"]
+    written = run.scene_text.splitlines()  # tables stand in it packed, one line each
+    shown = "\n".join(line if len(line) <= _SHOWN else f"{line[:_SHOWN]}..." for line in written)
+    lines += ["## Scene", "```yaml", shown, "```"]
     return "\n\n".join(lines[:3]) + "\n\n" + "\n".join(lines[3:]) + "\n"

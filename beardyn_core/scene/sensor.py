@@ -66,6 +66,9 @@ class MeasuredPath:
         "or a Universal file (.uff, .unv) with one frequency response (data set 58)",
     ]
     axes: A[tuple[str, ...], At(one_of=AXES, size=(1, 3)), "of the sensor that it acts on"] = AXES
+    content: A[
+        str, At(absent=True), "the path itself, packed, as a recording has it; goes before the file"
+    ] = ""
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Box
+from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.elastic import Elastic, elastic_body, stacked
 from beardyn_core.structure.mesh import mesh_of
 from beardyn_core.structure.modes import RESIDUAL_WAVES, WAVES, Modes
@@ -90,6 +91,7 @@ def modes_of(
         _centre(inertia),
         (float(inertia[3, 3]), float(inertia[4, 4]), float(inertia[5, 5])),
         found.free.shape[1],
+        Cup.of(bearing),
         (float(inertia[3, 4]), float(inertia[3, 5]), float(inertia[4, 5])),
         tuple(seat.name for seat in box.suspension),
         digest(box, bearing),

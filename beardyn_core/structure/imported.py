@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,30 +15,49 @@ from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.edge import At, Vector, refuse
 from beardyn_core.errors import InputError
 from beardyn_core.structure.box import Seat
-from beardyn_core.structure.mesh import EXTRA, row_places
+from beardyn_core.structure.cup import Cup
+from beardyn_core.structure.mesh import row_places
 from beardyn_core.structure.modes import WAVES, Modes
+from beardyn_core.structure.nastran import read_nastran
+from beardyn_core.structure.universal import read_universal
 
 _AXIS = At(one_of=("x", "-x", "y", "-y", "z", "-z"))
-_NODES, _SHAPES, _NORMAL_MODE = (15, 2411), 55, 2
+_PUNCH = (".pch", ".pun")
 _RIGID_HZ = 1.0
 _SAME_PLACE = np.radians(3.0)
+_ROUNDING = 0.01  # of moments of inertia as one writes them
 _CONDITION = 10.0  # of the fit: how much it makes of what is not in the shapes
 
 
 @dataclass(frozen=True)
 class ModeFile:
-    """A Universal file with modes of a free box, the cup in it, and how its nodes lie in the axlebox."""
+    """A file with modes of a free box, the cup in it, and how its nodes lie in the axlebox."""
 
     name: A[str, At(longest=80), "of the box"]
     bearing: A[str, At(longest=200), "shipped bearing or path of its file, whose cup is in the box"]
-    modes: A[Path, "Universal file with nodes (15 or 2411) and normal modes (55), relative to this file"]
+    modes: A[
+        Path,
+        "relative to this file: Universal file with nodes (15 or 2411) and normal modes (55), or punch file "
+        "of Nastran (.pch) with the eigenvectors",
+    ]
     mass: A[float, At("kg", gt=0.0), "of box and cup"]
     inertia: A[Vector, At("kg_m2", gt=0.0), "of box and cup about x, y, z through the bearing centre"]
+    products: A[
+        Vector,
+        At("kg_m2"),
+        "xy, xz, yz of the same matrix of inertia: minus the sum of mass times x y and so on; no file has "
+        "them, and 0 is for a box that is its own mirror image",
+    ]
     sensors: A[tuple[Seat, ...], "where accelerometers may sit"]
     description: A[str, At(usual=""), "what it is, in a few words"] = ""
     centre: A[Vector, At("mm"), "of mass, from the bearing centre along x, y, z"] = (0.0, 0.0, 0.0)
     suspension: A[tuple[Seat, ...], "where springs, links and dampers hold the box"] = ()
-    length_unit: A[str, At(one_of=("m", "mm")), "of the nodes; modal masses are in kg"] = "m"
+    grid: A[
+        Path | None,
+        "relative to this file: bulk data file with the grid points of a punch file, which has none",
+    ] = None
+    length_unit: A[str, At(one_of=("m", "mm")), "of the nodes"] = "m"
+    mass_unit: A[str, At(one_of=("kg", "t")), "of the modal masses; Nastran in mm, N and s has t"] = "kg"
     forward: A[str, _AXIS, "axis of the file that is x forward"] = "x"
     left: A[str, _AXIS, "axis of the file that is y left along the axle"] = "y"
     up: A[str, _AXIS, "axis of the file that is z up"] = "z"
@@ -63,6 +81,29 @@ class ModeFile:
                 f"forward, left and up are {self.forward}, {self.left}, {self.up}; they must be three axes "
                 "of the file that follow each other as x, y and z do"
             )
+        if self.punched != (self.grid is not None):
+            yield (
+                "grid is the bulk data file of a punch file: "
+                f"{'give it' if self.punched else 'leave it out'} with modes {self.modes.name}"
+            )
+        xy, xz, yz = self.products
+        about = np.diag(self.inertia) + np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
+        about -= self.mass * (
+            np.dot(self.centre, self.centre) * np.eye(3) - np.outer(self.centre, self.centre)
+        )
+        least, middle, most = np.linalg.eigvalsh(about)
+        if least <= 0.0 or least + middle < (1.0 - _ROUNDING) * most:
+            shown = ", ".join(f"{each:.3g}" for each in (least, middle, most))
+            yield (
+                "inertia_kg_m2, products_kg_m2 and centre_mm are of no body: about the centre of mass its "
+                f"principal moments are {shown} kg m^2; none may be 0 or less, or more than the sum of the "
+                "others"
+            )
+
+    @property
+    def punched(self) -> bool:
+        """Whether the modes are in a punch file of Nastran."""
+        return self.modes.suffix.lower() in _PUNCH
 
     @property
     def turn(self) -> Float:
@@ -73,68 +114,6 @@ class ModeFile:
         return found
 
 
-@dataclass(frozen=True)
-class Shapes:
-    """Modes at nodes, unit modal mass, in the frame of their file."""
-
-    nodes: A[Float, "shape [node, 3], in the file's unit of length"]
-    frequency: A[Float, "shape [mode], [Hz]"]
-    damping_ratio: A[Float, "shape [mode], 0 where the file has none"]
-    shape: A[Float, "shape [mode, node, 3], [1/sqrt(kg)]"]
-
-
-def read_universal(path: Path) -> Shapes:
-    """Read nodes and normal modes of a Universal file.
-
-    Raises
-    ------
-    InputError
-        pyuff is missing, the file cannot be read, or it lacks nodes or modes.
-    """
-    try:
-        import pyuff
-    except ImportError as error:
-        raise InputError(f"Universal files need pyuff ({error}); {EXTRA}") from error
-    try:
-        if not path.is_file():
-            raise OSError("no such file")
-        sets = pyuff.UFF(str(path)).read_sets()
-    except Exception as error:  # of a broken file pyuff raises whatever Python does
-        raise InputError(f"{path}: cannot be read as a Universal file: {error}") from error
-    sets = sets if isinstance(sets, list) else [sets]
-    places: dict[int, Float] = {}
-    for each in (found for found in sets if found["type"] in _NODES):
-        where = np.stack([each["x"], each["y"], each["z"]], axis=1).astype(float)
-        places |= dict(zip(map(int, each["node_nums"]), where, strict=True))
-    modes = [each for each in sets if each["type"] == _SHAPES and each.get("analysis_type") == _NORMAL_MODE]
-    problems = []
-    if not places:
-        problems.append(f"{path}: there are no nodes (data set 15 or 2411)")
-    if not modes:
-        problems.append(f"{path}: there are no normal modes (data set 55, analysis type 2)")
-    strange = sorted({int(number) for each in modes for number in each["node_nums"]} - places.keys())
-    if modes and places and strange:
-        problems.append(f"{path}: {len(strange)} nodes of the shapes have no place, {strange[0]} first")
-    massless = [each["mode_n"] for each in modes if not each.get("modal_m", 0.0) > 0.0]
-    if massless:
-        problems.append(f"{path}: mode {massless[0]:g} has no modal mass; export the modes with it")
-    if problems:
-        raise InputError(problems)
-    numbers = sorted({int(number) for each in modes for number in each["node_nums"]})
-    order = {number: i for i, number in enumerate(numbers)}
-    shape = np.zeros((len(modes), len(numbers), 3))
-    for i, each in enumerate(modes):
-        rows = [order[int(number)] for number in each["node_nums"]]
-        shape[i, rows] = np.stack([np.real(each[axis]) for axis in ("r1", "r2", "r3")], axis=1)
-        shape[i] /= math.sqrt(each["modal_m"])
-    return Shapes(
-        np.array([places[number] for number in numbers]),
-        np.array([float(each["freq"]) for each in modes]),
-        np.array([float(each.get("modal_damp_vis", 0.0)) for each in modes]),
-        shape,
-    )
-
-
 def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
     """Read the modes of a file as the bearing, sensors and springs see them; rigid motion is left out.
 
@@ -143,12 +122,12 @@ def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
     InputError
         With every mistake in the file, and where it has no nodes.
     """
-    found = read_universal(box.modes)
+    found = read_universal(box.modes) if box.grid is None else read_nastran(box.modes, box.grid)
     unit = 1e-3 if box.length_unit == "mm" else 1.0
     nodes = (unit * found.nodes - np.array(box.origin)) @ box.turn.T
     bending = np.argsort(found.frequency)
     bending = bending[found.frequency[bending] > _RIGID_HZ]
-    shape = found.shape[bending] @ box.turn.T
+    shape = found.shape[bending] @ box.turn.T / np.sqrt(1e3 if box.mass_unit == "t" else 1.0)
     seats = (*box.sensors, *box.suspension)
     problems: list[str] = []
     raceway = np.zeros((len(bending), 2, 3, 2 * WAVES + 1))
@@ -179,6 +158,8 @@ def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
         box.centre,
         box.inertia,
         len(bending),
+        Cup.of(bearing),
+        box.products,
         suspension=tuple(seat.name for seat in box.suspension),
     )
 

@@ -8,6 +8,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.arrays import Float
+from beardyn_core.structure.cup import Cup
 
 WAVES = 8  # most waves around a raceway
 RESIDUAL_WAVES = 3  # around a row, of the loads that residual modes answer
@@ -37,6 +38,7 @@ class Modes:
         tuple[float, float, float], "of box and cup about x, y, z through the bearing centre, [kg m^2]"
     ]
     free_count: A[int, "of the modes are free ones, the first; the rest are residual"]
+    cup: A[Cup, "in the box"]
     products: A[tuple[float, float, float], "xy, xz, yz of the same matrix of inertia, [kg m^2]"] = (
         0.0,
         0.0,

@@ -1,12 +1,12 @@
 """The text file of the modes of a box: a head in YAML, then a line for each mode.
 
-The head stands behind ``#`` and has name, description, mass, centre, inertia, the number of free modes, the
-seats with their positions and which of them are the suspension's; of a box that was meshed also a digest of
-what was. The columns are ``frequency_Hz``, ``damping_ratio``, then for each row, ``inboard`` and
-``outboard``, and each field, ``radial``, ``tangential`` and ``axial``, the series around the raceway:
-``inboard_radial_mean``, ``inboard_radial_cos1`` ... ``inboard_radial_sin8``; then ``NAME_x``, ``NAME_y`` and
-``NAME_z`` of each seat. Shapes have unit modal mass, [1/sqrt(kg)]. Columns of the raceway that are left out
-are zero.
+The head stands behind ``#`` and has name, description, the bearing with the dimensions of its cup, mass,
+centre, inertia, the number of free modes, the seats with their positions and which of them are the
+suspension's; of a box that was meshed also a digest of what was. The columns are ``frequency_Hz``,
+``damping_ratio``, then for each row, ``inboard`` and ``outboard``, and each field, ``radial``, ``tangential``
+and ``axial``, the series around the raceway: ``inboard_radial_mean``, ``inboard_radial_cos1`` ...
+``inboard_radial_sin8``; then ``NAME_x``, ``NAME_y`` and ``NAME_z`` of each seat. Shapes have unit modal mass,
+[1/sqrt(kg)]. Columns of the raceway that are left out are zero.
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ import yaml
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import note_read
+from beardyn_core.structure.cup import DIMENSIONS, Cup
 from beardyn_core.structure.modes import FIELDS, WAVES, Modes
 
 ROWS = ("inboard", "outboard")
@@ -36,6 +38,8 @@ def table_text(modes: Modes) -> str:
     head = {
         "name": modes.name,
         "description": modes.description,
+        "bearing": modes.cup.bearing,
+        "cup_mm": {name: _short(1e3 * getattr(modes.cup, name)) for name in DIMENSIONS},
         "mass_kg": _short(modes.mass),
         "centre_mm": [_short(1e3 * each) for each in modes.centre],
         "inertia_kg_m2": [_short(each) for each in modes.inertia],
@@ -68,11 +72,16 @@ def read_table(path: Path | str) -> Modes:
     InputError
         With every mistake in the file.
     """
+    return modes_of_text(table_text_of(path), str(path))
+
+
+def table_text_of(path: Path | str) -> str:
+    """Read the text of a table, mistakes and all; raises `InputError` where there is none."""
+    note_read(path)
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        return Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: cannot be read ({error})") from error
-    return modes_of_text(text, str(path))
 
 
 def modes_of_text(text: str, label: str) -> Modes:
@@ -110,6 +119,7 @@ def modes_of_text(text: str, label: str) -> Modes:
         _vector(head.get("centre_mm", (0, 0, 0)), 1e-3),
         _vector(head["inertia_kg_m2"], 1.0),
         free,
+        Cup(str(head["bearing"]), **{name: 1e-3 * float(head["cup_mm"][name]) for name in DIMENSIONS}),
         _vector(head.get("products_kg_m2", (0, 0, 0)), 1.0),
         tuple(map(str, head.get("suspension", ()))),
         str(head.get("made_from", "")),
@@ -117,7 +127,7 @@ def modes_of_text(text: str, label: str) -> Modes:
 
 
 def _head_problems(head: dict[str, Any], count: int) -> Iterator[str]:
-    wanted = {"name", "mass_kg", "inertia_kg_m2", "seats_mm"}
+    wanted = {"name", "bearing", "cup_mm", "mass_kg", "inertia_kg_m2", "seats_mm"}
     known = wanted | {"description", "centre_mm", "products_kg_m2", "free_modes", "suspension", "made_from"}
     for key in sorted(wanted - head.keys()):
         yield f"the head lacks {key}; it has {', '.join(sorted(map(str, head)))}"
@@ -134,6 +144,13 @@ def _head_problems(head: dict[str, Any], count: int) -> Iterator[str]:
             yield f"{key} is {head[key]!r}; it must be three numbers, {order}"
     if _is_vector(head.get("inertia_kg_m2")) and min(head["inertia_kg_m2"]) <= 0:
         yield f"inertia_kg_m2 is {head['inertia_kg_m2']!r}; its numbers must be greater than 0"
+    cup = head.get("cup_mm", {})
+    if "cup_mm" in head and not (
+        isinstance(cup, dict)
+        and sorted(map(str, cup)) == sorted(DIMENSIONS)
+        and all(_is_number(each) and each > 0 for each in cup.values())
+    ):
+        yield f"cup_mm is {cup!r}; it must be {', '.join(DIMENSIONS)} of the bearing, each greater than 0"
     seats, springs = head.get("seats_mm", {}), head.get("suspension", [])
     if not isinstance(springs, list) or not all(
         isinstance(seats, dict) and each in seats for each in springs

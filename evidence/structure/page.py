@@ -30,9 +30,9 @@ HEAD = """# Modes of an axlebox
 Written by `make structure`. `beardyn structure BOX` (extra `structure`: gmsh, scikit-fem) meshes a box with
 the cup in it, computes its free modes and adds residual modes (Rubin 1975), which make the static bending
 under the rollers right. `-o` writes them as a table in text; `beardyn_core/structure/table.py` says what is
-in it. A file with `modes: box.unv` in place of dimensions reads free modes of another program from a
-Universal file ([keys](reference.md#structure-by-modes-of-another-program)). Shipped boxes: `beardyn scenes
-structures`. The effect `structure` of kind `modes` takes a table into every tier
+in it. A file with `modes: box.unv` or `box.pch` in place of dimensions reads free modes of another program
+from a Universal file or from Nastran ([keys](reference.md#structure-by-modes-of-another-program)). Shipped
+boxes: `beardyn scenes structures`. The effect `structure` of kind `modes` takes a table into every tier
 ([keys](reference.md#structure)); [model.md](model.md#a-box-of-ones-own) says how to take a box of one's own.
 
 Everything here is of the box `{box}`.

@@ -10,10 +10,12 @@ import pytest
 from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.cli import main as command
 from beardyn_core.config import load_bearing
+from beardyn_core.config.load import load_box
 from beardyn_core.errors import InputError
 from beardyn_core.structure.box import Seat
 from beardyn_core.structure.imported import ModeFile, modes_of_file
 from beardyn_core.structure.mesh import row_places
+from beardyn_core.structure.table import read_table
 
 pyuff = pytest.importorskip("pyuff")
 
@@ -95,6 +97,7 @@ def box(path: Path, **changes: object) -> ModeFile:
         "modes": path,
         "mass": 70.0,
         "inertia": (1.0, 2.0, 3.0),
+        "products": (0.0, 0.0, 0.0),
         "sensors": (TOP,),
         "length_unit": "mm",
         "forward": "z",
@@ -122,14 +125,29 @@ def test_modes_come_back_in_the_axlebox_frame(tmp_path: Path) -> None:
 def test_the_command_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(tmp_path / "modes.unv", unit=1.0)
     (tmp_path / "mine.yaml").write_text(
-        "name: mine\nbearing: HS130x230\nmodes: modes.unv\nmass_kg: 70\ninertia_kg_m2: [1, 2, 3]\n"
+        "name: mine\nbearing: HS130x230\nmodes: modes.unv\n"
+        "mass_kg: 70\ninertia_kg_m2: [2, 2, 3]\nproducts_kg_m2: [0.1, 0, -0.2]\n"
         "forward: z\nleft: x\nup: y\norigin_mm: [500, -200, 100]\n"
         "sensors: [{name: top, position_mm: [0, 0, 170], radius_mm: 5}]\n"
     )
     words = ["structure", str(tmp_path / "mine.yaml"), "-o", str(tmp_path / "table.csv")]
     assert command.main(words) == command.DONE
     assert "2 free modes: 1500, 2600 Hz" in capsys.readouterr().out
-    assert (tmp_path / "table.csv").read_text().startswith("# name: mine\n")
+    modes = read_table(tmp_path / "table.csv")
+    assert (modes.name, modes.cup.bearing, modes.products) == ("mine", "HS130x230", (0.1, 0.0, -0.2))
+
+
+def test_products_of_inertia_are_asked_for_and_must_be_of_a_body(tmp_path: Path) -> None:
+    (tmp_path / "mine.yaml").write_text(
+        "name: mine\nbearing: HS130x230\nmodes: modes.unv\nmass_kg: 70\ninertia_kg_m2: [1, 2, 3]\n"
+        "sensors: [{name: top, position_mm: [0, 0, 170]}]\n"
+    )
+    with pytest.raises(InputError, match="products_kg_m2 is missing"):
+        load_box(tmp_path / "mine.yaml")
+    with pytest.raises(InputError, match="are of no body"):
+        box(tmp_path / "modes.unv", products=(2.0, 0.0, 0.0))
+    with pytest.raises(InputError, match="are of no body"):  # the centre of mass takes more than there is
+        box(tmp_path / "modes.unv", centre=(0.0, 0.0, 0.2))
 
 
 def test_what_a_file_lacks_is_told(tmp_path: Path) -> None:

@@ -230,6 +230,18 @@ def test_a_path_on_one_axis_leaves_gravity_and_the_others_alone(tmp_path: Path) 
     assert np.abs(still).max() < 1e-9  # gravity passes with gain 1
 
 
+@pytest.mark.parametrize("at_rest", [0.0, 3.0, -1.0j])
+def test_a_row_at_rest_changes_nothing(at_rest: complex) -> None:
+    """Most measurements have none or a zero there; taken as it stands it removed gravity."""
+    frequency = np.arange(0.0, 11_000.0, 5.0)
+    ratio = ringing(frequency)
+    ratio[0] = at_rest
+    found = response_of(TransferPath(frequency, ratio), 25_600.0)
+    assert found.sum() == pytest.approx(1.0, abs=1e-12)
+    without = response_of(TransferPath(frequency[1:], ratio[1:]), 25_600.0)
+    np.testing.assert_array_equal(found, without)
+
+
 def test_paths_and_pickup_give_the_same_bits_however_blocks_are_cut(tmp_path: Path) -> None:
     sensor = replace(
         QUIET,

@@ -46,7 +46,8 @@ def test_mistakes_are_told_at_once(tmp_path: Path, capsys: pytest.CaptureFixture
 def test_modes_of_another_program_have_no_surface(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "mine.yaml"
     path.write_text(
-        "name: mine\nbearing: HS130x230\nmodes: modes.unv\nmass_kg: 70\ninertia_kg_m2: [1, 2, 3]\n"
+        "name: mine\nbearing: HS130x230\nmodes: modes.unv\n"
+        "mass_kg: 70\ninertia_kg_m2: [1, 2, 3]\nproducts_kg_m2: [0, 0, 0]\n"
         "sensors: [{name: top, position_mm: [0, 0, 170]}]\n"
     )
     assert command.main(["structure", str(path), "--save", str(tmp_path / "m.rrd")]) == command.BAD_INPUT

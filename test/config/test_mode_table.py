@@ -10,11 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from beardyn_core.errors import InputError
+from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.modes import Modes
 from beardyn_core.structure.table import SERIES, modes_of_text, read_table, table_text
 
 HEAD = """\
 # name: mine
+# bearing: HS130x230
+# cup_mm: {outer_diameter: 230, width: 160, raceway_diameter: 200, row_spacing: 80}
 # mass_kg: 61.5
 # inertia_kg_m2: [1.1, 2.2, 3.3]
 # seats_mm:
@@ -36,6 +39,7 @@ def drawn(seed: int, count: int = 5) -> Modes:
         (0.01, 0.0, -0.002),
         (1.1, 2.2, 3.3),
         3,
+        Cup("HS130x230", 0.23, 0.16, 0.2, 0.08),
     )
 
 
@@ -47,9 +51,8 @@ def test_what_is_written_is_read_again(seed: int, tmp_path: Path) -> None:
     again = read_table(path)
     assert again.frequency == pytest.approx(modes.frequency, rel=5e-5)  # five digits
     assert again.reads == pytest.approx(modes.reads, rel=5e-5, abs=5e-5)
-    assert (again.name, again.places, again.mass, again.centre, again.inertia, again.free_count) == (
-        *(modes.name, modes.places, modes.mass, modes.centre, modes.inertia, modes.free_count),
-    )
+    for kept in ("name", "places", "mass", "centre", "inertia", "free_count", "cup"):
+        assert getattr(again, kept) == getattr(modes, kept), kept
     assert table_text(again) == path.read_text()
 
 
@@ -77,10 +80,10 @@ def test_every_mistake_is_told_at_once() -> None:
     for words in (
         "mine.csv: the head lacks mass_kg",
         "mine.csv: the head has 'mass'; allowed are",
-        "line 7: frequency_Hz is 0; rigid motion is no mode",
-        "line 8 has 4 numbers; there are 5 columns",
-        "line 9, top_x: 'x' is no number",
-        "line 9, top_z: inf is not finite",
+        "line 9: frequency_Hz is 0; rigid motion is no mode",
+        "line 10 has 4 numbers; there are 5 columns",
+        "line 11, top_x: 'x' is no number",
+        "line 11, top_z: inf is not finite",
         "the column top_y is missing",
         "the column 'inboard_radial_cos9' is unknown",
     ):

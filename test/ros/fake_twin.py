@@ -18,7 +18,7 @@ from beardyn_core.observe.block import Block
 from beardyn_core.scene.load import LoadHistory
 from test.record.synthetic_run import BLOCK_NS, SyntheticRun, description
 
-SCENES = ("fake", "fake_slow", "fake_invalid")
+SCENES = ("fake", "fake_slow", "fake_invalid", "fake_background")
 SLOW_BLOCK_S = 0.06
 INVALID_BLOCK = 5
 
@@ -116,7 +116,8 @@ def fake_rig(scene: str, _tier: str) -> Callable[[], Any]:
 
     def build() -> Rig:
         twin = FakeTwin(scene)
-        return Rig(twin, replace(description(), load=None, truth=twin.truth()))
+        background = "driven_emu" if scene == "fake_background" else ""
+        return Rig(twin, replace(description(), load=None, truth=twin.truth()), background)
 
     return build
 

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import threading
 import time
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
+from beardyn_core.choice import load_scene
+from beardyn_core.rail.build import load_of_scene
 from beardyn_ros import load_feed
-from beardyn_ros.load_feed import LoadFeed
+from beardyn_ros.load_feed import LoadFeed, missing_background
 from beardyn_ros.run_state import SessionOptions
 
 OPTIONS = SessionOptions("lockstep", 5.0, 5.0, 1.0, 10**10, 10**8, False, 10.0, "axlebox", "one")
@@ -52,3 +55,17 @@ def test_handing_load_over_is_no_waiting(absent: bool, monkeypatch: pytest.Monke
         assert WITHOUT_LOAD_S <= waited < WITHOUT_LOAD_S + HANDING_OVER_S
     else:
         assert waited == 0.0
+
+
+def test_only_a_load_that_cannot_have_the_background_is_told_of() -> None:
+    scene = load_scene("service_freight", tier="lumped")
+    assert scene.background is not None
+    with_forces = load_of_scene(scene, 0.02)
+    without = load_of_scene(replace(scene, background=None), 0.02)
+    name = scene.background.name
+    assert missing_background(name, with_forces, live=False) == ""
+    assert missing_background("", without, live=False) == ""
+    told = missing_background(name, without, live=False)
+    assert "this load has 2000 samples a second" in told
+    assert name in told
+    assert "live load is filtered" in missing_background(name, with_forces, live=True)

@@ -14,6 +14,7 @@ from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import decode_string, header_stamp
 from beardyn_core.record.topics import TOPICS, topic
 from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.diagnostics import WARN
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 from test.ros.nursery import Nursery
@@ -272,6 +273,15 @@ def test_live_mode_alone_runs_in_real_time_and_says_how_far_it_lags(graph: Graph
     assert float(ended[1]) == pytest.approx(lag, abs=0.05)  # read at another moment
     running = [status.message for status in graph.statuses("twin") if status.value("state") == "running"]
     assert any("behind the wall clock" in message for message in running)
+
+
+def test_a_load_without_the_forces_of_the_background_is_told_of(graph: Graph) -> None:
+    graph.fake_twin(scene="fake_background")
+    graph.fake_load(duration=0.2)
+    assert graph.exit_code("twin") == 0
+    last = graph.statuses("twin")[-1]
+    assert "the forces of the background 'driven_emu' are not in the load" in last.message
+    assert last.level == WARN
 
 
 def test_validity_error_publishes_the_last_block_and_exits_with_3(graph: Graph) -> None:

@@ -1,0 +1,64 @@
+"""Files that a scene is computed from, put into the scene: a recording needs none of them."""
+
+from __future__ import annotations
+
+import operator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from beardyn_core.config.structure import is_path
+from beardyn_core.effects import EffectSet, ModalStructure
+from beardyn_core.packed import packed
+from beardyn_core.rail.transfer_path import content_of, read_transfer_path
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.structure.table import table_text_of
+
+
+def located_table(effects: Any, folder: Path) -> Any:
+    """Make the path of a table in the mapping of effects absolute, from the folder of their file."""
+    structure = effects.get("structure") if isinstance(effects, dict) else None
+    table = structure.get("table") if isinstance(structure, dict) else None
+    if not isinstance(structure, dict) or not isinstance(table, str) or not is_path(table):
+        return effects
+    return {**effects, "structure": {**structure, "table": str((folder / table).resolve())}}
+
+
+def with_table(effects: EffectSet) -> EffectSet:
+    """Put the table of a path into the effects; a shipped one stays a name.
+
+    Raises
+    ------
+    InputError
+        When it cannot be read.
+    """
+    structure = effects.structure
+    if not isinstance(structure, ModalStructure) or structure.content or not is_path(structure.table):
+        return effects
+    content = packed(table_text_of(Path(structure.table)))
+    return replace(effects, structure=replace(structure, content=content))
+
+
+def self_contained(scene: Scene) -> Scene:
+    """Put the table of modes and the measured paths that a scene names into it.
+
+    Raises
+    ------
+    InputError
+        With what is wrong with a file.
+    """
+    effects, sensors = with_table(scene.effects), tuple(map(_with_paths, scene.sensors))
+    if effects is scene.effects and all(map(operator.is_, sensors, scene.sensors)):
+        return scene
+    return replace(scene, effects=effects, sensors=sensors)
+
+
+def _with_paths(sensor: Accelerometer) -> Accelerometer:
+    if all(each.content for each in sensor.measured_paths):
+        return sensor
+    paths = [
+        each if each.content else replace(each, content=content_of(read_transfer_path(each.path)))
+        for each in sensor.measured_paths
+    ]
+    return replace(sensor, measured_paths=tuple(paths))
