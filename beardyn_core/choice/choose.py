@@ -8,12 +8,12 @@ can only become more expensive when the accuracy asked for becomes tighter.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
-from beardyn_core.choice import friction, guidance, motion, numerics
+from beardyn_core.choice import bending, friction, guidance, motion, numerics
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.rule import Alternative, Choice, Decision, Rule, tolerance
@@ -25,6 +25,7 @@ from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
 _DECIDING = 2  # so many first rules decide the step: friction, and what damps the bounce of rollers
+_OF_STEP = ("traction", "film", "contact_damping", "structure")
 
 RULES: tuple[Callable[[Evidence], Rule], ...] = (
     friction.traction,
@@ -36,7 +37,7 @@ RULES: tuple[Callable[[Evidence], Rule], ...] = (
     guidance.small_rib,
     guidance.cage,
     friction.seal,
-    motion.structure,
+    bending.structure,
     motion.gravity,
     friction.thermal,
     motion.audit,
@@ -96,7 +97,9 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
             if best is None or key < best[0]:
                 best = (key, stage, found[3], step)
     assert best is not None  # the full tier offers the reference of every rule
-    return _choice_of(scene, evidence, free, best[1], best[2], best[3], rules, looked_at, accuracy)
+    _, stage, taken, _ = best
+    step = clock.step(scene, stage.tier, stage.laminae, taken)
+    return _choice_of(scene, evidence, free, stage, taken, step, rules, looked_at, accuracy)
 
 
 class _Clock:
@@ -104,18 +107,20 @@ class _Clock:
 
     def __init__(self, evidence: Evidence, free: Free, vibration: bool) -> None:
         self._evidence, self._free, self._vibration = evidence, free, vibration
-        self._known: dict[tuple[str, int, Any, Any], StepChoice] = {}
+        self._known: dict[tuple[str, int, EffectSet], StepChoice] = {}
 
-    def step(
-        self, scene: Scene, tier_name: str, laminae: int, deciding: tuple[Alternative, ...]
-    ) -> StepChoice:
-        """Find the time step and what decides it; the scene's own where it is not free."""
+    def step(self, scene: Scene, tier_name: str, laminae: int, deciding: Iterable[Alternative]) -> StepChoice:
+        """Find the time step and what decides it; the scene's own where it is not free.
+
+        What is not among the decided alternatives is taken as in the reference.
+        """
         if not self._free.steps:
             return StepChoice(scene.numerics.steps_per_sample, "as the scene has it")
         members = {name: value for option in deciding for name, value in option.members.items()}
-        key = (tier_name, laminae, members["traction"], members["contact_damping"])
+        decided = {**{name: getattr(scene.effects, name) for name in _OF_STEP}, **members}
+        effects = replace(scene.effects, **{name: decided[name] for name in _OF_STEP}, lamina_coupling=None)
+        key = (tier_name, laminae, effects)
         if key not in self._known:
-            effects = replace(scene.effects, **members, lamina_coupling=None)
             self._known[key] = numerics.steps(self._evidence, effects, tier_name, laminae, self._vibration)
         return self._known[key]
 
@@ -207,9 +212,7 @@ def _choice_of(
         effects = replace(effects, audit=effects.audit or Audit())
     costs = evidence.costs
     parts = [
-        costs.scaled(rule.effect, option.cost, stage.laminae)
-        if stage.tier == "full"
-        else min(option.cost, 0.001)
+        costs.scaled(rule.effect, option.cost, stage.tier, stage.laminae)
         for rule, option in zip(rules, taken, strict=True)
     ]
     total = stage.cost + sum(parts)
@@ -251,6 +254,7 @@ def _choice_of(
         step_cost=total,
         seconds=costs.seconds(total, step.steps_per_sample, stage.tier),
         within=within,
+        told=tuple(bending.rates_told(evidence)),
     )
 
 
@@ -296,9 +300,8 @@ def _cheapest(
         entries = []
         for option in alternatives:
             influence = tuple(option.influence.get(name, 0.0) for name in asked)
-            cost = costs.scaled(next(iter(option.members)), option.cost, stage.laminae)
-            # a tier with few states does not pay for an effect what the full one does
-            entries.append((cost if stage.tier == "full" else min(cost, 0.001), influence, option))
+            cost = costs.scaled(next(iter(option.members)), option.cost, stage.tier, stage.laminae)
+            entries.append((cost, influence, option))
         entries.sort(key=lambda entry: (entry[0], sum(entry[1])))
         options.append(entries)
     least_cost = _tails([min(entry[0] for entry in entries) for entries in options])

@@ -16,8 +16,10 @@ from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.statics import Statics
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.integrate.step_choice import AUDIBLE_BAND
 from beardyn_core.scene.defect import Patch, WornPocket
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import PASSBAND, RATES
 
 MOST_DB = 20.0
 
@@ -86,6 +88,16 @@ class Evidence:
     def moves(self) -> bool:
         """Whether the axlebox can move, so that there is a vibration."""
         return self.scene.mounting.cup == "suspended"
+
+    @property
+    def band(self) -> float:
+        """Highest third octave that is asked of the vibration: the last one that a sensor hears, [Hz]."""
+        return AUDIBLE_BAND * self.hearing / (PASSBAND * RATES[0])
+
+    @property
+    def hearing(self) -> float:
+        """Up to here the fastest sensor hears, [Hz]."""
+        return PASSBAND * max(sensor.rate for sensor in self.scene.sensors)
 
     @cached_property
     def torque(self) -> float:

@@ -10,7 +10,7 @@ from typing import Annotated as A
 from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
 from beardyn_core.config.load import OpenScene, load_effects, read_scene, read_scene_mapping, read_scene_text
-from beardyn_core.effects import EffectSet
+from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.scene import EFFECTS, Scene
 
 if TYPE_CHECKING:
@@ -142,6 +142,13 @@ def choice_for(found: OpenScene) -> Choice:
         return choose(scene, found.free)
     reference = load_effects(REFERENCE)
     return choose(replace(scene, effects=_judged_by(scene.effects, reference)), found.free, scene.effects)
+
+
+def in_box_of(effects: EffectSet, given: EffectSet) -> EffectSet:
+    """Put effects into the box that others have a table of modes of."""
+    if not isinstance(given.structure, ModalStructure):
+        return effects
+    return replace(effects, structure=given.structure)
 
 
 def _judged_by(given: EffectSet, reference: EffectSet) -> EffectSet:

@@ -120,6 +120,7 @@ class Choice:
     step_cost: A[float, "of a step, in steps of the standard set"]
     seconds: A[float, "wall time of a simulated second on the machine of the cost file, [s]"]
     within: A[bool, "whether the expected errors are within the accuracy"]
+    told: A[tuple[str, ...], "where sensors and the modes of the box do not reach equally far"] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -154,6 +155,7 @@ class Choice:
             "expected_error": _errors(self.expected),
             "real_time_factor": self.real_time_factor,
             "step_cost": self.step_cost,
+            "told": self.told,
             "reasons": {
                 "tier": self.tier_reason,
                 "laminae": self.laminae_reason,

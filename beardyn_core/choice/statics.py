@@ -31,12 +31,12 @@ class Statics:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self._known: dict[tuple[object, ...], StaticSolution | None] = {}
-        self._body = body_of(scene)
+        self.body = body_of(scene)
 
     @property
     def flexible(self) -> bool:
         """Whether the reference's cup bends."""
-        return self._body is not None
+        return self.body is not None
 
     def at(
         self,
@@ -70,7 +70,7 @@ class Statics:
                 coupling=coupling,
                 oversize=roller_oversize(scene),
                 crown=crown_errors(scene),
-                body=self._body if bending else None,
+                body=self.body if bending else None,
                 tilt_stiffness=self._restraint(),
                 axial_stiffness=scene.mounting.axial_prop_stiffness,
                 rows=scene.rows,

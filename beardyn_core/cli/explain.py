@@ -13,7 +13,6 @@ from beardyn_core.cli.json_output import json_text
 if TYPE_CHECKING:
     from beardyn_core.choice import Explanation
     from beardyn_core.choice.rule import Choice
-    from beardyn_core.scene.scene import Scene
 
 DONE = 0
 _WIDTH = 110
@@ -86,16 +85,16 @@ def text(found: Explanation) -> str:
     else:
         parts += ["", *_lines(found.current, "as the scene has it")]
         parts += ["", *_lines(found.automatic, "what `effects: auto` would choose")]
-    parts += _heard(found.scene)
+    parts += _heard(found)
     parts += ["", f"Cost shares and real-time factor as measured on {costs.machine}, {costs.date}."]
     return "\n".join(parts)
 
 
-def _heard(scene: Scene) -> list[str]:
-    """Name what sensors hear besides, and paths that are filters and no model."""
+def _heard(explanation: Explanation) -> list[str]:
+    """Name what sensors hear besides, paths that are filters and no model, bands that end too early."""
     from beardyn_core.edge import written
 
-    found = []
+    scene, found = explanation.scene, list(explanation.current.told)
     if scene.background is not None:
         parts = [part for part in written(scene.background) if part not in ("name", "description", "sources")]
         found.append(f"background {scene.background.name}: {', '.join(parts)}")

@@ -1,0 +1,123 @@
+"""A box with modes: how much of it is chosen, what leaving modes out should cost, what sensors miss."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from beardyn_core.choice import load_scene
+from beardyn_core.choice.bending import rates_told, structure
+from beardyn_core.choice.evidence import Evidence
+from beardyn_core.choice.ringing import band_centres, levels
+from beardyn_core.effects import ModalStructure
+from beardyn_core.model.structure import body_of
+from beardyn_core.scene.scene import Scene
+from test.choice.scenes import reasons, variant
+
+IN_BOX: dict[str, Any] = {"preset": "full", "structure": {"kind": "modes", "table": "high_speed"}}
+AUTO = {**IN_BOX, "preset": "auto"}
+FAST_SENSOR = [{"name": "top", "position_mm": [0, 0, 170], "rate_kHz": 51.2}]
+
+
+def boxed(**keys: Any) -> Scene:
+    return variant(**{"effects": IN_BOX, "mounting": None, **keys})
+
+
+@pytest.fixture(scope="module")
+def evidence() -> Evidence:
+    return Evidence(boxed())
+
+
+def to(scene: Scene, highest: float | None) -> Scene:
+    return replace(scene, effects=replace(scene.effects, structure=ModalStructure("high_speed", highest)))
+
+
+def test_modes_left_out_cost_what_runs_have_shown(evidence: Evidence) -> None:
+    """docs/structure.md, a run to 8 kHz: 2.8 dB or more with modes to 6 kHz, 0.3 to 0.5 dB with more."""
+    scene = evidence.scene
+    whole = levels(scene, evidence.typical, evidence.statics.body, 8912.0)
+    expected = {
+        highest: np.abs(levels(scene, evidence.typical, body_of(to(scene, highest)), 8912.0) - whole).max()
+        for highest in (1e3, 2e3, 3e3, 4e3, 6e3, 8e3, 10e3)
+    }
+    assert all((error > 2.5) == (highest < 8e3) for highest, error in expected.items())
+    assert max(expected[8e3], expected[10e3]) < 0.8
+
+
+def test_a_box_without_modes_is_another_one(evidence: Evidence) -> None:
+    """A run in a rigid box: 24 dB."""
+    found = {option.word: option.influence for option in structure(evidence).alternatives}
+    assert found["on"] == {}
+    assert found["off"]["vibration"] == 20.0
+    assert found["static"]["vibration"] > 10.0
+
+
+def test_fewer_modes_bend_as_much_under_a_load_and_cost_less(evidence: Evidence) -> None:
+    """A run under 80 kN without free modes: 0.1 % of the deflection."""
+    fewer = structure(evidence).alternatives
+    costs = [option.cost for option in fewer]
+    assert costs == sorted(costs, reverse=True)
+    assert fewer[-2].word == "static"
+    assert fewer[-2].influence["deflection"] == pytest.approx(1.0e-3, rel=0.3)
+    assert fewer[-1].influence["deflection"] > 0.3
+
+
+def test_a_rigid_box_answers_most_where_it_bounces_on_the_contacts(evidence: Evidence) -> None:
+    rigid = evidence.statics.at(evidence.loads.typical)
+    assert rigid is not None
+    held_up = replace(evidence.scene, effects=replace(evidence.scene.effects, structure=None))
+    vertical = levels(held_up, rigid, None, 10e3)[0, 2]
+    # a gap that shakes more and more force into a mass: less and less beside the force of a resonance
+    centres = band_centres(10e3)
+    assert centres[int(np.argmax(vertical))] == pytest.approx(Evidence(held_up).resonance, rel=0.26)
+
+
+def test_modes_beyond_those_of_the_table_change_nothing(evidence: Evidence) -> None:
+    scene = evidence.scene
+    every, same = (
+        levels(scene, evidence.typical, body_of(to(scene, highest)), 20e3) for highest in (None, 13e3)
+    )
+    assert np.abs(every - same).max() < 0.05
+
+
+def test_vibration_keeps_the_modes_of_the_band_and_means_the_bending_alone() -> None:
+    ringing = boxed(effects=AUTO, quantities=["vibration"])
+    assert isinstance(ringing.effects.structure, ModalStructure)
+    assert (ringing.effects.structure.highest or 13e3) >= 8000.0
+    bending = boxed(effects=AUTO, quantities=["deflection", "roller_load"])
+    assert bending.effects.structure == ModalStructure("high_speed", 100.0)
+    assert "does not ring" in reasons(bending)["structure"]
+
+
+def test_highest_Hz_that_is_written_down_stays_and_is_told(evidence: Evidence) -> None:
+    written = {**IN_BOX["structure"], "highest_Hz": 4000}
+    scene = boxed(effects={"preset": "auto", "structure": written}, quantities=["vibration"])
+    assert scene.effects.structure == ModalStructure("high_speed", 4000.0)
+    assert "which highest_Hz leaves out, would change third octaves by up to" in reasons(scene)["structure"]
+
+
+@pytest.mark.parametrize("scene", ["service_high_speed", "service_freight"])
+def test_auto_of_the_command_line_leaves_the_bearing_in_its_box(scene: str) -> None:
+    own = load_scene(scene).effects.structure
+    chosen = load_scene(scene, effects="auto", duration=1.0).effects.structure
+    assert isinstance(own, ModalStructure)
+    assert isinstance(chosen, ModalStructure)
+    assert chosen.table == own.table
+
+
+def test_a_sensor_is_told_what_rings_beyond_its_band(evidence: Evidence) -> None:
+    (usual,) = rates_told(evidence)
+    assert "at 25.6 kHz hears to 10.2 kHz, and 22 modes of the box ring above" in usual
+    assert "rate_kHz 51.2 hears it" in usual
+    (fast,) = rates_told(Evidence(boxed(sensors=FAST_SENSOR)))
+    assert "the modes of the box end at 12.8 kHz" in fast
+    assert list(rates_told(Evidence(variant(effects="full")))) == []
+
+
+def test_a_fast_sensor_asks_for_its_whole_band() -> None:
+    scene = boxed(effects=AUTO, sensors=FAST_SENSOR, quantities=["vibration"])
+    assert "at least 8 and even, not 6" in reasons(scene)["steps_per_sample"]
+    assert scene.numerics.steps_per_sample >= 8
