@@ -107,8 +107,8 @@ def rates_told(evidence: Evidence) -> Iterator[str]:
             yield f"{said}, {end}: beyond, its signal has no resonances"
             continue
         beyond = band_centres(last) > hears
-        rigid = levels(evidence.scene, evidence.typical, None, last)[index][:, beyond]
-        louder = levels(evidence.scene, evidence.typical, body, last)[index][:, beyond] - rigid
+        rigid = levels(evidence.scene, evidence.typical, None, last)[index, beyond]
+        louder = levels(evidence.scene, evidence.typical, body, last)[index, beyond] - rigid
         if louder.size and louder.max() > VIBRATION_TOLERANCE_DB:
             faster = [rate for rate in RATES if PASSBAND * rate > hears]
             remedy = f": rate_kHz {faster[0] / 1e3:g} hears it" if faster else ""
@@ -148,7 +148,7 @@ def _most(decibels: Float) -> float:
 
 def _worst(decibels: Float) -> str:
     """Name the band in which levels are farthest apart."""
-    band = int(np.argmax(decibels.max(axis=(0, 1))))
+    band = int(np.argmax(decibels.max(axis=0)))
     return f"most at {_kilohertz(float(band_centres(1e6)[band]))}"
 
 

@@ -47,8 +47,8 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
 
     Returns
     -------
-    array, shape [sensor, axis, band]
-        Of accelerations per metre, so that only differences mean anything.
+    array, shape [sensor, band]
+        Of accelerations per metre, the axes together, so that only differences mean anything.
 
     Notes
     -----
@@ -73,7 +73,7 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
     )
     centres = band_centres(highest)
     if not loads.size:
-        return np.zeros((len(scene.sensors), 3, centres.size))
+        return np.zeros((len(scene.sensors), centres.size))
     low, high = centres / _BAND_RATIO**0.5, np.minimum(centres * _BAND_RATIO**0.5, highest)
     place = (np.arange(_LINES) + 0.5) / _LINES
     rate = 2.0 * np.pi * (low[:, None] + (high - low)[:, None] * place).ravel()
@@ -98,8 +98,8 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
             heard = heard - rate[:, None, None] ** 2 * ringing
     forces = np.linalg.inv(between + np.eye(azimuth.size) / spring[:, :, None])
     power = (np.abs(heard @ forces) ** 2).sum(axis=-1)
-    mean = power.reshape(centres.size, _LINES, len(scene.sensors), 3).mean(axis=1)
-    return np.asarray(10.0 * np.log10(mean)).transpose(1, 2, 0)
+    mean = power.reshape(centres.size, _LINES, len(scene.sensors), 3).sum(axis=(1, 3)) / _LINES
+    return np.asarray(10.0 * np.log10(mean)).T
 
 
 def _loaded(scene: Scene, static: StaticSolution) -> tuple[Float, Float, Float]:
