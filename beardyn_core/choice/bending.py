@@ -36,9 +36,9 @@ def structure(evidence: Evidence) -> Rule:
     if not evidence.moves:
         off = Alternative({"structure": None}, reason, influence, word="off")
         return Rule("structure", (_whole(evidence, body, reason), *_fewer(evidence, influence, None), off))
-    whole = levels(scene, evidence.typical, body, evidence.hearing)
+    whole = levels(scene, evidence.typical, body, evidence.edge)
     rigid_load = evidence.statics.at(evidence.loads.typical) or evidence.typical
-    rigid = levels(scene, rigid_load, None, evidence.hearing)
+    rigid = levels(scene, rigid_load, None, evidence.edge)
     left_out = np.abs(rigid - whole)
     influence["vibration"] = _most(left_out)
     reason += f"; in a rigid box third octaves to {_kilohertz(evidence.band)} are up to "
@@ -74,7 +74,7 @@ def _fewer(evidence: Evidence, rigid: Influence, whole: Float | None) -> Iterato
         )
         reason += f"rings with {kept}, up to {_kilohertz(highest)}" if kept else "does not ring"
         if whole is not None:
-            apart = np.abs(levels(evidence.scene, evidence.typical, body, evidence.hearing) - whole)
+            apart = np.abs(levels(evidence.scene, evidence.typical, body, evidence.edge) - whole)
             influence["vibration"] = _most(apart)
             reason += f"; third octaves are up to {apart.max():.2g} dB off, {_worst(apart)}"
         cost = evidence.costs.of_modes(body.rate.size)
@@ -86,7 +86,7 @@ def _above_limit(evidence: Evidence, effect: object, whole: Float) -> str:
     if not isinstance(effect, ModalStructure) or effect.highest is None:
         return ""
     every = _body(evidence, replace(effect, highest=None))
-    apart = np.abs(whole - levels(evidence.scene, evidence.typical, every, evidence.hearing))
+    apart = np.abs(whole - levels(evidence.scene, evidence.typical, every, evidence.edge))
     return (
         f"; the modes above {_kilohertz(effect.highest)}, which highest_Hz leaves out, would change third "
         f"octaves by up to {apart.max():.2g} dB, {_worst(apart)}"

@@ -81,23 +81,26 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
     looked_at = tuple(name for name in asked if name != "vibration" or evidence.moves)
     limits = tuple(tolerance(name, accuracy) for name in looked_at)
     rules = [rule(evidence) for rule in RULES]
-    best: tuple[tuple[float, ...], Stage, list[Alternative], StepChoice] | None = None
+    best: tuple[tuple[float, ...], Stage, list[Alternative]] | None = None
     clock = _Clock(evidence, free, "vibration" in looked_at)
-    for stage in _stages(evidence, scene, free, given, looked_at):
-        offered = [_offered(rule, free, stage.tier, given) for rule in rules]
+    for name in reversed(TIERS) if free.tier else (scene.tier,):
+        offered = [_offered(rule, free, name, given) for rule in rules]
         if any(not alternatives for alternatives in offered):
             continue
-        for deciding in product(*offered[:_DECIDING]):
-            step = clock.step(scene, stage.tier, stage.laminae, deciding)
-            fixed = [[option] for option in deciding]
-            found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
-            # cost counts per simulated second; between equal costs the smaller error
-            seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
-            key = (found[0], seconds, found[2])
-            if best is None or key < best[0]:
-                best = (key, stage, found[3], step)
+        if best is not None and best[0][0] == 0.0 and _hopeless(evidence, name, offered, looked_at, limits):
+            continue
+        for stage in _stages(evidence, scene, free, given, looked_at, name):
+            for deciding in product(*offered[:_DECIDING]):
+                step = clock.step(scene, stage.tier, stage.laminae, deciding)
+                fixed = [[option] for option in deciding]
+                found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
+                # cost counts per simulated second; between equal costs the smaller error
+                seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
+                key = (found[0], seconds, found[2])
+                if best is None or key < best[0]:
+                    best = (key, stage, found[3])
     assert best is not None  # the full tier offers the reference of every rule
-    _, stage, taken, _ = best
+    _, stage, taken = best
     step = clock.step(scene, stage.tier, stage.laminae, taken)
     return _choice_of(scene, evidence, free, stage, taken, step, rules, looked_at, accuracy)
 
@@ -125,14 +128,30 @@ class _Clock:
         return self._known[key]
 
 
+def _hopeless(
+    evidence: Evidence,
+    name: str,
+    offered: list[list[Alternative]],
+    asked: tuple[str, ...],
+    limits: tuple[float, ...],
+) -> bool:
+    """Tell whether a tier is beyond a limit whatever its laminae and springs are."""
+    least = numerics.least_errors(evidence, name)
+    for quantity, limit in zip(asked, limits, strict=True):
+        smallest = (
+            min(option.influence.get(quantity, 0.0) for option in alternatives) for alternatives in offered
+        )
+        if least.get(quantity, 0.0) + sum(smallest) > limit:
+            return True
+    return False
+
+
 def _stages(
-    evidence: Evidence, scene: Scene, free: Free, given: EffectSet, asked: tuple[str, ...]
+    evidence: Evidence, scene: Scene, free: Free, given: EffectSet, asked: tuple[str, ...], name: str
 ) -> list[Stage]:
     found = []
-    counts = numerics.LAMINAE if free.laminae else (scene.numerics.laminae,)
-    names = tuple(TIERS) if free.tier else (scene.tier,)
-    for name, count in product(names, counts):
-        limits = TIERS[name]
+    limits = TIERS[name]
+    for count in numerics.LAMINAE if free.laminae else (scene.numerics.laminae,):
         if (limits.needs_rib and given.rib is None) or count < limits.smallest_laminae:
             continue
         lamina = numerics.laminae(evidence, count)
@@ -254,6 +273,7 @@ def _choice_of(
         step_cost=total,
         seconds=costs.seconds(total, step.steps_per_sample, stage.tier),
         within=within,
+        vibration_to=evidence.band,
         told=tuple(bending.rates_told(evidence)),
     )
 

@@ -91,13 +91,15 @@ class Evidence:
 
     @property
     def band(self) -> float:
-        """Highest third octave that is asked of the vibration: the last one that a sensor hears, [Hz]."""
-        return AUDIBLE_BAND * self.hearing / (PASSBAND * RATES[0])
+        """Highest third octave asked of the vibration: what the fastest sensor hears, or less, [Hz]."""
+        heard = AUDIBLE_BAND * max(sensor.rate for sensor in self.scene.sensors) / RATES[0]
+        return min(heard, self.scene.vibration_to or heard)
 
     @property
-    def hearing(self) -> float:
-        """Up to here the fastest sensor hears, [Hz]."""
-        return PASSBAND * max(sensor.rate for sensor in self.scene.sensors)
+    def edge(self) -> float:
+        """Where that third octave ends, or the hearing of the fastest sensor, [Hz]."""
+        hearing = PASSBAND * max(sensor.rate for sensor in self.scene.sensors)
+        return min(hearing, 10.0**0.05 * self.band)
 
     @cached_property
     def torque(self) -> float:

@@ -14,7 +14,7 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.fast_step import fast_steps
-from beardyn_core.choice.rule import Verdict, percent
+from beardyn_core.choice.rule import Influence, Verdict, percent
 from beardyn_core.choice.usual_step import served, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.friction_steps import StepChoice
@@ -177,6 +177,11 @@ def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:
     return Verdict(
         reason, {**influence, "deflection": deflection, "roller_load": influence["roller_load"] + roller_load}
     )
+
+
+def least_errors(evidence: Evidence, name: str) -> Influence:
+    """Compute the errors that a tier has whatever its laminae and springs are."""
+    return {} if name == "full" else _without_roller_inertia(evidence)[0]
 
 
 def _without_roller_inertia(evidence: Evidence) -> tuple[dict[str, float], str]:

@@ -131,12 +131,12 @@ def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
 def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
     """Choose for a scene as `effects: auto` does, whatever the scene is computed with itself.
 
-    The accuracy is a share; a fault line is asked of the vibration.
+    The accuracy is a share; a fault line is asked of the vibration, of which every band counts.
     """
     wanted = {_CHOSEN_AS.get(name, name) for name in asked}
     quantities = tuple(name for name in QUANTITIES if name in wanted)
     every = in_box_of(load_effects("full"), scene.effects)
-    return choose(replace(scene, effects=every, accuracy=accuracy, quantities=quantities))
+    return choose(replace(scene, effects=every, accuracy=accuracy, quantities=quantities, vibration_to=None))
 
 
 def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Level:

@@ -13,6 +13,7 @@ from beardyn_core.choice.bending import rates_told, structure
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.ringing import levels
 from beardyn_core.effects import ModalStructure
+from beardyn_core.errors import InputError
 from beardyn_core.model.structure import body_of
 from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.scene.scene import Scene
@@ -136,3 +137,19 @@ def test_a_fast_sensor_asks_for_its_whole_band() -> None:
     scene = boxed(effects=AUTO, sensors=FAST_SENSOR, quantities=["vibration"])
     assert "at least 8 and even, not 6" in reasons(scene)["steps_per_sample"]
     assert scene.numerics.steps_per_sample >= 8
+
+
+def test_a_lower_band_needs_fewer_modes_and_longer_steps() -> None:
+    whole, low = (
+        boxed(effects=AUTO, quantities=["vibration"], vibration_to_Hz=band) for band in (None, 1600)
+    )
+    assert isinstance(whole.effects.structure, ModalStructure)
+    assert isinstance(low.effects.structure, ModalStructure)
+    assert (low.effects.structure.highest or 13e3) < (whole.effects.structure.highest or 13e3)
+    assert low.numerics.steps_per_sample < whole.numerics.steps_per_sample
+
+
+def test_no_band_is_asked_for_that_no_sensor_hears() -> None:
+    with pytest.raises(InputError, match="vibration_to_Hz is 15000; the sensors hear to 10240 Hz"):
+        boxed(vibration_to_Hz=15000)
+    assert boxed(vibration_to_Hz=15000, sensors=FAST_SENSOR).vibration_to == 15000.0
