@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -193,7 +193,7 @@ def _unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
     """Make the alternative of options that no rule offers, judged like the most similar one offered."""
 
     def likeness(option: Alternative) -> int:
-        return sum(type(option.members[name]) is type(value) for name, value in kept.items())
+        return sum(_likeness(option.members[name], value) for name, value in kept.items())
 
     if all(value is None for value in kept.values()):
         return Alternative(
@@ -205,6 +205,14 @@ def _unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
     nearest = max(reversed(rule.alternatives), key=likeness)
     reason = f"as the scene has it, judged like {nearest.word!r}; {nearest.reason}"
     return replace(nearest, members={**nearest.members, **kept}, reason=reason, word="on")
+
+
+def _likeness(one: Any, other: Any) -> int:
+    """Count what two effects have of the same kind: themselves, and their options."""
+    if type(one) is not type(other):
+        return 0
+    options = fields(one) if is_dataclass(one) else ()
+    return 1 + sum(type(getattr(one, each.name)) is type(getattr(other, each.name)) for each in options)
 
 
 def _represented(option: Alternative, tier_name: str) -> bool:
