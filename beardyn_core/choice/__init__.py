@@ -12,7 +12,9 @@ evidence      all of these for one scene, each worked out once
 rule          alternatives with influence and cost, decisions, the choice with reasons and errors
 friction      rules: traction and film, rolling resistance, drag, seal, thermal
 guidance      rules: rib, small rib, cage
-motion        rules: gravity, contact damping, structure, lamina coupling, audit
+motion        rules: gravity, contact damping, lamina coupling, audit
+ringing       third octaves of the sensors with modes of the box, linear
+bending       rule: structure; where sensors and modes do not reach equally far
 fast_step     the step of the fast tiers
 usual_step    the step of a scene that names none
 numerics      what a tier or a lamina count leaves out; the step

@@ -8,12 +8,12 @@ can only become more expensive when the accuracy asked for becomes tighter.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields, is_dataclass, replace
 from itertools import product
 from typing import Any
 
-from beardyn_core.choice import friction, guidance, motion, numerics
+from beardyn_core.choice import bending, friction, guidance, motion, numerics
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.rule import Alternative, Choice, Decision, Rule, tolerance
@@ -25,6 +25,7 @@ from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
 _DECIDING = 2  # so many first rules decide the step: friction, and what damps the bounce of rollers
+_OF_STEP = ("traction", "film", "contact_damping", "structure")
 
 RULES: tuple[Callable[[Evidence], Rule], ...] = (
     friction.traction,
@@ -36,7 +37,7 @@ RULES: tuple[Callable[[Evidence], Rule], ...] = (
     guidance.small_rib,
     guidance.cage,
     friction.seal,
-    motion.structure,
+    bending.structure,
     motion.gravity,
     friction.thermal,
     motion.audit,
@@ -80,23 +81,28 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
     looked_at = tuple(name for name in asked if name != "vibration" or evidence.moves)
     limits = tuple(tolerance(name, accuracy) for name in looked_at)
     rules = [rule(evidence) for rule in RULES]
-    best: tuple[tuple[float, ...], Stage, list[Alternative], StepChoice] | None = None
+    best: tuple[tuple[float, ...], Stage, list[Alternative]] | None = None
     clock = _Clock(evidence, free, "vibration" in looked_at)
-    for stage in _stages(evidence, scene, free, given, looked_at):
-        offered = [_offered(rule, free, stage.tier, given) for rule in rules]
+    for name in reversed(TIERS) if free.tier else (scene.tier,):
+        offered = [_offered(rule, free, name, given) for rule in rules]
         if any(not alternatives for alternatives in offered):
             continue
-        for deciding in product(*offered[:_DECIDING]):
-            step = clock.step(scene, stage.tier, stage.laminae, deciding)
-            fixed = [[option] for option in deciding]
-            found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
-            # cost counts per simulated second; between equal costs the smaller error
-            seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
-            key = (found[0], seconds, found[2])
-            if best is None or key < best[0]:
-                best = (key, stage, found[3], step)
+        if best is not None and best[0][0] == 0.0 and _hopeless(evidence, name, offered, looked_at, limits):
+            continue
+        for stage in _stages(evidence, scene, free, given, looked_at, name):
+            for deciding in product(*offered[:_DECIDING]):
+                step = clock.step(scene, stage.tier, stage.laminae, deciding)
+                fixed = [[option] for option in deciding]
+                found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
+                # cost counts per simulated second; between equal costs the smaller error
+                seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
+                key = (found[0], seconds, found[2])
+                if best is None or key < best[0]:
+                    best = (key, stage, found[3])
     assert best is not None  # the full tier offers the reference of every rule
-    return _choice_of(scene, evidence, free, best[1], best[2], best[3], rules, looked_at, accuracy)
+    _, stage, taken = best
+    step = clock.step(scene, stage.tier, stage.laminae, taken)
+    return _choice_of(scene, evidence, free, stage, taken, step, rules, looked_at, accuracy)
 
 
 class _Clock:
@@ -104,30 +110,48 @@ class _Clock:
 
     def __init__(self, evidence: Evidence, free: Free, vibration: bool) -> None:
         self._evidence, self._free, self._vibration = evidence, free, vibration
-        self._known: dict[tuple[str, int, Any, Any], StepChoice] = {}
+        self._known: dict[tuple[str, int, EffectSet], StepChoice] = {}
 
-    def step(
-        self, scene: Scene, tier_name: str, laminae: int, deciding: tuple[Alternative, ...]
-    ) -> StepChoice:
-        """Find the time step and what decides it; the scene's own where it is not free."""
+    def step(self, scene: Scene, tier_name: str, laminae: int, deciding: Iterable[Alternative]) -> StepChoice:
+        """Find the time step and what decides it; the scene's own where it is not free.
+
+        What is not among the decided alternatives is taken as in the reference.
+        """
         if not self._free.steps:
             return StepChoice(scene.numerics.steps_per_sample, "as the scene has it")
         members = {name: value for option in deciding for name, value in option.members.items()}
-        key = (tier_name, laminae, members["traction"], members["contact_damping"])
+        decided = {**{name: getattr(scene.effects, name) for name in _OF_STEP}, **members}
+        effects = replace(scene.effects, **{name: decided[name] for name in _OF_STEP}, lamina_coupling=None)
+        key = (tier_name, laminae, effects)
         if key not in self._known:
-            effects = replace(scene.effects, **members, lamina_coupling=None)
             self._known[key] = numerics.steps(self._evidence, effects, tier_name, laminae, self._vibration)
         return self._known[key]
 
 
+def _hopeless(
+    evidence: Evidence,
+    name: str,
+    offered: list[list[Alternative]],
+    asked: tuple[str, ...],
+    limits: tuple[float, ...],
+) -> bool:
+    """Tell whether a tier is beyond a limit whatever its laminae and springs are."""
+    least = numerics.least_errors(evidence, name)
+    for quantity, limit in zip(asked, limits, strict=True):
+        smallest = (
+            min(option.influence.get(quantity, 0.0) for option in alternatives) for alternatives in offered
+        )
+        if least.get(quantity, 0.0) + sum(smallest) > limit:
+            return True
+    return False
+
+
 def _stages(
-    evidence: Evidence, scene: Scene, free: Free, given: EffectSet, asked: tuple[str, ...]
+    evidence: Evidence, scene: Scene, free: Free, given: EffectSet, asked: tuple[str, ...], name: str
 ) -> list[Stage]:
     found = []
-    counts = numerics.LAMINAE if free.laminae else (scene.numerics.laminae,)
-    names = tuple(TIERS) if free.tier else (scene.tier,)
-    for name, count in product(names, counts):
-        limits = TIERS[name]
+    limits = TIERS[name]
+    for count in numerics.LAMINAE if free.laminae else (scene.numerics.laminae,):
         if (limits.needs_rib and given.rib is None) or count < limits.smallest_laminae:
             continue
         lamina = numerics.laminae(evidence, count)
@@ -169,7 +193,7 @@ def _unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
     """Make the alternative of options that no rule offers, judged like the most similar one offered."""
 
     def likeness(option: Alternative) -> int:
-        return sum(type(option.members[name]) is type(value) for name, value in kept.items())
+        return sum(_likeness(option.members[name], value) for name, value in kept.items())
 
     if all(value is None for value in kept.values()):
         return Alternative(
@@ -181,6 +205,14 @@ def _unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
     nearest = max(reversed(rule.alternatives), key=likeness)
     reason = f"as the scene has it, judged like {nearest.word!r}; {nearest.reason}"
     return replace(nearest, members={**nearest.members, **kept}, reason=reason, word="on")
+
+
+def _likeness(one: Any, other: Any) -> int:
+    """Count what two effects have of the same kind: themselves, and their options."""
+    if type(one) is not type(other):
+        return 0
+    options = fields(one) if is_dataclass(one) else ()
+    return 1 + sum(type(getattr(one, each.name)) is type(getattr(other, each.name)) for each in options)
 
 
 def _represented(option: Alternative, tier_name: str) -> bool:
@@ -207,9 +239,7 @@ def _choice_of(
         effects = replace(effects, audit=effects.audit or Audit())
     costs = evidence.costs
     parts = [
-        costs.scaled(rule.effect, option.cost, stage.laminae)
-        if stage.tier == "full"
-        else min(option.cost, 0.001)
+        costs.scaled(rule.effect, option.cost, stage.tier, stage.laminae)
         for rule, option in zip(rules, taken, strict=True)
     ]
     total = stage.cost + sum(parts)
@@ -251,6 +281,8 @@ def _choice_of(
         step_cost=total,
         seconds=costs.seconds(total, step.steps_per_sample, stage.tier),
         within=within,
+        vibration_to=evidence.band,
+        told=tuple(bending.rates_told(evidence)),
     )
 
 
@@ -296,9 +328,8 @@ def _cheapest(
         entries = []
         for option in alternatives:
             influence = tuple(option.influence.get(name, 0.0) for name in asked)
-            cost = costs.scaled(next(iter(option.members)), option.cost, stage.laminae)
-            # a tier with few states does not pay for an effect what the full one does
-            entries.append((cost if stage.tier == "full" else min(cost, 0.001), influence, option))
+            cost = costs.scaled(next(iter(option.members)), option.cost, stage.tier, stage.laminae)
+            entries.append((cost, influence, option))
         entries.sort(key=lambda entry: (entry[0], sum(entry[1])))
         options.append(entries)
     least_cost = _tails([min(entry[0] for entry in entries) for entries in options])

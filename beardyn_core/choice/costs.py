@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
+import numpy as np
+
 from beardyn_core.effects.catalogue import catalogue
 from beardyn_core.model.build import WAVEFORM_RATE
 
@@ -21,6 +23,11 @@ _REFERENCE_LAMINAE = 6
 _BLOCK_SAMPLES = 512
 # middle of each cost class of the catalogue
 _CLASS_SHARES = {"none": 0.001, "low": 0.015, "medium": 0.09, "high": 0.2}
+# modes of a box, and what a step with them takes over one with all 99 of `high_speed`: docs/structure.md
+_MODES, _MODES_SHARE = (0.0, 16.0, 50.0, 99.0), (0.0, 0.39, 0.76, 1.0)
+# of what bending adds to a step of the full tier, in a fast one; the rest a tier with few states has for
+# nothing: table in docs/model.md
+_FAST_BENDING, _FAST_REST = 0.25, 0.001
 # effects computed for every lamina: their cost grows with the count
 _PER_LAMINA = frozenset({"traction", "lamina_coupling"})
 
@@ -62,6 +69,11 @@ class Costs:
             return 0.5 * self.saved(effect)
         return max(measured - 1.0 + self.saved(effect), _LEAST_SHARE)
 
+    def of_modes(self, count: int) -> float:
+        """Work out the cost that so many modes of a box add to the standard step."""
+        share = count / _MODES[-1] if count > _MODES[-1] else float(np.interp(count, _MODES, _MODES_SHARE))
+        return share * self.extra("structure modes")
+
     def base(self, tier: str, laminae: int) -> float:
         """Compute the cost of a tier's step without the effects that a choice can add."""
         if tier == "lumped":
@@ -78,8 +90,10 @@ class Costs:
         slope = max(self.ratios["laminae 20"] - self.ratios["laminae 2"], 0.0) / 18.0 * share
         return max(1.0 - saved, 0.1) + slope * more
 
-    def scaled(self, effect: str, share: float, laminae: int) -> float:
-        """Scale the cost of an effect, measured at 6 laminae, to another count."""
+    def scaled(self, effect: str, share: float, tier: str, laminae: int) -> float:
+        """Scale the cost of an effect, measured in the full tier at 6 laminae, to another tier and count."""
+        if tier != "full":
+            return _FAST_BENDING * share if effect == "structure" else min(share, _FAST_REST)
         return share * laminae / _REFERENCE_LAMINAE if effect in _PER_LAMINA else share
 
     def seconds(self, step: float, steps_per_sample: float, tier: str) -> float:

@@ -16,8 +16,10 @@ from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.statics import Statics
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.integrate.step_choice import AUDIBLE_BAND
 from beardyn_core.scene.defect import Patch, WornPocket
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import PASSBAND, RATES
 
 MOST_DB = 20.0
 
@@ -86,6 +88,18 @@ class Evidence:
     def moves(self) -> bool:
         """Whether the axlebox can move, so that there is a vibration."""
         return self.scene.mounting.cup == "suspended"
+
+    @property
+    def band(self) -> float:
+        """Highest third octave asked of the vibration: what the fastest sensor hears, or less, [Hz]."""
+        heard = AUDIBLE_BAND * max(sensor.rate for sensor in self.scene.sensors) / RATES[0]
+        return min(heard, self.scene.vibration_to or heard)
+
+    @property
+    def edge(self) -> float:
+        """Where that third octave ends, or the hearing of the fastest sensor, [Hz]."""
+        hearing = PASSBAND * max(sensor.rate for sensor in self.scene.sensors)
+        return min(hearing, 10.0**0.05 * self.band)
 
     @cached_property
     def torque(self) -> float:

@@ -10,7 +10,7 @@ from typing import Annotated as A
 from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
 from beardyn_core.config.load import OpenScene, load_effects, read_scene, read_scene_mapping, read_scene_text
-from beardyn_core.effects import EffectSet
+from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.scene import EFFECTS, Scene
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ def load_scene(
     seed: int | None = None,
     accuracy_percent: float | None = None,
     quantities: list[str] | None = None,
+    vibration_to: float | None = None,
     outside_load: bool = False,
 ) -> Scene:
     """Load the scene of a shipped name or of a file.
@@ -39,8 +40,8 @@ def load_scene(
         Preset or file instead of the scene's effects, or ``auto``.
     duration : float, optional
         [s].
-    accuracy_percent, quantities : float, list of str, optional
-        What is asked for, when something is ``auto``.
+    accuracy_percent, quantities, vibration_to : float, list of str, float, optional
+        What is asked for, when something is ``auto``; the last in [Hz].
     outside_load : bool
         Whether the load comes from elsewhere than the scene's operation: the lumped tier then takes no steps
         longer than a sample unless the scene gives them.
@@ -58,6 +59,7 @@ def load_scene(
         ("seed",): seed,
         ("accuracy_percent",): accuracy_percent,
         ("quantities",): quantities,
+        ("vibration_to_Hz",): vibration_to,
     }
     return closed(read_scene(name, _given(overrides)), outside_load)
 
@@ -88,6 +90,7 @@ def explain_scene(
     tier: str | None = None,
     accuracy_percent: float | None = None,
     quantities: list[str] | None = None,
+    vibration_to: float | None = None,
 ) -> Explanation:
     """Explain why a scene is computed as it is, and what would be chosen; arguments as of `load_scene`.
 
@@ -102,6 +105,7 @@ def explain_scene(
             ("tier",): tier,
             ("accuracy_percent",): accuracy_percent,
             ("quantities",): quantities,
+            ("vibration_to_Hz",): vibration_to,
         }
     )
     found = with_usual_step(read_scene(name, given))
@@ -142,6 +146,13 @@ def choice_for(found: OpenScene) -> Choice:
         return choose(scene, found.free)
     reference = load_effects(REFERENCE)
     return choose(replace(scene, effects=_judged_by(scene.effects, reference)), found.free, scene.effects)
+
+
+def in_box_of(effects: EffectSet, given: EffectSet) -> EffectSet:
+    """Put effects into the box that others have a table of modes of."""
+    if not isinstance(given.structure, ModalStructure):
+        return effects
+    return replace(effects, structure=given.structure)
 
 
 def _judged_by(given: EffectSet, reference: EffectSet) -> EffectSet:

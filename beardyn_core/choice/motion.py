@@ -1,4 +1,4 @@
-"""Rules of weight, damping, compliance and bookkeeping."""
+"""Rules of weight, damping, coupled laminae and bookkeeping."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_or_off, percent
-from beardyn_core.effects import LaminaCoupling, ModalStructure
+from beardyn_core.effects import LaminaCoupling
 
 _LAMINAE = 20
 _DEPTH = 1.0e-5  # of a working load [m]
@@ -79,25 +79,6 @@ def audit(evidence: Evidence) -> Rule:
     if effect is None:
         return Rule("audit", (Alternative({"audit": None}, reason, word="off"),))
     return on_or_off("audit", effect, reason, {}, evidence.costs.saved("audit"), FULL)
-
-
-def structure(evidence: Evidence) -> Rule:
-    """Decide on a box that bends: on when it changes load distribution or deflection."""
-    effect = evidence.scene.effects.structure
-    if effect is None:
-        return absent("structure")
-    change = evidence.difference({"bending": False}, {"bending": True})
-    influence = {
-        **change.influence(),
-        "torque": evidence.torque_share(evidence.torque_of_rigid_cup - evidence.torque),
-    }
-    reason = (
-        f"bending of the box changes the deflection by {percent(change.deflection)} and the largest roller "
-        f"load by {percent(change.roller_load)}, the torque by {percent(influence['torque'])}"
-    )
-    kind = "structure modes" if isinstance(effect, ModalStructure) else "structure"
-    cost = evidence.costs.extra(kind)
-    return on_or_off("structure", effect, reason, influence, cost)
 
 
 def lamina_coupling(evidence: Evidence) -> Rule:

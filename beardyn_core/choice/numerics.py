@@ -14,11 +14,11 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.fast_step import fast_steps
-from beardyn_core.choice.rule import Verdict, percent
+from beardyn_core.choice.rule import Influence, Verdict, percent
 from beardyn_core.choice.usual_step import served, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.friction_steps import StepChoice
-from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
+from beardyn_core.integrate.step_choice import choose_steps
 from beardyn_core.model.faults import lamina_cover, surface_radius
 from beardyn_core.scene.defect import Patch
 
@@ -29,8 +29,6 @@ LAMINAE = (2, 4, 6, 8, 10, 12, 16, 20, 40)
 _REFERENCE_LAMINAE = 40
 # Width of a third-octave band over its centre.
 _BAND = 0.2316
-# The flat band of the accelerometer.
-_HIGHEST_FREQUENCY = 10.0e3
 # One Newton step of the rollers in a time step, and the neglected turn of the normals: see test/tiers.
 _QUASISTATIC_SHARE = 0.005
 
@@ -135,7 +133,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
     more steps for its rate gets them.
     """
     loads, scene = evidence.loads, evidence.scene
-    band = AUDIBLE_BAND if vibration else 0.0
+    band = evidence.band if vibration else 0.0
     if tier != "full":
         there = replace(scene, tier=tier, effects=effects)
         found = fast_steps(there, long=False)
@@ -181,10 +179,15 @@ def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:
     )
 
 
+def least_errors(evidence: Evidence, name: str) -> Influence:
+    """Compute the errors that a tier has whatever its laminae and springs are."""
+    return {} if name == "full" else _without_roller_inertia(evidence)[0]
+
+
 def _without_roller_inertia(evidence: Evidence) -> tuple[dict[str, float], str]:
     bounce = roller_bounce(evidence)
     # response of a mass on springs over that of the springs alone, at the end of the band
-    ratio = 1.0 / abs(1.0 - min((_HIGHEST_FREQUENCY / bounce) ** 2, 0.999))
+    ratio = 1.0 / abs(1.0 - min((evidence.band / bounce) ** 2, 0.999))
     reason = f"its rollers have no inertia, a roller bounces at {bounce / 1e3:.3g} kHz"
     influence = {"vibration": decibels(ratio), "roller_load": _QUASISTATIC_SHARE}
     if evidence.patches:

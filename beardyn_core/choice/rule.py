@@ -120,6 +120,8 @@ class Choice:
     step_cost: A[float, "of a step, in steps of the standard set"]
     seconds: A[float, "wall time of a simulated second on the machine of the cost file, [s]"]
     within: A[bool, "whether the expected errors are within the accuracy"]
+    vibration_to: A[float, "highest third octave asked for, [Hz]; NaN where nothing is known"] = math.nan
+    told: A[tuple[str, ...], "where sensors and the modes of the box do not reach equally far"] = ()
 
     @property
     def real_time_factor(self) -> float:
@@ -150,10 +152,12 @@ class Choice:
             "steps_per_sample": self.steps_per_sample,
             "accuracy": self.accuracy,
             "quantities": self.quantities,
+            "vibration_to_Hz": self.vibration_to,
             "within_accuracy": self.within,
             "expected_error": _errors(self.expected),
             "real_time_factor": self.real_time_factor,
             "step_cost": self.step_cost,
+            "told": self.told,
             "reasons": {
                 "tier": self.tier_reason,
                 "laminae": self.laminae_reason,

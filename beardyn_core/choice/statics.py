@@ -28,12 +28,12 @@ class Statics:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self._known: dict[tuple[object, ...], StaticSolution | None] = {}
-        self._body = body_of(scene)
+        self.body = body_of(scene)
 
     @property
     def flexible(self) -> bool:
         """Whether the reference's cup bends."""
-        return self._body is not None
+        return self.body is not None
 
     def at(
         self,
@@ -52,7 +52,7 @@ class Statics:
     def _solved(
         self, case: LoadCase, laminae: int, coupling: LaminaCoupling | None, bending: bool
     ) -> StaticSolution | None:
-        body = self._body if bending else None
+        body = self.body if bending else None
         wrench = [*case.force, *case.moment]
         try:
             return rest_under(self.scene, body, wrench, case.speed, laminae=laminae, coupling=coupling).static

@@ -13,7 +13,6 @@ from beardyn_core.cli.json_output import json_text
 if TYPE_CHECKING:
     from beardyn_core.choice import Explanation
     from beardyn_core.choice.rule import Choice
-    from beardyn_core.scene.scene import Scene
 
 DONE = 0
 _WIDTH = 110
@@ -38,6 +37,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "roller_load, torque, vibration, cage_speed; default the scene's",
     )
     parser.add_argument(
+        "--vibration-to",
+        metavar="HZ",
+        type=float,
+        help="highest third octave of the vibration, Hz; default the scene's, or what its sensors hear",
+    )
+    parser.add_argument(
         "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's"
     )
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's")
@@ -57,6 +62,7 @@ def run(args: argparse.Namespace) -> int:
             tier=args.tier,
             accuracy_percent=args.accuracy,
             quantities=quantities,
+            vibration_to=args.vibration_to,
         )
     print(json_text("explain", json_object(found)) if args.json else text(found))
     return DONE
@@ -86,16 +92,16 @@ def text(found: Explanation) -> str:
     else:
         parts += ["", *_lines(found.current, "as the scene has it")]
         parts += ["", *_lines(found.automatic, "what `effects: auto` would choose")]
-    parts += _heard(found.scene)
+    parts += _heard(found)
     parts += ["", f"Cost shares and real-time factor as measured on {costs.machine}, {costs.date}."]
     return "\n".join(parts)
 
 
-def _heard(scene: Scene) -> list[str]:
-    """Name what sensors hear besides, and paths that are filters and no model."""
+def _heard(explanation: Explanation) -> list[str]:
+    """Name what sensors hear besides, paths that are filters and no model, bands that end too early."""
     from beardyn_core.edge import written
 
-    found = []
+    scene, found = explanation.scene, list(explanation.current.told)
     if scene.background is not None:
         parts = [part for part in written(scene.background) if part not in ("name", "description", "sources")]
         found.append(f"background {scene.background.name}: {', '.join(parts)}")
@@ -117,7 +123,8 @@ def _lines(choice: Choice, title: str) -> list[str]:
     means = [name for name in choice.quantities if name != "vibration"]
     parts = [f"{', '.join(means)} within {100.0 * choice.accuracy:.3g} %"] if means else []
     if "vibration" in choice.quantities:
-        parts.append("vibration in third-octave bands within 1.5 dB")
+        to = f" to {1e-3 * choice.vibration_to:.3g} kHz" if math.isfinite(choice.vibration_to) else ""
+        parts.append(f"vibration in third-octave bands{to} within 1.5 dB")
     asked = "; ".join(parts)
     errors = ", ".join(f"{name} {error_text(name, error)}" for name, error in choice.expected.items())
     verdict = "" if choice.within else "; more than asked for"

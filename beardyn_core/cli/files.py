@@ -21,8 +21,11 @@ def checked(more: Callable[[list[Path]], list[str]] = lambda _: []) -> Iterator[
         try:
             yield
         except InputError as error:
-            # the option is shorter than the key
-            problems = [each.replace("--accuracy_percent", "--accuracy") for each in error.problems]
+            # options are not quite the keys
+            problems = [
+                each.replace("--accuracy_percent", "--accuracy").replace("--vibration_to", "--vibration-to")
+                for each in error.problems
+            ]
     if problems := problems + more(inputs):
         raise InputError(problems)
 

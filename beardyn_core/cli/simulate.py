@@ -55,6 +55,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "roller_load, torque, vibration, cage_speed; default the scene's",
     )
     parser.add_argument(
+        "--vibration-to",
+        metavar="HZ",
+        type=float,
+        help="highest third octave of the vibration, Hz; default the scene's, or what its sensors hear",
+    )
+    parser.add_argument(
         "--seed", metavar="N", type=int, help="seed of irregularity and noise; default the scene's"
     )
     parser.add_argument("--force", action="store_true", help="replace the file of -o when it exists")
@@ -76,6 +82,7 @@ def run(args: argparse.Namespace) -> int:
             seed=args.seed,
             accuracy_percent=args.accuracy,
             quantities=None if args.quantities is None else args.quantities.split(","),
+            vibration_to=args.vibration_to,
         )
 
     from tqdm import tqdm

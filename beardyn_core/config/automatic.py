@@ -11,16 +11,30 @@ AUTO = "auto"
 REFERENCE = "full"
 
 
+def names_a_box(effects: Any) -> bool:
+    """Tell whether effects as they are written have a table of modes, which says what box there is."""
+    structure = effects.get("structure") if isinstance(effects, dict) else None
+    return isinstance(structure, dict) and structure.get("kind") == "modes"
+
+
+def auto_in_its_box(effects: Any) -> Any:
+    """Make `auto` out of effects as they are written, with the box that they have."""
+    return {"preset": AUTO, "structure": effects["structure"]} if names_a_box(effects) else AUTO
+
+
 def take_auto(data: dict[str, Any]) -> Free:
     """Replace every `auto` of a scene's mapping by what can be read, and say what may be chosen.
 
-    With `effects: auto` everything that is not written down may be.
+    With `effects: auto` everything that is not written down may be. A table of modes says which box there is,
+    and not how much of its bending counts, unless it comes with ``highest_Hz``.
     """
     effects = data.get("effects")
     all_free = effects == AUTO or (isinstance(effects, dict) and effects.get("preset") == AUTO)
     free_effects: frozenset[str] = frozenset()
     if all_free:
         written = set(effects) if isinstance(effects, dict) else set()
+        if isinstance(effects, dict) and names_a_box(effects) and "highest_Hz" not in effects["structure"]:
+            written.discard("structure")
         data["effects"] = (
             {**effects, "preset": REFERENCE} if isinstance(effects, dict) else {"preset": REFERENCE}
         )

@@ -16,7 +16,7 @@ from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.config.automatic import take_auto
+from beardyn_core.config.automatic import AUTO, auto_in_its_box, take_auto
 from beardyn_core.config.content import located_table, self_contained, with_table
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.keys import keys_of, valid
@@ -236,6 +236,8 @@ class _Reading:
 
     def _override(self, place: Place, value: Any) -> None:
         owner = self.data
+        if place == ("effects",) and value == AUTO:
+            value = auto_in_its_box(self._written_effects())
         for key in place[:-1]:
             inner = owner.get(str(key), {})
             if not isinstance(inner, dict):
@@ -245,6 +247,15 @@ class _Reading:
             owner = copy
         owner[str(place[-1])] = value
         self.origins.append(Origin(place, f"--{stem_of(str(place[-1]))}", place))
+
+    def _written_effects(self) -> Any:
+        given = self.data.get("effects")
+        if not isinstance(given, str) or given == AUTO:
+            return given
+        try:
+            return read_file(find("effects", given, self.folder))
+        except InputError:
+            return given  # the mistake is in what is not taken
 
     def _inline(self, owner: dict[str, Any], key: str, kind: str, above: Place) -> None:
         """Replace a reference by what it refers to."""

@@ -25,7 +25,7 @@ from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.running import Timetable
 from beardyn_core.scene.scene import Numerics, Scene
-from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, SensorType, steps_do_not_fit
+from beardyn_core.scene.sensor import FINE_STEPS, PASSBAND, RATES, Accelerometer, SensorType, steps_do_not_fit
 from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
 from beardyn_core.scene.waviness import Band, Waviness
 
@@ -386,6 +386,12 @@ class SceneFile(FileModel):
                     f"numerics.steps_per_sample is {steps:g}; a background with forces needs at least 1, for "
                     "they reach 8 kHz"
                 )
+        hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
+        if given["vibration_to"] is not None and given["vibration_to"] > hearing:
+            yield (
+                f"vibration_to_Hz is {given['vibration_to']:g}; the sensors hear to {hearing:g} Hz: ask for "
+                f"less, or give one rate_kHz {RATES[-1] / 1e3:g}, which hears to {PASSBAND * RATES[-1]:g} Hz"
+            )
         yield from _rough_twice(given["background"], given["operation"])
 
 

@@ -17,11 +17,10 @@ from beardyn_core.observe.pickup import PickupStream
 from beardyn_core.observe.resampling import DELAY, Decimator
 from beardyn_core.rail.transfer_path import path_read
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import AXES, RATES, Accelerometer, steps_do_not_fit
+from beardyn_core.scene.sensor import AXES, PASSBAND, RATES, Accelerometer, steps_do_not_fit
 
 REST = np.array([0.0, 0.0, GRAVITY])
 BLOCKS_PER_SECOND = 1_000_000_000 // BLOCK_NS
-_PASS_BAND = 0.4  # of a rate, behind its anti-alias filter
 
 
 def lookahead(scene: Scene) -> int:
@@ -112,7 +111,7 @@ class _Chain:
             delay, wait = (DELAY if factor > 1 else 0), wait * round(sensor.rate / RATES[0])
         self.delay = delay + wait
         self._held_back = Decimator(1, 3, REST, held_back=wait - _late(sensor))
-        self._response = Response(sensor, _PASS_BAND * sensor.rate, REST) if _responds(sensor) else None
+        self._response = Response(sensor, PASSBAND * sensor.rate, REST) if _responds(sensor) else None
         self._path: PathFilter | None = None
         if sensor.measured_paths:
             paths = {

@@ -81,6 +81,12 @@ class Scene:
         At(one_of=QUANTITIES, size=(1, None)),
         "what is asked of the run, when something is auto",
     ] = USUAL_QUANTITIES
+    vibration_to: A[
+        float | None,
+        At("Hz", gt=0.0, ge=200.0, le=20_000.0),
+        "highest third octave of the vibration that is asked for, when something is auto; as far as the "
+        "sensors hear when left out",
+    ] = None
     operation: A[Operation, "where load and speed come from"]
     background: A[
         Background | None,

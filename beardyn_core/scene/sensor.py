@@ -11,6 +11,7 @@ from beardyn_core.edge import At, Vector
 
 RATES = (25_600.0, 51_200.0)  # [Hz]
 FINE_STEPS = 8  # fewest time steps per sample of 25.6 kHz that resolve the band of the faster rate
+PASSBAND = 0.4  # of its rate a sensor hears all alike: what the anti-alias filter leaves as it is
 AXES = ("x", "y", "z")
 
 _Noise = A[float, At("m_per_s2_per_sqrt_Hz", ge=0.0), "white noise of each axis, one-sided"]

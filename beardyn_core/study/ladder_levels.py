@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Annotated as A
 
 from beardyn_core.choice.choose import choose
+from beardyn_core.choice.load import in_box_of
 from beardyn_core.choice.rule import Choice
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
@@ -77,6 +78,7 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
         Also `full` less each of its effects in turn.
     """
     full, standard, dry = (load_effects(name) for name in ("full", "standard", "dry"))
+    full = in_box_of(full, scene.effects)
     reference = replace(_level("full", "full", full, REFERENCE_LAMINAE, REFERENCE_STEPS), name="reference")
     neighbour = _level("full", "full", full, REFERENCE_LAMINAE // 2, REFERENCE_STEPS // 2)
     lumped, balanced, usual = (TIERS[name].steps_per_sample for name in ("lumped", "quasistatic", "full"))
@@ -129,11 +131,12 @@ def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
 def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
     """Choose for a scene as `effects: auto` does, whatever the scene is computed with itself.
 
-    The accuracy is a share; a fault line is asked of the vibration.
+    The accuracy is a share; a fault line is asked of the vibration, of which every band counts.
     """
     wanted = {_CHOSEN_AS.get(name, name) for name in asked}
     quantities = tuple(name for name in QUANTITIES if name in wanted)
-    return choose(replace(scene, effects=load_effects("full"), accuracy=accuracy, quantities=quantities))
+    every = in_box_of(load_effects("full"), scene.effects)
+    return choose(replace(scene, effects=every, accuracy=accuracy, quantities=quantities, vibration_to=None))
 
 
 def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Level:

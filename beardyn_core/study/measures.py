@@ -20,6 +20,7 @@ from beardyn_core.observe.features import envelope, order_spectrum, resample_by_
 from beardyn_core.scene.excitation import WheelPolygon
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import PASSBAND
 
 _CUP_BODY, _CONE_BODY, _FIRST_ROLLER = 0, 1, 4  # order of `Twin.body_names`
 _CUP_CONTACT = CONTACT_KINDS.index("cup")
@@ -95,7 +96,6 @@ REFERENCE_ACCELERATION = 1.0e-6  # ISO 1683, [m/s^2]
 HIGH_QUANTILE = 0.99
 # bins of the load distribution that carry this share of the largest one are the load zone
 LOAD_ZONE_SHARE = 0.05
-_PASSBAND = 0.4  # of the waveform rate: what the anti-alias filter leaves as it is
 _MONITOR = MonitorSettings()
 _TINY = 1e-300
 
@@ -157,7 +157,7 @@ def third_octave_levels(acceleration: Float, rate: float = WAVEFORM_RATE) -> Flo
     edges = (np.arange(len(power) + 1) - 0.5) * rate / count
     below = np.concatenate([[0.0], np.cumsum(power)])
     half = 10.0**0.05
-    top = np.minimum(BAND_CENTRES * half, _PASSBAND * rate)
+    top = np.minimum(BAND_CENTRES * half, PASSBAND * rate)
     within = np.interp(top, edges, below) - np.interp(BAND_CENTRES / half, edges, below)
     return 10.0 * np.log10(np.maximum(within, _TINY) / REFERENCE_ACCELERATION**2)
 

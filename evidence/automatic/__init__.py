@@ -1,8 +1,9 @@
 """What `effects: auto` chooses, against the converged reference of the ladder.
 
-====== =======================================================
-module responsibility
-====== =======================================================
-page   cases, their runs, and docs/automatic.md
-====== =======================================================
+======= =======================================================
+module  responsibility
+======= =======================================================
+page    cases, their runs, and docs/automatic.md
+shipped what is chosen for every shipped scene: docs/choices.md
+======= =======================================================
 """

@@ -83,6 +83,19 @@ def test_explain_tells_what_the_scene_has_where_no_rule_offers_it(capsys: pytest
     assert not current["within_accuracy"]
 
 
+def test_a_rib_with_fewer_options_is_judged_like_the_lubricated_one(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """That of the preset `standard` has a film and no drilling friction: it is no dry rib."""
+    assert (
+        main(["explain", "static_80kN", "--effects", "standard", "--quantities", "torque", "--json"]) == DONE
+    )
+    current = json.loads(capsys.readouterr().out)["current"]
+    (rib,) = (decision for decision in current["decisions"] if decision["effect"] == "rib")
+    assert "judged like 'lubricated'" in rib["reason"]
+    assert rib["error"]["torque"]["error"] == 0.0
+
+
 def test_explain_names_the_background_and_a_path_that_is_no_model(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

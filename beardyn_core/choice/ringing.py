@@ -1,0 +1,130 @@
+"""What a sensor hears of a box that bends beside a rigid one: rollers as springs between journal and modes.
+
+Small motion about the equilibrium of the typical load, nothing is run. Each loaded roller is a massless
+spring with the damping of its contacts, and a gap that changes by the same amount at each of them, one
+independent of the other, shakes a journal on one side and the box on the other.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.config.structure import seat_of
+from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.model.mounting import box_coupling, cross_matrix, spatial_mass
+from beardyn_core.model.structure import ModalBody
+from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
+from beardyn_core.scene.scene import Scene
+
+_BAND_RATIO = 10.0**0.1  # third octaves of IEC 61260-1, base ten
+_LOWEST_BAND = 200.0  # below, the suspension counts and a box of some tens of kilograms is rigid [Hz]
+_LINES = 24  # in a band, a few within the width of a mode
+
+
+def band_centres(highest: float) -> Float:
+    """Give the centres of third octaves from 200 Hz up to a frequency [Hz]."""
+    count = round(10.0 * math.log10(highest / _LOWEST_BAND)) + 1
+    centres = 1000.0 * _BAND_RATIO ** (np.arange(count) - 7)
+    return np.asarray(centres[centres < 1.001 * highest])
+
+
+def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest: float) -> Float:
+    """Work out the levels of the sensors' third octaves for gaps of rollers that change alike, [dB].
+
+    Parameters
+    ----------
+    scene : Scene
+        Box, journal, sensors; its own effect `structure` does not matter.
+    static : StaticSolution
+        Of the load: which rollers carry.
+    body : ModalBody or None
+        ``None``: the box is rigid.
+    highest : float
+        Third octaves up to here, where the last one is cut off, [Hz].
+
+    Returns
+    -------
+    array, shape [sensor, band]
+        Of accelerations per metre, the axes together, so that only differences mean anything.
+
+    Notes
+    -----
+    Between the contacts i with wrenches n_i the receptances of journal, box and modes add up to H(w); with
+    springs k_i (1 + j w T) a gap d moves forces F = (K^-1 + H)^-1 d, which the sensors read through the
+    receptance of box and modes. The suspension, the inertia of rollers and the tilt of their contacts are
+    left out: below 200 Hz the first counts, towards their bounce at 17 to 22 kHz the second.
+    """
+    azimuth, sides, loads = _loaded(scene, static)
+    lever = lever_of_cup(scene.bearing)
+    cosine, sine = math.cos(scene.bearing.cup_angle), math.sin(scene.bearing.cup_angle)
+    wrench = np.stack(
+        [
+            cosine * np.sin(azimuth),
+            -sides * sine,
+            cosine * np.cos(azimuth),
+            sides * lever * np.cos(azimuth),
+            np.zeros_like(azimuth),
+            -sides * lever * np.sin(azimuth),
+        ],
+        axis=1,
+    )
+    centres = band_centres(highest)
+    if not loads.size:
+        return np.zeros((len(scene.sensors), centres.size))
+    low, high = centres / _BAND_RATIO**0.5, np.minimum(centres * _BAND_RATIO**0.5, highest)
+    place = (np.arange(_LINES) + 0.5) / _LINES
+    rate = 2.0 * np.pi * (low[:, None] + (high - low)[:, None] * place).ravel()
+    damping = scene.effects.contact_damping
+    time_constant = 0.0 if damping is None else damping.time_constant
+    spring = roller_tangent(scene.bearing) * loads**0.1 * (1.0 + 1j * rate[:, None] * time_constant)
+    box = _free_box(scene, body)
+    between = -(wrench @ (_journal(scene) + box) @ wrench.T) / rate[:, None, None] ** 2
+    arms = [np.block([np.eye(3), -cross_matrix(sensor.position)]) for sensor in scene.sensors]
+    reading = np.concatenate(arms)
+    heard = np.broadcast_to(reading @ box @ wrench.T, (rate.size, len(reading), azimuth.size))
+    if body is not None:
+        rows = (sides > 0.0).astype(int)
+        shapes = cosine * body.openings(azimuth)[rows, np.arange(azimuth.size)]
+        yielding = 1.0 / (
+            body.rate**2 - rate[:, None] ** 2 + 2j * body.damping_ratio * body.rate * rate[:, None]
+        )
+        between = between + np.einsum("im,lm,jm->lij", shapes, yielding, shapes, optimize=True)
+        if body.modes is not None:
+            seats = [body.modes.seats[seat_of(sensor, body.modes)].T for sensor in scene.sensors]
+            ringing = np.einsum("sm,lm,jm->lsj", np.concatenate(seats), yielding, shapes, optimize=True)
+            heard = heard - rate[:, None, None] ** 2 * ringing
+    forces = np.linalg.inv(between + np.eye(azimuth.size) / spring[:, :, None])
+    power = (np.abs(heard @ forces) ** 2).sum(axis=-1)
+    mean = power.reshape(centres.size, _LINES, len(scene.sensors), 3).sum(axis=(1, 3)) / _LINES
+    return np.asarray(10.0 * np.log10(mean)).T
+
+
+def _loaded(scene: Scene, static: StaticSolution) -> tuple[Float, Float, Float]:
+    """Give azimuth [rad], side of the bearing centre and load [N] of the rollers that carry."""
+    count = scene.bearing.roller_count
+    load = static.cup_load
+    around = np.broadcast_to(2.0 * np.pi * np.arange(count) / count, load.shape)
+    sides = np.broadcast_to(np.array([-1.0, 1.0])[: len(load), None], load.shape)
+    carries = static.cone_load > 0.0
+    return around[carries], sides[carries], load[carries]
+
+
+def _journal(scene: Scene) -> Float:
+    mounting = scene.mounting
+    give = np.zeros((6, 6))
+    give[:3, :3] = np.eye(3) / (mounting.journal_mass + scene.bearing.cone_mass)
+    if mounting.journal_tilt == "free":
+        give[[3, 5], [3, 5]] = 1.0 / mounting.journal_inertia
+    return give
+
+
+def _free_box(scene: Scene, body: ModalBody | None) -> Float:
+    coupling = box_coupling(scene.bearing, scene.mounting, body.modes if body is not None else None)
+    if coupling is not None:
+        return np.asarray(coupling.inverse_mass)
+    inertia = np.add(scene.mounting.box_inertia, scene.bearing.cup_inertia)
+    mass = scene.mounting.box_mass + scene.bearing.cup_mass
+    return np.asarray(np.linalg.inv(spatial_mass(mass, inertia, np.zeros(3))))

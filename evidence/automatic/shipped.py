@@ -1,0 +1,82 @@
+"""What `effects: auto` chooses for every shipped scene beside what its file has: docs/choices.md.
+
+Nothing is run: ``python -m evidence.automatic.shipped [SCENE ...] [--to FILE]``, some minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from beardyn_core.choice.costs import measured_costs
+from beardyn_core.choice.load import choice_for, with_usual_step
+from beardyn_core.choice.rule import Choice, error_text
+from beardyn_core.config import shipped_names
+from beardyn_core.config.automatic import AUTO
+from beardyn_core.config.load import read_scene
+from evidence.pages import DOCS
+
+PAGE = DOCS / "choices.md"
+_NOTABLE = 1e-3  # smaller errors are not written, whatever their unit
+
+HEAD = """# What the automatic choice takes for every shipped scene
+
+Written by `python -m evidence.automatic.shipped`; nothing is run. Asked for: force, deflection, largest
+roller load and torque within 5 %, third octaves to 10 kHz within 1.5 dB. *Chosen*: tier, laminae x steps for
+each sample of 25.6 kHz, and what is off, or cheaper than in `full`. Errors are those that
+[the rules](effects_auto.md) expect against every effect, bold beyond what is asked for. Real-time factors are
+those expected on the machine of the costs ({machine}, {date}).
+
+| scene | chosen | expected errors | times real time | as the file has it: expected errors | times real time |
+|---|---|---|--:|---|--:|
+"""
+
+
+def row(name: str) -> str:
+    """Choose for a scene, judge what it has, and write both as a row of the page."""
+    chosen = choice_for(read_scene(name, {("effects",): AUTO}))
+    given = choice_for(with_usual_step(read_scene(name)))
+    what = f"{chosen.tier}, {chosen.laminae} x {chosen.steps_per_sample:g}; {_less(chosen)}"
+    return (
+        f"| `{name}` | {what} | {_errors(chosen)} | {chosen.real_time_factor:.2g} | "
+        f"{_errors(given)} | {given.real_time_factor:.2g} |"
+    )
+
+
+def _less(choice: Choice) -> str:
+    """Name what is off, and what is on in another kind or only partly, with an error."""
+    off = [each.effect for each in choice.decisions if not each.on]
+    cheaper = [
+        f"{each.effect} {each.word}"
+        for each in choice.decisions
+        if each.on and any(error > 0.0 for error in each.influence.values())
+    ]
+    return "; ".join(words for words in (f"no {', '.join(off)}" if off else "", ", ".join(cheaper)) if words)
+
+
+def _errors(choice: Choice) -> str:
+    found = ", ".join(
+        f"{name} {error_text(name, error)}" for name, error in choice.expected.items() if not error < _NOTABLE
+    )
+    return (found or "none") if choice.within else f"**{found}**"
+
+
+def main() -> None:
+    """Write the page."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("scenes", nargs="*", default=shipped_names("scenes"), metavar="SCENE")
+    parser.add_argument("--to", type=Path, default=PAGE, metavar="FILE")
+    arguments = parser.parse_args()
+    rows = []
+    for name in arguments.scenes:
+        rows.append(row(name))
+        print(rows[-1], flush=True)
+    costs = measured_costs()
+    head = HEAD.format(machine=costs.machine, date=costs.date)
+    arguments.to.write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
