@@ -169,8 +169,8 @@ class Twin:
             raise ValidityError(self.load.reason)
         scene = self.scene
         first = self._loads(0, BLOCK_NS, 1)[0]
-        static, preload = self._at_rest(first)
-        self._parameters = build_parameters(scene, self._arrangement, preload)
+        static, preload, on_cone = self._at_rest(first)
+        self._parameters = build_parameters(scene, self._arrangement, preload, on_cone)
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._state = self._tier.start(scene, self._arrangement, self._kernel_parameters, static, first)
         rest = np.zeros(self._channels)
@@ -180,15 +180,15 @@ class Twin:
         self._observer = Observer(scene, self._arrangement, self._parameters, rest)
         self._observer.first_instant(*self._complete(self._state.rollers, self._state.bodies), first[:6])
 
-    def _at_rest(self, first: Float) -> tuple[StaticSolution, Float]:
-        """Solve the static equilibrium under a load row, and the suspension's force on the box, [6]."""
+    def _at_rest(self, first: Float) -> tuple[StaticSolution, Float, Float]:
+        """Solve the static equilibrium under a load row, and the forces of suspension and rollers, [6]."""
         scene, body, restraint = self.scene, self._structure, self._tilt_restraint
         free = scene.mounting.journal_tilt == "free" or scene.mounting.cup == "suspended"
         moment = np.array([first[3], 0.0, first[5]])
         props, tilt = 0.0, np.zeros(2)
         seats = None if body is None else body.suspension
         for _ in range(_PASSES):
-            preload = self._suspension_force(first, moment, props, restraint * tilt)
+            preload = self._suspension_force(_reaction(first, moment, props, restraint * tilt))
             static = solve(
                 scene.bearing,
                 first[:3],
@@ -212,17 +212,16 @@ class Twin:
             tilt = static.tilt
             if seats is None or settled:
                 break
-        preload = self._suspension_force(first, moment, props, restraint * tilt)
+        on_cone = _reaction(first, moment, props, restraint * tilt)
+        preload = self._suspension_force(on_cone)
         box = self._parameters.mounting.coupling
         if seats is not None and box is not None:
             preload += box.stiffness @ (seats @ static.bending)
-        return static, preload
+        return static, preload, on_cone
 
-    def _suspension_force(self, first: Float, moment: Float, prop: float, tilted: Float) -> Float:
-        """Balance the box under a load row, less what prop [N] and restraint of the tilt [N m] take, [6]."""
-        force = np.concatenate([-first[:3], -moment])
-        force[1] += prop
-        force[[3, 5]] += tilted
+    def _suspension_force(self, on_cone: Float) -> Float:
+        """Balance the box under what the rollers take from the cone, [6]."""
+        force = on_cone.copy()
         force[2] += self._weight_of_rollers_and_cages()
         force[2] += self._free_fall * self._parameters.mounting.box_mass
         box = self._parameters.mounting.coupling
@@ -358,7 +357,7 @@ class Twin:
         if (after.film_temperature, after.end_play) != (before.film_temperature, before.end_play):
             old = self._parameters
             new = build_parameters(scene_at(scene, after), self._arrangement, old.mounting.preload)
-            self._parameters = new._replace(rollers=old.rollers)
+            self._parameters = new._replace(rollers=old.rollers, mounting=old.mounting)
             self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._warmth = after
         return after.temperature
@@ -423,3 +422,11 @@ class Twin:
         self.load = snapshot.load.copy()
         self._first_audit = deepcopy(snapshot.first_audit)
         self._observer = deepcopy(snapshot.observer)
+
+
+def _reaction(first: Float, moment: Float, prop: float, tilted: Float) -> Float:
+    """Balance the cone under a load row, a prop [N] and the restraint of its tilt [N m], [6]."""
+    force = np.concatenate([-first[:3], -moment])
+    force[1] += prop
+    force[[3, 5]] += tilted
+    return force

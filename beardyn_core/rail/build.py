@@ -185,16 +185,16 @@ def _quarter_vehicle(
         force = _columns(journal_force(besides, operation, mounting, 1.0 / RIDE_RATE), factor, kernel, count)
         bogie = _columns(suspension_shift(besides, mounting, 1.0 / RIDE_RATE), factor, kernel, count)
     force[:, 1] += operation.lateral_force
-    force[:, 2] += (
-        decimated(response.contact_force + response.flexing, factor, kernel)[:count] - vehicle.journal_weight
-    )
+    imposed = operation.wheelset == "elastic"  # where it is coupled, the twin bends by itself
+    pressed = response.contact_force + response.flexing if imposed else response.contact_force
+    force[:, 2] += decimated(pressed, factor, kernel)[:count] - vehicle.journal_weight
     frame = response.bogie
     if vehicle.primary.size:
         frame = frame + equivalent_displacement(-response.excess, mounting, 2, 1.0 / RIDE_RATE)
     bogie[:, 2] += decimated(frame, factor, kernel)[:count]
     speed = speed_at(operation.speed_profile, np.arange(count) / rate)
     wrench = np.concatenate([force, np.zeros((count, 3))], axis=1)
-    if vehicle.bending is not None and mounting.journal_tilt == "free":
+    if imposed and vehicle.bending is not None and mounting.journal_tilt == "free":
         tilt = response.tilt
         if besides is not None and besides.sway is not None and besides.sway.flexing is not None:
             tilt = tilt + besides.sway.flexing.tilt

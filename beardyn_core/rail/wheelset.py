@@ -72,11 +72,12 @@ class Modes:
         """Keep the modes below a frequency [Hz]."""
         return self.first(int(np.searchsorted(self.frequency, highest)))
 
-    def condensed(self, highest: float) -> Modes:
-        """Keep the modes below a frequency [Hz], and two that yield as all the others do to a steady force.
+    def condensed(self, highest: float, forces: tuple[str, ...] = ("wheel", "journal")) -> Modes:
+        """Keep the modes below a frequency [Hz], and few that yield as all the others do to steady forces.
 
-        One force acts at the wheel, one at the journal. The two shapes are orthogonal to the modes kept and
-        to each other, so that they are modes like these, with frequencies of their own.
+        By default one force acts at the wheel, one at the journal; a moment there is a force on
+        ``journal_slope``. The further shapes are orthogonal to the modes kept and to each other, so that
+        they are modes like these, with frequencies of their own.
 
         References
         ----------
@@ -87,20 +88,20 @@ class Modes:
         if count in (0, len(self)):
             return self.first(count)
         square = (2.0 * np.pi * self.frequency[count:]) ** 2
-        yielding = np.stack([self.wheel[count:], self.journal[count:]], axis=1) / square[:, None]
+        yielding = np.stack([getattr(self, each)[count:] for each in forces], axis=1) / square[:, None]
         yielding /= np.linalg.norm(yielding, axis=0)
         left, mixed = eigh(yielding.T @ (square[:, None] * yielding), yielding.T @ yielding)
 
-        def with_two(shape: Float) -> Float:
+        def with_few(shape: Float) -> Float:
             return np.concatenate([shape[:count], shape[count:] @ yielding @ mixed])
 
         return replace(
             self,
             frequency=np.concatenate([self.frequency[:count], np.sqrt(left) / (2.0 * np.pi)]),
-            wheel=with_two(self.wheel),
-            wheel_slope=with_two(self.wheel_slope),
-            journal=with_two(self.journal),
-            journal_slope=with_two(self.journal_slope),
+            wheel=with_few(self.wheel),
+            wheel_slope=with_few(self.wheel_slope),
+            journal=with_few(self.journal),
+            journal_slope=with_few(self.journal_slope),
         )
 
 
@@ -111,6 +112,21 @@ def bending_modes(operation: QuarterVehicleOperation, mounting: Mounting) -> Mod
         return None
     modes = bending(half, mounting.journal_mass, symmetric=True).condensed(_HIGHEST)
     return modes if len(modes) else None
+
+
+def coupled_modes(operation: QuarterVehicleOperation, mounting: Mounting, cone_mass: float) -> Modes | None:
+    """Compute the modes that the twin's half wheelset bends in, with the cones [kg] on the journal.
+
+    Both wheels move alike. Force and moment at the journal bend it at rest as all modes together do, and so
+    does a force at the wheel there. ``None`` where the twin's half wheelset is rigid.
+    """
+    if operation.wheelset != "coupled":
+        return None
+    half = half_shaft(operation, mounting, cone_mass)
+    if half is None:
+        return None
+    modes = bending(half, mounting.journal_mass + cone_mass, symmetric=True)
+    return modes.condensed(_HIGHEST, ("journal", "journal_slope"))
 
 
 def half_shaft(operation: QuarterVehicleOperation, mounting: Mounting, box_mass: float) -> Shaft | None:

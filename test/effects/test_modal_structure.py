@@ -177,7 +177,7 @@ def test_energy_balance_closes_with_modes_and_their_seats(steps: int) -> None:
 def test_static_bending_is_what_the_table_yields_to_rollers_and_springs() -> None:
     """Raceway at the top of the inboard row: the sum by `Modes.yielding`, which knows no row frame."""
     twin = started(modal_scene(cup="suspended"), constant_load(LOAD_80_KN, 0.0))
-    static, _ = twin._at_rest(np.array([*LOAD_80_KN, *[0.0] * 7]))
+    static, _, on_cone = twin._at_rest(np.array([*LOAD_80_KN, *[0.0] * 7]))
     modes, bearing = table(), twin.scene.bearing
     azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
     load = np.zeros((2, 3, 2 * WAVES + 1))
@@ -189,7 +189,7 @@ def test_static_bending_is_what_the_table_yields_to_rollers_and_springs() -> Non
             load[row, field, 1:7] = (force * np.cos(order * azimuth)).sum(axis=1)
             load[row, field, 9:15] = (force * np.sin(order * azimuth)).sum(axis=1)
     reads = np.concatenate([load.ravel(), np.zeros(modes.reads.shape[0] - load.size)])
-    springs = twin._suspension_force(np.array([*LOAD_80_KN, *[0.0] * 7]), np.zeros(3), 0.0, np.zeros(2))
+    springs = twin._suspension_force(on_cone)
     structure = body()
     assert structure.suspension is not None
     top = np.zeros_like(reads)
