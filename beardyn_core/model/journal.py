@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from beardyn_core.model.structure import exact_oscillators
-from beardyn_core.rail.wheelset import Modes, coupled_modes
+from beardyn_core.rail.wheelset import Modes, bending_modes
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 
@@ -29,9 +29,9 @@ class JournalParams(NamedTuple):
 def modes_of(scene: Scene) -> Modes | None:
     """Compute the modes of the half wheelset of a scene; ``None`` where it is rigid in the twin."""
     operation = scene.operation
-    if not isinstance(operation, QuarterVehicleOperation):
+    if not isinstance(operation, QuarterVehicleOperation) or operation.wheelset != "coupled":
         return None
-    return coupled_modes(operation, scene.mounting, scene.bearing.cone_mass)
+    return bending_modes(operation, scene.mounting, scene.bearing)
 
 
 def journal_params(scene: Scene, step: float, rest: ArrayLike) -> JournalParams | None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.errors import InputError
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
@@ -105,28 +106,20 @@ class Modes:
         )
 
 
-def bending_modes(operation: QuarterVehicleOperation, mounting: Mounting) -> Modes | None:
-    """Compute the modes of a wheelset in which both wheels move alike; ``None`` when it is rigid."""
-    half = half_shaft(operation, mounting, 0.0)
-    if half is None:
-        return None
-    modes = bending(half, mounting.journal_mass, symmetric=True).condensed(_HIGHEST)
-    return modes if len(modes) else None
+def bending_modes(
+    operation: QuarterVehicleOperation, mounting: Mounting, bearing: Bearing | None = None
+) -> Modes | None:
+    """Compute the modes of a wheelset in which both wheels move alike; ``None`` when it is rigid.
 
-
-def coupled_modes(operation: QuarterVehicleOperation, mounting: Mounting, cone_mass: float) -> Modes | None:
-    """Compute the modes that the twin's half wheelset bends in, with the cones [kg] on the journal.
-
-    Both wheels move alike. Force and moment at the journal bend it at rest as all modes together do, and so
-    does a force at the wheel there. ``None`` where the twin's half wheelset is rigid.
+    ``bearing``: with its cones on the journal, and right at rest also under a moment there.
     """
-    if operation.wheelset != "coupled":
-        return None
-    half = half_shaft(operation, mounting, cone_mass)
+    cones = 0.0 if bearing is None else bearing.cone_mass
+    half = half_shaft(operation, mounting, cones)
     if half is None:
         return None
-    modes = bending(half, mounting.journal_mass + cone_mass, symmetric=True)
-    return modes.condensed(_HIGHEST, ("journal", "journal_slope"))
+    forces = ("wheel", "journal") if bearing is None else ("wheel", "journal", "journal_slope")
+    modes = bending(half, mounting.journal_mass + cones, symmetric=True).condensed(_HIGHEST, forces)
+    return modes if len(modes) else None
 
 
 def half_shaft(operation: QuarterVehicleOperation, mounting: Mounting, box_mass: float) -> Shaft | None:
