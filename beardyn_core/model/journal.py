@@ -29,7 +29,7 @@ class JournalParams(NamedTuple):
 def modes_of(scene: Scene) -> Modes | None:
     """Compute the modes of the half wheelset of a scene; ``None`` where it is rigid in the twin."""
     operation = scene.operation
-    if not isinstance(operation, QuarterVehicleOperation) or operation.wheelset != "coupled":
+    if not isinstance(operation, QuarterVehicleOperation) or not operation.bends_in_the_twin:
         return None
     return bending_modes(operation, scene.mounting, scene.bearing)
 

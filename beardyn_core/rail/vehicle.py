@@ -143,7 +143,7 @@ def quarter_vehicle(
     """
     vehicle = operation.vehicle
     journal, box = mounting.journal_mass, mounting.box_mass
-    if operation.wheelset != "coupled":
+    if not operation.bends_in_the_twin:
         bearing = None
     if bearing is not None:
         journal, box = journal + bearing.cone_mass, box + bearing.cup_mass

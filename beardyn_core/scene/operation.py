@@ -184,6 +184,11 @@ class QuarterVehicleOperation:
         return self.vehicle.body_mass + self.payload
 
     @property
+    def bends_in_the_twin(self) -> bool:
+        """Whether the twin's half wheelset has modes."""
+        return self.wheelset == "coupled" and self.vehicle.wheelset is not None
+
+    @property
     def moves_sideways(self) -> bool:
         """Whether the lateral motion of the vehicle is simulated."""
         return bool(self.curves) if self.lateral is None else self.lateral
@@ -196,7 +201,7 @@ class QuarterVehicleOperation:
         yield from not_ascending("speed_profile", [time for time, _ in self.speed_profile])
         if self.curves and self.lateral is False:
             yield "lateral is false, and there is a curve; a curve needs the sideways motion"
-        if self.wheelset == "coupled" and self.vehicle.wheelset is not None and self.moves_sideways:
+        if self.bends_in_the_twin and self.moves_sideways:
             yield (
                 "wheelset is coupled, and there is sideways motion, in which the wheels move against each "
                 "other; the twin bends a wheelset whose wheels move alike: take wheelset: elastic, or "

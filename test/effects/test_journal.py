@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from beardyn_core.choice import load_scene
+from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config.load import load_vehicle
 from beardyn_core.effects import EffectSet
+from beardyn_core.errors import InputError
 from beardyn_core.integrate.static import solve
 from beardyn_core.jit import entry
 from beardyn_core.kernels.axle import ALONG, PLACE, SPEED, UPRIGHT, kick_journal
@@ -43,6 +44,18 @@ from test.kernels.test_step import shaken
 
 LOAD = (0.0, 0.0, 6.7e4)
 SPEED_OF_SHAFT = 120.0
+LONG_STEPS = """
+scene: long
+bearing: HS130x230
+lubricant: L055
+operation:
+  kind: quarter_vehicle
+  vehicle: emu_300
+  speed_profile: [{time_s: 0, speed_kmh: 200}]
+  wheelset: coupled
+tier: lumped
+numerics: {steps_per_sample: 0.5}
+"""
 
 
 @cache
@@ -51,7 +64,11 @@ def scene_on(wheelset: str, tier: str = "full") -> Scene:
     scene = load_scene("smooth_run", tier=tier)
     operation = scene.operation
     assert isinstance(operation, QuarterVehicleOperation)
-    return replace(scene, effects=EffectSet(), operation=replace(operation, wheelset=wheelset))
+    steps = max(scene.numerics.steps_per_sample, 1)  # a coupled wheelset is refused longer ones
+    numerics = replace(scene.numerics, steps_per_sample=steps)
+    return replace(
+        scene, effects=EffectSet(), operation=replace(operation, wheelset=wheelset), numerics=numerics
+    )
 
 
 def axle_of(step: float = 1e-6, rest: Float | None = None) -> JournalParams:
@@ -337,8 +354,13 @@ def test_a_vehicle_without_dimensions_has_a_rigid_wheelset() -> None:
     assert modes_of(scene_on("rigid")) is None
 
 
+def test_steps_longer_than_a_sample_are_refused() -> None:
+    with pytest.raises(InputError, match="a coupled wheelset needs at least 1"):
+        scene_from_text(LONG_STEPS)
+
+
 def test_sideways_motion_is_refused() -> None:
     operation = scene_on("coupled").operation
     assert isinstance(operation, QuarterVehicleOperation)
-    with pytest.raises(Exception, match="wheelset is coupled, and there is sideways motion"):
+    with pytest.raises(InputError, match="wheelset is coupled, and there is sideways motion"):
         replace(operation, lateral=True)
