@@ -326,7 +326,8 @@ def ring_down(twin: Twin) -> tuple[Float, Float]:
     found = np.concatenate(signal)
     rate = len(found) / 0.2
     window = np.hanning(2 * len(found))[len(found) :]
-    return np.fft.rfftfreq(8 * len(found), 1.0 / rate), np.abs(np.fft.rfft(found * window, 8 * len(found)))
+    level = np.abs(np.fft.rfft(found * window, 8 * len(found)))
+    return np.fft.rfftfreq(8 * len(found), 1.0 / rate).astype(np.float64), level
 
 
 @pytest.mark.parametrize("tier", ["quasistatic", "lumped"])
