@@ -165,7 +165,7 @@ class Twin:
             raise ValidityError(self.load.reason)
         scene = self.scene
         first = self._loads(0, BLOCK_NS, 1)[0]
-        static, springs = rest_under(
+        static, springs, on_cone = rest_under(
             scene,
             self._structure,
             first[:6],
@@ -173,7 +173,7 @@ class Twin:
             laminae=scene.numerics.laminae,
             coupling=scene.effects.lamina_coupling,
         )
-        self._parameters = build_parameters(scene, self._arrangement, springs)
+        self._parameters = build_parameters(scene, self._arrangement, springs, on_cone)
         self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._state = self._tier.start(scene, self._arrangement, self._kernel_parameters, static, first)
         rest = np.zeros(self._channels)
@@ -296,7 +296,7 @@ class Twin:
         if (after.film_temperature, after.end_play) != (before.film_temperature, before.end_play):
             old = self._parameters
             new = build_parameters(scene_at(scene, after), self._arrangement, old.mounting.preload)
-            self._parameters = new._replace(rollers=old.rollers)
+            self._parameters = new._replace(rollers=old.rollers, mounting=old.mounting)
             self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self._warmth = after
         return after.temperature

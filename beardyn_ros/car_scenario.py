@@ -144,7 +144,13 @@ class CarScenario:
             time = np.arange(0.0, LONGEST_LEAD_S, 0.01)
             way = distance_at(operation.speed_profile, time)
         else:
-            load = load_history(operation, self._scene.mounting, self._scene.duration, self._scene.seed)
+            load = load_history(
+                operation,
+                self._scene.mounting,
+                self._scene.duration,
+                self._scene.seed,
+                bearing=self._scene.bearing,
+            )
             time, way = load.time_ns * 1e-9, _way(load, 0.5 * USUAL_WHEEL_DIAMETER)
         return _time_at(reach, time, way)
 

@@ -98,6 +98,8 @@ def _sudden(scene: Scene) -> str:
     if isinstance(operation, QuarterVehicleOperation):
         if operation.wheel_defects or operation.rail_defects:
             return "strikes of wheel or rail"
+        if operation.bends_in_the_twin:
+            return "modes of the axle"
     elif not isinstance(operation, ConstantOperation | SteppedOperation):
         return "measured loads"
     if scene.background is not None and scene.background.forces:

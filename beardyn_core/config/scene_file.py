@@ -386,6 +386,12 @@ class SceneFile(FileModel):
                     f"numerics.steps_per_sample is {steps:g}; a background with forces needs at least 1, for "
                     "they reach 8 kHz"
                 )
+            operation = given["operation"]
+            if steps < 1 and isinstance(operation, QuarterVehicleOperation) and operation.bends_in_the_twin:
+                yield (
+                    f"numerics.steps_per_sample is {steps:g}; a coupled wheelset needs at least 1, for the "
+                    "box rings on its end at 2.7 kHz"
+                )
         hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
         if given["vibration_to"] is not None and given["vibration_to"] > hearing:
             yield (

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from beardyn_core.jit import entry, inline
+from beardyn_core.kernels.axle import add_bending, axle_energy, kick_journal
 from beardyn_core.kernels.bodies import (
     add_seals,
     collect_energy,
     collect_reactions,
     drift_bodies,
-    kick_cone,
     show_rings,
     sum_lanes,
 )
@@ -31,7 +31,7 @@ from beardyn_core.model.stages import CAGE, LOSS, RINGS
 
 
 @inline
-def kinetic_energy(rollers, bodies, p):
+def kinetic_energy(rollers, bodies, axle, p):
     """Sum the kinetic energy of rollers, cages, axlebox and journal without its prescribed spin, [J]."""
     roller = p.roller
     total = 0.0
@@ -49,9 +49,12 @@ def kinetic_energy(rollers, bodies, p):
             energy = 0.5 * (roller.mass * speed2 + spinning + tumbling)
             total += p.rollers[block, layout.MASK, lane] * energy
     mounting = p.mounting
+    add_bending(bodies, axle, -1.0, mounting.journal)
     for i in range(3):
         total += 0.5 * mounting.journal_mass * bodies[layout.CONE_BODY, layout.LINEAR + i] ** 2
         total += 0.5 * mounting.journal_inertia * bodies[layout.CONE_BODY, layout.ANGULAR + i] ** 2
+    add_bending(bodies, axle, 1.0, mounting.journal)
+    total += axle_energy(axle, mounting.journal)
     total += box_energy(bodies, mounting, mounting.coupling)
     return total + cage_energy(bodies, p.effects.cage)
 
@@ -106,7 +109,7 @@ def advance(lanes, state, work, loads, output, p):
     ``loads`` [step + 1, 10]: load [N, N m], shaft speed [rad/s] and bogie displacement [m] at the step
     boundaries; ``work``: a `WorkSpace`.
     """
-    rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
+    rollers, bodies, energy, flex, axle = state.rollers, state.bodies, state.energy, state.flex, state.axle
     rings, sums, wrenches, box, bend, _ = work
     signals, audit = output.signals, output.audit
     align_stack(lanes)
@@ -127,7 +130,7 @@ def advance(lanes, state, work, loads, output, p):
         sums[:] = 0.0
         if step == 0:
             copy_sums(energy, audit)
-            audit[layout.ENERGY_KINETIC] = kinetic_energy(rollers, bodies, p) + structure_energy(
+            audit[layout.ENERGY_KINETIC] = kinetic_energy(rollers, bodies, axle, p) + structure_energy(
                 flex, structure
             )
         mark(timers, RINGS)
@@ -150,9 +153,10 @@ def advance(lanes, state, work, loads, output, p):
         )  # fmt: skip
         for i in range(6):
             signals[step, layout.SIGNAL_ACCELERATION + i] = box[i]
-        signals[step, layout.SIGNAL_TORQUE], propped = kick_cone(
-            bodies, wrenches[layout.CONE_BODY], loads[step + 1], energy, p.step, p.mounting
-        )
+        signals[step, layout.SIGNAL_TORQUE], propped = kick_journal(
+            bodies, axle, wrenches[layout.CONE_BODY], loads[step + 1], energy, p.step, p.mounting,
+            p.mounting.journal,
+        )  # fmt: skip
         stored += propped
         mark(timers, RINGS)
         before = cage_motions(bodies, cage, effects.audit)
@@ -169,7 +173,7 @@ def advance(lanes, state, work, loads, output, p):
             audit[layout.ENERGY_ELASTIC] = sum_lanes(sums, layout.ELASTIC) + stored
             audit[layout.ENERGY_KINETIC] = 0.5 * (
                 audit[layout.ENERGY_KINETIC]
-                + kinetic_energy(rollers, bodies, p)
+                + kinetic_energy(rollers, bodies, axle, p)
                 + structure_energy(flex, structure)
             )
         if (step + 1) % stride == 0:

@@ -6,6 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.axle import bend_axle
 from beardyn_core.kernels.bodies import LOAD_BOGIE, LOAD_SPEED
 from beardyn_core.kernels.box import kick_box
 from beardyn_core.kernels.kinematic_rings import add_response, journal_velocity
@@ -63,10 +64,13 @@ def begin_step(bodies, direction, p):
 
 
 @inline
-def finish_step(lanes, bodies, flex, drive, wrenches, box, load_before, load, signal, energy, response, p):
+def finish_step(
+    lanes, bodies, flex, axle, drive, wrenches, box, load_before, load, signal, energy, response, p
+):
     """Accelerate the rings under the rollers' loads and write what happens at the end of the step.
 
-    ``bodies`` [2 + row, BODY_STATES], ``flex`` [2, mode]: changed; ``wrenches`` [2 + row, 6],
+    ``bodies`` [2 + row, BODY_STATES], ``flex`` [2, mode],
+    ``axle`` [2, plane, mode]: changed; ``wrenches`` [2 + row, 6],
     ``box`` [BOX_FIELDS]: work space;
     ``load_before``, ``load`` [10]: rows at the beginning and at the end of the step; ``signal``
     [SIGNAL_CHANNELS]: written; ``energy``: not kept by these tiers, but a coupled box adds to it;
@@ -82,10 +86,12 @@ def finish_step(lanes, bodies, flex, drive, wrenches, box, load_before, load, si
     _kick_box(bodies, wrenches, box, load_before, load, signal, energy, base.mounting.coupling, p)
     _kick_journal(bodies, wrench, load, k.rolling_weight, p.step, p.motion)
     _prop_journal(bodies, p.step, p.motion, base.mounting)
+    on_cone = (-wrench[0], -wrench[1], -wrench[2] - k.rolling_weight, -wrench[3], 0.0, -wrench[5])
+    bend_axle(bodies, axle, on_cone, load, energy, p.step, base.mounting.journal)
     bodies[layout.CONE_BODY, layout.RATE] = load[LOAD_SPEED]
     for body in range(layout.CAGE_BODY, bodies.shape[0]):
         bodies[body, layout.RATE] = k.cage_ratio * load[LOAD_SPEED]
-    add_response(lanes, bodies, flex, before, signal, box, response, p)
+    add_response(lanes, bodies, flex, axle, before, signal, box, response, p)
 
 
 @inline

@@ -43,7 +43,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
     The energy balance is not kept. The trend of the rollers [trend, block + TREND_EXTRAS, 1, lane] has the
     loads, from which `show_lumped` makes the rollers.
     """
-    rollers, bodies, energy, flex = state.rollers, state.bodies, state.energy, state.flex
+    rollers, bodies, energy, flex, axle = state.rollers, state.bodies, state.energy, state.flex, state.axle
     bending = p.bending
     sums, wrenches, box, signals = work.sums, work.wrenches, work.box, output.signals
     roller_trend, body_trend = output.rollers, output.bodies
@@ -70,8 +70,8 @@ def advance_lumped(lanes, state, work, loads, output, p):
             losses = held_losses(sums, speeds, rib, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
         finish_step(
-            lanes, bodies, flex, Drive(wrench, rib, losses), wrenches, box, loads[step], loads[step + 1],
-            signals[step], energy, response, p,
+            lanes, bodies, flex, axle, Drive(wrench, rib, losses), wrenches, box, loads[step],
+            loads[step + 1], signals[step], energy, response, p,
         )  # fmt: skip
         if shown:
             for i, value in enumerate((turns[0], speeds[0], speeds[1])):

@@ -26,6 +26,7 @@ class Rest(NamedTuple):
 
     static: StaticSolution
     springs: Float  # [6], force and moment of the suspension on the box about the bearing centre [N], [N m]
+    on_cone: Float  # [6], those of the rollers on the cone
 
 
 def rest_under(
@@ -71,7 +72,7 @@ def rest_under(
     enough = _SETTLED * (arm * max(map(abs, force)) + max(map(abs, moment)))
     prop, tilt = 0.0, np.zeros(2)
     for _ in range(_PASSES):
-        springs = springs_under(scene, box, [*force, *moment], prop, restraint * tilt)
+        springs = springs_under(scene, box, reaction([*force, *moment], prop, restraint * tilt))
         static = equilibrium(
             bearing,
             force,
@@ -95,17 +96,24 @@ def rest_under(
         tilt = static.tilt
         if seats is None or settled:
             break
-    springs = springs_under(scene, box, [*force, *moment], prop, restraint * tilt)
+    on_cone = reaction([*force, *moment], prop, restraint * tilt)
+    springs = springs_under(scene, box, on_cone)
     if seats is not None and box.coupling is not None:
         springs += box.coupling.stiffness @ (seats @ static.bending)
-    return Rest(static, springs)
+    return Rest(static, springs, on_cone)
 
 
-def springs_under(scene: Scene, box: MountingParams, wrench: ArrayLike, prop: float, tilted: Float) -> Float:
-    """Balance the box under a load [6], less what prop [N] and restraint of the tilt [N m] take, [6]."""
+def reaction(wrench: ArrayLike, prop: float, tilted: Float) -> Float:
+    """Balance the journal under a load [6], less what prop [N] and restraint of the tilt [N m] take, [6]."""
     force = -np.asarray(wrench, dtype=float)
     force[1] += prop
     force[[3, 5]] += tilted
+    return force
+
+
+def springs_under(scene: Scene, box: MountingParams, on_cone: ArrayLike) -> Float:
+    """Balance the box under what the rollers do to the cone, [6]."""
+    force = np.array(on_cone, dtype=float)
     force[2] += weight_on_cone(scene) + _free_fall(scene) * box.box_mass
     if box.coupling is not None:
         force[3:] -= _free_fall(scene) * box.coupling.weight[3:]

@@ -68,7 +68,9 @@ def initial_state(
     structure = parameters.effects.structure
     flex = np.zeros((2, 0 if structure is None else len(structure.shapes)))
     flex[0, : len(static.bending)] = static.bending[: flex.shape[1]]
-    return State(rollers, bodies, np.zeros(layout.ENERGY_TERMS), flex)
+    journal = parameters.mounting.journal
+    axle = np.zeros((2, 2, 0 if journal is None else len(journal.place)))
+    return State(rollers, bodies, np.zeros(layout.ENERGY_TERMS), flex, axle)
 
 
 def _shift_of_cages(

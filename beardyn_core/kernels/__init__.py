@@ -53,6 +53,7 @@ roller            one step of a block of rollers
 bodies            cup, cone and cages as scalar rigid bodies, and the seals between them
 cage_bodies       cages as bodies: free, following the rings, or prescribed
 box               axlebox on its springs
+axle              journal on an axle that bends
 land              land of a cage in cup or cone
 stage_timer       where the time of a step goes
 balanced_roller   a roller in balance, its laminae as springs (quasistatic tier)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.axle import hold_axle
 from beardyn_core.kernels.bodies import body_vector
 from beardyn_core.kernels.exchange import store_vector
 from beardyn_core.kernels.kinematic_bending import hold_bending, kick_modes
@@ -136,14 +137,14 @@ def journal_velocity(bodies):
 
 
 @inline
-def add_response(lanes, bodies, flex, before, signal, box, work, p):
+def add_response(lanes, bodies, flex, axle, before, signal, box, work, p):
     """Add the wrench of `hold_response` to a step that has been taken without it, and move the modes.
 
     Cup and cone get opposite wrenches. The channels get the dampers' part only: what they say is force and
     acceleration of the instant itself.
 
     ``before`` (5 numbers): `journal_velocity` before the step; ``signal`` [SIGNAL_CHANNELS]: changed: force
-    and acceleration; ``flex``, ``box``: see `kick_modes`.
+    and acceleration; ``flex``, ``box``: see `kick_modes`; ``axle``: modes of the axle.
     """
     motion, response = p.motion, p.response
     after = journal_velocity(bodies)
@@ -163,6 +164,8 @@ def add_response(lanes, bodies, flex, before, signal, box, work, p):
     bodies[layout.CONE_BODY, layout.LINEAR + 2] = after[2] - push * wrench[2]
     bodies[layout.CONE_BODY, layout.ANGULAR] = after[3] - turn * wrench[3]
     bodies[layout.CONE_BODY, layout.ANGULAR + 2] = after[4] - turn * wrench[5]
+    on_cone = (-force_x, -force_y, -force_z, -moment_x, 0.0, -moment_z)
+    hold_axle(bodies, axle, on_cone, p.step, p.base.mounting.journal)
     share = _damper_share(response, p.bending)
     for i in range(6):
         signal[layout.SIGNAL_FORCE + i] += share * wrench[i]

@@ -16,8 +16,9 @@ cage             pockets, lands and cheaper cages
 scatter          scatter as numbers of each roller
 patch_path       path of a roller over a patch, and how its sharp edges give way
 faults           patches, waviness, wear and size errors
-mounting         rings, suspension
 structure        bending of the axlebox: rings or modes of a table
+journal          bending of the axle at the journal
+mounting         rings, suspension
 heat             nodes of the thermal network and where losses go
 build            a scene to parameters; how much of a spring a step takes in
 tier_parameters  parameters of the tiers without roller dynamics

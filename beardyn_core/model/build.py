@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT
 from beardyn_core.bearing.geometry import Bearing
@@ -13,6 +13,7 @@ from beardyn_core.model.arrangement import Arrangement, aligned_zeros
 from beardyn_core.model.cage import cage_params
 from beardyn_core.model.faults import fault_params, roller_oversize
 from beardyn_core.model.film import film_params
+from beardyn_core.model.journal import journal_params
 from beardyn_core.model.laminae import coupling_params, lamina_table
 from beardyn_core.model.layout import LAMINA_STIFFNESS, MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
 from beardyn_core.model.losses import drag_params, rolling_params, seal_params
@@ -106,13 +107,17 @@ def roller_constants(
     return constants
 
 
-def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np.float64]) -> Parameters:
+def build_parameters(
+    scene: Scene, arrangement: Arrangement, preload: NDArray[np.float64], rest: ArrayLike = (0.0,) * 6
+) -> Parameters:
     """Build the kernel parameters of a scene.
 
     Parameters
     ----------
     preload : float64 array, shape [6]
         Force and moment of the suspension on the axlebox at rest, [N, N m].
+    rest : array_like, shape [6], optional
+        The same of the rollers on the cone.
     """
     bearing, effects, damping = scene.bearing, scene.effects, scene.effects.contact_damping
     offset = bearing.roller_mass_offset
@@ -142,7 +147,13 @@ def build_parameters(scene: Scene, arrangement: Arrangement, preload: NDArray[np
         laminae=laminae,
         lamina_loads=aligned_zeros(1, 2 * laminae.shape[1], arrangement.width),
         rollers=roller_constants(arrangement, roller_oversize(scene), pocket_offsets(scene)),
-        mounting=mounting_params(bearing, scene.mounting, preload, body.modes if body else None),
+        mounting=mounting_params(
+            bearing,
+            scene.mounting,
+            preload,
+            body.modes if body else None,
+            journal_params(scene, step, rest),
+        ),
         effects=EffectParams(
             damping=DampingParams(effects.contact_damping.time_constant) if effects.contact_damping else None,
             film=film_params(scene),

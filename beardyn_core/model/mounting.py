@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.model.journal import JournalParams
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.structure.modes import Modes
 
@@ -38,6 +39,7 @@ class MountingParams(NamedTuple):
     coupling: BoxCoupling | None
     prop_stiffness: float  # axial, of journal against ground [N/m]
     prop_damping: float  # [N s/m]
+    journal: JournalParams | None  # bending of the axle
 
 
 def cross_matrix(arm: ArrayLike) -> Float:
@@ -81,7 +83,11 @@ def box_coupling(bearing: Bearing, mounting: Mounting, modes: Modes | None = Non
 
 
 def mounting_params(
-    bearing: Bearing, mounting: Mounting, preload: Float, modes: Modes | None = None
+    bearing: Bearing,
+    mounting: Mounting,
+    preload: Float,
+    modes: Modes | None = None,
+    journal: JournalParams | None = None,
 ) -> MountingParams:
     """Collect rings and suspension, with the cup and cone masses added; ``modes`` as of `box_coupling`."""
     return MountingParams(
@@ -97,6 +103,7 @@ def mounting_params(
         coupling=box_coupling(bearing, mounting, modes),
         prop_stiffness=mounting.axial_prop_stiffness,
         prop_damping=mounting.axial_prop_damping,
+        journal=journal,
     )
 
 

@@ -186,6 +186,12 @@ def ring_response_params(base: Parameters, motion: RingMotionParams, lever: floa
     moving = [0, 1, 2, 3, 5]
     journal = np.array([*[motion.journal_push] * 3, *[motion.journal_turn] * 2])
     give = np.ascontiguousarray(box[np.ix_(moving, moving)] + np.diag(journal))
+    bending = base.mounting.journal
+    if bending is not None:
+        for axis, turn, side in ((2, 3, 1.0), (0, 4, -1.0)):
+            shapes = np.zeros((5, len(bending.place)))
+            shapes[axis], shapes[turn] = bending.place, side * bending.slope
+            give += (shapes / bending.inertia) @ shapes.T
     return RingResponseParams(lag, dampers / lag, give, lever)
 
 

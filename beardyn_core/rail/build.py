@@ -62,7 +62,7 @@ def load_history(
     background : Background, optional
         What acts on the journal besides.
     bearing : Bearing, optional
-        That of the other end of the axle, of which a background may speak.
+        Of which a coupled wheelset has the masses; a background may speak of that of the other end.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def load_history(
         history = _stepped(operation, count, rate)
     elif isinstance(operation, QuarterVehicleOperation):
         roughness = background.roughness if background else None
-        history = _quarter_vehicle(operation, mounting, count, rate, seed, roughness)
+        history = _quarter_vehicle(operation, mounting, count, rate, seed, roughness, bearing)
     else:
         history = replayed(operation, count, rate)
     if background is not None:
@@ -138,6 +138,7 @@ def ride_steps(
     steps: int,
     seed: int,
     roughness: Roughness | None = None,
+    bearing: Bearing | None = None,
 ) -> tuple[Ride, Running | None]:
     """Compute the motion of the rail model's bodies, and what acts besides the profile, at `RIDE_RATE`."""
     time = np.arange(steps) / RIDE_RATE
@@ -154,7 +155,7 @@ def ride_steps(
     height = (height - height[0]) * fade
     besides = running(operation, mounting, time, fade, seed)
     push = None if besides is None else besides.push
-    return ride(quarter_vehicle(operation, mounting), height, 1.0 / RIDE_RATE, push), besides
+    return ride(quarter_vehicle(operation, mounting, bearing), height, 1.0 / RIDE_RATE, push), besides
 
 
 def _quarter_vehicle(
@@ -164,6 +165,7 @@ def _quarter_vehicle(
     rate: float,
     seed: int,
     roughness: Roughness | None,
+    bearing: Bearing | None,
 ) -> LoadHistory:
     """Compute the wheel-rail force, less the weight of the half wheelset, and the motion of the bogie.
 
@@ -178,23 +180,23 @@ def _quarter_vehicle(
     kernel = thinning_kernel(factor)
     # run past the end by what the filter looks ahead
     steps = (count - 1) * factor + 1 + len(kernel) // 2
-    response, besides = ride_steps(operation, mounting, steps, seed, roughness)
-    vehicle = quarter_vehicle(operation, mounting)
+    response, besides = ride_steps(operation, mounting, steps, seed, roughness, bearing)
+    vehicle = quarter_vehicle(operation, mounting, bearing)
     force, bogie = np.zeros((count, 3)), np.zeros((count, 3))
     if besides is not None:
         force = _columns(journal_force(besides, operation, mounting, 1.0 / RIDE_RATE), factor, kernel, count)
         bogie = _columns(suspension_shift(besides, mounting, 1.0 / RIDE_RATE), factor, kernel, count)
     force[:, 1] += operation.lateral_force
-    force[:, 2] += (
-        decimated(response.contact_force + response.flexing, factor, kernel)[:count] - vehicle.journal_weight
-    )
+    imposed = operation.wheelset == "elastic"  # where it is coupled, the twin bends by itself
+    pressed = response.contact_force + response.flexing if imposed else response.contact_force
+    force[:, 2] += decimated(pressed, factor, kernel)[:count] - vehicle.journal_weight
     frame = response.bogie
     if vehicle.primary.size:
         frame = frame + equivalent_displacement(-response.excess, mounting, 2, 1.0 / RIDE_RATE)
     bogie[:, 2] += decimated(frame, factor, kernel)[:count]
     speed = speed_at(operation.speed_profile, np.arange(count) / rate)
     wrench = np.concatenate([force, np.zeros((count, 3))], axis=1)
-    if vehicle.bending is not None and mounting.journal_tilt == "free":
+    if imposed and vehicle.bending is not None and mounting.journal_tilt == "free":
         tilt = response.tilt
         if besides is not None and besides.sway is not None and besides.sway.flexing is not None:
             tilt = tilt + besides.sway.flexing.tilt

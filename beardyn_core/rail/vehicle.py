@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.jit import entry, inline
 from beardyn_core.rail.low_pass import first_order
 from beardyn_core.rail.track import RailWaves, rail_waves
@@ -79,6 +80,8 @@ BODY, BOGIE, WHEEL, BOX = range(4)
 # of a 130 mm axlebox bearing, radial, under 5 to 80 kN: 4.8 to 6.4 GN/m; share of critical damping
 _BEARING_STIFFNESS = 5.0e9
 _BEARING_DAMPING_RATIO = 0.03
+# the same against tilt, at an end play of 0.1 mm under 50 to 100 kN: 1.3e6 to 2.9e6 N m/rad
+_BEARING_TILT_STIFFNESS = 2.0e6
 
 # flexibility of the Hertz contact, G = factor R^exponent [m / N^(2/3)], R in m (Zhai, Vehicle-track
 # coupled dynamics)
@@ -92,7 +95,10 @@ class QuarterVehicle:
     Where the wheelset bends, `WHEEL` is its motion as a rigid body.
     """
 
-    mass: A[Float, "shape [4 + mode], `BODY`, `BOGIE`, `WHEEL`, `BOX` and bending modes, [kg]"]
+    mass: A[
+        Float,
+        "shape [4 + mode], `BODY`, `BOGIE`, `WHEEL`, `BOX`, bending modes, tilt of the box, [kg], [kg m^2]",
+    ]
     stiffness: A[Float, "shape [4 + mode, 4 + mode], without the wheel-rail contact, [N/m]"]
     damping: A[Float, "shape [4 + mode, 4 + mode], the same, [N s/m]"]
     bending: A[Modes | None, "of the wheelset, both wheels alike; ``None``: rigid"]
@@ -125,31 +131,44 @@ class Ride:
     tilt: A[Float, "shape [step], of the journal by bending, the end upwards, [rad]"]
 
 
-def quarter_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> QuarterVehicle:
+def quarter_vehicle(
+    operation: QuarterVehicleOperation, mounting: Mounting, bearing: Bearing | None = None
+) -> QuarterVehicle:
     """Build one axlebox's share: an eighth of the body, a quarter of a bogie, half a wheelset, one rail.
 
     The mounting gives wheelset, axlebox and, unless the vehicle has a progressive one, the primary
     suspension; the bearing is a spring here. A wheelset that bends adds the coordinates of its free modes.
+    Where it is coupled, masses and modes are those of the twin with its bearing, and the box tilts with the
+    journal: the wheel moves as in the twin, whose first bending the wheel-rail force must not excite.
     """
     vehicle = operation.vehicle
     journal, box = mounting.journal_mass, mounting.box_mass
+    if not operation.bends_in_the_twin:
+        bearing = None
+    if bearing is not None:
+        journal, box = journal + bearing.cone_mass, box + bearing.cup_mass
     mass = np.array([operation.body_mass / 8.0, vehicle.bogie_mass / 4.0, journal, box])
     rattling = 2.0 * np.sqrt(_BEARING_STIFFNESS * journal * box / (journal + box))
     # one side of a bogie has two axleboxes
-    bearing = _BEARING_STIFFNESS, _BEARING_DAMPING_RATIO * rattling
+    rollers = _BEARING_STIFFNESS, _BEARING_DAMPING_RATIO * rattling
     links = (
         (BODY, BOGIE, 0.5 * vehicle.secondary_stiffness, 0.5 * vehicle.secondary_damping),
         (BOGIE, BOX, mounting.stiffness[2], mounting.damping[2]),
-        (BOX, WHEEL, *bearing),
+        (BOX, WHEEL, *rollers),
     )
     stiffness = linked((upper, lower, spring) for upper, lower, spring, _ in links)
     damping = linked((upper, lower, damper) for upper, lower, _, damper in links)
     static_force = float(mass.sum()) * GRAVITY
-    modes = bending_modes(operation, mounting)
+    modes = bending_modes(operation, mounting, bearing)
     if modes is not None:
         mass = np.concatenate([mass, np.full(len(modes), modes.mass)])
-        stiffness = _bent(stiffness, modes, modes.stiffness, bearing[0])
-        damping = _bent(damping, modes, modes.damping, bearing[1])
+        stiffness = _bent(stiffness, modes, modes.stiffness, rollers[0])
+        damping = _bent(damping, modes, modes.damping, rollers[1])
+        if bearing is not None:
+            mass = np.append(mass, mounting.box_inertia[0] + bearing.cup_inertia[0])
+            tilting = _BEARING_TILT_STIFFNESS / rollers[0]
+            stiffness = _tilted(stiffness, modes, tilting * rollers[0], mounting.rotational_stiffness[0])
+            damping = _tilted(damping, modes, tilting * rollers[1], mounting.rotational_damping[0])
     factor, exponent = _CONTACT_FIT[vehicle.wheel_profile]
     return QuarterVehicle(
         mass=mass,
@@ -171,6 +190,15 @@ def _bent(matrix: Float, modes: Modes, own: Float, bearing: float) -> Float:
     whole[4:, 4:] = np.diag(own) + bearing * np.outer(modes.journal, modes.journal)
     for body, side in ((WHEEL, 1.0), (BOX, -1.0)):
         whole[body, 4:] = whole[4:, body] = side * bearing * modes.journal
+    return whole
+
+
+def _tilted(matrix: Float, modes: Modes, bearing: float, held: float) -> Float:
+    """Add the tilt of a box that its springs hold and that the journal tilts through the bearing."""
+    whole = np.pad(matrix, (0, 1))
+    pull = np.concatenate([np.zeros(4), modes.journal_slope, [-1.0]])
+    whole += bearing * np.outer(pull, pull)
+    whole[-1, -1] += held
     return whole
 
 
@@ -225,6 +253,9 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
     shapes = (
         np.zeros((3, 0)) if modes is None else np.stack([modes.wheel, modes.journal, modes.journal_slope])
     )
+    shapes = np.pad(
+        shapes, ((0, 0), (0, count - 4 - shapes.shape[1]))
+    )  # a box that tilts moves none of these
     contact_force, bogie, wheel, box, excess, bent = _run(
         expm(rates * step),
         # waves side by side: the compiler moves several at once

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.errors import InputError
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
@@ -72,11 +73,12 @@ class Modes:
         """Keep the modes below a frequency [Hz]."""
         return self.first(int(np.searchsorted(self.frequency, highest)))
 
-    def condensed(self, highest: float) -> Modes:
-        """Keep the modes below a frequency [Hz], and two that yield as all the others do to a steady force.
+    def condensed(self, highest: float, forces: tuple[str, ...] = ("wheel", "journal")) -> Modes:
+        """Keep the modes below a frequency [Hz], and few that yield as all the others do to steady forces.
 
-        One force acts at the wheel, one at the journal. The two shapes are orthogonal to the modes kept and
-        to each other, so that they are modes like these, with frequencies of their own.
+        By default one force acts at the wheel, one at the journal; a moment there is a force on
+        ``journal_slope``. The further shapes are orthogonal to the modes kept and to each other, so that
+        they are modes like these, with frequencies of their own.
 
         References
         ----------
@@ -87,29 +89,36 @@ class Modes:
         if count in (0, len(self)):
             return self.first(count)
         square = (2.0 * np.pi * self.frequency[count:]) ** 2
-        yielding = np.stack([self.wheel[count:], self.journal[count:]], axis=1) / square[:, None]
+        yielding = np.stack([getattr(self, each)[count:] for each in forces], axis=1) / square[:, None]
         yielding /= np.linalg.norm(yielding, axis=0)
         left, mixed = eigh(yielding.T @ (square[:, None] * yielding), yielding.T @ yielding)
 
-        def with_two(shape: Float) -> Float:
+        def with_few(shape: Float) -> Float:
             return np.concatenate([shape[:count], shape[count:] @ yielding @ mixed])
 
         return replace(
             self,
             frequency=np.concatenate([self.frequency[:count], np.sqrt(left) / (2.0 * np.pi)]),
-            wheel=with_two(self.wheel),
-            wheel_slope=with_two(self.wheel_slope),
-            journal=with_two(self.journal),
-            journal_slope=with_two(self.journal_slope),
+            wheel=with_few(self.wheel),
+            wheel_slope=with_few(self.wheel_slope),
+            journal=with_few(self.journal),
+            journal_slope=with_few(self.journal_slope),
         )
 
 
-def bending_modes(operation: QuarterVehicleOperation, mounting: Mounting) -> Modes | None:
-    """Compute the modes of a wheelset in which both wheels move alike; ``None`` when it is rigid."""
-    half = half_shaft(operation, mounting, 0.0)
+def bending_modes(
+    operation: QuarterVehicleOperation, mounting: Mounting, bearing: Bearing | None = None
+) -> Modes | None:
+    """Compute the modes of a wheelset in which both wheels move alike; ``None`` when it is rigid.
+
+    ``bearing``: with its cones on the journal, and right at rest also under a moment there.
+    """
+    cones = 0.0 if bearing is None else bearing.cone_mass
+    half = half_shaft(operation, mounting, cones)
     if half is None:
         return None
-    modes = bending(half, mounting.journal_mass, symmetric=True).condensed(_HIGHEST)
+    forces = ("wheel", "journal") if bearing is None else ("wheel", "journal", "journal_slope")
+    modes = bending(half, mounting.journal_mass + cones, symmetric=True).condensed(_HIGHEST, forces)
     return modes if len(modes) else None
 
 

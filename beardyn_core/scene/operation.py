@@ -16,7 +16,7 @@ from beardyn_core.scene.running import POINTS, Braking, Curve, Profile, Starting
 from beardyn_core.scene.wheelset import Wheelset
 
 WHEEL_PROFILES = ("worn", "cone")
-WHEELSETS = ("elastic", "rigid")
+WHEELSETS = ("coupled", "elastic", "rigid")
 TAKES = ("both", "force", "speed")
 SHAFT_SPEED = At("rpm", ge=-6000.0, le=6000.0)
 
@@ -173,14 +173,20 @@ class QuarterVehicleOperation:
     wheelset: A[
         str,
         At(one_of=WHEELSETS),
-        "elastic: it bends and twists as the vehicle's wheelset says, where there is one, and its load also "
-        "moves the twin's journal so, which is no load on the bearing; rigid: it does not",
+        "coupled: it bends as the vehicle's wheelset says, where there is one, in the twin too, under wheel "
+        "and bearing; elastic: it bends and twists in the rail model alone, and its load also moves the "
+        "twin's rigid journal so, which is no load on the bearing; rigid: it does not",
     ] = "rigid"
 
     @property
     def body_mass(self) -> float:
         """Car body with all its payload, [kg]."""
         return self.vehicle.body_mass + self.payload
+
+    @property
+    def bends_in_the_twin(self) -> bool:
+        """Whether the twin's half wheelset has modes."""
+        return self.wheelset == "coupled" and self.vehicle.wheelset is not None
 
     @property
     def moves_sideways(self) -> bool:
@@ -195,6 +201,12 @@ class QuarterVehicleOperation:
         yield from not_ascending("speed_profile", [time for time, _ in self.speed_profile])
         if self.curves and self.lateral is False:
             yield "lateral is false, and there is a curve; a curve needs the sideways motion"
+        if self.bends_in_the_twin and self.moves_sideways:
+            yield (
+                "wheelset is coupled, and there is sideways motion, in which the wheels move against each "
+                "other; the twin bends a wheelset whose wheels move alike: take wheelset: elastic, or "
+                "lateral: false on straight track"
+            )
         for index, (one, two) in enumerate(itertools.pairwise(self.curves), start=1):
             if two.begin < one.end:
                 yield (

@@ -98,7 +98,9 @@ def plan_of(scene: Scene, duration: float | None = None, settling: float | None 
 
 def _usual_duration(scene: Scene, longest: float) -> float:
     """Return a second or a few cage revolutions at the scene's first speed, [s]."""
-    probe = load_history(scene.operation, scene.mounting, min(0.1, scene.duration), scene.seed)
+    probe = load_history(
+        scene.operation, scene.mounting, min(0.1, scene.duration), scene.seed, bearing=scene.bearing
+    )
     speed = cage_speed_ratio(scene.bearing) * float(np.abs(probe.shaft_speed).mean())
     turns = FEWEST_CAGE_REVOLUTIONS * 2.0 * math.pi / speed if speed > 0.0 else 0.0
     return min(max(SHORTEST_COMPARISON_S, 1.05 * turns), longest)

@@ -52,6 +52,9 @@ CUT = {
     "show_structure": ("lanes, flex, box, step, bend, structure", "None"),
     "kick_structure": ("flex, sums, box, signal, energy, step, bend, structure", "0.0"),
     "structure_energy": ("flex, structure", "0.0"),
+    # axle that bends
+    "add_bending": ("bodies, axle, share, journal", "None"),
+    "axle_energy": ("axle, journal", "0.0"),
     # seals, lands, cages that follow the rings
     "add_seals": ("bodies, wrenches, energy, step, seal", "None"),
     "push_lands": ("bodies, wrenches, cage, land", "0.0"),

@@ -184,9 +184,9 @@ def test_static_bending_is_what_the_table_yields_to_rollers_and_springs() -> Non
     """Raceway at the top of the inboard row: the sum by `Modes.yielding`, which knows no row frame."""
     scene = modal_scene(cup="suspended")
     wrench = [*LOAD_80_KN, 0.0, 0.0, 0.0]
-    static, _ = rest_under(scene, body(), wrench, 0.0, laminae=scene.numerics.laminae, coupling=None)
+    static, _, on_cone = rest_under(scene, body(), wrench, 0.0, laminae=scene.numerics.laminae, coupling=None)
     box = mounting_params(scene.bearing, scene.mounting, np.zeros(6), table())
-    springs = springs_under(scene, box, wrench, 0.0, np.zeros(2))
+    springs = springs_under(scene, box, on_cone)
     modes, bearing = table(), scene.bearing
     azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
     load = np.zeros((2, 3, 2 * WAVES + 1))

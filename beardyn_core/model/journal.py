@@ -1,0 +1,52 @@
+"""Bending of the axle at the journal as kernel parameters: modes of half a wheelset."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from beardyn_core.model.structure import exact_oscillators
+from beardyn_core.rail.wheelset import Modes, bending_modes
+from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.scene import Scene
+
+
+class JournalParams(NamedTuple):
+    """Modes of unit modal mass, the same upright and along the track; see `kernels.axle`."""
+
+    place: Any  # [mode], displacement of the bearing's centre [1/sqrt(kg)]
+    slope: Any  # [mode], tilt of the journal there, its end outwards [1/(m sqrt(kg))]
+    wheel: Any  # [mode], displacement of the wheel, where the load acts [1/sqrt(kg)]
+    stiffness: Any  # [mode], square of the rate [1/s^2]
+    damping: Any  # [mode], [1/s]
+    inertia: Any  # [mode], of the step, with the damper's half step [-]
+    mass: Any  # [mode], inertia without the damper [-]
+    rest: Any  # [plane, mode], force on each mode at rest [N/sqrt(kg)]
+
+
+def modes_of(scene: Scene) -> Modes | None:
+    """Compute the modes of the half wheelset of a scene; ``None`` where it is rigid in the twin."""
+    operation = scene.operation
+    if not isinstance(operation, QuarterVehicleOperation) or not operation.bends_in_the_twin:
+        return None
+    return bending_modes(operation, scene.mounting, scene.bearing)
+
+
+def journal_params(scene: Scene, step: float, rest: ArrayLike) -> JournalParams | None:
+    """Work out the modes for a time step [s].
+
+    ``rest`` [6]: force and moment of the rollers on the cone at rest, which the load balances [N, N m].
+    """
+    modes = modes_of(scene)
+    if modes is None:
+        return None
+    scale = 1.0 / np.sqrt(modes.mass)
+    place, slope, wheel = scale * modes.journal, scale * modes.journal_slope, scale * modes.wheel
+    rate = 2.0 * np.pi * modes.frequency
+    mass, damping, inertia = exact_oscillators(rate, np.full(len(rate), modes.damping_ratio), step)
+    force = np.asarray(rest, dtype=np.float64)
+    upright = (place - wheel) * force[2] + slope * force[3]
+    along = (place - wheel) * force[0] - slope * force[5]
+    return JournalParams(place, slope, wheel, rate**2, damping, inertia, mass, np.stack([upright, along]))
