@@ -48,7 +48,7 @@ CUT = {
     # structure
     "bent_cup": ("lanes, bends, view, radius, cosine, sine, structure", "(view, 0.0)"),
     "about_rigid_cup": ("contact, shift, structure", "contact"),
-    "bend_cup": ("force, here, series, structure", "None"),
+    "bend_cup": ("force, here, structure", "None"),
     "show_structure": ("lanes, flex, box, step, bend, structure", "None"),
     "kick_structure": ("flex, sums, box, signal, energy, step, bend, structure", "0.0"),
     "structure_energy": ("flex, structure", "0.0"),
