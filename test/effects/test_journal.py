@@ -26,7 +26,7 @@ from beardyn_core.model.layout import (
     ENERGY_LOST,
     ENERGY_TERMS,
     LINEAR,
-    LOSS_STRUCTURE,
+    LOSS_SUSPENSION,
     POSITION,
     SIGNAL_ACCELERATION,
     TILT,
@@ -181,7 +181,7 @@ def test_the_cone_moves_as_rigid_body_and_modes_apart() -> None:
     found = bodies[CONE_BODY, POSITION : POSITION + 6]
     np.testing.assert_allclose(found, pose, rtol=1e-9, atol=1e-9 * np.abs(pose).max())
     assert energy[ENERGY_EXTERNAL] == pytest.approx(works[0], rel=1e-9)
-    assert energy[ENERGY_LOST + LOSS_STRUCTURE] == pytest.approx(works[1], rel=1e-9)
+    assert energy[ENERGY_LOST + LOSS_SUSPENSION] == pytest.approx(works[1], rel=1e-9)
     assert stored[-1] == pytest.approx(elastic, rel=1e-9)
 
 
