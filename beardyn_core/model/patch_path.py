@@ -153,18 +153,18 @@ def edge_softness(
     -----
     y is the mean over `EDGE_PRESSURES` of the sink beyond the path over e. The sink is that at the nearer
     edge alone, see `edge_sink`, and at most the greatest depth of the path and that of the floor below: over
-    the middle of a slot both edges bear, and the sink is that of the rigid roller whatever the load. Beside strips of a half-space,
-    slots of 0.3 to 6 mm and 2 to 20 kN a roller, the force on a held roller is right to 11 % of that of a
-    sound contact, and the sink to a fifth and a tenth of e (`evidence/impact/edges.py`). Neglects that floor
-    and edge bear together; an edge is as stiff as the rest of the half-space.
+    the middle of a slot both edges bear, and the sink is that of the rigid roller whatever the load. Beside
+    strips of a half-space, slots of 0.3 to 6 mm and 2 to 20 kN a roller, the force on a held roller is right
+    to 11 % of that of a sound contact, and the sink to a fifth and a tenth of e (`evidence/impact/edges.py`).
+    Neglects that floor and edge bear together; an edge is as stiff as the rest of the half-space.
     """
     if not sharp(patch) or size[1] <= 0.0:
         return np.zeros(PATH_CELLS + 1)
     arc, half = np.linspace(0.0, reach, PATH_CELLS + 1), half_of(size)
     inside = half - arc
-    bottom = np.where(
-        arc < half, np.minimum(floor_of(patch.kind, arc, half, size[1]), path.max()), path.max()
-    )
+    bottom = np.full(PATH_CELLS + 1, path.max())
+    below = arc < half
+    bottom[below] = np.minimum(floor_of(patch.kind, arc[below], half, size[1]), path.max())
     modulus, length = bearing.material.contact_modulus, bearing.effective_length
     more = np.zeros(PATH_CELLS + 1)
     for pressure in EDGE_PRESSURES:
