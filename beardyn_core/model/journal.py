@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.structure import exact_oscillators
 from beardyn_core.rail.wheelset import Modes, bending_modes
+from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 
@@ -27,11 +30,16 @@ class JournalParams(NamedTuple):
 
 
 def modes_of(scene: Scene) -> Modes | None:
-    """Compute the modes of the half wheelset of a scene; ``None`` where it is rigid in the twin."""
+    """Give the modes of the half wheelset of a scene; ``None`` where it is rigid in the twin."""
     operation = scene.operation
     if not isinstance(operation, QuarterVehicleOperation) or not operation.bends_in_the_twin:
         return None
-    return bending_modes(operation, scene.mounting, scene.bearing)
+    return _modes(operation, scene.mounting, scene.bearing)
+
+
+@lru_cache(maxsize=8)  # a warming bearing asks again and again
+def _modes(operation: QuarterVehicleOperation, mounting: Mounting, bearing: Bearing) -> Modes | None:
+    return bending_modes(operation, mounting, bearing)
 
 
 def journal_params(scene: Scene, step: float, rest: ArrayLike) -> JournalParams | None:

@@ -33,6 +33,7 @@ from beardyn_core.model.layout import (
 )
 from beardyn_core.model.mounting import mounting_params
 from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
+from beardyn_core.rail.build import load_history
 from beardyn_core.rail.wheelset import HALF_GAUGE, SHEAR, YOUNG, bending, shaft
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
@@ -343,6 +344,21 @@ def test_the_box_bounces_on_bearing_and_axle(tier: str) -> None:
     judged = (expected > 450.0) & (expected < 2000.0)
     assert strongest["coupled"] == pytest.approx(expected[judged][np.argmax(share[judged])], rel=0.03)
     assert strongest["rigid"] > 1.6 * strongest["coupled"]
+
+
+def test_a_coupled_wheelset_asks_for_its_bearing() -> None:
+    scene = scene_on("coupled")
+    with pytest.raises(ValueError, match="a coupled wheelset needs the bearing"):
+        load_history(scene.operation, scene.mounting, 0.1, scene.seed)
+
+
+def test_a_warmer_bearing_has_the_modes_it_had() -> None:
+    """Working them out takes longer than a block."""
+    scene = scene_on("coupled")
+    assert modes_of(scene) is modes_of(replace(scene, temperature=330.0, end_play=1e-5))
+    assert modes_of(scene) is not modes_of(
+        replace(scene, mounting=replace(scene.mounting, journal_mass=850.0))
+    )
 
 
 def test_a_vehicle_without_dimensions_has_a_rigid_wheelset() -> None:
