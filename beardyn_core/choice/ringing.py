@@ -10,10 +10,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.config.structure import seat_of
 from beardyn_core.integrate.static import StaticSolution
+from beardyn_core.model.journal import journal_shapes, modes_of
 from beardyn_core.model.mounting import box_coupling, cross_matrix, spatial_mass
 from beardyn_core.model.structure import ModalBody
 from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
@@ -52,8 +54,8 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
 
     Notes
     -----
-    Between the contacts i with wrenches n_i the receptances of journal, box and modes add up to H(w); with
-    springs k_i (1 + j w T) a gap d moves forces F = (K^-1 + H)^-1 d, which the sensors read through the
+    Between the contacts i with wrenches n_i the receptances of journal, axle, box and modes add up to H(w);
+    with springs k_i (1 + j w T) a gap d moves forces F = (K^-1 + H)^-1 d, which the sensors read through the
     receptance of box and modes. The suspension, the inertia of rollers and the tilt of their contacts are
     left out: below 200 Hz the first counts, towards their bounce at 17 to 22 kHz the second.
     """
@@ -85,12 +87,16 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
     arms = [np.block([np.eye(3), -cross_matrix(sensor.position)]) for sensor in scene.sensors]
     reading = np.concatenate(arms)
     heard = np.broadcast_to(reading @ box @ wrench.T, (rate.size, len(reading), azimuth.size))
+    axle = modes_of(scene)
+    if axle is not None:
+        bent = wrench @ journal_shapes(axle)
+        own = np.tile(2.0 * np.pi * axle.frequency, 2)
+        yields = _receptance(own, axle.damping_ratio, rate)
+        between = between + np.einsum("im,lm,jm->lij", bent, yields, bent, optimize=True)
     if body is not None:
         rows = (sides > 0.0).astype(int)
         shapes = cosine * body.openings(azimuth)[rows, np.arange(azimuth.size)]
-        yielding = 1.0 / (
-            body.rate**2 - rate[:, None] ** 2 + 2j * body.damping_ratio * body.rate * rate[:, None]
-        )
+        yielding = _receptance(body.rate, body.damping_ratio, rate)
         between = between + np.einsum("im,lm,jm->lij", shapes, yielding, shapes, optimize=True)
         if body.modes is not None:
             seats = [body.modes.seats[seat_of(sensor, body.modes)].T for sensor in scene.sensors]
@@ -100,6 +106,12 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
     power = (np.abs(heard @ forces) ** 2).sum(axis=-1)
     mean = power.reshape(centres.size, _LINES, len(scene.sensors), 3).sum(axis=(1, 3)) / _LINES
     return np.asarray(10.0 * np.log10(mean)).T
+
+
+def _receptance(own: Float, damping_ratio: Float | float, rate: Float) -> NDArray[np.complex128]:
+    """Answer of modes of unit mass with rates of their ``own`` to forces, shape [rate, mode], [s^2]."""
+    driven = rate[:, None]
+    return np.asarray(1.0 / (own**2 - driven**2 + 2j * damping_ratio * own * driven))
 
 
 def _loaded(scene: Scene, static: StaticSolution) -> tuple[Float, Float, Float]:
