@@ -8,6 +8,7 @@ independent of the other, shakes a journal on one side and the box on the other.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from beardyn_core.scene.scene import Scene
 
 _BAND_RATIO = 10.0**0.1  # third octaves of IEC 61260-1, base ten
 _LOWEST_BAND = 200.0  # below, the suspension counts and a box of some tens of kilograms is rigid [Hz]
+_RIGID = 10.0  # slower motion is that of rigid bodies, which nothing holds here [Hz]
 _LINES = 24  # in a band, a few within the width of a mode
 
 
@@ -60,19 +62,7 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
     left out: below 200 Hz the first counts, towards their bounce at 17 to 22 kHz the second.
     """
     azimuth, sides, loads = _loaded(scene, static)
-    lever = lever_of_cup(scene.bearing)
-    cosine, sine = math.cos(scene.bearing.cup_angle), math.sin(scene.bearing.cup_angle)
-    wrench = np.stack(
-        [
-            cosine * np.sin(azimuth),
-            -sides * sine,
-            cosine * np.cos(azimuth),
-            sides * lever * np.cos(azimuth),
-            np.zeros_like(azimuth),
-            -sides * lever * np.sin(azimuth),
-        ],
-        axis=1,
-    )
+    cosine, wrench = math.cos(scene.bearing.cup_angle), _wrenches(scene, azimuth, sides)
     centres = band_centres(highest)
     if not loads.size:
         return np.zeros((len(scene.sensors), centres.size))
@@ -122,6 +112,55 @@ def _loaded(scene: Scene, static: StaticSolution) -> tuple[Float, Float, Float]:
     sides = np.broadcast_to(np.array([-1.0, 1.0])[: len(load), None], load.shape)
     carries = static.cone_load > 0.0
     return around[carries], sides[carries], load[carries]
+
+
+def _wrenches(scene: Scene, azimuth: Float, sides: Float) -> Float:
+    """Give force and moment about the bearing centre of unit forces of rollers on the cup, [roller, 6]."""
+    lever = lever_of_cup(scene.bearing)
+    cosine, sine = math.cos(scene.bearing.cup_angle), math.sin(scene.bearing.cup_angle)
+    return np.stack(
+        [
+            cosine * np.sin(azimuth),
+            -sides * sine,
+            cosine * np.cos(azimuth),
+            sides * lever * np.cos(azimuth),
+            np.zeros_like(azimuth),
+            -sides * lever * np.sin(azimuth),
+        ],
+        axis=1,
+    )
+
+
+class Bounce(NamedTuple):
+    """Resonance of axlebox and cup on the stiffness of the bearing."""
+
+    frequency: float  # [Hz]
+    contacts: float  # part of the springs' energy that is in the contacts of rollers [-]
+    axle: float  # damping by bending of the axle, over the critical one [-]
+
+
+def bounce(scene: Scene, static: StaticSolution, force: Float) -> Bounce | None:
+    """Find the mode in which the box moves most along a force [N], on an axle that bends.
+
+    ``None`` where the wheelset is rigid, or no roller carries.
+    """
+    axle = modes_of(scene)
+    azimuth, sides, loads = _loaded(scene, static)
+    if axle is None or not loads.size:
+        return None
+    spring = np.sqrt(roller_tangent(scene.bearing) * loads**0.1)
+    box, journal = np.linalg.cholesky(_free_box(scene, None)), np.sqrt(_journal(scene))
+    moved = np.hstack([-box, journal, journal_shapes(axle)])  # by coordinates of unit mass
+    pressed = spring[:, None] * _wrenches(scene, azimuth, sides) @ moved
+    own = np.zeros(moved.shape[1])
+    own[12:] = np.tile(2.0 * np.pi * axle.frequency, 2)
+    square, shape = np.linalg.eigh(pressed.T @ pressed + np.diag(own**2))
+    along = np.asarray(force)[:3] @ box[:3] @ shape[:6]
+    rings = square > (2.0 * np.pi * _RIGID) ** 2
+    at = int(np.argmax(np.where(rings, np.abs(along), 0.0)))
+    rate = math.sqrt(square[at])
+    damping = axle.damping_ratio * float(own @ shape[:, at] ** 2) / rate
+    return Bounce(rate / (2.0 * math.pi), float(((pressed @ shape[:, at]) ** 2).sum()) / rate**2, damping)
 
 
 def _journal(scene: Scene) -> Float:

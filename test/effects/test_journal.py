@@ -11,6 +11,7 @@ from scipy.linalg import eigh
 
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.choice.fast_step import fast_steps, fastest_mode
+from beardyn_core.choice.ringing import bounce, levels
 from beardyn_core.config.load import load_vehicle
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
@@ -389,6 +390,27 @@ def test_steps_are_as_short_as_bending_of_the_axle_asks() -> None:
     ]
     assert chosen[0].steps_per_sample <= chosen[1].steps_per_sample < chosen[2].steps_per_sample
     assert "the rings on all their contacts" in chosen[2].reason
+
+
+def test_the_resonance_that_choices_know_is_that_of_the_bent_axle() -> None:
+    """The box bounces, and contacts damp it, as masses on springs say."""
+    scene, force = scene_on("coupled"), np.array(LOAD)
+    static = equilibrium(
+        scene.bearing, LOAD, end_play=scene.end_play, laminae=6, speed=120.0, tilt="locked", rows=2
+    )
+    found = bounce(scene, static, force)
+    assert found is not None
+    expected, share = frequencies(scene)
+    judged = (expected > 450.0) & (expected < 2000.0)
+    assert found.frequency == pytest.approx(expected[judged][np.argmax(share[judged])], rel=0.03)
+    assert 0.0 < found.contacts < 0.5
+    assert 0.0 < found.axle < 0.01  # of each mode
+    assert bounce(scene_on("rigid"), static, force) is None
+    rigid, coupled = (
+        levels(replace(each, effects=replace(each.effects, contact_damping=None)), static, None, 8e3)
+        for each in (scene_on("rigid"), scene)
+    )
+    assert np.abs(coupled - rigid).max() > 3.0
 
 
 def test_a_vehicle_without_dimensions_has_a_rigid_wheelset() -> None:
