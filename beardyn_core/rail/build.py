@@ -60,13 +60,15 @@ def load_history(
     background : Background, optional
         What acts on the journal besides.
     bearing : Bearing, optional
-        Of which a coupled wheelset has the masses; a background may speak of that of the other end.
+        Of which a coupled wheelset has the masses, and a background the faults; only these need it.
 
     Raises
     ------
     InputError
         When a measured file is bad or shorter than the run.
     """
+    if bearing is None and isinstance(operation, QuarterVehicleOperation) and operation.bends_in_the_twin:
+        raise ValueError("a coupled wheelset needs the bearing")
     if not 0.0 < duration < 86_400.0:
         raise InputError(f"duration is {duration:g} s; allowed is more than 0 and less than 86 400 s")
     # shorter where wheel or rail strikes
