@@ -16,10 +16,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import llvmlite.binding
 import numba
 from numba.core import event, sigutils, types
-from numba.core.codegen import JITCodeLibrary
+from numba.core.codegen import JITCodeLibrary, get_host_cpu_features
 from numba.core.compiler import Compiler
 from numba.core.registry import CPUDispatcher
 
@@ -32,13 +31,17 @@ FASTMATH = ("nsz", "arcp", "contract", "afn")
 # atomically, took a fifth of the time of a step.
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": set(FASTMATH), "_nrt": False}
 
+
 # Rollers that a kernel takes at once: as many as fill one vector register, with AVX-512 or with AVX2. Twice
 # as many cost 1.6 times the time of a step, half as many 1.7 times.
-_FEATURES = (
-    numba.config.CPU_FEATURES  # type: ignore[attr-defined]
-    or llvmlite.binding.get_host_cpu_features().flatten()
-)
-LANE_WIDTH = 8 if "+avx512f" in _FEATURES.split(",") else 4
+def lane_width() -> int:
+    """Choose the lanes for the processor that numba compiles for: this one, unless it is told another."""
+    told = numba.config.CPU_FEATURES  # type: ignore[attr-defined]
+    features = get_host_cpu_features() if told is None else told
+    return 8 if "+avx512f" in features.split(",") else 4
+
+
+LANE_WIDTH = lane_width()
 
 _CORE = Path(__file__).resolve().parent
 _IMPORT = re.compile(rb"^ *(?:from|import) +beardyn_core([.\w]*)(?: +import +([\w, ]+)$)?", re.MULTILINE)

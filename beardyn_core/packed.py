@@ -5,37 +5,52 @@ from __future__ import annotations
 import base64
 import binascii
 import zlib
+from pathlib import Path
 
 from beardyn_core.errors import InputError
 
 _LARGEST = 1 << 26  # bytes, unpacked
+_OF = "of "  # before the path, which is absolute
 
 
-def packed(text: str) -> str:
-    """Pack a text: zlib, then base64 of RFC 4648; the same word every time."""
-    return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
+def packed(text: str, path: Path | str) -> str:
+    """Pack the text of a file with its path: zlib, then base64 of RFC 4648; the same word every time."""
+    return base64.b64encode(zlib.compress(f"{_OF}{path}\n{text}".encode(), 9)).decode()
 
 
-def unpacked(word: str, label: str) -> str:
+def unpacked(word: str, path: Path | str) -> str:
     """Unpack what `packed` has made.
 
     Parameters
     ----------
-    label : str
-        What to call it in a complaint.
+    path : Path or str
+        The file that is named now: that of the word, perhaps seen from another folder.
 
     Raises
     ------
     InputError
-        When it was damaged, or is larger than any table.
+        When it was damaged, is larger than any table, or is of another file than the one named.
     """
     try:
         reader = zlib.decompressobj()
         text = reader.decompress(base64.b64decode(word, validate=True), _LARGEST)
         if not reader.eof:
             raise zlib.error("it is cut off, or longer than 64 MB")
-        return text.decode()
+        whole = text.decode()
     except (binascii.Error, zlib.error, ValueError) as error:
         raise InputError(
-            f"{label}: content cannot be unpacked ({error}); leave it out to read the file"
+            f"{path}: content cannot be unpacked ({error}); leave it out to read the file"
         ) from error
+    if not whole.startswith(_OF):
+        return whole
+    origin, _, rest = whole.removeprefix(_OF).partition("\n")
+    if not _slashed(path).endswith(_slashed(origin)):
+        raise InputError(
+            f"{path}: content beside it is that of {origin}; leave content out to read this file, or name "
+            "that one"
+        )
+    return rest
+
+
+def _slashed(path: Path | str) -> str:
+    return str(path).replace("\\", "/")

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.rail.build import BACKGROUND_SAMPLE_NS
+from beardyn_core.scene.background import BACKGROUND_SAMPLE_NS
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.held_load import LiveLoad
 from beardyn_ros.live_line import LiveLine

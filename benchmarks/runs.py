@@ -14,6 +14,7 @@ from typing import Any
 import numba
 import numpy as np
 
+from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
@@ -181,7 +182,7 @@ def machine() -> dict[str, Cell]:
         models = [line.split(":")[1].strip() for line in cpu.read_text().splitlines() if "model name" in line]
         name = models[0] if models else name
     return {
-        "processor": name,
+        "processor": f"{name}, {LANE_WIDTH} rollers at once",
         "cores": os.cpu_count() or 1,
         "load_average_before": os.getloadavg()[0],
         "python": platform.python_version(),

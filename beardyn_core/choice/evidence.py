@@ -13,6 +13,7 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.circumstances import Circumstances, circumstances
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.losses import Losses
+from beardyn_core.choice.ringing import Bounce, bounce
 from beardyn_core.choice.statics import Statics
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.static import StaticSolution
@@ -137,12 +138,15 @@ class Evidence:
         return float(direction @ static.stiffness_tilt_free @ direction)
 
     @cached_property
-    def resonance(self) -> float:
-        """Resonance of axlebox and cup on the stiffness of the bearing, [Hz]."""
+    def bounce(self) -> Bounce:
+        """Resonance of axlebox and cup on the stiffness of the bearing, and on the axle where that bends."""
+        bending = bounce(self.scene, self.typical, np.asarray(self.loads.typical.force))
+        if bending is not None:
+            return bending
         box = self.scene.mounting.box_mass + self.scene.bearing.cup_mass
         journal = self.scene.mounting.journal_mass + self.scene.bearing.cone_mass
         reduced = box * journal / (box + journal)
-        return math.sqrt(self.stiffness / reduced) / (2.0 * math.pi)
+        return Bounce(math.sqrt(self.stiffness / reduced) / (2.0 * math.pi), 1.0, 0.0)
 
     def difference(
         self, first: dict[str, object], second: dict[str, object], heavy: bool = False

@@ -56,13 +56,15 @@ def contact_damping(evidence: Evidence) -> Rule:
     if not evidence.moves:
         reason = "the cup is held, so that the axlebox has no resonance to damp; without it rollers bounce"
         return on_or_off("contact_damping", effect, reason, {}, cost)
-    omega = 2.0 * math.pi * evidence.resonance
-    contacts = 0.5 * omega * effect.time_constant
+    bounce = evidence.bounce
+    omega = 2.0 * math.pi * bounce.frequency
+    contacts = 0.5 * omega * effect.time_constant * bounce.contacts
     box = scene.mounting.box_mass + scene.bearing.cup_mass
-    others = 0.5 * scene.mounting.damping[2] / (box * omega)
+    others = 0.5 * scene.mounting.damping[2] / (box * omega) + bounce.axle
+    rest = "suspension and axle" if bounce.axle > 0.0 else "the suspension"
     reason = (
-        f"contacts damp the axlebox at its {evidence.resonance:.0f} Hz by {percent(contacts)} of "
-        f"the critical damping, the suspension by {percent(others)}"
+        f"contacts damp the axlebox at its {bounce.frequency:.0f} Hz by {percent(contacts)} of "
+        f"the critical damping, {rest} by {percent(others)}"
     )
     influence = {"vibration": decibels((contacts + others) / max(others, 1.0e-6))}
     return on_or_off("contact_damping", effect, reason, influence, cost)

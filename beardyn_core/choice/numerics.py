@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.integrate.step_choice import choose_steps
 from beardyn_core.model.faults import lamina_cover, surface_radius
+from beardyn_core.model.journal import bending_give
 from beardyn_core.scene.defect import Patch
 
 _FINE = 400
@@ -149,6 +150,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         end_play=scene.end_play,
         mounting=scene.mounting,
         band=band,
+        bending=partial(bending_give, scene),
     )
     return served(with_modes(found, replace(scene, effects=effects), band), scene.sensors)
 

@@ -50,12 +50,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.record.bag_scanning import cut_files
-    from beardyn_core.record.mcap_scanning import recover, recovered_name
+    from beardyn_core.record.mcap_scanning import EmptyRecordingError, recover, recovered_name
     from beardyn_core.record.reporting import report
 
     found = report(args.recording)
     recovered: list[Path] = []
-    problems, notes = [], []
+    problems: list[str] = []
+    notes: list[str] = []
     for file in () if found.complete else cut_files(args.recording):
         target = recovered_name(file)
         if is_being_written(file):
@@ -67,6 +68,8 @@ def run(args: argparse.Namespace) -> int:
                 recovery = recover(file, target, replace=args.force)
                 notes.append(recovery.sentence())
                 recovered.append(recovery.target)
+            except EmptyRecordingError as error:  # no loss where other files hold the run
+                (notes if found.topics else problems).extend(error.problems)
             except InputError as error:
                 problems += error.problems
     if args.json:

@@ -12,7 +12,7 @@ from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.packed import packed
 from beardyn_core.rail.transfer_path import content_of, read_transfer_path
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.scene.sensor import Accelerometer, MeasuredPath
 from beardyn_core.structure.table import table_text_of
 
 
@@ -21,6 +21,8 @@ def located_table(effects: Any, folder: Path) -> Any:
     structure = effects.get("structure") if isinstance(effects, dict) else None
     table = structure.get("table") if isinstance(structure, dict) else None
     if not isinstance(structure, dict) or not isinstance(table, str) or not is_path(table):
+        return effects
+    if structure.get("content"):  # names the file of another machine
         return effects
     return {**effects, "structure": {**structure, "table": str((folder / table).resolve())}}
 
@@ -36,8 +38,9 @@ def with_table(effects: EffectSet) -> EffectSet:
     structure = effects.structure
     if not isinstance(structure, ModalStructure) or structure.content or not is_path(structure.table):
         return effects
-    content = packed(table_text_of(Path(structure.table)))
-    return replace(effects, structure=replace(structure, content=content))
+    path = Path(structure.table).resolve()
+    content = packed(table_text_of(path), path)
+    return replace(effects, structure=replace(structure, table=str(path), content=content))
 
 
 def self_contained(scene: Scene) -> Scene:
@@ -57,8 +60,11 @@ def self_contained(scene: Scene) -> Scene:
 def _with_paths(sensor: Accelerometer) -> Accelerometer:
     if all(each.content for each in sensor.measured_paths):
         return sensor
-    paths = [
-        each if each.content else replace(each, content=content_of(read_transfer_path(each.path)))
-        for each in sensor.measured_paths
-    ]
-    return replace(sensor, measured_paths=tuple(paths))
+    return replace(sensor, measured_paths=tuple(map(_with_content, sensor.measured_paths)))
+
+
+def _with_content(measured: MeasuredPath) -> MeasuredPath:
+    if measured.content:
+        return measured
+    path = measured.path.resolve()
+    return replace(measured, path=path, content=content_of(read_transfer_path(path), path))

@@ -124,6 +124,11 @@ def load_box(name: str | Path) -> Box | ModeFile:
     path = find("structures", str(name))
     data = read_file(path)
     noun = ModeFile if "modes" in data else Box
+    if "bearing" not in data:
+        raise InputError(
+            f"{path}: bearing is missing; files of earlier versions lack it: add the one whose cup is in the "
+            "box, such as `bearing: HS130x230`"
+        )
     box: Box | ModeFile = read_noun(noun, data, str(path))
     if isinstance(box, ModeFile):
         grid = None if box.grid is None else path.parent / box.grid
@@ -325,7 +330,8 @@ class _Reading:
         path = owner.get(key)
         if not isinstance(path, str):
             return
-        located_path = (self.folder / path).resolve()
+        # what a recording has may name the file of another machine
+        located_path = Path(path) if owner.get("content") else (self.folder / path).resolve()
         owner[key] = str(located_path)
         try:
             read(located_path)

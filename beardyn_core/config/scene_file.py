@@ -392,6 +392,7 @@ class SceneFile(FileModel):
                     f"numerics.steps_per_sample is {steps:g}; a coupled wheelset needs at least 1, for the "
                     "box rings on its end at 2.7 kHz"
                 )
+        yield from _axle_held_twice(given["operation"], given["mounting"])
         hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
         if given["vibration_to"] is not None and given["vibration_to"] > hearing:
             yield (
@@ -399,6 +400,16 @@ class SceneFile(FileModel):
                 f"less, or give one rate_kHz {RATES[-1] / 1e3:g}, which hears to {PASSBAND * RATES[-1]:g} Hz"
             )
         yield from _rough_twice(given["background"], given["operation"])
+
+
+def _axle_held_twice(operation: Any, mounting: Any) -> Iterator[str]:
+    """Find what a wheelset that bends in the twin cannot go with: its bending is what tilts the journal."""
+    if not isinstance(operation, QuarterVehicleOperation) or not operation.bends_in_the_twin:
+        return
+    for key, needed in (("journal_tilt", "locked"), ("cup", "suspended")):
+        found = getattr(mounting, key, needed)
+        if found != needed:
+            yield f"mounting.{key} is {found}; with operation.wheelset coupled it must be {needed}"
 
 
 def _rough_twice(background: Any, operation: Any) -> Iterator[str]:

@@ -19,7 +19,7 @@ class State(NamedTuple):
     bodies: Any  # float64 [2 + row, BODY_STATES]: cup, cone, cages
     energy: Any  # float64 [ENERGY_TERMS], works since the start [J]
     flex: Any  # float64 [2, mode], bending of the box: places [m sqrt(kg)] and speeds of unit modal masses
-    axle: Any = np.zeros((2, 2, 0))  # float64 [2, plane, mode], likewise of the axle, empty when it is rigid
+    axle: Any  # float64 [2, plane, mode], likewise of the axle, empty when it is rigid
 
     def copy(self) -> State:
         """Copy all arrays, so that the copy shares nothing."""

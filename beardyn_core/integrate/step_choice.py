@@ -21,10 +21,12 @@ hold with less effort now.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import count
 
 import numpy as np
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import Cage, EffectSet, LoadSharingTraction, RotatingCage
@@ -53,6 +55,11 @@ _LARGEST_EXPLICIT_TURN = 0.6  # [rad]
 _BARS = 4  # touches of a roller with both bars of its pocket
 
 
+def rigid(_step: float) -> Float:
+    """Add nothing to the inverse mass of a journal that does not bend."""
+    return np.zeros((6, 6))
+
+
 def choose_steps(
     bearing: Bearing,
     loads: tuple[float, float],
@@ -64,6 +71,7 @@ def choose_steps(
     end_play: float | None = None,
     mounting: Mounting | None = None,
     band: float = AUDIBLE_BAND,
+    bending: Callable[[float], Float] = rigid,
 ) -> StepChoice:
     """Choose the coarsest step of the full tier that is converged over a range of loads and speeds.
 
@@ -82,6 +90,8 @@ def choose_steps(
     band : float
         Up to here third-octave levels of the vibration stay within 1.5 dB, [Hz]; 0 when only forces, torque
         and motion matter.
+    bending : callable, optional
+        From a step [s] to what an axle that bends adds to the inverse mass of the journal, shape [6, 6].
 
     Raises
     ------
@@ -101,7 +111,7 @@ def choose_steps(
         _vibration(band),
         _bounce(bearing, static, laminae, effects.contact_damping is not None),
         *_friction(bearing, effects, slowest, laminae),
-        *_explicit(bearing, static, effects, mounting or Mounting()),
+        *_explicit(bearing, static, effects, mounting or Mounting(), bending),
     ]
     decisive = max(found, key=lambda choice: choice.steps_per_sample)
     return StepChoice(min(decisive.steps_per_sample, LARGEST_STEPS), decisive.reason)
@@ -160,21 +170,32 @@ def _friction(bearing: Bearing, effects: EffectSet, slowest: float, laminae: int
 
 
 def _explicit(
-    bearing: Bearing, static: StaticSolution, effects: EffectSet, mounting: Mounting
+    bearing: Bearing,
+    static: StaticSolution,
+    effects: EffectSet,
+    mounting: Mounting,
+    bending: Callable[[float], Float],
 ) -> Iterator[StepChoice]:
     """Check couplings that the step treats explicitly: a fraction of a radian a step keeps them accurate."""
     contacts = float(np.linalg.eigvalsh(static.stiffness_tilt_held).max())
-    inverse_mass = 1.0 / (mounting.journal_mass + bearing.cone_mass)
+    rigid_give = 1.0 / (mounting.journal_mass + bearing.cone_mass)
     if mounting.cup == "suspended":
-        inverse_mass += 1.0 / (mounting.box_mass + bearing.cup_mass)
-    yield _turning(math.sqrt(contacts * inverse_mass), "the rings on all their contacts")
+        rigid_give += 1.0 / (mounting.box_mass + bearing.cup_mass)
+
+    def rings(steps: int) -> float:
+        added = bending(1.0 / (steps * WAVEFORM_RATE))[:3, :3]
+        return math.sqrt(contacts * (rigid_give + float(np.linalg.eigvalsh(added).max())))
+
+    yield _turning(rings, "the rings on all their contacts")
     if isinstance(effects.cage, Cage | RotatingCage):
         inverse_mass = 1.0 / bearing.roller_mass + 1.0 / bearing.cage.mass
-        yield _turning(math.sqrt(_BARS * bearing.cage.stiffness * inverse_mass), "a roller in its pocket")
+        pocket = math.sqrt(_BARS * bearing.cage.stiffness * inverse_mass)
+        yield _turning(lambda _steps: pocket, "a roller in its pocket")
 
 
-def _turning(rate: float, what: str) -> StepChoice:
-    steps = math.ceil(rate / (_LARGEST_EXPLICIT_TURN * WAVEFORM_RATE))
+def _turning(rate_at: Callable[[int], float], what: str) -> StepChoice:
+    steps = next(n for n in count(1) if rate_at(n) <= n * _LARGEST_EXPLICIT_TURN * WAVEFORM_RATE)
+    rate = rate_at(steps)
     return StepChoice(
         steps,
         f"{what}, explicit at {rate / (2.0 * math.pi) / 1e3:.3g} kHz, turn little enough with {steps} steps "

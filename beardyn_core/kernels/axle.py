@@ -57,7 +57,7 @@ def _bend_plane(bodies, axle, plane, push, moment, load, energy, step, journal):
         change = step * (force - spring - damper * speed) / journal.inertia[m]
         middle = speed + 0.5 * change
         energy[layout.ENERGY_EXTERNAL] += step * driven * middle
-        energy[layout.ENERGY_LOST + layout.LOSS_STRUCTURE] += step * damper * middle * middle
+        energy[layout.ENERGY_LOST + layout.LOSS_SUSPENSION] += step * damper * middle * middle
         stored += (0.5 * spring + rest) * here
         axle[SPEED, plane, m] = speed + change
         place += journal.place[m] * change

@@ -27,7 +27,7 @@ _SHARES: dict[str, dict[str, float]] = {
     "cage_land": {"cages": 0.5, "cup": 0.25, "cone": 0.25},
     "drag": {"grease": 1.0},
     "seal": {"cone": 0.5, "axlebox": 0.5},
-    "suspension": {},  # outside the axlebox
+    "suspension": {},  # outside the axlebox, as the axle
     "structure": {"axlebox": 1.0},
 }
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.structure import exact_oscillators
 from beardyn_core.rail.wheelset import Modes, bending_modes
+from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 
@@ -27,11 +31,49 @@ class JournalParams(NamedTuple):
 
 
 def modes_of(scene: Scene) -> Modes | None:
-    """Compute the modes of the half wheelset of a scene; ``None`` where it is rigid in the twin."""
+    """Give the modes of the half wheelset of a scene; ``None`` where it is rigid in the twin."""
     operation = scene.operation
     if not isinstance(operation, QuarterVehicleOperation) or not operation.bends_in_the_twin:
         return None
-    return bending_modes(operation, scene.mounting, scene.bearing)
+    return _modes(operation, scene.mounting, scene.bearing)
+
+
+@lru_cache(maxsize=8)  # a warming bearing asks again and again
+def _modes(operation: QuarterVehicleOperation, mounting: Mounting, bearing: Bearing) -> Modes | None:
+    return bending_modes(operation, mounting, bearing)
+
+
+def journal_shapes(modes: Modes) -> Float:
+    """Give motion and tilt of the bearing's centre in the modes, [6, mode] upright, then as many along.
+
+    Of unit modal mass, [1/sqrt(kg)], [1/(m sqrt(kg))].
+    """
+    place, slope = modes.journal / np.sqrt(modes.mass), modes.journal_slope / np.sqrt(modes.mass)
+    count = len(modes)
+    shapes = np.zeros((6, 2 * count))
+    shapes[2, :count], shapes[3, :count] = place, slope
+    shapes[0, count:], shapes[5, count:] = place, -slope
+    return shapes
+
+
+def bending_give(scene: Scene, step: float) -> Float:
+    """Work out what bending of the axle adds to the inverse mass of the journal in a step, shape [6, 6].
+
+    Modes are as heavy as the step makes them (`exact_oscillators`), for it takes their own springs exactly,
+    and only those of the rollers may be too fast for it. Zero for a rigid half wheelset.
+
+    Parameters
+    ----------
+    step : float
+        [s].
+    """
+    modes = modes_of(scene)
+    if modes is None:
+        return np.zeros((6, 6))
+    rate = 2.0 * np.pi * modes.frequency
+    inertia = exact_oscillators(rate, np.full(len(rate), modes.damping_ratio), step)[2]
+    shapes = journal_shapes(modes)
+    return np.asarray((shapes / np.tile(inertia, 2)) @ shapes.T)
 
 
 def journal_params(scene: Scene, step: float, rest: ArrayLike) -> JournalParams | None:

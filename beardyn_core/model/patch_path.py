@@ -152,22 +152,26 @@ def edge_softness(
     Notes
     -----
     y is the mean over `EDGE_PRESSURES` of the sink beyond the path over e. The sink is that at the nearer
-    edge alone, see `edge_sink`, and at most the greatest depth of the path: over the middle of a slot both
-    edges bear, and the sink is that of the rigid roller whatever the load. Beside strips of a half-space,
-    slots of 0.3 to 6 mm and 2 to 20 kN a roller, the force on a held roller is right to 11 % of that of a
-    sound contact, and the sink to a fifth and a tenth of e (`evidence/impact/edges.py`). Neglects that floor
-    and edge bear together; an edge is as stiff as the rest of the half-space.
+    edge alone, see `edge_sink`, and at most the greatest depth of the path and that of the floor below: over
+    the middle of a slot both edges bear, and the sink is that of the rigid roller whatever the load. Beside
+    strips of a half-space, slots of 0.3 to 6 mm and 2 to 20 kN a roller, the force on a held roller is right
+    to 11 % of that of a sound contact, and the sink to a fifth and a tenth of e (`evidence/impact/edges.py`).
+    Neglects that floor and edge bear together; an edge is as stiff as the rest of the half-space.
     """
     if not sharp(patch) or size[1] <= 0.0:
         return np.zeros(PATH_CELLS + 1)
-    inside = half_of(size) - np.linspace(0.0, reach, PATH_CELLS + 1)
+    arc, half = np.linspace(0.0, reach, PATH_CELLS + 1), half_of(size)
+    inside = half - arc
+    bottom = np.full(PATH_CELLS + 1, path.max())
+    below = arc < half
+    bottom[below] = np.minimum(floor_of(patch.kind, arc[below], half, size[1]), path.max())
     modulus, length = bearing.material.contact_modulus, bearing.effective_length
     more = np.zeros(PATH_CELLS + 1)
     for pressure in EDGE_PRESSURES:
         half_width = contact_half_width(pressure, radius, bearing)
         load = math.pi * 0.5 * modulus * half_width**2 / (4.0 * radius) * length
         depth = (load / line_contact_factor(bearing.material, length)) ** 0.9
-        sink = np.minimum(edge_sink(inside, half_width, radius), path.max())
+        sink = np.minimum(edge_sink(inside, half_width, radius), bottom)
         more += np.maximum(sink - path, 0.0) / depth
     softness = (1.0 + more / len(EDGE_PRESSURES)) ** (10.0 / 9.0) - 1.0
     softness[-1] = 0.0

@@ -15,7 +15,7 @@ from beardyn_core.rail.measured import replayed
 from beardyn_core.rail.roughness import roughness_height
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift, tilting_moment
 from beardyn_core.rail.vehicle import Ride, equivalent_displacement, quarter_vehicle, ride
-from beardyn_core.scene.background import Background, Roughness
+from beardyn_core.scene.background import BACKGROUND_SAMPLE_NS, Background, Roughness
 from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory, sampled_load
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
@@ -30,8 +30,6 @@ from beardyn_core.scene.scene import Scene
 SAMPLE_NS = 500_000
 # a strike of the wheel lasts about half a millisecond
 STRIKE_SAMPLE_NS = 100_000
-# what a background adds reaches 8 kHz
-BACKGROUND_SAMPLE_NS = 50_000
 # a flat of 35 mm at 400 km/h passes in a third of a millisecond
 RIDE_RATE = 40_000.0
 # the journal's tilt passes whole up to 270 Hz and not above 400: there boxes rock on their bearings
@@ -62,13 +60,15 @@ def load_history(
     background : Background, optional
         What acts on the journal besides.
     bearing : Bearing, optional
-        Of which a coupled wheelset has the masses; a background may speak of that of the other end.
+        Of which a coupled wheelset has the masses, and a background the faults; only these need it.
 
     Raises
     ------
     InputError
         When a measured file is bad or shorter than the run.
     """
+    if bearing is None and isinstance(operation, QuarterVehicleOperation) and operation.bends_in_the_twin:
+        raise ValueError("a coupled wheelset needs the bearing")
     if not 0.0 < duration < 86_400.0:
         raise InputError(f"duration is {duration:g} s; allowed is more than 0 and less than 86 400 s")
     # shorter where wheel or rail strikes

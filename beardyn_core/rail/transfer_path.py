@@ -65,17 +65,17 @@ def path_read(content: str | None, path: Path) -> TransferPath:
     if not content:
         return read_transfer_path(path)
     try:
-        rows = [line.split(",") for line in unpacked(content, str(path)).splitlines()]
+        rows = [line.split(",") for line in unpacked(content, path).splitlines()]
         frequency, real, imaginary = np.array(rows, dtype=np.float64).T
     except ValueError as error:
         raise InputError(f"{path}: content is no measured path ({error})") from error
     return _checked(path, frequency, real + 1j * imaginary)
 
 
-def content_of(path: TransferPath) -> str:
-    """Pack a path so that `path_read` gives the same numbers: frequency, real, imaginary."""
-    rows = zip(path.frequency.tolist(), path.ratio.tolist(), strict=True)
-    return packed("\n".join(f"{hertz!r},{ratio.real!r},{ratio.imag!r}" for hertz, ratio in rows))
+def content_of(measured: TransferPath, path: Path) -> str:
+    """Pack what was read of a file so that `path_read` gives the same: frequency, real, imaginary."""
+    rows = zip(measured.frequency.tolist(), measured.ratio.tolist(), strict=True)
+    return packed("\n".join(f"{hertz!r},{ratio.real!r},{ratio.imag!r}" for hertz, ratio in rows), path)
 
 
 def _checked(path: Path, frequency: Float, ratio: NDArray[np.complex128]) -> TransferPath:

@@ -159,6 +159,10 @@ class Recovery:
         )
 
 
+class EmptyRecordingError(InputError):
+    """A file that was cut off before its first chunk was complete."""
+
+
 def recovered_name(path: Path | str) -> Path:
     """Name the file that a cut-off one is recovered into, ``<name>.recovered.mcap`` beside it."""
     return Path(path).with_suffix(".recovered.mcap")
@@ -188,7 +192,7 @@ def recover(path: Path | str, target: Path | str | None = None, *, replace: bool
     messages = iter(scan.raw_messages())
     first = next(messages, None)
     if first is None:
-        raise InputError(
+        raise EmptyRecordingError(
             f"{source}: the file holds no complete chunk, nothing can be recovered from its "
             f"{scan.size_bytes} bytes"
         )

@@ -11,6 +11,8 @@ from beardyn_core.edge import At
 RAILS = ("iso_3095", "average_network", "none")
 WHEELS = ("disc_brake", "composite", "cast_iron", "none")
 FAULTS = ("cup", "cone", "roller")
+# between two samples of a load with a background, which reaches 8 kHz
+BACKGROUND_SAMPLE_NS = 50_000
 FORCE = At("kN", ge=0.0, le=20.0)
 
 

@@ -110,7 +110,7 @@ def _grid_points(lines: list[str], wanted: set[int], path: Path) -> tuple[Vector
     """Read the places of grid points; gives the mistakes last."""
     places: Vectors = {}
     problems: list[str] = []
-    for at, fields in _grid_entries(lines):
+    for at, fields in grid_entries(lines):
         try:
             number = int(fields[0])
             if number not in wanted:
@@ -135,14 +135,33 @@ def _grid_points(lines: list[str], wanted: set[int], path: Path) -> tuple[Vector
     return places, problems
 
 
-def _grid_entries(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
-    """Find the lines of GRID entries, and their fields: number, CP, three coordinates, CD."""
-    for at, line in enumerate(lines, start=1):
-        name, fields = _fields(line)
+def grid_entries(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
+    """Find the lines of GRID entries, and their fields: number, CP, three coordinates, CD.
+
+    A large entry goes on in the next line with ``*``, or in that with the name it gives; without, the rest is
+    blank.
+    """
+    written = [
+        (at, *_fields(line)) for at, line in enumerate(lines, start=1) if line.partition("$")[0].strip()
+    ]
+    rest = {name: fields for _, name, fields in written if len(name) > 1 and name.startswith("*")}
+    for i, (at, name, fields) in enumerate(written):
+        if name == "GRID*":
+            mark = _continuation_of(lines[at - 1])
+            _, next_name, next_fields = written[i + 1] if i + 1 < len(written) else (0, "", [])
+            follows = next_name == "*" or (not mark and next_name in rest)
+            blank = [""] * (4 - len(fields))
+            fields = [*fields[:4], *blank, *(next_fields if follows else rest.get(mark, []))]
         if name in ("GRID", "GRID*"):
-            if name == "GRID*":  # the rest is in the next line
-                fields = fields[:4] + (_fields(lines[at])[1] if at < len(lines) else [])
             yield at, [*fields, *[""] * 6][:6]
+
+
+def _continuation_of(line: str) -> str:
+    """Take the name that the second line of a large entry begins with; empty where it has none."""
+    line = line.partition("$")[0].expandtabs(8)
+    mark = ",".join(line.split(",")[5:6]) if "," in line else line[72:80]
+    mark = mark.strip().upper().lstrip("*+")
+    return f"*{mark}" if mark else ""
 
 
 def _fields(line: str) -> tuple[str, list[str]]:

@@ -31,6 +31,12 @@ AXES = ("x", "y", "z")
 SERIES = ("mean", *(f"cos{n}" for n in range(1, WAVES + 1)), *(f"sin{n}" for n in range(1, WAVES + 1)))
 RACEWAY_COLUMNS = tuple(f"{row}_{field}_{term}" for row in ROWS for field in FIELDS for term in SERIES)
 _DIGITS = 5
+_OF_EARLIER_VERSIONS = {
+    "bearing": "tables of earlier versions lack it: make the table again with `beardyn structure`, or add "
+    "the bearing whose cup is in the box, such as `# bearing: HS130x230`",
+    "cup_mm": "make the table again with `beardyn structure`, or add the dimensions of that cup, such as "
+    "`# cup_mm: {outer_diameter: 230, width: 160, raceway_diameter: 211.253, row_spacing: 75}`",
+}
 
 
 def table_text(modes: Modes) -> str:
@@ -130,7 +136,8 @@ def _head_problems(head: dict[str, Any], count: int) -> Iterator[str]:
     wanted = {"name", "bearing", "cup_mm", "mass_kg", "inertia_kg_m2", "seats_mm"}
     known = wanted | {"description", "centre_mm", "products_kg_m2", "free_modes", "suspension", "made_from"}
     for key in sorted(wanted - head.keys()):
-        yield f"the head lacks {key}; it has {', '.join(sorted(map(str, head)))}"
+        remedy = f"; {_OF_EARLIER_VERSIONS[key]}" if key in _OF_EARLIER_VERSIONS else ""
+        yield f"the head lacks {key}; it has {', '.join(sorted(map(str, head)))}{remedy}"
     for key in sorted(map(str, head.keys() - known)):
         yield f"the head has {key!r}; allowed are {', '.join(sorted(known))}"
     if "mass_kg" in head and not (_is_number(head["mass_kg"]) and head["mass_kg"] > 0):

@@ -75,7 +75,13 @@ class ContactRun:
         rollers = np.zeros((1, ROLLER_FIELDS, 2))
         rollers[0, CHATTER + CHATTER_SQUARES] = np.maximum(bend**2 - 0.5 * move**2, 0.0).sum()
         rollers[0, CHATTER + CHATTER_LOAD] = (FRICTION * LOAD) ** 2 * len(f)
-        return State(rollers, np.zeros((4, BODY_STATES)), np.zeros(ENERGY_TERMS), np.zeros((0, 2, 2)))
+        return State(
+            rollers,
+            np.zeros((4, BODY_STATES)),
+            np.zeros(ENERGY_TERMS),
+            np.zeros((0, 2, 2)),
+            np.zeros((2, 2, 0)),
+        )
 
 
 def largest_explicit_step(bearing: Bearing) -> float:

@@ -15,6 +15,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from beardyn_core.choice import load_scene
+from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, expected_wall, plan_of
@@ -33,7 +34,7 @@ from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import QUANTITIES, UNITS
 from evidence.pages import DOCS, save_small
 
-SCENES = ("smooth_run", "cup_spall", "wheel_flat")
+SCENES = ("service_high_speed", "service_high_speed_cup", "wheel_flat")
 ACCURACY = 0.05
 COLOURS = 96
 USUAL_DETAIL = tuple((tier.name, 6, tier.steps_per_sample) for tier in TIERS.values())
@@ -42,7 +43,7 @@ USUAL_STEPS = TIERS["full"].steps_per_sample
 HEAD = """# What accuracy costs
 
 Written by `make ladder`; every number on this page is of that run, on one core of
-{processor}.
+{processor}, {lanes} rollers at once (eight with AVX-512, four without).
 
 `beardyn ladder SCENE -o DIR` makes such a table, `ladder.json` and `ladder.png` of any scene.
 
@@ -249,6 +250,7 @@ def main() -> None:
         lines += section(ladder, picture)
     head = HEAD.format(
         processor=machine()["processor"],
+        lanes=LANE_WIDTH,
         laminae=REFERENCE_LAMINAE,
         steps=REFERENCE_STEPS,
         reference_rate=WAVEFORM_RATE * REFERENCE_STEPS,

@@ -82,10 +82,9 @@ LIMITS = """
 - **The spalls are round numbers**: a rectangular pit with sharp edges, twice as long as wide, a tenth as deep
   as wide, at most 100 µm; on the cup within 30 degrees of the middle of the load zone. A larger one of
   another shape may be quieter.
-- **The background is the sensor's noise, the track and the wheel.** There is no gear, motor or neighbour
-  bearing ([sensors.md](sensors.md) has scenes with them), and the axlebox rings only with its suspension and
-  its bearing: on a train it takes larger spalls. A score is a ratio to the surroundings of the lines: with
-  so little around them it says that there is a spall and not how large.
+- **The background is that of `driven_emu`** on an even track: roughness, drive, other bearing, knocks and
+  pickup, most of their levels assumed ([sensors.md](sensors.md) has what each adds), behind a sensor by data
+  sheet. The modes of the box are those of a class of box, damped by 2 % by assumption.
 - **Fast tiers** have no cage slip and no skid, so their lines are sharper than those of the full tier; the
   check says by how much scores and verdicts differ. [ladder.md](ladder.md) has the errors of the tiers.
 - **A flat can hide a spall on the cone**, also a large one: the sectors in which the wheel strikes and rings

@@ -11,6 +11,7 @@ from beardyn_core.config import load_bearing
 from beardyn_core.config.load import load_box
 from beardyn_core.errors import InputError
 from beardyn_core.structure.imported import ModeFile, modes_of_file
+from beardyn_core.structure.nastran import grid_entries
 from test.analytic import test_mode_file as universal
 
 BEARING = load_bearing("HS130x230")
@@ -86,10 +87,38 @@ def test_a_file_of_a_box_names_both(tmp_path: Path) -> None:
     found = load_box(tmp_path / "mine.yaml")
     assert isinstance(found, ModeFile)
     assert found.grid == tmp_path / "box.bdf"
+    text = (tmp_path / "mine.yaml").read_text().replace("bearing: HS130x230\n", "")
+    (tmp_path / "old.yaml").write_text(text)
+    with pytest.raises(
+        InputError, match=r"old\.yaml: bearing is missing; files of earlier versions lack it: add"
+    ):
+        load_box(tmp_path / "old.yaml")
     with pytest.raises(InputError, match=r"grid is the bulk data file of a punch file: give it"):
         universal.box(tmp_path / "box.pch")
     with pytest.raises(InputError, match=r"leave it out with modes box\.unv"):
         universal.box(tmp_path / "box.unv", grid=tmp_path / "box.bdf")
+
+
+def test_a_large_entry_goes_on_where_it_says() -> None:
+    """Comments between, a name that stands elsewhere, a second line that is left out."""
+    first = f"GRID*   {7:16d}{'':16s}{1.5:16.3f}{2.5:16.3f}"
+    second = f"{3.5:16.3f}{4:16d}"
+    whole, short = ["7", "", "1.500", "2.500", "3.500", "4"], ["7", "", "1.500", "2.500", "", ""]
+    other = "GRID,8,,1.,2.,9."
+    for lines, expected in (
+        ([first, "$ a note, of 1", "", f"*       {second}"], whole),
+        ([first, f"*G7     {second}"], whole),
+        ([f"{first}*G7", other, f"*G7     {second}"], whole),
+        ([f"{first}+G7", f"*       {second}"], whole),
+        ([f"{first}*G7", f"*G8     {9.5:16.3f}"], short),
+        ([first, other], short),
+        ([first, f"        {second}"], short),
+        ([first], short),
+        (["GRID*,7,,1.500,2.500,*G7", "*G7,3.500,4"], whole),
+        (["GRID*,7,,1.500,2.500", other], short),
+        (["GRID*,7", "*,3.500,4"], ["7", "", "", "", "3.500", "4"]),
+    ):
+        assert next(grid_entries(lines)) == (1, expected), lines
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from beardyn_core.config.structure import modes_of_effects, table_path
 from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
-from beardyn_core.packed import packed
+from beardyn_core.packed import packed, unpacked
 from beardyn_core.rail.transfer_path import path_read, read_transfer_path
 from beardyn_core.scene.scene import Scene
 
@@ -93,7 +93,7 @@ def test_the_table_of_a_file_of_effects_lies_beside_that_file(tmp_path: Path) ->
     modes = modes_of_effects(load_effects(library / "effects.yaml"))
     assert modes is not None
     # content of the table before goes with it
-    recorded = {**MODES, "content": packed(table_path("metro").read_text())}
+    recorded = {**MODES, "content": packed(table_path("metro").read_text(), library / "mine.CSV")}
     (library / "effects.yaml").write_text(yaml.safe_dump({"name": "mine", "structure": recorded}))
     changed = {"preset": "../library/effects.yaml", "structure": {"table": "high_speed"}}
     assert len(frequencies(read_scene(written(tmp_path / "scenes", effects=changed)).scene)) == len(
@@ -103,6 +103,29 @@ def test_the_table_of_a_file_of_effects_lies_beside_that_file(tmp_path: Path) ->
     beside = {"preset": "../library/effects.yaml", "structure": {"table": "none.csv"}}
     with pytest.raises(InputError, match=r"scenes/none\.csv: cannot be read"):
         read_scene(written(tmp_path / "scenes", effects=beside))
+
+
+def test_the_content_of_another_file_is_refused(tmp_path: Path) -> None:
+    """A recording that is read on another machine names the same file, perhaps with other slashes."""
+    folder = with_table(tmp_path / "here")
+    rows = [f"{hertz},1,0" for hertz in range(5, 2000, 5)]
+    (folder / "path.csv").write_text("\n".join(["frequency_Hz,real,imaginary", *rows]))
+    (folder / "other.csv").write_text(table_path("metro").read_text())
+    sensor = {"name": "top", "position_mm": [0, 0, 170], "measured_paths": [{"path": "path.csv"}]}
+    parts: dict[str, dict[str, Any]] = {
+        "mine.CSV": {"effects": {"structure": MODES}},
+        "path.csv": {"sensors": [sensor]},
+    }
+    for name, part in parts.items():
+        text = scene_text(read_scene(written(folder, **part)).scene)
+        here = str(folder.resolve() / name)
+        assert text.count(here) == 1
+        for other in (str(folder / "other.csv"), str(tmp_path / "there" / name), "other.csv"):
+            with pytest.raises(InputError) as found:
+                read_scene_text(text.replace(here, other))
+            told = "\n".join(found.value.problems)
+            assert f"{other}: content beside it is that of {here}; leave content out" in told
+    assert unpacked(packed("1", "/a/b.csv"), "C:\\a\\b.csv") == "1"
 
 
 @pytest.mark.parametrize("word", ["AAAA", "no base64", "eJw="])

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from beardyn_core.config import load_bearing
 from beardyn_core.errors import InputError
 from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.modes import Modes
@@ -88,6 +89,23 @@ def test_every_mistake_is_told_at_once() -> None:
         "the column 'inboard_radial_cos9' is unknown",
     ):
         assert words in told
+
+
+def test_a_table_of_an_earlier_version_is_told_what_to_add() -> None:
+    lines = [line for line in HEAD.splitlines() if not line.startswith(("# bearing", "# cup_mm"))]
+    with pytest.raises(InputError) as found:
+        modes_of_text(
+            "\n".join([*lines, "frequency_Hz,damping_ratio,top_x,top_y,top_z", "1200,0.02,0,0,1"]), "old.csv"
+        )
+    bearing, cup = found.value.problems
+    added = [each.split("`")[-2] for each in (bearing, cup)]
+    assert "make the table again with `beardyn structure`" in bearing
+    assert "make the table again with `beardyn structure`" in cup
+    modes = modes_of_text(
+        "\n".join([*added, *lines, "frequency_Hz,damping_ratio,top_x,top_y,top_z", "1200,0.02,0,0,1"]),
+        "new.csv",
+    )
+    assert not list(modes.cup.differences(load_bearing("HS130x230")))
 
 
 @given(st.text(max_size=200), st.booleans())

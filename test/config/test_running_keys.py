@@ -139,3 +139,11 @@ def test_mistakes_of_a_vehicle_are_named_all_at_once(tmp_path: Path) -> None:
     ):
         assert word in found
     assert len(caught.value.problems) == 4
+
+
+def test_a_wheelset_that_bends_in_the_twin_is_held_by_nothing_else(tmp_path: Path) -> None:
+    problems = problems_of(
+        tmp_path, f"{SPEED}  wheelset: coupled\nmounting: {{cup: held, journal_tilt: free}}\n"
+    )
+    assert "mounting.journal_tilt is free; with operation.wheelset coupled it must be locked" in problems
+    assert "mounting.cup is held; with operation.wheelset coupled it must be suspended" in problems

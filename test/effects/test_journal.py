@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
 from scipy.linalg import eigh
 
 from beardyn_core.choice import load_scene, scene_from_text
+from beardyn_core.choice.fast_step import fast_steps, fastest_mode
+from beardyn_core.choice.ringing import bounce, levels
 from beardyn_core.config.load import load_vehicle
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
+from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.static import solve
+from beardyn_core.integrate.step_choice import choose_steps
 from beardyn_core.jit import entry
 from beardyn_core.kernels.axle import ALONG, PLACE, SPEED, UPRIGHT, kick_journal
-from beardyn_core.model.journal import JournalParams, journal_params, modes_of
+from beardyn_core.model.journal import JournalParams, bending_give, journal_params, modes_of
 from beardyn_core.model.layout import (
     ANGULAR,
     BODY_STATES,
@@ -26,13 +30,14 @@ from beardyn_core.model.layout import (
     ENERGY_LOST,
     ENERGY_TERMS,
     LINEAR,
-    LOSS_STRUCTURE,
+    LOSS_SUSPENSION,
     POSITION,
     SIGNAL_ACCELERATION,
     TILT,
 )
 from beardyn_core.model.mounting import mounting_params
 from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
+from beardyn_core.rail.build import load_history
 from beardyn_core.rail.wheelset import HALF_GAUGE, SHEAR, YOUNG, bending, shaft
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
@@ -181,7 +186,7 @@ def test_the_cone_moves_as_rigid_body_and_modes_apart() -> None:
     found = bodies[CONE_BODY, POSITION : POSITION + 6]
     np.testing.assert_allclose(found, pose, rtol=1e-9, atol=1e-9 * np.abs(pose).max())
     assert energy[ENERGY_EXTERNAL] == pytest.approx(works[0], rel=1e-9)
-    assert energy[ENERGY_LOST + LOSS_STRUCTURE] == pytest.approx(works[1], rel=1e-9)
+    assert energy[ENERGY_LOST + LOSS_SUSPENSION] == pytest.approx(works[1], rel=1e-9)
     assert stored[-1] == pytest.approx(elastic, rel=1e-9)
 
 
@@ -343,6 +348,69 @@ def test_the_box_bounces_on_bearing_and_axle(tier: str) -> None:
     judged = (expected > 450.0) & (expected < 2000.0)
     assert strongest["coupled"] == pytest.approx(expected[judged][np.argmax(share[judged])], rel=0.03)
     assert strongest["rigid"] > 1.6 * strongest["coupled"]
+
+
+def test_a_coupled_wheelset_asks_for_its_bearing() -> None:
+    scene = scene_on("coupled")
+    with pytest.raises(ValueError, match="a coupled wheelset needs the bearing"):
+        load_history(scene.operation, scene.mounting, 0.1, scene.seed)
+
+
+def test_a_warmer_bearing_has_the_modes_it_had() -> None:
+    """Working them out takes longer than a block."""
+    scene = scene_on("coupled")
+    assert modes_of(scene) is modes_of(replace(scene, temperature=330.0, end_play=1e-5))
+    assert modes_of(scene) is not modes_of(
+        replace(scene, mounting=replace(scene.mounting, journal_mass=850.0))
+    )
+
+
+def test_steps_are_as_short_as_bending_of_the_axle_asks() -> None:
+    """A sudden force moves the end of the axle alone, and rollers on it are faster."""
+    scene, rigid = scene_on("coupled", "lumped"), scene_on("rigid", "lumped")
+    p, short = axle_of(), bending_give(scene, 1e-6)
+    assert short[2, 2] == pytest.approx((p.place**2).sum(), rel=1e-3)
+    np.testing.assert_allclose(short[[0, 5]][:, [0, 5]], short[[2, 3]][:, [2, 3]] * [[1, -1], [-1, 1]])
+    assert not bending_give(rigid, 1e-6).any()
+    bearing, mounting, load = scene.bearing, scene.mounting, (2e4, 6.7e4)
+    for step in (1e-6, 4e-5):
+        give = np.eye(3) * (1.0 / (mounting.journal_mass + bearing.cone_mass))
+        give += np.eye(3) / (mounting.box_mass + bearing.cup_mass) + bending_give(scene, step)[:3, :3]
+        static = equilibrium(bearing, (0.0, 0.0, 6.7e4), end_play=0.0, laminae=6, speed=120.0)
+        mode = np.sqrt(np.linalg.eigvals(static.stiffness_tilt_held @ give).real.max())
+        found = fastest_mode(bearing, mounting, False, bending=bending_give(scene, step))
+        assert mode < found < 2.2 * mode
+    heavy = replace(mounting, box_mass=30.0)
+    light, stiff = (fast_steps(replace(each, mounting=heavy)).steps_per_sample for each in (scene, rigid))
+    assert light > 1 >= stiff
+    bent = partial(bending_give, scene)
+    chosen = [
+        choose_steps(bearing, load, (60.0, 120.0), EffectSet(), 1, band=0.0, mounting=mounting, **given)
+        for given in ({}, {"bending": bent}, {"bending": lambda step: 30.0 * bent(step)})
+    ]
+    assert chosen[0].steps_per_sample <= chosen[1].steps_per_sample < chosen[2].steps_per_sample
+    assert "the rings on all their contacts" in chosen[2].reason
+
+
+def test_the_resonance_that_choices_know_is_that_of_the_bent_axle() -> None:
+    """The box bounces, and contacts damp it, as masses on springs say."""
+    scene, force = scene_on("coupled"), np.array(LOAD)
+    static = equilibrium(
+        scene.bearing, LOAD, end_play=scene.end_play, laminae=6, speed=120.0, tilt="locked", rows=2
+    )
+    found = bounce(scene, static, force)
+    assert found is not None
+    expected, share = frequencies(scene)
+    judged = (expected > 450.0) & (expected < 2000.0)
+    assert found.frequency == pytest.approx(expected[judged][np.argmax(share[judged])], rel=0.03)
+    assert 0.0 < found.contacts < 0.5
+    assert 0.0 < found.axle < 0.01  # of each mode
+    assert bounce(scene_on("rigid"), static, force) is None
+    rigid, coupled = (
+        levels(replace(each, effects=replace(each.effects, contact_damping=None)), static, None, 8e3)
+        for each in (scene_on("rigid"), scene)
+    )
+    assert np.abs(coupled - rigid).max() > 3.0
 
 
 def test_a_vehicle_without_dimensions_has_a_rigid_wheelset() -> None:

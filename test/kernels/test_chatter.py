@@ -32,7 +32,9 @@ def index(lanes: Any, friction: Any, capacity: Any = CAPACITY) -> float:
     course = np.repeat(np.asarray(friction, dtype=float)[:, None, None], lanes.width, axis=2)
     limit = np.repeat(np.broadcast_to(capacity, STEPS).astype(float)[:, None, None], lanes.width, axis=2)
     watched(lanes, course, rollers, limit)
-    state = State(rollers, np.zeros((4, BODY_STATES)), np.zeros(ENERGY_TERMS), np.zeros((0, 2, 2)))
+    state = State(
+        rollers, np.zeros((4, BODY_STATES)), np.zeros(ENERGY_TERMS), np.zeros((0, 2, 2)), np.zeros((2, 2, 0))
+    )
     found = chatter_index(state, STEPS)
     assert found[1].max() == 0.0
     return float(found[0].max())

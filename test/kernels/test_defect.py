@@ -15,6 +15,7 @@ from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.faults import FaultParams, surface_radius
+from beardyn_core.model.patch_path import edge_softness, reach_of, roller_path
 from beardyn_core.scene.defect import PATCH_KINDS, Patch, WornPocket
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.kernels import naive
@@ -130,6 +131,22 @@ def test_softness_of_two_patches_adds_and_covers_a_lamina_as_their_gaps(lanes: A
     # beyond the edge there is no gap, and the softness has the share of its own
     beyond = springs(lanes, [edge + 1e-4 / CUP_RADIUS], SPALL)[0]
     np.testing.assert_allclose(beyond[:, 0], springs(lanes, [0.3], SPALL)[0, :, 0], atol=1e-9)
+
+
+def test_a_floor_that_rises_to_the_edge_bears_before_its_deepest_place() -> None:
+    """Ten times softer than a sound contact it would be if the roller could sink to the middle's depth."""
+    bearing, radius = scene_with().bearing, 9e-3
+    patch = Patch(on="cone", row=0, azimuth=0.0, width=8e-3, depth=8e-5, length=0.05, kind="elliptic")
+    size = (patch.width, patch.depth, 0.0)
+    reach = reach_of(patch, size, radius, bearing)
+    path = roller_path(patch, size, radius, reach)
+    softness = edge_softness(patch, size, radius, reach, path, bearing)
+    spall = replace(patch, kind="spall", width=6e-3)
+    size = (spall.width, spall.depth, 0.0)
+    reach = reach_of(spall, size, radius, bearing)
+    sharp = edge_softness(spall, size, radius, reach, roller_path(spall, size, radius, reach), bearing)
+    assert softness[0] == 0.0
+    assert 0.5 * sharp.max() < softness.max() < 3.0 * sharp.max()
 
 
 @pytest.mark.parametrize("rim", [(0.0, 0.0), (4e-6, 1e-3)])

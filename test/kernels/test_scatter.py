@@ -73,7 +73,7 @@ def test_error_of_a_crown_is_that_drop_more_in_the_table_of_the_laminae(
     table[LAMINA_DROP] += drop * (table[LAMINA_PLACE] / (0.5 * scene.bearing.effective_length)) ** 2
     found = cup_contacts(lanes, scattered, scene)
     np.testing.assert_allclose(
-        found, cup_contacts(lanes, nominal._replace(laminae=table), scene), rtol=1e-9, atol=1e-15
+        found, cup_contacts(lanes, nominal._replace(laminae=table), scene), rtol=1e-9, atol=1e-14
     )
     assert np.abs(found[:3, 4] / cup_contacts(lanes, nominal, scene)[:3, 4] - 1.0).max() > 0.01
 

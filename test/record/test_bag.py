@@ -21,6 +21,7 @@ from beardyn_core.record.messages import encode_string
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from test.examples import examples
+from test.record.conftest import write_recording
 from test.record.synthetic_run import SyntheticRun, description
 from test.record.test_broken_files import told
 
@@ -175,3 +176,16 @@ def test_the_writer_keeps_little_for_each_chunk(tmp_path: Path) -> None:
     tracemalloc.stop()
     writer.close()
     assert grown / 200 < 500
+
+
+def test_a_last_file_without_a_chunk_takes_nothing_from_the_others(tmp_path: Path) -> None:
+    """Cut off right after a file was begun: the run is in the files before."""
+    folder = tmp_path / "run"
+    folder.mkdir()
+    whole = write_recording(folder / "run_0.mcap", 6)
+    (folder / "run_1.mcap").write_bytes(whole.read_bytes()[:300])
+    code, said = told("report", str(folder))
+    assert code == 0
+    assert "run_1.mcap: the file holds no complete chunk" in said
+    (folder / "run_0.mcap").unlink()
+    assert told("report", str(folder))[0] == 2

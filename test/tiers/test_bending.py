@@ -17,6 +17,7 @@ from beardyn_core.integrate.roller_contacts import ConePose, contact_model
 from beardyn_core.integrate.roller_equilibrium import load_of_approach, solve_rollers
 from beardyn_core.integrate.state import Output, State
 from beardyn_core.integrate.static import solve
+from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.kernels.box import FORCE
 from beardyn_core.model.layout import (
     CAGE_BODY,
@@ -112,7 +113,7 @@ def test_rollers_and_modes_push_each_other_through_the_same_shapes(kind: str) ->
     # fine waves that the tier leaves out weigh 2e-4 of the compliance, a hundredth of an amplitude
     shapes = shapes_at(twin, azimuth)
     seen = np.einsum("rpm,m->rp", shapes, flex)
-    series, width = p.bending.basis.shape[1], 8
+    series, width = p.bending.basis.shape[1], LANE_WIDTH
     found = np.zeros_like(seen)
     cup_load = np.zeros_like(seen)
     for block in range(p.bending.basis.shape[0]):
@@ -141,7 +142,7 @@ def test_held_response_is_the_direct_solution(kind: str) -> None:
     openings, series = len(bending.rigid), bending.basis.shape[1]
     springs = np.zeros((openings, openings))
     for block, _, lane in np.argwhere(bending.tangents > 0.0):
-        waves, row = np.zeros(openings), lane // 4
+        waves, row = np.zeros(openings), lane * 2 // LANE_WIDTH
         waves[row * series : (row + 1) * series] = bending.basis[block, :, lane]
         springs += bending.lag * bending.tangents[block, 0, lane] * np.outer(waves, waves)
     give = np.moveaxis(bending.give, 1, 2).reshape(-1, openings)[:openings]
