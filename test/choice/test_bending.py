@@ -59,7 +59,10 @@ def test_a_box_without_modes_is_another_one(evidence: Evidence) -> None:
 
 
 def test_fewer_modes_bend_as_much_under_a_load_and_cost_less(evidence: Evidence) -> None:
-    """A run under 80 kN without free modes: 0.1 % of the deflection; more is expected, and under 1 %."""
+    """A run under 80 kN without free modes: 0.1 % of the deflection. 0.6 % is expected.
+
+    It was 0.1 % before the load at the springs' seats was in; why it is too much since was not looked for.
+    """
     fewer = structure(evidence).alternatives
     costs = [option.cost for option in fewer]
     assert costs == sorted(costs, reverse=True)
