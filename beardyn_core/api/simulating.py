@@ -13,6 +13,7 @@ from typing import Any
 from beardyn_core.api.making import scene as make_scene
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.choice import scene_from_text
+from beardyn_core.config.content import files_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
@@ -82,6 +83,7 @@ def simulate(
     untouched = isinstance(scene, Scene) and all(value is None for value in asked.values())
     with files_read() as inputs:
         made = scene if isinstance(scene, Scene) and untouched else make_scene(scene, **asked)  # type: ignore[arg-type]
+    inputs += files_of(made)
     memory = MemorySink()
     sinks: list[Sink] = [memory]
     if record is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.interrupts import last_words
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -43,7 +44,8 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.record.exporting import export
     from beardyn_core.record.reading import read_run
 
-    recording = read_run(args.recording)
+    with last_words(lambda: "nothing has been written"):
+        recording = read_run(args.recording)
     if recording.problem:
         print(f"{recording.problem}; writing what is there", file=sys.stderr)
     names = [name.strip() for name in args.signals.split(",") if name.strip()]

@@ -14,7 +14,7 @@ from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import folder_problems, write_whole
+from beardyn_core.outputs import as_a_whole, folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
@@ -104,9 +104,9 @@ def run(args: argparse.Namespace) -> int:
         ):
             ladder = climb(plan, levels, accuracy, asked, bar)
     found = json_object(ladder)
+    print(json_text("ladder", found) if args.json else table(ladder), flush=True)
     if args.output is not None:
-        write(ladder, found, args.output)
-    print(json_text("ladder", found) if args.json else table(ladder))
+        write(ladder, found, args.output, replace=args.force)
     if ladder.interrupted:
         kept = f"are in {args.output}" if args.output else "are printed; with -o they are written too"
         print(f"beardyn: interrupted; the {len(ladder.rows)} levels done so far {kept}", file=sys.stderr)
@@ -150,13 +150,14 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
     return problems + folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force)
 
 
-def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
-    """Write ladder.json and ladder.png."""
+def write(ladder: Ladder, found: dict[str, Any], folder: Path, *, replace: bool) -> None:
+    """Write ladder.json and ladder.png; `replace` those that are there."""
     from beardyn_core.study.ladder_picture import ladder_picture
 
     with made_folder(folder):
-        write_whole(folder / FILES[0], json_text("ladder", found, indent=1) + "\n")
-        ladder_picture(ladder, folder / FILES[1])
+        write_whole(folder / FILES[0], json_text("ladder", found, indent=1) + "\n", replace=replace)
+        with as_a_whole(folder / FILES[1], replace=replace) as fresh:
+            ladder_picture(ladder, fresh)
 
 
 @contextmanager

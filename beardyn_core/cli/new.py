@@ -46,8 +46,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "new",
         help="copy a shipped scene, bearing, ... with its comments, to change it",
         description="Copy a shipped scene with its comments to a file of your own; `beardyn simulate FILE` "
-        "runs it. Bearings, lubricants, vehicles, sets of effects and trials are copied in the same manner; "
-        "`beardyn scenes all` lists the names. Files that a scene refers to are copied beside it.",
+        "runs it. Bearings, lubricants and whatever else `beardyn scenes all` lists are copied in the same "
+        "manner. Files that a scene refers to are copied beside it.",
     )
     parser.add_argument("name", metavar="NAME", help="shipped scene, bearing, lubricant, ...")
     parser.add_argument(
@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
     _refuse(files, target, source, args.force)
     try:
         for path, content in files.items():
-            with as_a_whole(path) as fresh:
+            with as_a_whole(path, replace=args.force) as fresh:
                 fresh.write_bytes(content)
             print(f"{path} written")
     except OSError as error:

@@ -10,6 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from beardyn_core.errors import InputError
+from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import file_problems
 
 
@@ -59,7 +60,8 @@ def run(args: argparse.Namespace) -> int:
     if recording.problem:
         print(f"{recording.problem}; showing what is there", file=sys.stderr)
     if args.save:
-        target = save(recording, args.save)
+        with last_words(lambda: "nothing has been written"):
+            target = save(recording, args.save, replace=args.force)
         print(f"{target}: {target.stat().st_size / 1e6:.1f} MB; open it with: rerun {target}")
         return 0
     with tempfile.TemporaryDirectory(prefix="beardyn-view-") as folder:

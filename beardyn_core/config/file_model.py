@@ -179,7 +179,10 @@ class SourcedPart(FileModel):
                 }
                 sourced = {
                     "type": "object",
-                    "properties": {"value": plain, "source": {"type": "string"}},
+                    "properties": {
+                        "value": {**plain, "description": "as it is given without a source"},
+                        "source": {"type": "string", "description": "where the value comes from"},
+                    },
                     "required": ["value", "source"],
                     "additionalProperties": False,
                 }

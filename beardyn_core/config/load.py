@@ -27,6 +27,7 @@ from beardyn_core.config.yaml_text import read_file, read_mapping
 from beardyn_core.edge import UNITS, places, stem_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import note_read
 from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
@@ -133,6 +134,8 @@ def load_box(name: str | Path) -> Box | ModeFile:
     if isinstance(box, ModeFile):
         grid = None if box.grid is None else path.parent / box.grid
         box = replace(box, modes=path.parent / box.modes, grid=grid)
+        for each in (box.modes, *([grid] if grid else ())):
+            note_read(each)
     if box.bearing not in shipped_names("bearings"):
         box = replace(box, bearing=str(find("bearings", box.bearing, path.parent)))
     return box

@@ -175,10 +175,20 @@ def test_orders_may_have_an_amplitude_each() -> None:
 
 @pytest.mark.parametrize("kind", SCHEMA_KINDS)
 def test_every_key_is_described(kind: str) -> None:
-    schema = json_schema(kind)
-    for name, model in {kind: schema, **schema.get("$defs", {})}.items():
-        for key, found in model.get("properties", {}).items():
-            assert found.get("description"), f"{name}.{key}"
+    """Also those of ``{value: 17, source: catalogue}``, which stand where a number may stand."""
+
+    def look(part: Any, place: str) -> None:
+        if isinstance(part, list):
+            for each in part:
+                look(each, place)
+        elif isinstance(part, dict):
+            keys = part.get("properties", {}) if part.get("type") == "object" else {}
+            for key, found in keys.items():
+                assert found.get("description"), f"{place}.{key}"
+            for key, each in part.items():
+                look(each, f"{place}.{key}")
+
+    look(json_schema(kind), kind)
 
 
 def test_a_noun_made_in_python_is_held_to_the_limits_of_its_file() -> None:
