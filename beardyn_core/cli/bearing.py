@@ -137,6 +137,9 @@ def run(args: argparse.Namespace) -> int:
 
 def _operation(args: argparse.Namespace) -> tuple[tuple[float, float, float], float | None, float]:
     """Read load, end play and speed; raise `InputError` with everything that makes no sense."""
+    from beardyn_core.edge import UNITS
+    from beardyn_core.scene.operation import MOST_RPM
+
     problems: list[str] = []
 
     def read(option: str, text: str, dimension: str) -> float:
@@ -151,6 +154,8 @@ def _operation(args: argparse.Namespace) -> tuple[tuple[float, float, float], fl
     speed = read("--speed", args.speed, "rotation")
     if end_play is not None and abs(end_play) > _MOST_END_PLAY:
         problems.append(f"--end-play is {end_play * 1e3:g} mm; it must lie within ±{_MOST_END_PLAY * 1e3:g}")
+    if abs(speed) > UNITS["rpm"].to_si(MOST_RPM):
+        problems.append(f"--speed is {args.speed}; it must be at most {MOST_RPM:g} rpm either way")
     if args.laminae < 1:
         problems.append(f"--laminae is {args.laminae}; it must be at least 1")
     if not -60.0 <= args.temperature <= 200.0:

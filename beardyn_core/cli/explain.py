@@ -7,7 +7,7 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import checked
+from beardyn_core.cli.files import checked, tell_doubts
 from beardyn_core.cli.json_output import json_text
 
 if TYPE_CHECKING:
@@ -64,6 +64,7 @@ def run(args: argparse.Namespace) -> int:
             quantities=quantities,
             vibration_to=args.vibration_to,
         )
+    tell_doubts(found.scene)
     print(json_text("explain", json_object(found)) if args.json else text(found))
     return DONE
 

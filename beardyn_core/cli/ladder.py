@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import checked, made_folder
+from beardyn_core.cli.files import checked, made_folder, tell_doubts
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
@@ -92,6 +92,7 @@ def run(args: argparse.Namespace) -> int:
         f"some {expected / 60.0:.1f} minutes once all kernels are compiled",
         file=sys.stderr,
     )
+    tell_doubts(scene)
     with _quiet():
         with (
             last_words(lambda: "no level has been run; what is compiled is kept for the next time"),

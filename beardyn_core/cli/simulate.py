@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import checked
+from beardyn_core.cli.files import checked, tell_doubts
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import recording_problems
@@ -91,8 +91,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study import desk_run
 
     print(f"beardyn: {scene.name}, {scene.purpose}", file=sys.stderr)
-    for doubt in scene.doubts:
-        print(f"beardyn: warning: {doubt}", file=sys.stderr)
+    tell_doubts(scene)
     sinks = [] if args.output is None else [McapSink(args.output, replace=args.force)]
     bar_format = "{desc} {bar} {n:.2f}/{total:.2f} s{postfix} [{elapsed}<{remaining}]"
     with tqdm(

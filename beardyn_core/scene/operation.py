@@ -18,7 +18,8 @@ from beardyn_core.scene.wheelset import Wheelset
 WHEEL_PROFILES = ("worn", "cone")
 WHEELSETS = ("coupled", "elastic", "rigid")
 TAKES = ("both", "force", "speed")
-SHAFT_SPEED = At("rpm", ge=-6000.0, le=6000.0)
+MOST_RPM = 6000.0
+SHAFT_SPEED = At("rpm", ge=-MOST_RPM, le=MOST_RPM)
 
 
 @dataclass(frozen=True)

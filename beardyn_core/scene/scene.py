@@ -16,7 +16,7 @@ from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, Operation, SteppedOperation
 from beardyn_core.scene.scatter import Scatter
-from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.scene.sensor import Accelerometer, sensor_doubts
 from beardyn_core.scene.tier import LARGEST_STEPS, TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
 
@@ -163,6 +163,7 @@ class Scene:
         effects = self.effects
         if effects.structure and not (effects.traction or effects.rib or effects.cage):
             told.append("effects: structure without cage, rib and traction; `preset: standard` brings them")
+        told += sensor_doubts(self.sensors, self.bearing)
         return (*told, *doubts_about(self.defects, self.bearing))
 
     @property

@@ -286,7 +286,6 @@ def test_runs_of_changed_code_are_counted_and_stay_until_they_have_been_run_agai
     assert not plan_of(small, "", tmp_path).missing
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
 def test_a_run_depends_on_the_content_of_its_files(
     quick: Trial, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -305,6 +304,7 @@ def test_a_run_depends_on_the_content_of_its_files(
     assert run_digest(scene, quick, "code") != before
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
 def test_a_full_disk_is_a_sentence_that_says_how_many_runs_are_kept(
     small: Trial, tmp_path: Path, conducted: list[str]
 ) -> None:
