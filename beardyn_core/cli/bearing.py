@@ -217,7 +217,7 @@ def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
 
 
 def _most_loaded_roller(bearing: Bearing, solution: StaticSolution) -> dict[str, Any]:
-    """Load and Hertz pressure along the most loaded roller, from its small to its large end."""
+    """Compute load and Hertz pressure along the most loaded roller, from its small to its large end."""
     from beardyn_core.model.laminae import lamina_places, lamina_pressure
 
     row, roller = divmod(int(solution.cup_load.argmax()), solution.cup_load.shape[1])

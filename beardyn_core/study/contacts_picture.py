@@ -216,7 +216,7 @@ def _positions(axes: Axes, run: Rolling) -> None:
 
 
 def barrel_figure(found: Findings) -> Figure:
-    """Load distribution of the barrel roller bearing, and its cross-section with the contact points."""
+    """Draw the load distribution of the barrel roller bearing, and its cross-section with the contacts."""
     figure = _figure(10.0, 4.2)
     left, right = figure.subplots(1, 2)
     for loads, colour in zip(found.barrel_loads, (_CUP, _CONE, _ROLLER, _POINT), strict=False):
