@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
 
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_json
 from beardyn_core.cli.quantities import NEGATIVE_QUANTITY, read_quantity
 from beardyn_core.errors import InputError
 
@@ -84,7 +85,7 @@ def add_parser(subparsers: Any) -> None:
         action="store_true",
         help="laminae sink with each other: edge load; default independent",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
+    add_json(parser)
     parser.set_defaults(run=run)
 
 

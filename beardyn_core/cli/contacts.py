@@ -9,6 +9,7 @@ from pathlib import Path
 
 from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.interrupts import last_words, may_be_left
 from beardyn_core.outputs import file_problems, folder_problems, write_whole
 
@@ -48,8 +49,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=Path,
         help="write coin and roller as an animation for rerun; default none",
     )
-    parser.add_argument("--force", action="store_true", help="replace files that exist")
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    add_force(parser)
+    add_json(parser)
     parser.set_defaults(run=run)
 
 

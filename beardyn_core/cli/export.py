@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.interrupts import last_words
 
 
@@ -32,8 +33,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="signals, with commas between: vibration, force, force_waveform, shaft, torque, cages, "
         "rollers, bodies, contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
     )
-    parser.add_argument("--force", action="store_true", help="replace files that exist")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_force(parser)
+    add_json(parser)
     parser.set_defaults(run=run)
 
 

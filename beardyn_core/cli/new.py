@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.cli.options import add_force
 from beardyn_core.cli.scenes import KINDS
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import as_a_whole, file_problems
@@ -60,7 +61,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--kind", choices=KINDS, help="where to look for NAME; default everywhere, scenes first"
     )
-    parser.add_argument("--force", action="store_true", help="replace files that exist; default refuse")
+    add_force(parser)
     parser.set_defaults(run=run)
 
 

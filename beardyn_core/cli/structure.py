@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.cli.files import checked
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words, may_be_left
 
@@ -54,8 +55,8 @@ def add_parser(subparsers: Any) -> None:
         help="write the first modes in motion as a rerun file; default none",
     )
     parser.add_argument("--view", action="store_true", help="show the first modes in motion in a window")
-    parser.add_argument("--force", action="store_true", help="replace files that exist; default refuse")
-    parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
+    add_force(parser)
+    add_json(parser)
     parser.set_defaults(run=run)
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json, add_monitor
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import as_a_whole, folder_problems, write_whole
 
@@ -43,12 +44,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default="default",
         help="shipped trial or YAML file; default `default`",
     )
-    parser.add_argument(
-        "--monitor",
-        metavar="MODULE:FUNCTION",
-        default="",
-        help="your algorithm, its module may be in this folder; default the reference chain",
-    )
+    add_monitor(parser)
     parser.add_argument(
         "-o",
         "--output",
@@ -64,10 +60,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=int,
         help="seed of tracks, noise and places of spalls; default the trial's",
     )
-    parser.add_argument(
-        "--force", action="store_true", help="start over in a folder that holds runs, and lose them"
-    )
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    add_force(parser, "start over in a folder that holds runs, and lose them")
+    add_json(parser)
     parser.set_defaults(run=run)
 
 

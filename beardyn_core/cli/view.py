@@ -9,6 +9,7 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
+from beardyn_core.cli.options import add_force
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import file_problems
@@ -34,7 +35,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=Path,
         help="write a picture, without a screen too; default none",
     )
-    parser.add_argument("--force", action="store_true", help="replace the file of --save or --screenshot")
+    add_force(parser, "replace the file of --save or --screenshot")
     parser.add_argument(
         "--port", type=int, metavar="N", help="port of the page with --web; default a free one"
     )
