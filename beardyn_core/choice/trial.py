@@ -10,7 +10,7 @@ import numpy as np
 
 from beardyn_core.choice.load import scene_from_mapping
 from beardyn_core.config.folders import find
-from beardyn_core.config.load import read_trial
+from beardyn_core.config.nouns import read_trial
 from beardyn_core.config.scene_file import overlay
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import UNITS, written

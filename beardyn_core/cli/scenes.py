@@ -207,7 +207,7 @@ def _trial(name: str) -> dict[str, Any]:
 
 
 def _structure(name: str) -> dict[str, Any]:
-    from beardyn_core.config.load import load_box
+    from beardyn_core.config.nouns import load_box
 
     box = load_box(name)
     return {
@@ -218,7 +218,7 @@ def _structure(name: str) -> dict[str, Any]:
 
 
 def _sensor(name: str) -> dict[str, Any]:
-    from beardyn_core.config.load import load_sensor
+    from beardyn_core.config.nouns import load_sensor
 
     sensor = load_sensor(name)
     return {
@@ -230,7 +230,7 @@ def _sensor(name: str) -> dict[str, Any]:
 
 
 def _background(name: str) -> dict[str, Any]:
-    from beardyn_core.config.load import load_background
+    from beardyn_core.config.nouns import load_background
     from beardyn_core.edge import written
 
     background = load_background(name)

@@ -62,7 +62,7 @@ def add_parser(subparsers: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.config.load import load_bearing, load_box
+    from beardyn_core.config.nouns import load_bearing, load_box
     from beardyn_core.outputs import file_problems, write_whole
     from beardyn_core.record.viewer import require_display
     from beardyn_core.structure.box import Box

@@ -17,7 +17,7 @@ from beardyn_core import run as run_module
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
-from beardyn_core.config.load import bearing_from_mapping
+from beardyn_core.config.nouns import bearing_from_mapping
 from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet
 from beardyn_core.record.sinks import MemorySink
