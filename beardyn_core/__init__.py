@@ -51,7 +51,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, scene
-    from beardyn_core.api.simulating import monitor, read, simulate
+    from beardyn_core.api.reading import monitor, read
+    from beardyn_core.api.simulating import simulate
     from beardyn_core.api.statics import (
         equilibrium,
         fault_frequencies,
@@ -83,7 +84,8 @@ __all__ += ["scene", "simulate", "steady_heat", "stiffness", "torque"]
 _MODULES = {
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant",),
-    "api.simulating": ("monitor", "read", "simulate"),
+    "api.reading": ("monitor", "read"),
+    "api.simulating": ("simulate",),
     "api.statics": (
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),
     ),

@@ -57,6 +57,14 @@ def test_errors_come_without_the_rest() -> None:
     assert fresh(code + f"print(sorted(set({HEAVY}) & set(sys.modules)))") == "[]"
 
 
+@pytest.mark.parametrize(
+    "call", ["bd.read('none.mcap')", "bd.monitor('none.mcap')", "bd.bearing('HS130x230')"]
+)
+def test_what_needs_no_kernel_brings_no_compiler_along(call: str) -> None:
+    code = f"import contextlib, sys, beardyn_core as bd\nwith contextlib.suppress(bd.InputError): {call}\n"
+    assert fresh(code + "print('numba' in sys.modules)") == "False"
+
+
 def test_the_rooms_of_the_same_name_still_are_rooms() -> None:
     code = "import beardyn_core.scene.scene as room, beardyn_core as bd; "
     assert fresh(code + "print(room.Scene is bd.Scene, bd.scene.scene is room)") == "True True"
