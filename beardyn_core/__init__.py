@@ -12,6 +12,7 @@ module     responsibility
 ========== ===================================================================
 jit        how kernels are compiled
 errors     errors a user sees
+units      units of numbers in files, and the way to SI
 edge       unit, limits and words of a number, on the field that holds it
 outputs    files that a command writes: nothing is replaced unasked
 interrupts Ctrl-C, also while something is compiled

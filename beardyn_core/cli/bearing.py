@@ -138,8 +138,8 @@ def run(args: argparse.Namespace) -> int:
 
 def _operation(args: argparse.Namespace) -> tuple[tuple[float, float, float], float | None, float]:
     """Read load, end play and speed; raise `InputError` with everything that makes no sense."""
-    from beardyn_core.edge import UNITS
     from beardyn_core.scene.operation import MOST_RPM
+    from beardyn_core.units import UNITS
 
     problems: list[str] = []
 
@@ -223,9 +223,7 @@ def _most_loaded_roller(bearing: Bearing, solution: StaticSolution) -> dict[str,
 
     row, roller = divmod(int(solution.cup_load.argmax()), solution.cup_load.shape[1])
     count = solution.cup_lamina_load.shape[-1]
-    report: dict[str, Any] = {
-        "row": row, "roller": roller, "place_m": lamina_places(bearing, count)
-    }  # fmt: skip
+    report: dict[str, Any] = {"row": row, "roller": roller, "place_m": lamina_places(bearing, count)}
     for ring, loads in (("cup", solution.cup_lamina_load), ("cone", solution.cone_lamina_load)):
         load = loads[row, roller]
         report[f"{ring}_load_per_length_N_per_m"] = load * count / bearing.effective_length

@@ -9,7 +9,7 @@ from typing import Any, Literal
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal import Temperatures
-from beardyn_core.edge import INTERNAL, SEED, UNITS, At
+from beardyn_core.edge import INTERNAL, SEED, At
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
@@ -19,6 +19,7 @@ from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.sensor import Accelerometer, sensor_doubts
 from beardyn_core.scene.tier import LARGEST_STEPS, TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
+from beardyn_core.units import UNITS
 
 # what a user can ask of a run; see `choice`
 QUANTITIES = ("force", "deflection", "roller_load", "torque", "vibration", "cage_speed")
