@@ -99,6 +99,10 @@ class Vehicle:
     wheelset: A[Wheelset | None, "what bends and twists of a wheelset; rigid when left out"] = None
     sources: tuple[tuple[str, str], ...] = ()
 
+    def __repr__(self) -> str:
+        """Give the name and the masses, in one line."""
+        return f"Vehicle {self.name}: body {self.body_mass:g} kg, bogies {self.bogie_mass:g} kg each"
+
     def __post_init__(self) -> None:
         refuse(self, f"vehicle {self.name!r}")
 

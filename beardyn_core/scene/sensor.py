@@ -48,6 +48,11 @@ class SensorType:
     low_pass: _LowPass = None
     sources: tuple[tuple[str, str], ...] = ()
 
+    def __repr__(self) -> str:
+        """Give the name with range and noise, in one line."""
+        noise = f"{self.noise_density:g} m/s2 per root Hz"
+        return f"SensorType {self.name}: to {self.range:g} m/s2, noise {noise}"
+
     def rules(self) -> Iterator[str]:
         """Check that a damping has a resonance to act on."""
         yield from _damping_of_nothing(self)

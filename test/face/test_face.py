@@ -18,9 +18,11 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.nouns import bearing_from_mapping
+from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet
 from beardyn_core.record.sinks import MemorySink
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.study import desk_run
 from test.face.test_one_run import spalled
 from test.study.test_desk_run import SENTENCE, PureRolling
@@ -242,6 +244,15 @@ def test_representations_are_short() -> None:
         assert len(repr(thing).splitlines()) <= 2
     assert "HS130x230" in repr(scene)
     assert "spall on the cup" in repr(scene)
+    service = bd.scene("service_metro")
+    modes = modes_of_effects(service.effects)
+    assert isinstance(service.operation, QuarterVehicleOperation)
+    for noun in (service.background, service.sensors[0].type, service.operation.vehicle, modes):
+        assert len(repr(noun)) < 120
+        assert len(repr(noun).splitlines()) == 1
+    assert (
+        repr(service.background) == "Background driven_metro: roughness, drive, other_bearing, knocks, pickup"
+    )
 
 
 def test_simulating_again_does_not_load_again() -> None:
