@@ -50,7 +50,8 @@ def run(args: argparse.Namespace) -> int:
     if recording.problem:
         print(f"{recording.problem}; writing what is there", file=sys.stderr)
     names = [name.strip() for name in args.signals.split(",") if name.strip()]
-    written = export(recording, args.output, signals=names, force=args.force)
+    with last_words(lambda: "files that are written are whole, the others are as they were"):
+        written = export(recording, args.output, signals=names, force=args.force)
     if args.json:
         print(json_text("export", {"recording": args.recording, "files": written}))
         return 0
