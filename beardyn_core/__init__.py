@@ -12,6 +12,7 @@ module     responsibility
 ========== ===================================================================
 jit        how kernels are compiled
 errors     errors a user sees
+units      units of numbers in files, and the way to SI
 edge       unit, limits and words of a number, on the field that holds it
 outputs    files that a command writes: nothing is replaced unasked
 interrupts Ctrl-C, also while something is compiled
@@ -51,7 +52,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, scene
-    from beardyn_core.api.simulating import monitor, read, simulate
+    from beardyn_core.api.reading import monitor, read
+    from beardyn_core.api.simulating import simulate
     from beardyn_core.api.statics import (
         equilibrium,
         fault_frequencies,
@@ -83,7 +85,8 @@ __all__ += ["scene", "simulate", "steady_heat", "stiffness", "torque"]
 _MODULES = {
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant",),
-    "api.simulating": ("monitor", "read", "simulate"),
+    "api.reading": ("monitor", "read"),
+    "api.simulating": ("simulate",),
     "api.statics": (
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),
     ),

@@ -33,3 +33,15 @@ class ValidityError(Exception):
     def __init__(self, sentence: str, block: object | None = None) -> None:
         super().__init__(sentence)
         self.block = block
+
+
+def separator_problem(header: str) -> str:
+    """Say what separates the columns of a table in place of commas, by its first line; empty: nothing."""
+    between = {";": "semicolons", "\t": "tabs", "|": "bars"}
+    sign = next((sign for sign in between if sign in header and "," not in header), None)
+    return (
+        f"its columns are separated by {between[sign]}; separate them by commas, and write decimal numbers "
+        "with a point"
+        if sign
+        else ""
+    )

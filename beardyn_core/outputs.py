@@ -46,7 +46,12 @@ def note_read(path: Path | str) -> None:
 
 
 def file_problems(
-    option: str, path: Path | None, *, inputs: Iterable[Path] = (), force: bool = False
+    option: str,
+    path: Path | None,
+    *,
+    inputs: Iterable[Path] = (),
+    force: bool = False,
+    ending: str = "",
 ) -> list[str]:
     """List why a file cannot be written, one sentence each; nothing is created.
 
@@ -57,9 +62,12 @@ def file_problems(
     path : Path or None
         As given; ``None``: not given.
     inputs : iterable of Path
-        Files that the command reads. The same file under another name, by a link, is the same file.
+        Files that the command reads, or folders of them. The same file under another name, by a link, is the
+        same file.
     force : bool
         Whether an existing file may be replaced.
+    ending : str
+        The only one that readers of such a file take; empty: any.
     """
     if path is None:
         return []
@@ -68,7 +76,7 @@ def file_problems(
         return [f"{where}: is a folder; give the name of a file in it"]
     if not folder.is_dir():
         return [f"{where}: the folder {folder} does not exist; create it or choose another"]
-    if any(_is_same(path, each) for each in inputs):
+    if any(_is_same(path, each) for given in inputs for each in _files_of(given)):
         return [
             f"{where}: the command reads this file; an input is never replaced, not even with --force: "
             "give another name"
@@ -81,6 +89,8 @@ def file_problems(
         return [f"{where}: another process is writing this file; wait for its end or give another name"]
     if path.is_file() and not force:
         return [f"{where}: the file exists; --force replaces it (in Python force=True), or give another name"]
+    if ending and path.suffix.lower() != ending:
+        return [f"{where}: let its name end in {ending}, by which programs that read it know it"]
     return []
 
 
@@ -135,6 +145,11 @@ def folder_problems(
         for name in names
         for problem in file_problems(option, folder / name, inputs=inputs, force=force)
     ]
+
+
+def _files_of(path: Path) -> Iterable[Path]:
+    """List the files of a recording in several files, which is a folder; any other path is its own."""
+    return path.iterdir() if path.is_dir() else (path,)
 
 
 def _is_same(one: Path, other: Path) -> bool:
@@ -246,20 +261,31 @@ def _lock(handle: int, path: Path) -> None:
         # a file system without locks: nothing more can be done
 
 
-def write_whole(path: Path, text: str) -> None:
-    """Write a text file so that it is there as a whole or not at all; an existing one is replaced."""
-    with as_a_whole(path) as fresh:
+def write_whole(path: Path, text: str, *, replace: bool = True) -> None:
+    """Write a text file so that it is there as a whole or not at all; see `as_a_whole`."""
+    with as_a_whole(path, replace=replace) as fresh:
         fresh.write_text(text, encoding="utf-8")
 
 
 @contextmanager
-def as_a_whole(path: Path) -> Iterator[Path]:
+def as_a_whole(path: Path, *, replace: bool = True) -> Iterator[Path]:
     """Let a file be written so that it is there as a whole, or as it was before when that fails.
+
+    Parameters
+    ----------
+    replace : bool
+        Whether it takes the place of one that is there at the end, such as one that another process has
+        written meanwhile.
 
     Yields
     ------
     Path
         Where to write: a file beside it that takes its place at the end; a device or a pipe itself.
+
+    Raises
+    ------
+    InputError
+        A file is there at the end, and `replace` is not set.
     """
     path = path.resolve()
     if path.exists() and not path.is_file():
@@ -268,8 +294,21 @@ def as_a_whole(path: Path) -> Iterator[Path]:
     fresh = path.with_name(f".{path.name}.{os.getpid()}.new")
     try:
         yield fresh
+        if not replace:
+            _claim(path)
         fresh.replace(path)
     except BaseException:
         with suppress(OSError):
             fresh.unlink()
         raise
+
+
+def _claim(path: Path) -> None:
+    """Make an empty file of a name that is free; of two processes only one can."""
+    try:
+        path.open("xb").close()
+    except FileExistsError:
+        raise InputError(
+            f"{path}: another process has written this file meanwhile, and it stays; give another name, or "
+            "--force to replace it"
+        ) from None

@@ -196,7 +196,7 @@ class Twin:
         return 1 if changing else TIER_NOUNS[self.scene.tier].blocks_at_once
 
     def covered(self) -> bool:
-        """Whether the samples that the load of the next block depends on have arrived."""
+        """Tell whether the samples that the load of the next block depends on have arrived."""
         return self.load.covers(self.next_end_ns)
 
     @property
@@ -258,7 +258,7 @@ class Twin:
         return block
 
     def _loads(self, start_ns: int, end_ns: int, steps: int, blocks: int = 1) -> Float:
-        """Load at the step boundaries about the bearing centre, shape [steps * blocks + 1, 10]."""
+        """Interpolate the load at step ends about the bearing centre, shape [steps * blocks + 1, 10]."""
         loads = self.load.at_steps(start_ns, end_ns, steps, blocks)
         loads[:, :6] = self.scene.mounting.about_bearing_centre(loads[:, :6])
         return loads

@@ -7,7 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 
 def versions() -> dict[str, str]:
-    """By name: this package and what its numbers may depend on; ``source`` for what is not installed."""
+    """Collect versions by name, of this package and what its numbers depend on; ``source``: not installed."""
     found = dict.fromkeys(("beardyn", "numba", "numpy"), "source")
     for name in found:
         with suppress(PackageNotFoundError):

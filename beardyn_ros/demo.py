@@ -66,10 +66,12 @@ def main(argv: Sequence[str]) -> int:
 
 def _demo(args: argparse.Namespace) -> int:
     from beardyn_core.choice import load_scene
+    from beardyn_core.outputs import files_read
     from beardyn_core.study.demo_report import RECORDING_NAME, Pace, demo_folder, report
 
-    scene = load_scene(args.scene, duration=args.duration)
-    folder = demo_folder(args.out, force=args.force).resolve()
+    with files_read() as inputs:
+        scene = load_scene(args.scene, duration=args.duration)
+    folder = demo_folder(args.out, inputs=inputs, force=args.force).resolve()
     logs = folder / "logs"
     logs.mkdir(exist_ok=True)
     recording = folder / RECORDING_NAME

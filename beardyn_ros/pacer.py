@@ -37,11 +37,6 @@ class Pacer:
         """Simulated seconds per wall second; 0: as fast as it goes."""
         return self._speed_factor
 
-    @property
-    def lag_simulated_s(self) -> float:
-        """Simulated time by which the last block was behind its due time, [s]."""
-        return self.lag_s * self._speed_factor
-
     def set_speed_factor(self, speed_factor: float) -> None:
         """Change the pace from now on."""
         with self._lock:

@@ -40,14 +40,19 @@ RETURN_PERIOD_S = 30.0
 class RunnableNode(Protocol):
     """What a node shows to its process."""
 
-    finished: bool
-    exit_code: int
+    @property
+    def finished(self) -> bool:
+        """Whether there is nothing left to do."""
 
-    def close(self) -> None:
+    @property
+    def exit_code(self) -> int:
+        """Exit code of the process."""
+
+    def close(self) -> object:
         """End threads, publish last words, close files; called once, ROS still alive."""
 
 
-def run_node(make_node: Callable[[], Any], argv: Sequence[str]) -> int:
+def run_node(make_node: Callable[[], RunnableNode], argv: Sequence[str]) -> int:
     """Run one node until it is finished or the process is told to stop.
 
     Parameters

@@ -143,7 +143,7 @@ class _PolledGroup(CallbackGroup):
     """Keeps its subscriptions out of what the executor waits for."""
 
     def can_execute(self, entity: Any) -> bool:
-        """Never."""
+        """Say that nothing is ever ready: the waitable only counts."""
         return False
 
     def beginning_execution(self, entity: Any) -> bool:

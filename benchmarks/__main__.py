@@ -27,7 +27,7 @@ PARTS = (
 
 
 def measure(part: str, quick: bool, done: dict[str, Table]) -> Table:
-    """One part; ``quick`` is a fifth of the turns."""
+    """Run one part; ``quick`` is a fifth of the turns."""
     turns = 8 if quick else 40
     parts: dict[str, Callable[[], Table]] = {
         "rtf": lambda: real_time_factor.tiers_and_effects(turns),
@@ -48,7 +48,7 @@ def measure(part: str, quick: bool, done: dict[str, Table]) -> Table:
 
 
 def _standard_rtf(done: dict[str, Table], turns: int) -> float:
-    """Of the full tier with standard effects, measured in this run."""
+    """Find the factor of the full tier with standard effects, measured in this run."""
     table = done.get("rtf") or real_time_factor.standard_alone(turns)
     (row,) = [row for row in table.rows if row[0] == "full standard"]
     return float(row[2])

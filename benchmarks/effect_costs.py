@@ -60,7 +60,7 @@ STANDARD, FULL = load_effects("standard"), load_effects("full")
 
 
 def _sets() -> dict[str, EffectSet]:
-    """Effects of each set."""
+    """List the effects of each set."""
     found: dict[str, EffectSet] = {"standard": STANDARD}
 
     def more(name: str, **members: Any) -> None:
@@ -140,7 +140,7 @@ def _ready(scene: Scene, turns: int) -> Twin:
 
 
 def _microseconds(twin: Twin) -> tuple[float, float]:
-    """Time of a step in the kernel, and of the rest of the next block, channels included."""
+    """Measure the time of a step in the kernel, and of the rest of the next block, channels included."""
     began = time.perf_counter()
     kernel = twin.advance().wall_s
     rest = time.perf_counter() - began - kernel
@@ -148,7 +148,7 @@ def _microseconds(twin: Twin) -> tuple[float, float]:
 
 
 def measure(scene_name: str, turns: int, only: list[str]) -> list[dict[str, float | str]]:
-    """Time per step of every set, and its ratio to `standard`."""
+    """Measure the time per step of every set, and its ratio to `standard`."""
     base = load_scene(scene_name)
     scenes = {name: replace(base, effects=effects) for name, effects in _sets().items()}
     scenes |= {name: change(replace(base, effects=STANDARD)) for name, change in CHANGES.items()}

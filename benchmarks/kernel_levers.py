@@ -33,7 +33,7 @@ def _always(_value: Any) -> Any:
 
 @contextmanager
 def _anew(name: str, replacement: Callable[..., Any]) -> Iterator[Kernel]:
-    """`advance` with all kernels built anew around another function of a name; the first call compiles."""
+    """Make `advance` with all kernels anew around another function of a name; the first call compiles."""
     modules = [
         importlib.import_module(found.name)
         for found in pkgutil.iter_modules(kernels.__path__, f"{kernels.__name__}.")
@@ -66,7 +66,7 @@ def _rig(scene: Scene, width: int, explicit: bool = False) -> Rig:
 
 
 def kernel_levers(turns: int) -> Table:
-    """Time of a step without each lever over that of the step as it is, 80 kN, 6 laminae.
+    """Measure the time of a step without each lever over that of the step as it is, 80 kN, 6 laminae.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def _ratios(scene: Scene, turns: int) -> dict[str, float]:
 
 
 def _unskipped(scene: Scene) -> Kernel:
-    """`advance` that looks at every contact, compiled for a scene."""
+    """Make an `advance` that looks at every contact, compiled for a scene."""
     with _anew("any_positive", _always) as kernel:
         _rig(scene, LANE_WIDTH).run(1, kernel=kernel)
     return kernel

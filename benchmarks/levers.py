@@ -58,7 +58,7 @@ class Run:
         self.chatter: list[float] = []
 
     def advance(self) -> None:
-        """One block."""
+        """Advance by one block."""
         began = time.perf_counter()
         block = self.twin.advance()
         self.wall.append(time.perf_counter() - began)
@@ -69,7 +69,7 @@ class Run:
         self.chatter.append(float(chatter_index(self.twin._state, len(signals)).max()))
 
     def row(self, finest: Run) -> dict[str, Any]:
-        """Ratio of times, and differences from the finest."""
+        """Compute the ratio of times, and differences from the finest."""
         torque, reference = (np.concatenate(run.torque[SETTLING:]) for run in (self, finest))
         levels, wanted = (third_octaves(np.concatenate(run.vibration[SETTLING:])) for run in (self, finest))
         pairs = zip(self.wall[SETTLING:], finest.wall[SETTLING:], strict=True)
@@ -85,12 +85,12 @@ class Run:
 
 
 def third_octaves(signal: Float) -> Float:
-    """Levels of the bands of `THIRDS`, [dB]."""
+    """Compute levels of the bands of `THIRDS`, [dB]."""
     return third_octave_levels(signal[:, None])[-len(THIRDS) :]
 
 
 def steps(arguments: argparse.Namespace) -> list[dict[str, Any]]:
-    """Every number of steps per sample against the finest."""
+    """Compare every number of steps per sample against the finest."""
     blocks = SETTLING + round(arguments.duration / 0.02)
     counts = sorted(set(arguments.steps))
     runs = [Run(arguments.effects, 1e3 * arguments.load, arguments.speed, count, blocks) for count in counts]
@@ -129,7 +129,7 @@ class Line:
         self.factor = share * line_contact_factor(bearing.material, bearing.effective_length)
 
     def load_and_moment(self, approach: float, tilt: float) -> tuple[float, float]:
-        """Load, [N], and moment about mid-length, [N m], at an approach and a tilt."""
+        """Compute load, [N], and moment about mid-length, [N m], at an approach and a tilt."""
         load = self.factor * np.maximum(approach + tilt * self.place - self.drop, 0.0) ** (10.0 / 9.0)
         return float(load.sum()), float((load * self.place).sum())
 
@@ -138,18 +138,18 @@ class Line:
         return float(brentq(lambda d: self.load_and_moment(d, tilt)[0] - load, -1e-4, 1e-3, xtol=1e-16))
 
     def moment(self, load: float, tilt: float) -> float:
-        """Moment of a tilt at constant load, [N m]."""
+        """Compute the moment of a tilt at constant load, [N m]."""
         return self.load_and_moment(self.approach(load, tilt), tilt)[1]
 
     def measures(self) -> Float:
-        """Load at a set approach; approach, moment of a tilt and tilt stiffness at a set load."""
+        """Compute load at a set approach; approach, moment of a tilt and tilt stiffness at a set load."""
         stiffness = (self.moment(LINE_LOAD, TILT_STEP) - self.moment(LINE_LOAD, -TILT_STEP)) / (2 * TILT_STEP)
         load = self.load_and_moment(2.0e-5, 0.0)[0]
         return np.array([load, self.approach(LINE_LOAD, 0.0), self.moment(LINE_LOAD, TILT), stiffness])
 
 
 def uniform(bearing: Bearing, profile: Profile, count: int) -> Line:
-    """Equal laminae, each with the mean drop over its length."""
+    """Cut equal laminae, each with the mean drop over its length."""
     length = bearing.effective_length
     place = ((np.arange(count) + 0.5) / count - 0.5) * length
     drop = profile.lamina_drop(count, length, bearing.roller_diameter, bearing.material.contact_modulus)
@@ -157,7 +157,7 @@ def uniform(bearing: Bearing, profile: Profile, count: int) -> Line:
 
 
 def gauss(bearing: Bearing, profile: Profile, count: int) -> Line:
-    """Gauss-Legendre points with their weights, the drop taken at the point."""
+    """Compute Gauss-Legendre points with their weights, the drop taken at the point."""
     node, weight = np.polynomial.legendre.leggauss(count)
     half = 0.5 * bearing.effective_length
     drop = profile.drop_at(half * node, half, bearing.roller_diameter, bearing.material.contact_modulus)
@@ -165,7 +165,7 @@ def gauss(bearing: Bearing, profile: Profile, count: int) -> Line:
 
 
 def laminae(arguments: argparse.Namespace) -> list[dict[str, Any]]:
-    """Errors in percent of uniform and of Gauss laminae."""
+    """Compute errors in percent of uniform and of Gauss laminae."""
     bearing = load_bearing(arguments.bearing)
     rows = []
     print(f"{arguments.bearing}, {LINE_LOAD / 1e3:g} kN on a roller; errors in % against {FINE} laminae")

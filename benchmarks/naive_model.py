@@ -57,7 +57,7 @@ class NaiveModel:
     calls: int = 0
 
     def initial_state(self) -> Float:
-        """Bodies, then centre, axis, velocity and momentum of each roller."""
+        """Stack bodies, then centre, axis, velocity and momentum of each roller."""
         fields = self.rig.fields()[:ROLLER_STATES]
         count = self.rig.scene.bearing.roller_count
         rollers = [cartesian(fields[:, row, k]) for row in (0, 1) for k in range(count)]
@@ -65,7 +65,7 @@ class NaiveModel:
         return np.concatenate([self.rig.state.bodies.ravel(), *parts])
 
     def rates(self, _time: float, state: Float) -> Float:
-        """Time derivative of the state."""
+        """Compute the time derivative of the state."""
         self.calls += 1
         bodies = state[:_BODY_VALUES].reshape(4, BODY_STATES)
         rollers = state[_BODY_VALUES:].reshape(2, -1, 4, 3)
@@ -76,7 +76,7 @@ class NaiveModel:
         return np.concatenate([self._body_rates(bodies, wrenches).ravel(), roller_rates.ravel()])
 
     def wrenches(self, state: Float) -> Float:
-        """World wrenches of the rollers on cup, cone and cages, shape [4, 6]."""
+        """Compute the world wrenches of the rollers on cup, cone and cages, shape [4, 6]."""
         bodies = state[:_BODY_VALUES].reshape(4, BODY_STATES)
         rollers = state[_BODY_VALUES:].reshape(2, -1, 4, 3)
         found = np.zeros((4, 6))
@@ -86,7 +86,7 @@ class NaiveModel:
         return found
 
     def _roller(self, bodies: Float, row: int, k: int, roller: Float, rates: Float, wrenches: Float) -> None:
-        """Rates of one roller; adds its reactions."""
+        """Compute the rates of one roller; adds its reactions."""
         p, scene = self.rig.parameters, self.rig.scene
         effects: Any = p.effects  # the standard ones, all present
         constants = p.roller
@@ -167,7 +167,7 @@ class NaiveModel:
 
 
 def forces_against_kernel(rig: Rig) -> tuple[float, float]:
-    """Largest difference of the cup's force and of the shaft's torque at the start, relative.
+    """Compute the largest difference of the cup's force and of the shaft's torque at the start, relative.
 
     The kernel makes one step so short that nothing moves.
     """
@@ -183,7 +183,7 @@ def forces_against_kernel(rig: Rig) -> tuple[float, float]:
 
 
 def yardstick(simulated: float, kernel_rtf: float) -> Table:
-    """Wall time of the plain model over some microseconds, against the kernel's real-time factor."""
+    """Time the plain model over some microseconds, against the kernel's real-time factor."""
     rig = Rig.at_equilibrium(standard_scene())
     force_off, torque_off = forces_against_kernel(rig)
     rows = []

@@ -93,7 +93,7 @@ class _Listener:
         self.arrivals.append((time.monotonic(), header_stamp(cdr) * 1e-9))
 
     def state(self) -> str:
-        """Of the twin."""
+        """Return the state of the twin."""
         return str(self.twin.value("state")) if self.twin else ""
 
     def until(self, states: tuple[str, ...], timeout: float, processes: Processes) -> None:
@@ -114,7 +114,7 @@ class _Listener:
 def run_paced(
     scene: str, effects: str, laminae: int, seconds: float, steps: int = 4, mode: str = "lockstep"
 ) -> Heard:
-    """One run at speed factor 1.
+    """Do one run at speed factor 1.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def run_paced(
 
 
 def row(effects: str, laminae: int, steps: int, heard: Heard) -> tuple[str | float | int, ...]:
-    """Row of the table."""
+    """Write the row of the table."""
 
     def number(key: str) -> float:
         return float(heard.last.value(key) or 0.0)
@@ -177,7 +177,7 @@ def row(effects: str, laminae: int, steps: int, heard: Heard) -> tuple[str | flo
 
 
 def paced(seconds: float, scene: str = SCENE, levels: tuple[tuple[str, int, int], ...] = LEVELS) -> Table:
-    """Levels from the finest down to the first that keeps up for the whole time."""
+    """Try levels from the finest down to the first that keeps up for the whole time."""
     rows: list[tuple[str | float | int, ...]] = []
     note = f"speed factor 1, lockstep; load average {os.getloadavg()[0]:.2f} before"
     if not ros_available():
@@ -193,7 +193,7 @@ def paced(seconds: float, scene: str = SCENE, levels: tuple[tuple[str, int, int]
 
 
 def main() -> None:
-    """One level."""
+    """Run one level."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.paced_twin", description=__doc__)
     parser.add_argument("--scene", default=SCENE)
     parser.add_argument("--effects", default=LEVELS[0][0])

@@ -25,7 +25,7 @@ TWINS = 2
 
 
 def _advance(twin: Twin, blocks: int) -> tuple[float, float]:
-    """Wall time and the kernel's share of it, [s]."""
+    """Measure the wall time and the kernel's share of it, [s]."""
     began, kernel = time.perf_counter(), 0.0
     for _ in range(blocks):
         kernel += twin.advance().wall_s
@@ -57,7 +57,7 @@ class _Children:
             pipe.recv()
 
     def run(self, blocks: int) -> float:
-        """Wall time until all have advanced, [s]."""
+        """Measure the wall time until all have advanced, [s]."""
         began = time.perf_counter()
         for pipe in self._pipes:
             pipe.send(blocks)
@@ -73,7 +73,7 @@ class _Children:
 
 
 def _in_threads(twins: list[Twin], blocks: int) -> float:
-    """Wall time until all have advanced, [s]."""
+    """Measure the wall time until all have advanced, [s]."""
     threads = [threading.Thread(target=_advance, args=(twin, blocks)) for twin in twins]
     began = time.perf_counter()
     for thread in threads:
@@ -84,7 +84,7 @@ def _in_threads(twins: list[Twin], blocks: int) -> float:
 
 
 def parallel(turns: int) -> Table:
-    """Throughput of two twins against one."""
+    """Measure the throughput of two twins against one."""
     blocks = turns * (BLOCKS + 1) + 1
     twins = [started(load_scene(SCENE), 2 * blocks) for _ in range(TWINS)]
     children = _Children(blocks)

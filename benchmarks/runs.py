@@ -43,7 +43,7 @@ class Table:
     note: str = ""
 
     def lines(self) -> list[str]:
-        """For the terminal."""
+        """Write the table for the terminal."""
         cells = [self.columns, *(tuple(shown(cell) for cell in row) for row in self.rows)]
         widths = [max(len(row[i]) for row in cells) for i in range(len(self.columns))]
         text = [
@@ -52,13 +52,13 @@ class Table:
         return ["", self.title, "-" * len(self.title), *text, *([self.note] if self.note else [])]
 
     def to_json(self) -> dict[str, Any]:
-        """Title, note and rows as objects."""
+        """Gather title, note and rows as objects."""
         rows = [dict(zip(self.columns, row, strict=True)) for row in self.rows]
         return {"title": self.title, "note": self.note, "columns": list(self.columns), "rows": rows}
 
 
 def shown(cell: Cell) -> str:
-    """Three significant digits, whole numbers whole."""
+    """Write three significant digits, whole numbers whole."""
     if isinstance(cell, float):
         return f"{cell:.0f}" if abs(cell) >= 1000.0 else f"{cell:.3g}"
     return str(cell)
@@ -73,7 +73,7 @@ class Timing:
     total: list[float] = field(default_factory=list)
 
     def step_us(self) -> float:
-        """Median time of a step in the kernel, [us]."""
+        """Compute the median time of a step in the kernel, [us]."""
         return 1e6 * statistics.median(self.kernel) / (512 * self.twin.scene.numerics.steps_per_sample)
 
     def real_time_factor(self) -> float:
@@ -81,7 +81,7 @@ class Timing:
         return self.twin.block_ns * 1e-9 / statistics.median(self.total)
 
     def ratio_to(self, other: Timing) -> float:
-        """Median over the turns of the time against that of another twin."""
+        """Compute the median over the turns of the time against that of another twin."""
         return statistics.median(a / b for a, b in zip(self.total, other.total, strict=True))
 
 
@@ -113,7 +113,7 @@ STRETCHES = 5
 def measure_alone(
     scenes: dict[str, Scene], stretches: int = STRETCHES
 ) -> dict[str, tuple[float, float, float]]:
-    """Real-time factors of runs that each have the machine to themselves for a while.
+    """Measure the real-time factors of runs that each have the machine to themselves for a while.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ class Line:
 
 
 def straight_line(x: list[float], y: list[float]) -> Line:
-    """Least squares."""
+    """Fit a straight line by least squares."""
     slope, offset = np.polyfit(x, y, 1)
     left = np.asarray(y) - (offset + slope * np.asarray(x))
     spread = np.asarray(y) - np.mean(y)

@@ -62,7 +62,7 @@ def _run(code: str, *words: str, cache: str | None = None) -> list[float]:
 
 
 def compiling(sets: tuple[str, ...] = SETS) -> Table:
-    """Kernel of the full tier for every shipped set, and of the fast tiers for the standard one."""
+    """Compile the full tier for every shipped set, and the fast tiers for the standard one, with the time."""
     rows = []
     for tier, name in [("full", name) for name in sets] + [
         (t, "standard") for t in ("quasistatic", "lumped")
@@ -79,7 +79,7 @@ def compiling(sets: tuple[str, ...] = SETS) -> Table:
 
 
 def cold_start(repetitions: int, scene: str = "smooth_run") -> Table:
-    """From the start of the process to the end of the first block."""
+    """Time from the start of the process to the end of the first block."""
     _run(_START, scene)  # fills the cache
     durations = []
     for _ in range(repetitions):

@@ -23,7 +23,7 @@ SURFACES = {
 
 
 def stages(blocks: int) -> Table:
-    """Stage clocks of runs with the standard and with every effect, medians over blocks."""
+    """Measure the stage clocks of runs with the standard and with every effect, medians over blocks."""
     times: list[dict[str, float]] = []
     for name in ("standard", "full"):
         scene = replace(load_scene("static_80kN"), effects=load_effects(name))
@@ -57,12 +57,12 @@ def stages(blocks: int) -> Table:
 
 
 def share(times: dict[str, float], stage: str) -> float:
-    """Of the whole, [%]."""
+    """Compute the share of the whole, [%]."""
     return 100.0 * times.get(stage, 0.0) / times["sum"]
 
 
 def laminae(turns: int) -> Table:
-    """Straight line of the step's time over the number of laminae, per set of effects."""
+    """Fit a straight line of the step's time over the number of laminae, per set of effects."""
     base = load_scene("static_80kN")
     scenes = {
         f"{name} {count}": replace(

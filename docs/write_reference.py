@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.config import SCHEMA_KINDS, json_schema
-from beardyn_core.edge import unit_of
+from beardyn_core.units import unit_of
 
 PAGE = Path(__file__).with_name("reference.md")
 

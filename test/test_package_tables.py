@@ -69,3 +69,33 @@ def test_every_kind_of_mistake_is_found(tmp_path: Path) -> None:
     ]
     (tmp_path / "__init__.py").write_text('"""A package without a table."""\n')
     assert len(problems(tmp_path)) == 1
+
+
+FOLDERS = sorted(path.parent for path in (REPOSITORY / "evidence").glob("*/__init__.py"))
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda path: path.name)
+def test_every_page_has_its_run_its_writer_and_its_test_in_one_folder(folder: Path) -> None:
+    assert list(folder.glob("test_*.py"))
+    # what is tried with nodes goes into README and docs/ros.md, which are written by hand
+    assert folder.name == "ros" or (folder / "page.py").is_file()
+
+
+CONTRIBUTING = (REPOSITORY / "CONTRIBUTING.md").read_text(encoding="utf-8")
+
+
+def first_cells(heading: str) -> set[str]:
+    """Names in the first column of the table under a heading."""
+    section = CONTRIBUTING.split(f"## {heading}\n")[1].split("\n## ")[0]
+    cells = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
+    return {name for cell in cells for name in re.findall(r"`([^`]+)`", re.sub(r"\(.*\)", "", cell))}
+
+
+def test_contributing_names_every_package_and_every_folder_of_tests() -> None:
+    rooms = {path.parent.name for path in (REPOSITORY / "beardyn_core").glob("*/__init__.py")}
+    folders = {f"test/{path.name}" for path in (REPOSITORY / "test").iterdir() if any(path.glob("test_*.py"))}
+    where, tests = first_cells("Where things are"), first_cells("Tests")
+    assert rooms | {"beardyn_ros", "evidence", "benchmarks"} <= where
+    assert tests == folders | {"evidence/*/test_*.py"}
+    for name in where:
+        assert any((REPOSITORY / root / name).exists() for root in (".", "beardyn_core")), name

@@ -4,7 +4,8 @@
 module      responsibility
 =========== ==================================================================
 making      bearings, lubricants and scenes from a handful of arguments
-simulating  simulate a scene, read a recording, let a monitor judge a run
+simulating  simulate a scene
+reading     read a recording, let a monitor judge a run
 statics     stiffness, torque, life, film and load distribution, no run needed
 heat        steady temperatures and losses by source, no run needed either
 =========== ==================================================================

@@ -13,7 +13,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.choice import scene_from_mapping
 from beardyn_core.config.folders import find
-from beardyn_core.config.load import bearing_from_mapping, load_lubricant
+from beardyn_core.config.nouns import bearing_from_mapping, load_lubricant
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet

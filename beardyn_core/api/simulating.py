@@ -1,4 +1,4 @@
-"""Simulate a scene, read a recording, let a monitor judge a run."""
+"""Simulate a scene."""
 
 from __future__ import annotations
 
@@ -11,22 +11,18 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.api.making import scene as make_scene
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.choice import scene_from_text
+from beardyn_core.config.content import files_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
-from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
 from beardyn_core.observe.summary import RunSummary
 from beardyn_core.outputs import files_read, recording_problems
-from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import McapSink, MemorySink, Sink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
-from beardyn_core.study.monitored_recording import Conclusion, conclude, findings_of
 
 
 def simulate(
@@ -82,6 +78,7 @@ def simulate(
     untouched = isinstance(scene, Scene) and all(value is None for value in asked.values())
     with files_read() as inputs:
         made = scene if isinstance(scene, Scene) and untouched else make_scene(scene, **asked)  # type: ignore[arg-type]
+    inputs += files_of(made)
     memory = MemorySink()
     sinks: list[Sink] = [memory]
     if record is not None:
@@ -127,58 +124,3 @@ def _bar(total: float, shown: bool) -> Iterator[Callable[[Block], None] | None]:
             bar.update(min((block.end_ns - block.start_ns) * 1e-9, max(bar.total - bar.n, 0.0)))
 
         yield advance
-
-
-def read(path: Path | str, namespace: str | None = None) -> Run:
-    """Read a recording; of a cut-off one everything up to the last complete chunk.
-
-    Parameters
-    ----------
-    path : Path
-        MCAP file of ``beardyn simulate``, of the recorder node, or of ``simulate(..., record=...)``.
-    namespace : str, optional
-        Of the axlebox to read; by default the first one in the file.
-
-    Raises
-    ------
-    InputError
-        The file is absent, not MCAP, or holds not one usable message.
-    """
-    return read_run(path, namespace)
-
-
-def monitor(
-    run: Run | Path | str,
-    algorithm: Algorithm = REFERENCE,
-    *,
-    bearing: Bearing | None = None,
-    settings: MonitorSettings | None = None,
-) -> Conclusion:
-    """Let a monitor judge a run, as ``beardyn monitor`` does.
-
-    Parameters
-    ----------
-    run : Run or Path
-        A run or a recording: vibration of its first accelerometer, shaft, load and temperature are used,
-        and nothing else.
-    algorithm : function, optional
-        In place of the reference chain: a `Chain`, or a function like it.
-    bearing : Bearing, optional
-        What the name plate says; by default the bearing of the scene.
-    settings : MonitorSettings, optional
-
-    Returns
-    -------
-    Conclusion
-        The most frequent verdict, how many analyses agree, and one of them.
-
-    Raises
-    ------
-    InputError
-        The run has no vibration with a shaft angle, or does not say which bearing it is of.
-    """
-    run = run if isinstance(run, Run) else read_run(run)
-    if bearing is None and not run.scene_text:
-        raise InputError(f"{run.label}: does not say which bearing it is of; give bearing")
-    plate = bearing or scene_from_text(run.scene_text, run.label).bearing
-    return conclude(findings_of(run, plate, algorithm, settings))

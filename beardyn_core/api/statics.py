@@ -30,6 +30,7 @@ from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.torque import entrainment_speeds, running_torque
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import oil_supply
+from beardyn_core.scene.operation import MOST_RPM
 
 Load = float | Sequence[float]
 
@@ -79,7 +80,7 @@ def equilibrium(
         end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
         tilt=tilt,
         laminae=laminae,
-        speed=speed_rpm * _RPM,
+        speed=_speed(speed_rpm),
     )
 
 
@@ -216,7 +217,7 @@ def life(
     x, y, z = _force(chosen, load_kN)
     rated = rating_life(
         chosen,
-        (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(speed_rpm) * _RPM),),
+        (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(_speed(speed_rpm))),),
         _lubricant(lubricant),
         _kelvin(temperature_C),
         end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
@@ -295,7 +296,7 @@ def fault_frequencies(bearing: Bearing | str, speed_rpm: float | None = None) ->
     dict
         [Hz] at that speed, without one per revolution of the shaft. A roller fault strikes at 2 BSF.
     """
-    hertz = 1.0 if speed_rpm is None else abs(speed_rpm) / 60.0
+    hertz = 1.0 if speed_rpm is None else abs(_speed(speed_rpm)) / (2.0 * math.pi)
     return {name: hertz * value for name, value in frequencies_per_rev(_bearing(bearing)).by_name.items()}
 
 
@@ -321,6 +322,13 @@ def _force(bearing: Bearing, load_kN: Any) -> tuple[float, float, float]:
     if doubt:
         warnings.warn(f"load_kN: {doubt}", stacklevel=4)
     return numbers[0], numbers[1], numbers[2]
+
+
+def _speed(speed_rpm: float) -> float:
+    """Turn a shaft speed into [rad/s]; refuse what a scene refuses."""
+    if not isinstance(speed_rpm, Real) or not abs(speed_rpm) <= MOST_RPM:
+        raise InputError(f"speed_rpm is {speed_rpm!r}; give a number from {-MOST_RPM:g} to {MOST_RPM:g}")
+    return float(speed_rpm) * _RPM
 
 
 def _each(name: str, values: Any, answer: Callable[[float], Any]) -> Any:

@@ -116,7 +116,7 @@ def bearing_lamina_root(bearing: Bearing, coupling: LaminaCoupling, count: int) 
 
 
 def coupled_law(depth: Float, factor: float, laminae: LaminaRoot) -> tuple[Float, Float, Float]:
-    """Load, tangent stiffness and energy of coupled laminae, iterated to rounding.
+    """Compute load, tangent stiffness and energy of coupled laminae, iterated to rounding.
 
     Parameters
     ----------

@@ -124,21 +124,14 @@ class Lubricant:
         """Compute the level ln eta_0 + 9.67 and exponent Z of Roelands' law at `temperature` [K].
 
         The slope at ambient pressure is that of Barus: Z = alpha / [5.1e-9 (ln eta_0 + 9.67)].
-        """
-        level = math.log(self.dynamic_viscosity(temperature)) + 9.67
-        return level, self.pressure_viscosity_at(temperature) / (5.1e-9 * level)
-
-    def roelands_viscosity(self, temperature: float, pressure: float) -> float:
-        """Compute the dynamic viscosity at `pressure` [Pa] and `temperature` [K], [Pa s].
 
         References
         ----------
         Roelands, C. J. A. (1966): eta = eta0 exp{(ln eta0 + 9.67)[-1 + (1 + 5.1e-9 p)^Z]}; eta0 and alpha are
         taken at `temperature`, which stands for his temperature factor.
         """
-        level, exponent = self.roelands_constants(temperature)
-        thickening = level * ((1.0 + 5.1e-9 * pressure) ** exponent - 1.0)
-        return self.dynamic_viscosity(temperature) * math.exp(thickening)
+        level = math.log(self.dynamic_viscosity(temperature)) + 9.67
+        return level, self.pressure_viscosity_at(temperature) / (5.1e-9 * level)
 
 
 def _walther(kinematic_viscosity: float) -> float:

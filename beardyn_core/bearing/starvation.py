@@ -55,7 +55,7 @@ def _table(inlet: Callable[[float], tuple[float, float]]) -> tuple[Float, Float]
 
 
 def _rigid_inlet(meniscus: float) -> tuple[float, float]:
-    """Film and couple at a given load, gap 1 + x^2, up to a common factor."""
+    """Compute film and couple at a given load, gap 1 + x^2, up to a common factor."""
     outlet = brentq(lambda end: _martin(meniscus, end)[0][-1], 1e-4 * min(meniscus, 1.0), min(meniscus, 3.0))
     pressure, x = _martin(meniscus, outlet)
     film = float(trapezoid(pressure, x))
@@ -63,14 +63,14 @@ def _rigid_inlet(meniscus: float) -> tuple[float, float]:
 
 
 def _martin(meniscus: float, outlet: float) -> tuple[Float, Float]:
-    """Pressure from the meniscus to the outlet, where its slope vanishes."""
+    """Compute the pressure from the meniscus to the outlet, where its slope vanishes."""
     x = np.concatenate([-np.geomspace(meniscus, 1e-4 * outlet, _POINTS), np.linspace(0.0, outlet, _POINTS)])
     gap = 1.0 + x * x
     return cumulative_trapezoid((gap - gap[-1]) / gap**3, x, initial=0.0), x
 
 
 def _elastic_inlet(meniscus: float) -> tuple[float, float]:
-    """Film and couple at a given load, gap 1 + x^1.5 before the contact's edge, up to a common factor."""
+    """Compute film and couple at a load, gap 1 + x^1.5 before the contact's edge, up to a common factor."""
     x = np.geomspace(1e-8 * meniscus, meniscus, 2 * _POINTS)
     built_up = cumulative_trapezoid(x**1.5 / (1.0 + x**1.5) ** 3, x, initial=0.0) + 0.4 * x[0] ** 2.5
     pressure = -np.log(built_up / built_up[-1])

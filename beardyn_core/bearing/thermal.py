@@ -17,7 +17,8 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.edge import UNITS, At
+from beardyn_core.edge import At
+from beardyn_core.units import UNITS
 
 STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
 

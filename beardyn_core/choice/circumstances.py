@@ -42,7 +42,6 @@ class Circumstances:
     """The load cases of a scene."""
 
     cases: A[tuple[LoadCase, ...], "the typical one first; those that are nearly the same are left out"]
-    lightest: A[float, "force of the lightest case, [N]"]
     top_speed: A[float, "largest amount of the shaft speed, [rad/s]"]
     axial_low: A[float, "smallest axial force, [N]"]
     axial_high: A[float, "largest axial force, [N]"]
@@ -83,7 +82,6 @@ def circumstances(scene: Scene) -> Circumstances:
             cases.append(case)
     return Circumstances(
         tuple(cases),
-        lightest=float(size[picks["lightest"]]),
         top_speed=float(np.abs(speed).max()),
         axial_low=float(axial.min()),
         axial_high=float(axial.max()),

@@ -9,7 +9,8 @@ from typing import Annotated as A
 
 from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
-from beardyn_core.config.load import OpenScene, load_effects, read_scene, read_scene_mapping, read_scene_text
+from beardyn_core.config.load import OpenScene, read_scene, read_scene_mapping, read_scene_text
+from beardyn_core.config.nouns import load_effects
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.scene import EFFECTS, Scene
 

@@ -281,7 +281,7 @@ class Losses:
     def _shared(
         self, law: LoadSharingTraction, film: LineFilm | None, loads: Float, needed: float
     ) -> tuple[float, float]:
-        """Sum of asperity and film friction over the rollers, solved for the slip."""
+        """Compute the sum of asperity and film friction over the rollers, solved for the slip."""
         slips = np.geomspace(1.0e-7, _DEEP_SLIP, 400)
         force = self._shared_force(law, film, loads, slips)
         available = float(force.max())

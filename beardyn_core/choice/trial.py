@@ -10,14 +10,15 @@ import numpy as np
 
 from beardyn_core.choice.load import scene_from_mapping
 from beardyn_core.config.folders import find
-from beardyn_core.config.load import read_trial
+from beardyn_core.config.nouns import read_trial
 from beardyn_core.config.scene_file import overlay
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.edge import UNITS, written
+from beardyn_core.edge import written
 from beardyn_core.errors import InputError
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import HEALTHY, Cell, Spall, Trial
+from beardyn_core.units import UNITS
 
 # a spall of the cup is where the load is
 _LOAD_ZONE_DEG = 30.0

@@ -5,7 +5,8 @@ module      responsibility
 =========== ========================================================================
 main        the parser, the list of subcommands, exit codes, complaints
 json_output strict JSON with a version, for every ``--json``
-files       inputs and outputs of a command: all complaints at once, a folder to write
+files       inputs and outputs of a command: complaints at once, doubts, a folder to write
+options     options that several commands have
 quantities  numbers with units in options
 demo        the main job in one go
 scenes      what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
 
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_json
 from beardyn_core.cli.quantities import NEGATIVE_QUANTITY, read_quantity
 from beardyn_core.errors import InputError
 
@@ -84,7 +85,7 @@ def add_parser(subparsers: Any) -> None:
         action="store_true",
         help="laminae sink with each other: edge load; default independent",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -137,6 +138,9 @@ def run(args: argparse.Namespace) -> int:
 
 def _operation(args: argparse.Namespace) -> tuple[tuple[float, float, float], float | None, float]:
     """Read load, end play and speed; raise `InputError` with everything that makes no sense."""
+    from beardyn_core.scene.operation import MOST_RPM
+    from beardyn_core.units import UNITS
+
     problems: list[str] = []
 
     def read(option: str, text: str, dimension: str) -> float:
@@ -151,6 +155,8 @@ def _operation(args: argparse.Namespace) -> tuple[tuple[float, float, float], fl
     speed = read("--speed", args.speed, "rotation")
     if end_play is not None and abs(end_play) > _MOST_END_PLAY:
         problems.append(f"--end-play is {end_play * 1e3:g} mm; it must lie within ±{_MOST_END_PLAY * 1e3:g}")
+    if abs(speed) > UNITS["rpm"].to_si(MOST_RPM):
+        problems.append(f"--speed is {args.speed}; it must be at most {MOST_RPM:g} rpm either way")
     if args.laminae < 1:
         problems.append(f"--laminae is {args.laminae}; it must be at least 1")
     if not -60.0 <= args.temperature <= 200.0:
@@ -212,14 +218,12 @@ def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
 
 
 def _most_loaded_roller(bearing: Bearing, solution: StaticSolution) -> dict[str, Any]:
-    """Load and Hertz pressure along the most loaded roller, from its small to its large end."""
+    """Compute load and Hertz pressure along the most loaded roller, from its small to its large end."""
     from beardyn_core.model.laminae import lamina_places, lamina_pressure
 
     row, roller = divmod(int(solution.cup_load.argmax()), solution.cup_load.shape[1])
     count = solution.cup_lamina_load.shape[-1]
-    report: dict[str, Any] = {
-        "row": row, "roller": roller, "place_m": lamina_places(bearing, count)
-    }  # fmt: skip
+    report: dict[str, Any] = {"row": row, "roller": roller, "place_m": lamina_places(bearing, count)}
     for ring, loads in (("cup", solution.cup_lamina_load), ("cone", solution.cone_lamina_load)):
         load = loads[row, roller]
         report[f"{ring}_load_per_length_N_per_m"] = load * count / bearing.effective_length

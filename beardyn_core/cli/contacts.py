@@ -9,6 +9,7 @@ from pathlib import Path
 
 from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.interrupts import last_words, may_be_left
 from beardyn_core.outputs import file_problems, folder_problems, write_whole
 
@@ -48,8 +49,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=Path,
         help="write coin and roller as an animation for rerun; default none",
     )
-    parser.add_argument("--force", action="store_true", help="replace files that exist")
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    add_force(parser)
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -74,17 +75,19 @@ def run(args: argparse.Namespace) -> int:
     ):
         found = find(bearing, quick=args.quick, say=say)
     result = json_object(found)
+    print(json_text("contacts", result) if args.json else report(found), flush=True)
     if args.output is not None:
         from beardyn_core.study.contacts_picture import write_pictures
 
         with made_folder(args.output):
-            write_whole(args.output / FILES[0], json_text("contacts", result, indent=1) + "\n")
-            write_pictures(found, args.output)
+            write_whole(
+                args.output / FILES[0], json_text("contacts", result, indent=1) + "\n", replace=args.force
+            )
+            write_pictures(found, args.output, replace=args.force)
     if args.rrd is not None:
         from beardyn_core.record.rerun_rolling import save_rolling
 
-        say(f"{save_rolling(found.rolling, args.rrd)}: open it with: rerun {args.rrd}")
-    print(json_text("contacts", result) if args.json else report(found))
+        say(f"{save_rolling(found.rolling, args.rrd, replace=args.force)}: open it with: rerun {args.rrd}")
     return DONE
 
 
@@ -93,5 +96,5 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
     problems = folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force)
     if args.rrd is not None and (args.rrd.parent != args.output or args.output.is_dir()):
         # a folder that is missing is made before the file is written
-        problems += file_problems("--rrd", args.rrd, inputs=inputs, force=args.force)
+        problems += file_problems("--rrd", args.rrd, inputs=inputs, force=args.force, ending=".rrd")
     return problems

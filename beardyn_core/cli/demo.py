@@ -9,7 +9,9 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
+from beardyn_core.cli.files import tell_doubts
 from beardyn_core.interrupts import last_words
+from beardyn_core.outputs import files_read
 from beardyn_core.study.demo_console import Progress, add_arguments, say
 
 if TYPE_CHECKING:
@@ -41,9 +43,11 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.demo_report import RECORDING_NAME, demo_folder
     from beardyn_core.study.monitored_recording import MonitoredRecording
 
-    scene = load_scene(args.scene, duration=args.duration)
-    folder = demo_folder(args.out, force=args.force)
+    with files_read() as inputs:
+        scene = load_scene(args.scene, duration=args.duration)
+    folder = demo_folder(args.out, inputs=inputs, force=args.force)
     say(f"{scene.name}: {scene.purpose}")
+    tell_doubts(scene)
     say("compiling ... (a minute the first time, kept for the next)")
     progress = Progress(scene.duration)
     recording = MonitoredRecording(

@@ -7,8 +7,9 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import checked
+from beardyn_core.cli.files import checked, tell_doubts
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_choice, add_json, chosen
 
 if TYPE_CHECKING:
     from beardyn_core.choice import Explanation
@@ -27,26 +28,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "costs and which error is expected. For a scene that fixes them, also what `effects: auto` would be.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
-    parser.add_argument(
-        "--accuracy", metavar="PERCENT", type=float, help="accuracy asked for, %%; default the scene's, or 5"
-    )
-    parser.add_argument(
-        "--quantities",
-        metavar="NAMES",
-        help="quantities that the accuracy applies to, with commas between: force, deflection, "
-        "roller_load, torque, vibration, cage_speed; default the scene's",
-    )
-    parser.add_argument(
-        "--vibration-to",
-        metavar="HZ",
-        type=float,
-        help="highest third octave of the vibration, Hz; default the scene's, or what its sensors hear",
-    )
-    parser.add_argument(
-        "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's"
-    )
-    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's")
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    add_choice(parser)
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -54,16 +37,9 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice import explain_scene
 
-    quantities = None if args.quantities is None else [name.strip() for name in args.quantities.split(",")]
     with checked():
-        found = explain_scene(
-            args.scene,
-            effects=args.effects,
-            tier=args.tier,
-            accuracy_percent=args.accuracy,
-            quantities=quantities,
-            vibration_to=args.vibration_to,
-        )
+        found = explain_scene(args.scene, **chosen(args))
+    tell_doubts(found.scene)
     print(json_text("explain", json_object(found)) if args.json else text(found))
     return DONE
 

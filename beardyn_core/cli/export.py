@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.interrupts import last_words
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -31,8 +33,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="signals, with commas between: vibration, force, force_waveform, shaft, torque, cages, "
         "rollers, bodies, contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
     )
-    parser.add_argument("--force", action="store_true", help="replace files that exist")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_force(parser)
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -43,11 +45,13 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.record.exporting import export
     from beardyn_core.record.reading import read_run
 
-    recording = read_run(args.recording)
+    with last_words(lambda: "nothing has been written"):
+        recording = read_run(args.recording)
     if recording.problem:
         print(f"{recording.problem}; writing what is there", file=sys.stderr)
     names = [name.strip() for name in args.signals.split(",") if name.strip()]
-    written = export(recording, args.output, signals=names, force=args.force)
+    with last_words(lambda: "files that are written are whole, the others are as they were"):
+        written = export(recording, args.output, signals=names, force=args.force)
     if args.json:
         print(json_text("export", {"recording": args.recording, "files": written}))
         return 0

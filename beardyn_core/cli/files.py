@@ -1,13 +1,18 @@
-"""Inputs and outputs of a command: all complaints at once, and a folder that can be written."""
+"""Inputs and outputs of a command: all complaints at once, doubts, and a folder that can be written."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import files_read
+
+if TYPE_CHECKING:
+    from beardyn_core.scene.scene import Scene
 
 
 @contextmanager
@@ -28,6 +33,12 @@ def checked(more: Callable[[list[Path]], list[str]] = lambda _: []) -> Iterator[
             ]
     if problems := problems + more(inputs):
         raise InputError(problems)
+
+
+def tell_doubts(scene: Scene) -> None:
+    """Warn, on standard error, of what is possible in a scene but unusual."""
+    for doubt in scene.doubts:
+        print(f"beardyn: warning: {doubt}", file=sys.stderr)
 
 
 @contextmanager

@@ -10,11 +10,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import checked, made_folder
+from beardyn_core.cli.files import checked, made_folder, tell_doubts
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json, names
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import folder_problems, write_whole
+from beardyn_core.outputs import as_a_whole, folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
@@ -65,8 +66,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--each-effect", action="store_true", help="also `full` less each of its effects in turn"
     )
-    parser.add_argument("--force", action="store_true", help="replace files that exist")
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    add_force(parser)
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -81,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
         scene = load_scene(args.scene)
 
     plan = plan_of(scene, args.duration, args.settling)
-    asked = _names(args.quantities) if args.quantities else scene.quantities
+    asked = tuple(names(args.quantities) or scene.quantities)
     _refuse_what_it_cannot_compare(scene, asked, plan.fault_line is not None)
     accuracy = 0.01 * args.accuracy if args.accuracy else scene.accuracy or 0.01 * _USUAL_ACCURACY
     levels = levels_of(scene, quick=args.quick, each_effect=args.each_effect)
@@ -92,6 +93,7 @@ def run(args: argparse.Namespace) -> int:
         f"some {expected / 60.0:.1f} minutes once all kernels are compiled",
         file=sys.stderr,
     )
+    tell_doubts(scene)
     with _quiet():
         with (
             last_words(lambda: "no level has been run; what is compiled is kept for the next time"),
@@ -104,9 +106,9 @@ def run(args: argparse.Namespace) -> int:
         ):
             ladder = climb(plan, levels, accuracy, asked, bar)
     found = json_object(ladder)
+    print(json_text("ladder", found) if args.json else table(ladder), flush=True)
     if args.output is not None:
-        write(ladder, found, args.output)
-    print(json_text("ladder", found) if args.json else table(ladder))
+        write(ladder, found, args.output, replace=args.force)
     if ladder.interrupted:
         kept = f"are in {args.output}" if args.output else "are printed; with -o they are written too"
         print(f"beardyn: interrupted; the {len(ladder.rows)} levels done so far {kept}", file=sys.stderr)
@@ -125,10 +127,6 @@ def _refuse_what_it_cannot_compare(scene: Scene, asked: tuple[str, ...], has_fau
         raise InputError(problems)
 
 
-def _names(text: str) -> tuple[str, ...]:
-    return tuple(name.strip() for name in text.split(","))
-
-
 def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> list[str]:
     """List what is wrong with the options; nothing is created."""
     from beardyn_core.study.measures import QUANTITIES
@@ -143,20 +141,21 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
         problems.append(
             f"--accuracy {accuracy:g}: allowed is {_FINEST_ACCURACY:g} to {_COARSEST_ACCURACY:g} percent"
         )
-    unknown = [name for name in _names(args.quantities) if name not in QUANTITIES] if args.quantities else []
+    unknown = [name for name in names(args.quantities) or () if name not in QUANTITIES]
     problems += [
         f"--quantities: {name!r} is not known; known are {', '.join(QUANTITIES)}" for name in unknown
     ]
     return problems + folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force)
 
 
-def write(ladder: Ladder, found: dict[str, Any], folder: Path) -> None:
-    """Write ladder.json and ladder.png."""
+def write(ladder: Ladder, found: dict[str, Any], folder: Path, *, replace: bool) -> None:
+    """Write ladder.json and ladder.png; `replace` those that are there."""
     from beardyn_core.study.ladder_picture import ladder_picture
 
     with made_folder(folder):
-        write_whole(folder / FILES[0], json_text("ladder", found, indent=1) + "\n")
-        ladder_picture(ladder, folder / FILES[1])
+        write_whole(folder / FILES[0], json_text("ladder", found, indent=1) + "\n", replace=replace)
+        with as_a_whole(folder / FILES[1], replace=replace) as fresh:
+            ladder_picture(ladder, fresh)
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from contextlib import nullcontext, suppress
 from typing import TYPE_CHECKING
 
 from beardyn_core.cli.json_output import json_text, renamed
+from beardyn_core.cli.options import add_json, add_monitor
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
@@ -31,18 +32,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         description="Pass vibration, shaft and load of a recording to a monitor, and print its verdicts.",
     )
     parser.add_argument("recording", metavar="run.mcap", help="recording to analyse")
-    parser.add_argument(
-        "--monitor",
-        metavar="MODULE:FUNCTION",
-        default="",
-        help="your algorithm, its module may be in this folder; default the reference chain",
-    )
+    add_monitor(parser)
     parser.add_argument(
         "--bearing",
         metavar="NAME",
         help="name plate: shipped bearing or file; default that of the recorded scene",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_json(parser)
     parser.set_defaults(run=run)
 
 

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.cli.options import add_force
 from beardyn_core.cli.scenes import KINDS
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import as_a_whole, file_problems
@@ -46,8 +47,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "new",
         help="copy a shipped scene, bearing, ... with its comments, to change it",
         description="Copy a shipped scene with its comments to a file of your own; `beardyn simulate FILE` "
-        "runs it. Bearings, lubricants, vehicles, sets of effects and trials are copied in the same manner; "
-        "`beardyn scenes all` lists the names. Files that a scene refers to are copied beside it.",
+        "runs it. Bearings, lubricants and whatever else `beardyn scenes all` lists are copied in the same "
+        "manner. Files that a scene refers to are copied beside it.",
     )
     parser.add_argument("name", metavar="NAME", help="shipped scene, bearing, lubricant, ...")
     parser.add_argument(
@@ -60,7 +61,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--kind", choices=KINDS, help="where to look for NAME; default everywhere, scenes first"
     )
-    parser.add_argument("--force", action="store_true", help="replace files that exist; default refuse")
+    add_force(parser)
     parser.set_defaults(run=run)
 
 
@@ -77,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
     _refuse(files, target, source, args.force)
     try:
         for path, content in files.items():
-            with as_a_whole(path) as fresh:
+            with as_a_whole(path, replace=args.force) as fresh:
                 fresh.write_bytes(content)
             print(f"{path} written")
     except OSError as error:

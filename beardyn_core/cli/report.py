@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.cli.json_output import json_text, renamed
+from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import is_being_written
 
@@ -42,8 +43,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "recording", metavar="run.mcap", help="recording to report on, or its folder of several"
     )
-    parser.add_argument("--force", action="store_true", help="replace NAME.recovered.mcap when it exists")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_force(parser, "replace NAME.recovered.mcap when it exists")
+    add_json(parser)
     parser.set_defaults(run=run)
 
 

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_json
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "kind", nargs="?", choices=(*KINDS, "all"), default="scenes", help="what to list; default scenes"
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -206,7 +207,7 @@ def _trial(name: str) -> dict[str, Any]:
 
 
 def _structure(name: str) -> dict[str, Any]:
-    from beardyn_core.config.load import load_box
+    from beardyn_core.config.nouns import load_box
 
     box = load_box(name)
     return {
@@ -217,7 +218,7 @@ def _structure(name: str) -> dict[str, Any]:
 
 
 def _sensor(name: str) -> dict[str, Any]:
-    from beardyn_core.config.load import load_sensor
+    from beardyn_core.config.nouns import load_sensor
 
     sensor = load_sensor(name)
     return {
@@ -229,7 +230,7 @@ def _sensor(name: str) -> dict[str, Any]:
 
 
 def _background(name: str) -> dict[str, Any]:
-    from beardyn_core.config.load import load_background
+    from beardyn_core.config.nouns import load_background
     from beardyn_core.edge import written
 
     background = load_background(name)

@@ -8,8 +8,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import checked
+from beardyn_core.cli.files import checked, tell_doubts
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_choice, add_force, add_json, chosen
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import recording_problems
 
@@ -35,36 +36,15 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "-o", "--output", metavar="run.mcap", type=Path, help="record the run to this file; default no file"
     )
     parser.add_argument("--duration", metavar="S", type=float, help="simulated time, s; default the scene's")
-    parser.add_argument(
-        "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's"
-    )
-    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's")
+    add_choice(parser)
     parser.add_argument(
         "--laminae", metavar="N", type=int, help="laminae of each roller; default the scene's"
     )
     parser.add_argument(
-        "--accuracy",
-        metavar="PERCENT",
-        type=float,
-        help="accuracy that auto is chosen for, %%; default the scene's, or 5",
-    )
-    parser.add_argument(
-        "--quantities",
-        metavar="NAMES",
-        help="quantities that the accuracy applies to, with commas between: force, deflection, "
-        "roller_load, torque, vibration, cage_speed; default the scene's",
-    )
-    parser.add_argument(
-        "--vibration-to",
-        metavar="HZ",
-        type=float,
-        help="highest third octave of the vibration, Hz; default the scene's, or what its sensors hear",
-    )
-    parser.add_argument(
         "--seed", metavar="N", type=int, help="seed of irregularity and noise; default the scene's"
     )
-    parser.add_argument("--force", action="store_true", help="replace the file of -o when it exists")
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    add_force(parser, "replace the file of -o when it exists")
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -74,15 +54,7 @@ def run(args: argparse.Namespace) -> int:
 
     with checked(lambda inputs: recording_problems("--output", args.output, inputs=inputs, force=args.force)):
         scene = load_scene(
-            args.scene,
-            effects=args.effects,
-            tier=args.tier,
-            duration=args.duration,
-            laminae=args.laminae,
-            seed=args.seed,
-            accuracy_percent=args.accuracy,
-            quantities=None if args.quantities is None else args.quantities.split(","),
-            vibration_to=args.vibration_to,
+            args.scene, duration=args.duration, laminae=args.laminae, seed=args.seed, **chosen(args)
         )
 
     from tqdm import tqdm
@@ -91,8 +63,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study import desk_run
 
     print(f"beardyn: {scene.name}, {scene.purpose}", file=sys.stderr)
-    for doubt in scene.doubts:
-        print(f"beardyn: warning: {doubt}", file=sys.stderr)
+    tell_doubts(scene)
     sinks = [] if args.output is None else [McapSink(args.output, replace=args.force)]
     bar_format = "{desc} {bar} {n:.2f}/{total:.2f} s{postfix} [{elapsed}<{remaining}]"
     with tqdm(

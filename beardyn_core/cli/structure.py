@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.cli.files import checked
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words, may_be_left
 
@@ -54,15 +55,15 @@ def add_parser(subparsers: Any) -> None:
         help="write the first modes in motion as a rerun file; default none",
     )
     parser.add_argument("--view", action="store_true", help="show the first modes in motion in a window")
-    parser.add_argument("--force", action="store_true", help="replace files that exist; default refuse")
-    parser.add_argument("--json", action="store_true", help="print one JSON object instead of the table")
+    add_force(parser)
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.config.load import load_bearing, load_box
-    from beardyn_core.outputs import file_problems, open_to_write
+    from beardyn_core.config.nouns import load_bearing, load_box
+    from beardyn_core.outputs import file_problems, write_whole
     from beardyn_core.record.viewer import require_display
     from beardyn_core.structure.box import Box
     from beardyn_core.structure.build import HIGHEST, MESH, modes_of
@@ -73,8 +74,8 @@ def run(args: argparse.Namespace) -> int:
     with checked(
         lambda inputs: [
             *_problems(args),
-            *file_problems("--output", args.output, inputs=inputs, force=args.force),
-            *file_problems("--save", args.save, inputs=inputs, force=args.force),
+            *file_problems("--output", args.output, inputs=inputs, force=args.force, ending=".csv"),
+            *file_problems("--save", args.save, inputs=inputs, force=args.force, ending=".rrd"),
         ]
     ):
         box = load_box(args.box)
@@ -101,27 +102,27 @@ def run(args: argparse.Namespace) -> int:
             modes = built.modes
         else:
             modes = modes_of_file(box, bearing)
-    if args.output is not None:
-        try:
-            with open_to_write(args.output, replace=args.force) as file:
-                file.write(table_text(modes).encode())
-        except OSError as error:
-            raise InputError(f"--output {args.output}: cannot be written: {error.strerror}") from error
-    if built is not None and (args.save or args.view):
-        _show(built, args.save, args.view)
     if args.json:
         print(json_text("structure", json_object(modes, built, args.output)))
     else:
-        print(text(modes, built, args.output))
+        print(text(modes, built))
+    if args.output is not None:
+        try:
+            write_whole(args.output, table_text(modes), replace=args.force)
+        except OSError as error:
+            raise InputError(f"--output {args.output}: cannot be written: {error.strerror}") from error
+        print(f"beardyn: {args.output} written", file=sys.stderr)
+    if built is not None and (args.save or args.view):
+        _show(built, args.save, args.view, args.force)
     return 0
 
 
-def _show(built: Built, target: Path | None, window: bool) -> None:
+def _show(built: Built, target: Path | None, window: bool, force: bool) -> None:
     from beardyn_core.record.rerun_modes import save_modes
     from beardyn_core.record.viewer import open_window
 
     with tempfile.TemporaryDirectory(prefix="beardyn-modes-") as folder:
-        file = save_modes(built, target or Path(folder) / "modes.rrd")
+        file = save_modes(built, target or Path(folder) / "modes.rrd", replace=force)
         if target is not None:
             print(f"beardyn: {target} written; open it with: rerun {target}", file=sys.stderr)
         if window:
@@ -166,7 +167,7 @@ def json_object(modes: Modes, built: Built | None, table: Path | None) -> dict[s
     }
 
 
-def text(modes: Modes, built: Built | None, table: Path | None) -> str:
+def text(modes: Modes, built: Built | None) -> str:
     """Write the result for the terminal; ``built`` is ``None`` for modes of another program."""
     free = [f"{each:.0f}" for each in modes.frequency[: modes.free_count]]
     shown = ", ".join(free[:_SHOWN]) + (f" ... {free[-1]}" if len(free) > _SHOWN else "")
@@ -183,6 +184,4 @@ def text(modes: Modes, built: Built | None, table: Path | None) -> str:
         lines.append(f"  {len(residual)} residual modes, {residual.min():.0f} to {residual.max():.0f} Hz")
         yields += f", {100.0 * built.static_error:+.2f} % of the finite elements"
     lines.append(yields)
-    if table is not None:
-        lines.append(f"{table} written")
     return "\n".join(lines)

@@ -5,13 +5,15 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json, add_monitor
 from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import folder_problems, write_whole
+from beardyn_core.outputs import as_a_whole, folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.trial import Trial
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from beardyn_core.study.trial_result import TrialResult
 
 DONE, INTERRUPTED = 0, 130
+FILES = ("trial.json", "trial.png")
 _MOST_JOBS = 256
 
 
@@ -41,12 +44,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default="default",
         help="shipped trial or YAML file; default `default`",
     )
-    parser.add_argument(
-        "--monitor",
-        metavar="MODULE:FUNCTION",
-        default="",
-        help="your algorithm, its module may be in this folder; default the reference chain",
-    )
+    add_monitor(parser)
     parser.add_argument(
         "-o",
         "--output",
@@ -62,10 +60,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=int,
         help="seed of tracks, noise and places of spalls; default the trial's",
     )
-    parser.add_argument(
-        "--force", action="store_true", help="start over in a folder that holds runs, and lose them"
-    )
-    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
+    add_force(parser, "start over in a folder that holds runs, and lose them")
+    add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -76,7 +72,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.trial_report import json_object, table
     from beardyn_core.study.trial_result import TrialResult
 
-    with checked(lambda _: option_problems(args)):
+    with checked(lambda inputs: option_problems(args, inputs)):
         trial = load_trial(args.matrix, tier=args.tier, seed=args.seed)
     folder = args.output
     plan = plan_of(trial, args.monitor, folder, force=args.force)
@@ -112,32 +108,42 @@ def run(args: argparse.Namespace) -> int:
         progress.close()
     result = TrialResult.of(trial, args.monitor, runs)
     found = {**json_object(result), "complete": not interrupted}
+    print(json_text("trial", found) if args.json else table(result), flush=True)
     if folder is not None:
         _write(result, found, folder, drawn=not interrupted)
-    print(json_text("trial", found) if args.json else table(result))
     if interrupted:
         print(f"beardyn: interrupted; {kept()}", file=sys.stderr)
     return INTERRUPTED if interrupted else DONE
 
 
-def option_problems(args: argparse.Namespace) -> list[str]:
-    """List what is wrong with the options; nothing is created."""
+def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> list[str]:
+    """List what is wrong with the options; nothing is created.
+
+    The results of a trial that goes on in its folder are replaced by those of more runs.
+    """
+    from beardyn_core.study.trial import RUNS_FILE
+
     problems = []
     if args.jobs is not None and not 1 <= args.jobs <= _MOST_JOBS:
         problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")
-    return problems + folder_problems("--output", args.output)
+    runs = None if args.output is None else args.output / RUNS_FILE
+    goes_on = runs is not None and runs.is_file() and runs.stat().st_size > 0
+    return problems + folder_problems(
+        "--output", args.output, FILES, inputs=inputs, force=args.force or goes_on
+    )
 
 
 def _write(result: TrialResult, found: dict[str, object], folder: Path, *, drawn: bool) -> None:
     """Write trial.json of the runs there are, and trial.png, which only a complete trial of spalls has."""
     with made_folder(folder):
-        write_whole(folder / "trial.json", json_text("trial", found, indent=1) + "\n")
+        write_whole(folder / FILES[0], json_text("trial", found, indent=1) + "\n")
         if drawn and result.trial.faults:
             from beardyn_core.study.trial_picture import trial_picture
 
-            trial_picture(result, folder / "trial.png")
+            with as_a_whole(folder / FILES[1]) as fresh:
+                trial_picture(result, fresh)
         else:
-            (folder / "trial.png").unlink(missing_ok=True)
+            (folder / FILES[1]).unlink(missing_ok=True)
 
 
 class _Bar:

@@ -9,7 +9,9 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
+from beardyn_core.cli.options import add_force
 from beardyn_core.errors import InputError
+from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import file_problems
 
 
@@ -33,7 +35,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=Path,
         help="write a picture, without a screen too; default none",
     )
-    parser.add_argument("--force", action="store_true", help="replace the file of --save or --screenshot")
+    add_force(parser, "replace the file of --save or --screenshot")
     parser.add_argument(
         "--port", type=int, metavar="N", help="port of the page with --web; default a free one"
     )
@@ -59,7 +61,8 @@ def run(args: argparse.Namespace) -> int:
     if recording.problem:
         print(f"{recording.problem}; showing what is there", file=sys.stderr)
     if args.save:
-        target = save(recording, args.save)
+        with last_words(lambda: "nothing has been written"):
+            target = save(recording, args.save, replace=args.force)
         print(f"{target}: {target.stat().st_size / 1e6:.1f} MB; open it with: rerun {target}")
         return 0
     with tempfile.TemporaryDirectory(prefix="beardyn-view-") as folder:

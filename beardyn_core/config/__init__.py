@@ -9,11 +9,13 @@ file_model   base of the models: unknown keys explained, all mistakes kept
 structure    modes of a box by name, and the mounting that goes with them
 content      files that a scene is computed from, put into the scene
 keys         from an annotated noun to the model of its file
-scene_file   what the parts of a scene say otherwise than their nouns; presets of effects
+part_files   what the files of parts say otherwise than their nouns
+scene_file   what a scene file says otherwise than its nouns; presets of effects
 problems     refusals to sentences with file, key, value, what is allowed
 automatic    what `auto` leaves open
 missing      rows and rollers that are not there
-load         references resolved, nouns made: scenes, their parts, trials
+nouns        files of one noun: bearings, lubricants, boxes, effects, trials
+load         scenes: references resolved, every mistake found
 schema       JSON schema for editors
 ============ ==================================================================
 
@@ -29,8 +31,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beardyn_core.config.folders import config_folder, shipped_names
-    from beardyn_core.config.load import (
-        OpenScene,
+    from beardyn_core.config.load import OpenScene, read_scene, read_scene_mapping, read_scene_text
+    from beardyn_core.config.nouns import (
         load_background,
         load_bearing,
         load_box,
@@ -38,26 +40,14 @@ if TYPE_CHECKING:
         load_lubricant,
         load_sensor,
         load_vehicle,
-        read_scene,
-        read_scene_mapping,
-        read_scene_text,
         read_trial,
     )
     from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
     from beardyn_core.config.yaml_text import scene_text
 
-__all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_bearing", "load_box"]
-__all__ += [
-    "load_background",
-    "load_effects",
-    "load_lubricant",
-    "load_sensor",
-    "load_vehicle",
-    "read_scene",
-    "read_scene_mapping",
-    "read_scene_text",
-]
-__all__ += ["read_trial", "scene_text", "shipped_names"]
+__all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_background", "load_bearing"]
+__all__ += ["load_box", "load_effects", "load_lubricant", "load_sensor", "load_vehicle", "read_scene"]
+__all__ += ["read_scene_mapping", "read_scene_text", "read_trial", "scene_text", "shipped_names"]
 
 _MODULES = {
     "SCHEMA_KINDS": "schema",
@@ -65,11 +55,12 @@ _MODULES = {
     "json_schema": "schema",
     "scene_text": "yaml_text",
     "shipped_names": "folders",
+    **dict.fromkeys(("OpenScene", "read_scene", "read_scene_mapping", "read_scene_text"), "load"),
 }
 
 
 def __getattr__(name: str) -> Any:
-    """Import what is asked for from the module that has it, most of it from `load`."""
+    """Import what is asked for from the module that has it, most of it from `nouns`."""
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_MODULES.get(name, 'load')}"), name)
+    return getattr(import_module(f"{__name__}.{_MODULES.get(name, 'nouns')}"), name)

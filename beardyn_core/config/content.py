@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.config.structure import is_path
+from beardyn_core.config.structure import is_path, table_path
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.packed import packed
 from beardyn_core.rail.transfer_path import content_of, read_transfer_path
@@ -55,6 +55,16 @@ def self_contained(scene: Scene) -> Scene:
     if effects is scene.effects and all(map(operator.is_, sensors, scene.sensors)):
         return scene
     return replace(scene, effects=effects, sensors=sensors)
+
+
+def files_of(scene: Scene) -> list[Path]:
+    """List the files that a run of a scene reads: loads, irregularity, modes of a box, measured paths."""
+    operation, structure = scene.operation, scene.effects.structure
+    named = [getattr(each, "path", None) for each in (operation, getattr(operation, "irregularity", None))]
+    if isinstance(structure, ModalStructure) and not structure.content:
+        named.append(table_path(structure.table))
+    named += [each.path for sensor in scene.sensors for each in sensor.measured_paths if not each.content]
+    return [Path(each) for each in named if each is not None]
 
 
 def _with_paths(sensor: Accelerometer) -> Accelerometer:

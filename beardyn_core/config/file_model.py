@@ -18,7 +18,8 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from beardyn_core.config.folders import closest
-from beardyn_core.edge import NounError, Place, Problem, Unit, alternatives, rules_of, stem_of, unit_of
+from beardyn_core.edge import NounError, Place, Problem, alternatives, rules_of
+from beardyn_core.units import Unit, stem_of, unit_of
 
 
 class FileModel(BaseModel):
@@ -179,7 +180,10 @@ class SourcedPart(FileModel):
                 }
                 sourced = {
                     "type": "object",
-                    "properties": {"value": plain, "source": {"type": "string"}},
+                    "properties": {
+                        "value": {**plain, "description": "as it is given without a source"},
+                        "source": {"type": "string", "description": "where the value comes from"},
+                    },
                     "required": ["value", "source"],
                     "additionalProperties": False,
                 }

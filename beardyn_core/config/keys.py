@@ -15,7 +15,6 @@ from beardyn_core.config.file_model import FileModel, SourcedModel, SourcedPart
 from beardyn_core.edge import (
     At,
     Place,
-    Unit,
     alternatives,
     has_no_key_for_its_kind,
     is_kind,
@@ -25,6 +24,7 @@ from beardyn_core.edge import (
     places,
     plain_hint,
 )
+from beardyn_core.units import Unit
 
 Text = Annotated[str, Field(strict=True)]
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=80)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Annotated as A
@@ -15,16 +15,15 @@ from pydantic import ValidationError
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
-from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.config.automatic import AUTO, auto_in_its_box, take_auto
-from beardyn_core.config.content import located_table, self_contained, with_table
-from beardyn_core.config.folders import find, shipped_names
+from beardyn_core.config.content import located_table, self_contained
+from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of, valid
 from beardyn_core.config.missing import entries_of, missing_problems
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
 from beardyn_core.config.scene_file import overlay, with_length
 from beardyn_core.config.yaml_text import read_file, read_mapping
-from beardyn_core.edge import UNITS, places, stem_of
+from beardyn_core.edge import places
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.rail.irregularity import RAIL_LAYOUT
@@ -32,18 +31,14 @@ from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
 from beardyn_core.rail.table import read_table
 from beardyn_core.rail.transfer_path import path_read
-from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.excitation import MEASURED, WheelDefect
-from beardyn_core.scene.operation import QuarterVehicleOperation, Vehicle
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Free, Numerics, Scene
-from beardyn_core.scene.sensor import SensorType
 from beardyn_core.scene.tier import TIER_NAMES, contradictions, integrator_problems
-from beardyn_core.scene.trial import Trial
 from beardyn_core.scene.waviness import Waviness
-from beardyn_core.structure.box import Box
-from beardyn_core.structure.imported import ModeFile
+from beardyn_core.units import UNITS, stem_of
 
 
 @dataclass(frozen=True)
@@ -87,115 +82,6 @@ def read_scene_text(text: str, label: str = "scene") -> OpenScene:
 def read_scene_mapping(data: dict[str, Any], label: str, folder: Path) -> OpenScene:
     """Read the scene of the mapping in a scene file that lies in a folder; see `read_scene`."""
     return _Reading(data, label, folder).scene({})
-
-
-def load_bearing(name: str | Path) -> Bearing:
-    """Load a shipped bearing or that of a file; raises `InputError` with every mistake and contradiction."""
-    path = find("bearings", str(name))
-    return bearing_from_mapping(read_file(path), str(path))
-
-
-def bearing_from_mapping(data: dict[str, Any], label: str) -> Bearing:
-    """Make a bearing of the mapping in a bearing file; see `load_bearing`."""
-    bearing: Bearing = read_noun(Bearing, data, label)
-    if problems := check(bearing):
-        raise InputError([f"{label}: {problem.removesuffix('.')}" for problem in problems])
-    return bearing
-
-
-def load_lubricant(name: str | Path) -> Lubricant:
-    """Load a shipped lubricant or that of a file; raises `InputError` with every mistake."""
-    return _load(Lubricant, find("lubricants", str(name)))
-
-
-def load_vehicle(name: str | Path) -> Vehicle:
-    """Load a shipped vehicle or that of a file; raises `InputError` with every mistake."""
-    return _load(Vehicle, find("vehicles", str(name)))
-
-
-def load_box(name: str | Path) -> Box | ModeFile:
-    """Load a shipped axlebox or that of a file, in figures or as modes of another program.
-
-    Raises
-    ------
-    InputError
-        With every mistake.
-    """
-    path = find("structures", str(name))
-    data = read_file(path)
-    noun = ModeFile if "modes" in data else Box
-    if "bearing" not in data:
-        raise InputError(
-            f"{path}: bearing is missing; files of earlier versions lack it: add the one whose cup is in the "
-            "box, such as `bearing: HS130x230`"
-        )
-    box: Box | ModeFile = read_noun(noun, data, str(path))
-    if isinstance(box, ModeFile):
-        grid = None if box.grid is None else path.parent / box.grid
-        box = replace(box, modes=path.parent / box.modes, grid=grid)
-    if box.bearing not in shipped_names("bearings"):
-        box = replace(box, bearing=str(find("bearings", box.bearing, path.parent)))
-    return box
-
-
-def load_sensor(name: str | Path) -> SensorType:
-    """Load a shipped kind of sensor or that of a file; raises `InputError` with every mistake."""
-    return _load(SensorType, find("sensors", str(name)))
-
-
-def load_background(name: str | Path) -> Background:
-    """Load a shipped background or that of a file; raises `InputError` with every mistake."""
-    return _load(Background, find("backgrounds", str(name)))
-
-
-def load_effects(name: str | Path) -> EffectSet:
-    """Load the effects of a shipped preset or of a file; raises `InputError` with every mistake."""
-    path = find("effects", str(name))
-    effects: EffectSet = read_noun(EffectSet, located_table(read_file(path), path.parent), str(path))
-    return with_table(effects)
-
-
-def read_trial(name: str | Path, *, tier: str | None = None, seed: int | None = None) -> tuple[Trial, Path]:
-    """Read the trial of a shipped name or of a file, its sizes in order, and find its path.
-
-    Parameters
-    ----------
-    tier, seed : optional
-        Instead of the file's; with another tier the check falls away where it is the same one.
-
-    Raises
-    ------
-    InputError
-        With every mistake in the file.
-    """
-    path = find("trials", str(name))
-    data = read_file(path)
-    if tier is not None:
-        data["tier"] = tier
-        if isinstance(data.get("check"), dict) and data["check"].get("tier") == tier:
-            del data["check"]
-    if seed is not None:
-        data["seed"] = seed
-    trial: Trial = read_noun(Trial, data, str(path))
-    return replace(trial, folder=path.parent, sizes=tuple(sorted(trial.sizes))), path
-
-
-def _load(noun: type, path: Path) -> Any:
-    return read_noun(noun, read_file(path), str(path))
-
-
-def read_noun(noun: type, data: dict[str, Any], label: str) -> Any:
-    """Read a noun of a type from the mapping of its file.
-
-    Raises
-    ------
-    InputError
-        With every mistake, each with the label of the file.
-    """
-    try:
-        return keys_of(noun).model_validate(data).noun()
-    except ValidationError as error:
-        raise InputError(sentences(error, [Origin((), label)])) from None
 
 
 class _Reading:

@@ -1,201 +1,31 @@
-"""What the parts of a scene file say otherwise than their nouns: short forms, usual values of one another."""
+"""What a scene file says otherwise than its nouns: short forms, usual values of one another."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields, replace
-from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal
+from dataclasses import replace
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag, WithJsonSchema, field_validator
+from pydantic import BeforeValidator, Field, Tag, WithJsonSchema, field_validator
 from pydantic_core import PydanticKnownError
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.lubricant import Lubricant, gold_pressure_viscosity, walther_viscosity
-from beardyn_core.config.file_model import FileModel, SourcedModel
+from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
+from beardyn_core.config.part_files import tagged
 from beardyn_core.config.structure import box_problems, modes_of_effects, mounting_of, seat_of
-from beardyn_core.edge import UNITS, NounError, Problem, WorkedOut, places
+from beardyn_core.edge import NounError, Problem, places
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
-from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.background import Background
-from beardyn_core.scene.defect import Growth, Patch
 from beardyn_core.scene.mounting import Mounting
-from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
-from beardyn_core.scene.running import Timetable
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Numerics, Scene
-from beardyn_core.scene.sensor import FINE_STEPS, PASSBAND, RATES, Accelerometer, SensorType, steps_do_not_fit
+from beardyn_core.scene.sensor import FINE_STEPS, PASSBAND, RATES, steps_do_not_fit
 from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
-from beardyn_core.scene.waviness import Band, Waviness
+from beardyn_core.units import UNITS
 
 _AUTO = {"const": "auto"}
-
-
-def _tagged(first: str, is_first: Any, second: str) -> Discriminator:
-    """Choose between two forms of a value."""
-    return Discriminator(lambda value: first if is_first(value) else second)
-
-
-@reads(Lubricant)
-class LubricantFile(SourcedModel):
-    """A lubricant, whose pressure viscosity may follow from its base oil."""
-
-    def values(self) -> dict[str, Any]:
-        """Fill in the pressure viscosity."""
-        found = super().values()
-        if found["pressure_viscosity"] is None:
-            viscosity = walther_viscosity(
-                found["kinematic_viscosity_40"],
-                found["kinematic_viscosity_100"],
-                found["pressure_viscosity_temperature"],
-            )
-            found["pressure_viscosity"] = gold_pressure_viscosity(viscosity, found["base_oil"])
-        return found
-
-
-@reads(Growth)
-class GrowthFile(FileModel):
-    """A growth, which says in one word what grows."""
-
-    size: Literal["both", "width", "depth"] = Field("both", description="what grows")
-
-    def values(self) -> dict[str, Any]:
-        """Turn the word into two truths."""
-        return {**super().values(), "width": self.size != "depth", "depth": self.size != "width"}
-
-
-@reads(Patch)
-class PatchFile(FileModel):
-    """A patch, whose shoulder follows from its width."""
-
-    def values(self) -> dict[str, Any]:
-        """Fill in the width of the shoulder."""
-        found = super().values()
-        rim = 0.25 * found["width"] if found["rim_width"] is None else found["rim_width"]
-        return {**found, "rim_width": rim}
-
-
-_Amplitude = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0, le=50.0)]
-
-
-@reads(Waviness)
-class WavinessFile(FileModel):
-    """Single orders with one amplitude or one each, or a band."""
-
-    amplitude_um: (
-        Annotated[
-            Annotated[_Amplitude, Tag("<one>")] | Annotated[tuple[_Amplitude, ...], Tag("<each>")],
-            _tagged("<each>", lambda value: isinstance(value, list | tuple), "<one>"),
-        ]
-        | None
-    ) = Field(None, description="of each order: one for all, or a list with one an order")
-    band: keys_of(Band) | None = Field(  # type: ignore[valid-type]
-        None, description="a band of orders, instead"
-    )
-
-    def values(self) -> dict[str, Any]:
-        """Work the orders and amplitudes out."""
-        found = super().values()
-        if self.band is not None:
-            band = self.band.noun()
-            return {**found, "orders": band.orders, "amplitudes": band.amplitudes}
-        orders, amplitudes = found["orders"] or (), found["amplitudes"]
-        several = amplitudes if isinstance(amplitudes, tuple) else (amplitudes,) * len(orders)
-        return {**found, "orders": orders, "amplitudes": several}
-
-    def rules(self) -> Iterator[str]:
-        """Find neither or both of orders and band."""
-        given = (getattr(self, "orders", None) is not None, self.amplitude_um is not None)
-        if all(given) == (self.band is not None) or (self.band is not None and any(given)):
-            yield "give either `orders` with `amplitude_um`, or `band`"
-
-
-@reads(MeasuredOperation)
-class MeasuredFile(FileModel):
-    """A measured operation, whose kind must be that of its file."""
-
-    kind: Literal["csv", "mcap"] = Field(description="a CSV file or a recording")
-
-    def rules(self) -> Iterator[str]:
-        """Find a file of another kind."""
-        path, recording = self.path, self.path.lower().endswith(".mcap")  # type: ignore[attr-defined]
-        if self.kind == "csv" and recording:
-            yield f"path is {path!r}; that is a recording: use kind: mcap"
-        if self.kind == "mcap" and not recording:
-            yield f"path is {path!r}; a recording ends in .mcap: for CSV text use kind: csv"
-
-
-def _one_or_list(schema: dict[str, Any]) -> None:
-    """Say in the schema of a list that one item alone will do."""
-    several = {"type": schema.pop("type"), "items": schema.pop("items")}
-    schema["anyOf"] = [several["items"], several]
-
-
-@reads(QuarterVehicleOperation)
-class QuarterVehicleFile(FileModel):
-    """An operation on the rail, whose speed comes from one of three places."""
-
-    schema_changes: ClassVar[dict[str, Any]] = {"curve": _one_or_list}
-    checked_elsewhere: ClassVar[tuple[str, ...]] = ("wheel_defects",)
-    measured_speed: Text | None = Field(
-        None, description="instead: CSV file or recording, relative to the scene file, with the shaft speed"
-    )
-    timetable: keys_of(Timetable) | None = Field(  # type: ignore[valid-type]
-        None, description="from stop to stop, instead of a profile"
-    )
-
-    @classmethod
-    def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:
-        curve = data.get("curve")
-        return super()._prepare({**data, "curve": [curve]} if isinstance(curve, dict) else data)
-
-    def values(self) -> dict[str, Any]:
-        """Work the speed profile out."""
-        found = super().values()
-        if self.timetable is not None:
-            timetable = self.timetable.noun()
-            found["speed_profile"] = WorkedOut(timetable.speed_profile(), timetable)
-        elif self.measured_speed is not None:
-            path = Path(self.measured_speed)
-            found["speed_profile"] = WorkedOut(speed_points(path, found["wheel_diameter"]), path)
-        return found
-
-    def rules(self) -> Iterator[str]:
-        """Find a speed from nowhere or from two places."""
-        sources = ("speed_profile", "timetable", "measured_speed")
-        given = [name for name in sources if getattr(self, name) is not None]
-        if len(given) != 1:
-            found = "speed_profile is missing" if not given else f"{' and '.join(given)} are given"
-            yield f"{found}; give exactly one of {', '.join(sources)}"
-
-
-@reads(Accelerometer)
-class SensorFile(FileModel):
-    """A sensor, which has from its type what it does not give itself; the schema lists the rates."""
-
-    rate_kHz: Annotated[
-        float,
-        Field(strict=True, allow_inf_nan=False),
-        WithJsonSchema({"enum": [rate / 1e3 for rate in RATES]}),
-    ] = Field(
-        RATES[0] / 1e3,
-        description=f"51.2 needs an even numerics.steps_per_sample of {FINE_STEPS} or more, its default then",
-    )
-
-    def values(self) -> dict[str, Any]:
-        """Take from the type what is not given."""
-        found = super().values()
-        kind = found["type"]
-        if not isinstance(kind, SensorType):
-            return {**found, "type": None}
-        given = {
-            place.field
-            for place in self.places
-            if place.key in self.model_fields_set and getattr(self, place.key) is not None
-        }
-        own = {field.name for field in fields(SensorType)} & {place.field for place in self.places}
-        return found | {name: getattr(kind, name) for name in own - given - {"name"}}
 
 
 def _number_of_steps(value: Any) -> Any:
@@ -304,7 +134,7 @@ class SceneFile(FileModel):
     )
     numerics: Annotated[
         Annotated[Literal["auto"], Tag("<name>")] | Annotated[keys_of(Numerics), Tag("<inline>")],  # type: ignore[valid-type]
-        _tagged("<name>", lambda value: isinstance(value, str), "<inline>"),
+        tagged("<name>", lambda value: isinstance(value, str), "<inline>"),
     ] = Field(keys_of(Numerics)(), description="discretisation of the run, or auto")
 
     @classmethod

@@ -15,6 +15,7 @@ from beardyn_core.config.folders import closest, config_folder
 from beardyn_core.edge import Problem, places, written_value
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import note_read
 from beardyn_core.packed import unpacked
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.sensor import Accelerometer
@@ -60,10 +61,11 @@ def modes_of_effects(effects: EffectSet) -> Modes | None:
     if structure.content:
         return _unpacked(structure.content, structure.table, structure.highest)
     path = table_path(structure.table)
+    note_read(path)
     try:
         written = path.stat().st_mtime_ns
     except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error})") from error
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from error
     return _read(path, written, structure.highest)
 
 

@@ -22,6 +22,7 @@ from beardyn_core.kernels.large_end import rib_gap
 from beardyn_core.kernels.vectors import add_scaled, dot, subtract
 from beardyn_core.laboratory import nine_contacts
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Shape, Straight, unit
+from beardyn_core.model.laminae import lamina_places
 from beardyn_core.model.parameters import RacewayParams, RollerParams
 from beardyn_core.model.ribs import RibEndParams, RibParams
 
@@ -146,7 +147,7 @@ class ClosedForms:
             ),
             RacewayParams(math.sin(bearing.cone_angle), math.cos(bearing.cone_angle), -1.0, 0.0),
             RacewayParams(math.sin(bearing.cup_angle), math.cos(bearing.cup_angle), 1.0, 0.0),
-            nine_contacts.abscissae(bearing),
+            lamina_places(bearing, nine_contacts.SLICES),
             rib_face_params(nine_contacts.large_rib(bearing), bearing.sphere_radius, bearing.sphere_centre),
             rib_face_params(nine_contacts.small_rib(bearing), bearing.small_end_radius, -half),
             RibEndParams(bearing.small_end_radius, -half, _ALWAYS_THE_RIM, 1e-4, None),

@@ -20,6 +20,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory.search import LINES_ALONG_NORMAL, SURFACE_LINE, SURFACES, Form, Pair
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, placed, unit
+from beardyn_core.model.laminae import lamina_places
 
 SLICES = 6
 SMALL_RIB_RELIEF = math.radians(1.0)
@@ -71,11 +72,6 @@ def nominal_centre(bearing: Bearing) -> Float:
 def nominal_pose(bearing: Bearing) -> RollerPose:
     """Put the roller in its place: it touches both raceways and the large rib."""
     return RollerPose(nominal_centre(bearing), nominal_axis(bearing), np.zeros(3))
-
-
-def abscissae(bearing: Bearing) -> Float:
-    """Return the places of the discs along the roller, shape [SLICES], [m]."""
-    return ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * bearing.effective_length
 
 
 def disc_radius(bearing: Bearing, abscissa: float) -> float:
@@ -179,7 +175,7 @@ def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -
         ("Outer", bearing.cup_angle, -1.0, 0.0, 0.0),
     ):
         raceway = Cone(placed(np.array([0.0, 0.0, apex]) + shift, (0, 0, 1)), 0.0, slope, side)
-        for x in abscissae(bearing).tolist():
+        for x in lamina_places(bearing, SLICES).tolist():
             along = (bearing.apex_distance + x) / math.cos(bearing.half_angle)
             add(name, disc(bearing, pose, x), raceway, azimuth, along, 0.0, abscissa=x)
     sphere = end_sphere(bearing, pose)

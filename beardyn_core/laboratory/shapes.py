@@ -105,7 +105,7 @@ class _Revolved(Shape):
 
     @abstractmethod
     def _meridian(self, u: float) -> tuple[Float, Float, Float, Float, Float, Float]:
-        """Place, tangent, normal, and their derivatives by u; components along radius and axis."""
+        """Compute place, tangent, normal, and their derivatives by u; components along radius and axis."""
 
     def frame(self, parameters: Float) -> Frame:
         u, v = float(parameters[0]), float(parameters[1])

@@ -57,7 +57,7 @@ def highest_bounce(bearing: Bearing, stiffness: float) -> float:
 
 
 def spring_time(bearing: Bearing, laminae: NDArray[np.float64], step: float, damped: bool) -> float:
-    """Share of the step over which contact springs are implicit, from the lamina table, [s].
+    """Compute the share of the step over which contact springs are implicit, from the lamina table, [s].
 
     ``laminae`` [LAMINA_ROWS, lamina]; ``step``: [s]; ``damped``: whether contacts are damped. A share between
     1/12 and 1/4 is stable for a linear mode. Contacts that lift off without a damper make energy with it,

@@ -155,7 +155,7 @@ def surface_radius(bearing: Bearing, on: str) -> float:
 
 
 def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
-    """Share of the length of each lamina that a patch covers, shape [lamina], [-].
+    """Compute the share of the length of each lamina that a patch covers, shape [lamina], [-].
 
     A part that is rounding is none: the surface under it does not exist.
     """

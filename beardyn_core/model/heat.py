@@ -41,7 +41,7 @@ _AIR_PRANDTL = 0.71
 
 
 def heat_shares() -> Float:
-    """Share of each source of loss that warms each node, shape [source, node].
+    """Compute the share of each source of loss that warms each node, shape [source, node].
 
     A source without a row of its own warms the grease.
     """

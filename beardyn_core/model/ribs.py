@@ -171,7 +171,7 @@ def _film(scene: Scene, rib: Rib, contact: PointContact) -> RibFilmParams | None
 
 
 def _around_squared(contact: PointContact) -> float:
-    """Square of the ellipse's semi-axis around the ring over the approach, [m]."""
+    """Compute the square of the ellipse's semi-axis around the ring over the approach, [m]."""
     larger, _ = contact.semi_axes(1.0)
     return float(larger**2 * contact.factor ** (2.0 / 3.0))
 

@@ -160,7 +160,7 @@ def _load_sharing_params(scene: Scene, traction: LoadSharingTraction) -> LoadSha
 
 
 def _inlet_factor(scene: Scene) -> float:
-    """Shear of the inlet of a lamina: eta l sqrt(2 R/h) (pi/2 + atan 0.4751) = factor/sqrt(c h).
+    """Compute the inlet shear of a lamina: eta l sqrt(2 R/h) (pi/2 + atan 0.4751) = factor/sqrt(c h).
 
     c is the lamina's `LAMINA_PRESSURE`, pi E'/(32 R l), which holds the radius.
     """

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.errors import InputError, separator_problem
 from beardyn_core.outputs import note_read
 
 Rows = list[list[str]]
@@ -112,12 +112,8 @@ def _read_rows(path: Path, layout: Layout) -> tuple[list[str], list[int], Rows]:
         raise InputError(f"{path}: the file is not UTF-8 text; save it as UTF-8") from None
     except (OSError, csv.Error) as error:
         raise InputError(f"{path}: cannot be read as CSV text: {error}") from None
-    if rows and len(rows[0]) == 1 and (sign := next((s for s in ";\t|" if s in rows[0][0]), "")):
-        between = {";": "semicolons", "\t": "tabs", "|": "bars"}[sign]
-        raise InputError(
-            f"{path}: its columns are separated by {between}; separate them by commas, and write decimal "
-            "numbers with a point"
-        )
+    if rows and (problem := separator_problem(",".join(rows[0]))):
+        raise InputError(f"{path}: {problem}")
     if not rows:
         raise InputError(
             f"{path}: the file is empty; the first line must name columns: {', '.join(layout.names)}"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import note_read
 from beardyn_core.packed import packed, unpacked
 from beardyn_core.rail.table import Column, Layout, read_table
 
@@ -47,6 +48,7 @@ def read_transfer_path(path: Path) -> TransferPath:
     """
     path = Path(path)
     if path.suffix.lower() in _UNIVERSAL:
+        note_read(path)
         return _checked(path, *_universal(path))
     table = read_table(path, LAYOUT)
     whole = [pair for pair in _PAIRS if all(name in table for name in pair)]

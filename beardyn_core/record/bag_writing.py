@@ -32,7 +32,7 @@ class Splitting:
     longest_ns: A[int, "simulated time in a file, [ns]"] = 0
 
     def __bool__(self) -> bool:
-        """Whether files are split at all."""
+        """Tell whether files are split at all."""
         return bool(self.most_bytes or self.longest_ns)
 
 

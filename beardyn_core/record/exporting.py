@@ -83,13 +83,13 @@ def export(
         if kind in _TABLES:
             write = {"parquet": _write_parquet, "csv": _write_csv, "wav": _write_wav}[kind]
             for name, target in targets.items():
-                with as_a_whole(target) as fresh:
+                with as_a_whole(target, replace=force) as fresh:
                     write(run, fresh, name)
         else:
-            with as_a_whole(path) as fresh:
+            with as_a_whole(path, replace=force) as fresh:
                 {"npz": _write_npz, "h5": _write_hdf5}[kind](run, fresh, names)
         for target in beside:
-            write_whole(target, json.dumps(run.truth, indent=1) + "\n")
+            write_whole(target, json.dumps(run.truth, indent=1) + "\n", replace=force)
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
     return files

@@ -26,7 +26,7 @@ _ALLOWED = "load/blocks, load/wrench and load/shaft, or force and shaft"
 
 
 def read_recorded_load(path: Path, take: str = "both") -> Measurement:
-    """Load and speed of the first axlebox in a recording.
+    """Read load and speed of the first axlebox in a recording.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ def encode_load(history: LoadHistory, first_sample: int, frame: str = FRAME) -> 
 
 
 def decode_load(cdr: bytes) -> tuple[LoadHistory, NDArray[np.int64]]:
-    """Load history and running sample indices of one message of ``load/blocks``.
+    """Decode load history and running sample indices of one message of ``load/blocks``.
 
     A cloud without bogie displacement means zero displacement.
     """

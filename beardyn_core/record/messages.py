@@ -19,7 +19,6 @@ HEADER = "std_msgs/msg/Header"
 STRING = "std_msgs/msg/String"
 CLOCK = "rosgraph_msgs/msg/Clock"
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
-DIAGNOSTIC_LEVELS = ("OK", "WARN", "ERROR", "STALE")
 
 _SECOND = 1_000_000_000
 _ENCAPSULATION = b"\x00\x01\x00\x00"

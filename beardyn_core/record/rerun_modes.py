@@ -34,8 +34,15 @@ def title(built: Built, mode: int) -> str:
     return f"{mode + 1}: {modes.frequency[mode]:.0f} Hz, damping {modes.damping_ratio[mode]:.3g}"
 
 
-def save_modes(built: Built, target: Path) -> Path:
+def save_modes(built: Built, target: Path, *, replace: bool = True) -> Path:
     """Write an ``.rrd`` file in which the first free modes move side by side.
+
+    Parameters
+    ----------
+    built : Built
+    target : Path
+    replace : bool
+        Whether a file that is there is replaced.
 
     Raises
     ------
@@ -69,7 +76,7 @@ def save_modes(built: Built, target: Path) -> Path:
         rrb.TimePanel(state="collapsed", timeline=TIMELINE, loop_mode="all", play_state="playing"),
         auto_views=False,
     )
-    with rerun_file(target, built.modes.name, layout) as stream:
+    with rerun_file(target, built.modes.name, layout, replace) as stream:
         stream.log("/", rr.ViewCoordinates.FLU, static=True)
         for mode in shown:
             shape = exaggerated(built, mode)

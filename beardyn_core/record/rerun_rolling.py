@@ -22,20 +22,22 @@ _SPACING = 0.15  # of the troughs along their axis, [m]
 _CIRCLE_POINTS = 49
 
 
-def save_rolling(runs: Sequence[Rolling], target: Path) -> Path:
+def save_rolling(runs: Sequence[Rolling], target: Path, *, replace: bool = True) -> Path:
     """Write an ``.rrd`` file.
 
     Parameters
     ----------
     runs : sequence of Rolling
         Each in a trough of its own, side by side.
+    replace : bool
+        Whether a file that is there is replaced.
 
     Raises
     ------
     InputError
         The file cannot be written.
     """
-    with rerun_file(target, "contacts", _blueprint(runs)) as stream:
+    with rerun_file(target, "contacts", _blueprint(runs), replace) as stream:
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Y_UP, static=True)
         for number, run in enumerate(runs):
             _log_run(stream, f"trough_{number}", run, number * _SPACING)

@@ -75,15 +75,16 @@ def live_stream(target: str, path: Path | None = None, port: int = 0) -> Iterato
 
 
 @contextmanager
-def rerun_file(path: Path, name: str, layout: Any) -> Iterator[rr.RecordingStream]:
+def rerun_file(path: Path, name: str, layout: Any, replace: bool = True) -> Iterator[rr.RecordingStream]:
     """Open a recording into an ``.rrd`` file, with its blueprint, for as long as the context lasts.
 
     Raises
     ------
     InputError
-        The file cannot be written; then there is none of this name, or what was there before.
+        The file cannot be written, or is there and `replace` is not set; then there is none of this name,
+        or what was there before.
     """
-    with as_a_whole(path) as fresh:
+    with as_a_whole(path, replace=replace) as fresh:
         _check_writable(fresh, path)
         stream = rr.RecordingStream(APPLICATION, recording_id=name)
         stream.save(fresh, default_blueprint=layout)
@@ -199,8 +200,15 @@ def run_blueprint(run: Run) -> rrb.Blueprint:
     return blueprint(described.shape.outer_diameter, span, sensors=described.sensor_names)
 
 
-def save(run: Run, target: Path | str) -> Path:
+def save(run: Run, target: Path | str, *, replace: bool = True) -> Path:
     """Write an ``.rrd`` file with the recording and its blueprint.
+
+    Parameters
+    ----------
+    run : Run
+    target : Path
+    replace : bool
+        Whether a file that is there is replaced.
 
     Raises
     ------
@@ -208,7 +216,7 @@ def save(run: Run, target: Path | str) -> Path:
         The recording does not describe its bearing, or the file cannot be written.
     """
     target = Path(target)
-    with rerun_file(target, Path(run.label).stem, run_blueprint(run)) as stream:
+    with rerun_file(target, Path(run.label).stem, run_blueprint(run), replace) as stream:
         log_run(stream, run)
     return target
 

@@ -141,6 +141,12 @@ class Background:
     pickup: A[Pickup | None, "electrical, in the sensors' cables"] = None
     sources: tuple[tuple[str, str], ...] = ()
 
+    def __repr__(self) -> str:
+        """Give the name and what there is, in one line."""
+        parts = ("roughness", "drive", "other_bearing", "knocks", "pickup")
+        heard = ", ".join(part for part in parts if getattr(self, part) is not None)
+        return f"Background {self.name}: {heard or 'nothing'}"
+
     @property
     def forces(self) -> bool:
         """Whether anything in it is a force."""

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.edge import INTERNAL, ROW, At
 
+LEAST_DEPTH = 1e-7  # of a patch: about the roughness of a raceway [m]
 SMALLEST_SINK = 1e-8  # of a roller into a patch that it bridges [m]
 
 PATCH_KINDS = ("spall", "rectangular", "half_sine", "elliptic", "dent", "brinelling")
@@ -248,7 +249,14 @@ def doubts_about(defects: Sequence[Defect], bearing: Bearing) -> list[str]:
     """Warn of defects that are possible but unusual."""
     found = []
     for index, defect in enumerate(defects):
-        if not isinstance(defect, Patch) or defect.on == "roller":
+        if not isinstance(defect, Patch):
+            continue
+        if defect.growth is None and defect.depth < LEAST_DEPTH:
+            found.append(
+                f"defects[{index}]: {defect.described()}: shallower than {1e6 * LEAST_DEPTH:g} µm, as rough "
+                "as a raceway is: check the unit"
+            )
+        if defect.on == "roller":
             continue
         pitch = math.pi * raceway_diameter(defect.on, bearing) / bearing.roller_count
         if defect.width > pitch:

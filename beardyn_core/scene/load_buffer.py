@@ -41,7 +41,7 @@ class LoadBuffer:
         return True
 
     def covers(self, end_ns: int) -> bool:
-        """Whether no later sample changes the load up to a time [ns].
+        """Tell whether no later sample changes the load up to a time [ns].
 
         A sample at that time or after it has arrived; and, where samples are evenly spaced there,
         `LOOK_AHEAD` of them, or the stream has ended.

@@ -18,7 +18,8 @@ from beardyn_core.scene.wheelset import Wheelset
 WHEEL_PROFILES = ("worn", "cone")
 WHEELSETS = ("coupled", "elastic", "rigid")
 TAKES = ("both", "force", "speed")
-SHAFT_SPEED = At("rpm", ge=-6000.0, le=6000.0)
+MOST_RPM = 6000.0
+SHAFT_SPEED = At("rpm", ge=-MOST_RPM, le=MOST_RPM)
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,10 @@ class Vehicle:
     guidance: A[Guidance, "what the sideways motion depends on"] = Guidance()
     wheelset: A[Wheelset | None, "what bends and twists of a wheelset; rigid when left out"] = None
     sources: tuple[tuple[str, str], ...] = ()
+
+    def __repr__(self) -> str:
+        """Give the name and the masses, in one line."""
+        return f"Vehicle {self.name}: body {self.body_mass:g} kg, bogies {self.bogie_mass:g} kg each"
 
     def __post_init__(self) -> None:
         refuse(self, f"vehicle {self.name!r}")

@@ -9,16 +9,17 @@ from typing import Any, Literal
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal import Temperatures
-from beardyn_core.edge import INTERNAL, SEED, UNITS, At
+from beardyn_core.edge import INTERNAL, SEED, At
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, Operation, SteppedOperation
 from beardyn_core.scene.scatter import Scatter
-from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.scene.sensor import Accelerometer, sensor_doubts
 from beardyn_core.scene.tier import LARGEST_STEPS, TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
+from beardyn_core.units import UNITS
 
 # what a user can ask of a run; see `choice`
 QUANTITIES = ("force", "deflection", "roller_load", "torque", "vibration", "cage_speed")
@@ -163,6 +164,7 @@ class Scene:
         effects = self.effects
         if effects.structure and not (effects.traction or effects.rib or effects.cage):
             told.append("effects: structure without cage, rib and traction; `preset: standard` brings them")
+        told += sensor_doubts(self.sensors, self.bearing)
         return (*told, *doubts_about(self.defects, self.bearing))
 
     @property

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.edge import At, Vector
 
 RATES = (25_600.0, 51_200.0)  # [Hz]
 FINE_STEPS = 8  # fewest time steps per sample of 25.6 kHz that resolve the band of the faster rate
 PASSBAND = 0.4  # of its rate a sensor hears all alike: what the anti-alias filter leaves as it is
 AXES = ("x", "y", "z")
+FARTHEST = 1.0  # that an axlebox reaches from the bearing [m]
 
 _Noise = A[float, At("m_per_s2_per_sqrt_Hz", ge=0.0), "white noise of each axis, one-sided"]
 _Range = A[float, At("m_per_s2", gt=0.0), "clipping level of each axis"]
@@ -44,6 +47,11 @@ class SensorType:
     mounting_damping_ratio: _Damping = 0.02
     low_pass: _LowPass = None
     sources: tuple[tuple[str, str], ...] = ()
+
+    def __repr__(self) -> str:
+        """Give the name with range and noise, in one line."""
+        noise = f"{self.noise_density:g} m/s2 per root Hz"
+        return f"SensorType {self.name}: to {self.range:g} m/s2, noise {noise}"
 
     def rules(self) -> Iterator[str]:
         """Check that a damping has a resonance to act on."""
@@ -117,6 +125,18 @@ class Accelerometer:
         axes = [axis for path in self.measured_paths for axis in path.axes]
         for axis in sorted({axis for axis in axes if axes.count(axis) > 1}):
             yield f"measured_paths has axis {axis!r} twice; give one path for each axis"
+
+
+def sensor_doubts(sensors: Sequence[Accelerometer], bearing: Bearing) -> list[str]:
+    """Warn of accelerometers in the bearing itself, or further away than an axlebox reaches."""
+    found = []
+    for index, sensor in enumerate(sensors):
+        x, y, z = sensor.position
+        inside = math.hypot(x, z) < 0.5 * bearing.pitch_diameter and abs(y) < 0.5 * bearing.width
+        if inside or math.hypot(x, y, z) > FARTHEST:
+            where = "inside of the bearing" if inside else f"further than {FARTHEST:g} m from the bearing"
+            found.append(f"sensors[{index}].position_mm: {sensor.name} is {where}: check the unit")
+    return found
 
 
 def _damping_of_nothing(sensor: Accelerometer | SensorType) -> Iterator[str]:

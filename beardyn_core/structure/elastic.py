@@ -210,7 +210,7 @@ def _curved(skfem: Any, mesh: Mesh) -> Any:
 
 
 def _volume(skfem: Any, body: Any) -> Float:
-    """Six times the volume that each point of integration stands for, negative where it is inside out."""
+    """Compute six times the volume of each point of integration, negative where it is inside out."""
     basis = skfem.Basis(body, skfem.ElementTetP2(), intorder=4)
     found: Float = basis.mapping.detDF(basis.X)
     return found

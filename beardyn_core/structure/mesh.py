@@ -108,14 +108,14 @@ def _meshed(model: Any, box: Box, bearing: Bearing, size: float, option: Any) ->
 
 
 def _edges(bearing: Bearing) -> tuple[float, ...]:
-    """Axial places at which cup and roller tracks begin and end, [m]."""
+    """Compute axial places at which cup and roller tracks begin and end, [m]."""
     half = 0.5 * bearing.effective_length
     tracks = [place + side for place in row_places(bearing) for side in (-half, half)]
     return (-0.5 * bearing.width, *tracks, 0.5 * bearing.width)
 
 
 def row_places(bearing: Bearing) -> tuple[float, float]:
-    """Axial places of the middles of both rows, inboard first, [m]."""
+    """Compute axial places of the middles of both rows, inboard first, [m]."""
     return -0.5 * bearing.row_spacing, 0.5 * bearing.row_spacing
 
 

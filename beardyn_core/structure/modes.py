@@ -47,6 +47,13 @@ class Modes:
     suspension: A[tuple[str, ...], "names of the seats of springs and links; none: they bend nothing"] = ()
     made_from: A[str, "digest of box and cup that were meshed; empty for modes of another program"] = ""
 
+    def __repr__(self) -> str:
+        """Give name, mass and how many modes there are up to where, in one line."""
+        bending = (
+            f"{self.free_count} free modes to {self.frequency[: self.free_count].max(initial=0.0):.0f} Hz"
+        )
+        return f"Modes {self.name}: {self.mass:.4g} kg with the cup of {self.cup.bearing}, {bending}"
+
     @property
     def reads(self) -> Float:
         """Everything that is read of each mode in one matrix, shape [read, mode]."""

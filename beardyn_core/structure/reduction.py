@@ -64,7 +64,7 @@ def reduced(body: Elastic, names: tuple[str, ...], highest: float, waves: int) -
 
 
 def _patterns(body: Elastic, waves: int) -> Float:
-    """Radial loads on both rows with up to so many waves, and thrust all round."""
+    """List radial loads on both rows with up to so many waves, and thrust all round."""
     half = (body.raceway.shape[2] - 1) // 2
     series = [0, *range(1, waves + 1), *range(half + 1, half + waves + 1)]
     radial = body.raceway[:, 0, series].reshape(-1, body.raceway.shape[-1])

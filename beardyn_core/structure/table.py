@@ -21,7 +21,7 @@ import numpy as np
 import yaml
 
 from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.errors import InputError, separator_problem
 from beardyn_core.outputs import note_read
 from beardyn_core.structure.cup import DIMENSIONS, Cup
 from beardyn_core.structure.modes import FIELDS, WAVES, Modes
@@ -86,8 +86,12 @@ def table_text_of(path: Path | str) -> str:
     note_read(path)
     try:
         return Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read ({error})") from error
+    except UnicodeDecodeError:
+        raise InputError(
+            f"{path}: the file is not UTF-8 text; give a table that `beardyn structure` wrote"
+        ) from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from error
 
 
 def modes_of_text(text: str, label: str) -> Modes:
@@ -100,6 +104,8 @@ def modes_of_text(text: str, label: str) -> Modes:
         raise InputError(f"{label}: the head is no YAML: {' '.join(str(error).split())}") from error
     if not isinstance(head, dict):
         raise InputError(f"{label}: the head is missing; lines that begin with # say name, mass_kg and so on")
+    if problem := separator_problem(lines[begin] if begin < len(lines) else ""):
+        raise InputError(f"{label}: {problem}")
     names, numbers, found = _numbers(lines[begin:], begin)
     problems = [f"{label}: {each}" for each in _head_problems(head, len(numbers))]
     problems += [f"{label}: {each}" for each in found]

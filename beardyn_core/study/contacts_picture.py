@@ -13,6 +13,7 @@ from beardyn_core.arrays import Float
 from beardyn_core.laboratory import nine_contacts
 from beardyn_core.laboratory.findings import Findings
 from beardyn_core.laboratory.rolling import PLACE, Rolling
+from beardyn_core.outputs import as_a_whole
 
 DPI = 100
 _ROLLER, _CUP, _CONE, _CAGE = "#DD8452", "#4C72B0", "#55A868", "#8172B3"
@@ -24,8 +25,8 @@ def _figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), dpi=DPI, layout="constrained")
 
 
-def write_pictures(found: Findings, folder: Path) -> list[Path]:
-    """Write all pictures, give their names."""
+def write_pictures(found: Findings, folder: Path, *, replace: bool = True) -> None:
+    """Write all pictures to a folder; `replace` those that are there."""
     figures = {
         "contacts_nine.png": nine_figure(found),
         "contacts_sphere.png": sphere_figure(found),
@@ -33,8 +34,8 @@ def write_pictures(found: Findings, folder: Path) -> list[Path]:
         "contacts_barrel.png": barrel_figure(found),
     }
     for name, figure in figures.items():
-        figure.savefig(folder / name, dpi=DPI, format="png")
-    return [folder / name for name in figures]
+        with as_a_whole(folder / name, replace=replace) as fresh:
+            figure.savefig(fresh, dpi=DPI, format="png")
 
 
 def _along_roller(found: Findings, points: Float) -> tuple[Float, Float, Float]:
@@ -215,7 +216,7 @@ def _positions(axes: Axes, run: Rolling) -> None:
 
 
 def barrel_figure(found: Findings) -> Figure:
-    """Load distribution of the barrel roller bearing, and its cross-section with the contact points."""
+    """Draw the load distribution of the barrel roller bearing, and its cross-section with the contacts."""
     figure = _figure(10.0, 4.2)
     left, right = figure.subplots(1, 2)
     for loads, colour in zip(found.barrel_loads, (_CUP, _CONE, _ROLLER, _POINT), strict=False):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
@@ -39,15 +39,15 @@ class Pace:
     overall: A[float | None, "simulated time over wall time with all running; ``None``: not measured"] = None
 
 
-def demo_folder(folder: Path, *, force: bool = False) -> Path:
-    """Make the folder for the results when it is missing; ``force`` replaces earlier ones.
+def demo_folder(folder: Path, *, inputs: Sequence[Path] = (), force: bool = False) -> Path:
+    """Make the folder for the results when it is missing; ``force`` replaces earlier ones, never an input.
 
     Raises
     ------
     InputError
         It cannot be made or written, or it holds results already.
     """
-    if folder.exists() and (problems := folder_problems("--out", folder, FILES, force=force)):
+    if folder.exists() and (problems := folder_problems("--out", folder, FILES, inputs=inputs, force=force)):
         raise InputError(problems)
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -22,6 +22,7 @@ from typing import Any, BinaryIO
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import trial_scene
 from beardyn_core.config import scene_text
+from beardyn_core.config.content import files_of
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
 from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
@@ -66,9 +67,8 @@ class TrialRun:
 def run_digest(scene: Scene, trial: Trial, code: str) -> str:
     """Hash all that a run depends on: scene with the files it names, interval, digest of the code."""
     digest = hashlib.sha256(f"{scene_text(scene)}\n{trial.interval}\n{code}".encode())
-    for owner in (scene.operation, getattr(scene.operation, "irregularity", None)):
-        if (path := getattr(owner, "path", None)) is not None:
-            digest.update(Path(path).read_bytes())
+    for path in files_of(scene):
+        digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
 
@@ -208,6 +208,8 @@ def _other_trial(
             f"{name} is {json.dumps(about.get(name))} there and {json.dumps(mine.get(name))} here"
             for name in different
         )
+    elif not earlier and path.is_file() and path.stat().st_size:
+        return [f"{path}: holds no runs of a trial; give another folder, or --force to replace the file"]
     else:  # a folder of an earlier version says nothing about itself
         strange = next((run.key for run in earlier if run.key not in digests), None)
         what = "" if strange is None else f"it has a run {strange!r} that this trial has not"

@@ -51,7 +51,7 @@ def _forced(scene: Scene, case: HardCase) -> Scene:
 
 
 def load_of(case: HardCase, scene: Scene) -> LoadHistory:
-    """Load of the whole run and a little more."""
+    """Return the load of the whole run and a little more."""
     if case.load:
         return history(case.load)
     return load_of_scene(scene, case.duration + 2.0 * _BLOCK_S)

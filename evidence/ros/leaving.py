@@ -139,7 +139,7 @@ def _end(process: int, pipe: int) -> None:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Count and print."""
+    """Count what is left behind and print it."""
     parser = argparse.ArgumentParser(prog="python -m evidence.ros.leaving", description=__doc__)
     parser.add_argument("--plain", action="store_true", help="leave by destroy_node alone")
     parser.add_argument("--joins", type=int, default=60)

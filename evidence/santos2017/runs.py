@@ -48,7 +48,7 @@ class StepRecord:
     wall_time: float
 
     def radial_after(self, start: float) -> Float:
-        """Force along z from a time on, [N]."""
+        """Make a force along z from a time on, [N]."""
         return self.force[self.time >= start, 2]
 
     def cage_turn(self, duration: float) -> float:

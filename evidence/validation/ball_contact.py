@@ -12,12 +12,12 @@ from beardyn_core.bearing.rolling_resistance import AIHARA_LOAD, RollingContact,
 
 
 def curvature_sum(curvatures: tuple[float, float, float, float]) -> float:
-    """Sum of the principal curvatures (body I x, I y, body II x, II y), [1/m]."""
+    """Compute the sum of the principal curvatures (body I x, I y, body II x, II y), [1/m]."""
     return sum(curvatures)
 
 
 def curvature_difference(curvatures: tuple[float, float, float, float]) -> float:
-    """F(rho) = |(rho_I1 - rho_I2) + (rho_II1 - rho_II2)| / sum(rho), [-].
+    """Compute F(rho) = |(rho_I1 - rho_I2) + (rho_II1 - rho_II2)| / sum(rho), [-].
 
     References
     ----------
@@ -28,7 +28,7 @@ def curvature_difference(curvatures: tuple[float, float, float, float]) -> float
 
 
 def ellipticity(radius_x: float, radius_y: float) -> float:
-    """Axis ratio of the contact ellipse, across over along the rolling direction x, [-].
+    """Compute the axis ratio of the contact ellipse, across over along the rolling direction x, [-].
 
     References
     ----------
@@ -46,7 +46,7 @@ def point_film_central(
     viscosity: float,
     pressure_viscosity: float,
 ) -> float:
-    """Flooded isothermal central film of an elastohydrodynamic point contact.
+    """Compute the flooded isothermal central film of an elastohydrodynamic point contact.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def point_film_minimum(
     viscosity: float,
     pressure_viscosity: float,
 ) -> float:
-    """Flooded isothermal minimum film of an elastohydrodynamic point contact; as `point_film_central`.
+    """Compute the flooded isothermal minimum film of a point contact; as `point_film_central`.
 
     References
     ----------
@@ -111,7 +111,7 @@ def _point_groups(
     viscosity: float,
     pressure_viscosity: float,
 ) -> tuple[float, float, float]:
-    """U, G and W of a point contact."""
+    """Compute U, G and W of a point contact."""
     return (
         viscosity * entrainment_speed / (contact_modulus * radius_x),
         pressure_viscosity * contact_modulus,
@@ -122,7 +122,7 @@ def _point_groups(
 def starvation_central(
     flooded_film: float, radius_x: float, inlet_distance: float, half_width: float
 ) -> float:
-    """Central film over the flooded one when the oil begins close before the contact, 0 to 1.
+    """Compute the central film over the flooded one when the oil begins close before the contact, 0 to 1.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def starvation_central(
 def starvation_minimum(
     flooded_film: float, radius_x: float, inlet_distance: float, half_width: float
 ) -> float:
-    """Minimum film over the flooded one, as `starvation_central` with 3.34 and 0.25."""
+    """Compute the minimum film over the flooded one, as `starvation_central` with 3.34 and 0.25."""
     return _starvation(flooded_film * radius_x / half_width**2, inlet_distance / half_width, 3.34, 0.25)
 
 
@@ -158,7 +158,7 @@ def _starvation(height: float, inlet: float, factor: float, exponent: float) -> 
 def gupta_cheng_factor(
     loading: float, largest_pressure: float, contact_modulus: float, slide_ratio: float
 ) -> float:
-    """Film over the isothermal one with load and sliding, 0 to 1.
+    """Compute the film over the isothermal one with load and sliding, 0 to 1.
 
     Parameters
     ----------

@@ -12,10 +12,10 @@ from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score, trimmed_tail
 from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram
-from beardyn_core.observe.chain.levels import levels_in_band, rise
+from beardyn_core.observe.chain.levels import levels_of, rise
 from beardyn_core.observe.chain.verdict import Verdict, strongest_pattern, temperature_state
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors, without_wheel
-from beardyn_core.observe.features import order_spectrum
+from beardyn_core.observe.features import analytic_band, order_spectrum
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
 
 
@@ -169,7 +169,7 @@ def test_a_single_knock_near_the_end_is_on_no_whole_order() -> None:
 def test_levels_of_a_sine_and_their_rise() -> None:
     time = np.arange(25_600) / RATE
     signal = np.column_stack([3.0 * np.sin(2 * np.pi * 5000.0 * time), np.zeros(25_600)])
-    levels = levels_in_band(signal, RATE, (2000.0, 10_000.0), 19.0)
+    levels = levels_of(analytic_band(signal, RATE, (2000.0, 10_000.0)).real, 19.0)
     assert levels.rms == pytest.approx(3.0 / np.sqrt(2.0), rel=1e-3)
     assert levels.crest == pytest.approx(np.sqrt(2.0), rel=1e-2)
     assert levels.kurtosis == pytest.approx(1.5, rel=1e-2)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,11 +10,8 @@ import pytest
 from beardyn_core.model.layout import BODY_STATES, CONE_BODY, CUP_BODY, LINEAR
 from benchmarks.naive_model import NaiveModel, forces_against_kernel
 from benchmarks.runs import Table, straight_line
-from evidence.performance.page import goal_rows, page
 from test.kernels.rig import Rig, standard_scene
 from test.kernels.test_step import shaken
-
-MACHINE = {"processor": "P", "numba": "1", "python": "3", "load_average_before": 0.1}
 
 
 def test_the_plain_model_has_the_forces_of_the_kernel() -> None:
@@ -58,25 +54,3 @@ def test_a_table_survives_json() -> None:
     assert [line.split() for line in table.lines()[3:]] == [
         ["name", "us"], ["a", "1.23"], ["b", "12346"], ["A", "note."],
     ]  # fmt: skip
-
-
-def test_the_page_says_what_was_reached() -> None:
-    columns = ("run", "laminae", "RTF", "kernel us/step", "time against full standard")
-    rows: list[tuple[str | float | int, ...]] = [
-        ("full standard", 6, 1.5, 6.0, 1.0),
-        ("full standard, chosen step", 6, 2.1, 6.0, 0.75),
-        ("full standard, 20 laminae, chosen step", 20, 0.5, 18.0, 3.0),
-        ("lumped standard", 6, 1200.0, 0.1, 0.01),
-    ]
-    start = Table("cold_start", "Start", ("part", "s"), [("to the first block", 2.0)])
-    tables = [Table("real_time_factor", "RTF", columns, rows, "Of one run."), start]
-    result: dict[str, Any] = {"machine": MACHINE, "tables": {table.name: table.to_json() for table in tables}}
-    reached = [row[-1] for row in goal_rows(result["tables"])]
-    assert reached == ["goal", "short of the floor", "floor", "goal", "goal"]
-    text = page(result)
-    assert "| full standard, 20 laminae, chosen step | 20 | 0.5 | 18 | 3 |" in text
-    assert "Of one run." in text
-    assert "## Laminae" not in text  # what was not measured is not shown
-    assert "busy" not in text
-    result["machine"] = {**MACHINE, "load_average_before": 3.0}
-    assert "The machine was busy" in page(result)

@@ -10,11 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import beardyn_core as bd
 from beardyn_core.bearing.life import load_doubts, static_rating
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import main as command
 from beardyn_core.cli import simulate
-from beardyn_core.config import load_bearing
+from beardyn_core.config import config_folder, load_bearing
 from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import MonitorResult
@@ -257,3 +258,34 @@ def test_a_scene_tells_of_a_force_of_another_unit_and_shipped_ones_of_nothing() 
     assert scene_from_text(scene_text()).doubts == ()
     for name in ("static_80kN", "static_5kN", "light_coasting", "cup_spall"):
         assert load_scene(name).doubts == ()
+
+
+def test_sensors_and_depths_of_another_unit_are_doubted() -> None:
+    metres = bd.scene("static_80kN", sensors=[{"name": "top", "position_mm": [0, 0, 0.17]}])
+    micrometres = bd.scene("static_80kN", sensors=[{"name": "top", "position_mm": [0, 0, 170_000]}])
+    spall = bd.scene("static_80kN", faults=[{"on": "cup", "width_mm": 6, "depth_um": 0.05}])
+    words = ("top is inside of the bearing", "top is further than 1 m", "shallower than 0.1 µm")
+    for scene, word in zip((metres, micrometres, spall), words, strict=True):
+        (doubt,) = scene.doubts
+        assert word in doubt
+        assert doubt.endswith("check the unit")
+
+
+def test_explain_doubts_as_simulate_does(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = (config_folder() / "scenes" / "static_5kN.yaml").read_text(encoding="utf-8")
+    scene = tmp_path / "mine.yaml"
+    scene.write_text(text.replace("[0, 0, 170]", "[0, 0, 0.17]"))
+    assert command.main(["explain", str(scene)]) == command.DONE
+    assert "warning: sensors[0].position_mm" in capsys.readouterr().err
+
+
+def test_a_shaft_speed_that_no_scene_may_have_has_no_static_answer(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    for ask in (bd.torque, bd.life, bd.fault_frequencies):
+        with pytest.raises(InputError, match=r"speed_rpm is .*; give a number from -6000 to 6000"):
+            ask("HS130x230", speed_rpm=1e9)
+    with pytest.raises(InputError, match="speed_rpm is nan"):
+        bd.torque("HS130x230", speed_rpm=float("nan"))
+    assert command.main(["bearing", "HS130x230", "--speed", "200Hz"]) == command.BAD_INPUT
+    assert "--speed is 200Hz; it must be at most 6000 rpm" in capsys.readouterr().err

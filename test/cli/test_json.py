@@ -156,7 +156,7 @@ def test_every_command_with_json_has_a_section() -> None:
     text = PAGE.read_text(encoding="utf-8")
     for name in (name for names in COMMANDS.values() for name in names):
         source = (Path(simulate.__file__).parent / f"{name}.py").read_text(encoding="utf-8")
-        assert ('"--json"' in source) == (f"## `beardyn {name}`" in text), name
+        assert ("add_json(" in source) == (f"## `beardyn {name}`" in text), name
 
 
 def test_units_in_keys_are_si_without_multiples() -> None:

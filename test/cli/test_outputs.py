@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,8 @@ import beardyn_core as bd
 from beardyn_core.cli import main as command
 from beardyn_core.config import config_folder
 from beardyn_core.errors import InputError
-from beardyn_core.outputs import file_problems, open_to_write, write_whole
+from beardyn_core.outputs import as_a_whole, file_problems, files_read, open_to_write, write_whole
+from beardyn_core.rail.transfer_path import read_transfer_path
 from beardyn_core.record.mcap_scanning import recover, recovered_name
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.sinks import McapSink
@@ -229,3 +231,121 @@ def test_a_text_file_is_written_as_a_whole_or_not_at_all(tmp_path: Path) -> None
     assert "File too large" in done.stderr
     assert path.read_text() == "one"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_files_of_other_programs_are_inputs_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("box.pch", "box.bdf", "path.unv"):
+        (tmp_path / name).write_text("of another program")
+    box = tmp_path / "box.yaml"
+    box.write_text(
+        "name: mine\nbearing: HS130x230\nmodes: box.pch\ngrid: box.bdf\nmass_kg: 90\n"
+        "inertia_kg_m2: [1, 1, 1]\nproducts_kg_m2: [0, 0, 0]\n"
+        "sensors: [{name: top, position_mm: [0, 0, 170], radius_mm: 10}]\n"
+    )
+    for name in ("box.pch", "box.bdf"):
+        table = tmp_path / f"{name}.csv"
+        table.symlink_to(tmp_path / name)
+        assert command.main(["structure", str(box), "-o", str(table), "--force"]) == command.BAD_INPUT
+        assert f"--output {table}: the command reads this file" in capsys.readouterr().err
+        assert table.read_text() == "of another program"
+    with files_read() as inputs, suppress(InputError):
+        read_transfer_path(tmp_path / "path.unv")
+    assert inputs == [tmp_path / "path.unv"]
+
+
+def test_parts_of_a_recording_in_a_folder_are_inputs(tmp_path: Path) -> None:
+    part = tmp_path / "bag" / "bag_0.mcap"
+    part.parent.mkdir()
+    part.write_bytes(b"a part")
+    (problem,) = file_problems("", part, inputs=[part.parent], force=True)
+    assert "the command reads this file" in problem
+
+
+def test_the_measured_run_of_a_scene_made_before_is_not_written_over(tmp_path: Path) -> None:
+    measured = write_recording(tmp_path / "measured.mcap", 60)
+    before = measured.read_bytes()
+    operation = {"kind": "mcap", "path": str(measured)}
+    made = bd.scene({"scene": "again", "bearing": "HS130x230", "lubricant": "LGEP2", "operation": operation})
+    with pytest.raises(InputError, match="the command reads this file"):
+        bd.simulate(made, record=measured, force=True)
+    demo = tmp_path / "demo"
+    demo.mkdir()
+    measured.rename(demo / "run.mcap")
+    (tmp_path / "again.yaml").write_text(
+        "scene: again\npurpose: once more\nbearing: HS130x230\nlubricant: LGEP2\n"
+        "operation: {kind: mcap, path: demo/run.mcap}\n"
+    )
+    words = ["demo", "--scene", str(tmp_path / "again.yaml"), "--out", str(demo), "--force", "--no-view"]
+    assert command.main(words) == command.BAD_INPUT
+    assert (demo / "run.mcap").read_bytes() == before
+
+
+def test_what_another_process_has_written_meanwhile_stays(tmp_path: Path) -> None:
+    target = tmp_path / "ladder.json"
+    writing = as_a_whole(target, replace=False)
+    writing.__enter__().write_text("mine")
+    target.write_text("theirs")
+    with pytest.raises(InputError, match="another process has written this file meanwhile"):
+        writing.__exit__(None, None, None)
+    assert [each.name for each in tmp_path.iterdir()] == ["ladder.json"]
+    assert target.read_text() == "theirs"
+    with as_a_whole(target) as fresh:
+        fresh.write_text("mine")
+    write_whole(tmp_path / "new.json", "new", replace=False)
+    assert [each.read_text() for each in sorted(tmp_path.iterdir())] == ["mine", "new"]
+
+
+def test_two_outputs_of_a_command_cannot_be_one_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for words, ending in (
+        (["structure", "metro", "-o", str(tmp_path / "modes.rrd")], ".csv"),
+        (["structure", "metro", "--save", str(tmp_path / "modes.csv")], ".rrd"),
+        (["contacts", "-o", str(tmp_path / "found"), "--rrd", str(tmp_path / "contacts.json")], ".rrd"),
+    ):
+        assert command.main(words) == command.BAD_INPUT
+        assert f"let its name end in {ending}" in capsys.readouterr().err
+
+
+TRIAL = """\
+trial: mine
+purpose: two runs
+scene: smooth_run
+tier: lumped
+faults: [cup]
+sizes_mm: [6]
+speeds_kmh: [200]
+tracks: [german_low]
+wheels: [{name: round}]
+revolutions: 16
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("trial.json", "the file exists; --force replaces it"),
+        ("trial.png", "the file exists; --force replaces it"),
+        ("runs.jsonl", "holds no runs of a trial"),
+    ],
+)
+def test_a_trial_replaces_nothing_that_is_not_its_own(
+    tmp_path: Path, name: str, sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    matrix = tmp_path / "mine.yaml"
+    matrix.write_text(TRIAL)
+    folder = tmp_path / "runs"
+    folder.mkdir()
+    (folder / name).write_text("something else\n")
+    assert command.main(["trial", str(matrix), "-o", str(folder)]) == command.BAD_INPUT
+    assert sentence in capsys.readouterr().err
+    assert (folder / name).read_text() == "something else\n"
+    assert len(list(folder.iterdir())) == 1
+
+
+def test_the_matrix_in_its_own_folder_stays(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    matrix = tmp_path / "trial.json"
+    matrix.write_text(TRIAL)
+    assert command.main(["trial", str(matrix), "-o", str(tmp_path), "--force"]) == command.BAD_INPUT
+    assert "the command reads this file" in capsys.readouterr().err
+    assert matrix.read_text() == TRIAL

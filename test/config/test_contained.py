@@ -11,7 +11,8 @@ import pytest
 import yaml
 
 from beardyn_core.config.content import self_contained
-from beardyn_core.config.load import load_effects, read_scene, read_scene_text
+from beardyn_core.config.load import read_scene, read_scene_text
+from beardyn_core.config.nouns import load_effects
 from beardyn_core.config.structure import modes_of_effects, table_path
 from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.effects import EffectSet, ModalStructure

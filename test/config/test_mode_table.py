@@ -117,3 +117,19 @@ def test_any_text_is_modes_or_a_sentence(text: str, after_a_head: bool) -> None:
     except InputError as error:
         problems = error.problems
     assert all(problem.startswith("any.csv: ") for problem in problems)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (HEAD.encode() + b"frequency_Hz;damping_ratio\n1,5;0,02\n", "separated by semicolons"),
+        (b"PK\x03\x04\xff\xfe", "is not UTF-8 text"),
+    ],
+)
+def test_a_table_of_another_kind_is_one_sentence(tmp_path: Path, content: bytes, words: str) -> None:
+    path = tmp_path / "box.csv"
+    path.write_bytes(content)
+    with pytest.raises(InputError) as found:
+        read_table(path)
+    (problem,) = found.value.problems
+    assert words in problem

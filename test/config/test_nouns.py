@@ -20,7 +20,7 @@ from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import SCHEMA_KINDS, json_schema, scene_text, shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, read_mapping
-from beardyn_core.edge import UNITS, Place, outside, places, rules_of, written
+from beardyn_core.edge import Place, outside, places, rules_of, written
 from beardyn_core.errors import InputError
 from beardyn_core.record.description import RunDescription
 from beardyn_core.scene.defect import Patch
@@ -28,6 +28,7 @@ from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.running import Curve, Stop, Timetable
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Band, Waviness
+from beardyn_core.units import UNITS
 
 SCENES = ("curve", "waviness", "growing_spall", "freight_100", "static_80kN")
 
@@ -175,10 +176,20 @@ def test_orders_may_have_an_amplitude_each() -> None:
 
 @pytest.mark.parametrize("kind", SCHEMA_KINDS)
 def test_every_key_is_described(kind: str) -> None:
-    schema = json_schema(kind)
-    for name, model in {kind: schema, **schema.get("$defs", {})}.items():
-        for key, found in model.get("properties", {}).items():
-            assert found.get("description"), f"{name}.{key}"
+    """Also those of ``{value: 17, source: catalogue}``, which stand where a number may stand."""
+
+    def look(part: Any, place: str) -> None:
+        if isinstance(part, list):
+            for each in part:
+                look(each, place)
+        elif isinstance(part, dict):
+            keys = part.get("properties", {}) if part.get("type") == "object" else {}
+            for key, found in keys.items():
+                assert found.get("description"), f"{place}.{key}"
+            for key, each in part.items():
+                look(each, f"{place}.{key}")
+
+    look(json_schema(kind), kind)
 
 
 def test_a_noun_made_in_python_is_held_to_the_limits_of_its_file() -> None:

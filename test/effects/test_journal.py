@@ -12,7 +12,7 @@ from scipy.linalg import eigh
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.choice.fast_step import fast_steps, fastest_mode
 from beardyn_core.choice.ringing import bounce, levels
-from beardyn_core.config.load import load_vehicle
+from beardyn_core.config.nouns import load_vehicle
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.integrate.equilibria import equilibrium

@@ -11,7 +11,8 @@ import pytest
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.choice.statics import Statics
 from beardyn_core.cli.structure import zone_yield
-from beardyn_core.config.load import load_bearing, load_box, read_scene_mapping, read_scene_text
+from beardyn_core.config.load import read_scene_mapping, read_scene_text
+from beardyn_core.config.nouns import load_bearing, load_box
 from beardyn_core.config.structure import modes_of_effects, mounting_of, seat_of, table_path
 from beardyn_core.config.yaml_text import read_file, scene_text
 from beardyn_core.effects import EffectSet, ModalStructure

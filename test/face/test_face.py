@@ -17,10 +17,12 @@ from beardyn_core import run as run_module
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
-from beardyn_core.config.load import bearing_from_mapping
+from beardyn_core.config.nouns import bearing_from_mapping
+from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet
 from beardyn_core.record.sinks import MemorySink
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.study import desk_run
 from test.face.test_one_run import spalled
 from test.study.test_desk_run import SENTENCE, PureRolling
@@ -55,6 +57,14 @@ def test_every_name_is_there_documented_and_offered_for_completion() -> None:
 def test_errors_come_without_the_rest() -> None:
     code = "import sys, beardyn_core as bd; bd.InputError, bd.ValidityError; "
     assert fresh(code + f"print(sorted(set({HEAVY}) & set(sys.modules)))") == "[]"
+
+
+@pytest.mark.parametrize(
+    "call", ["bd.read('none.mcap')", "bd.monitor('none.mcap')", "bd.bearing('HS130x230')"]
+)
+def test_what_needs_no_kernel_brings_no_compiler_along(call: str) -> None:
+    code = f"import contextlib, sys, beardyn_core as bd\nwith contextlib.suppress(bd.InputError): {call}\n"
+    assert fresh(code + "print('numba' in sys.modules)") == "False"
 
 
 def test_the_rooms_of_the_same_name_still_are_rooms() -> None:
@@ -234,6 +244,15 @@ def test_representations_are_short() -> None:
         assert len(repr(thing).splitlines()) <= 2
     assert "HS130x230" in repr(scene)
     assert "spall on the cup" in repr(scene)
+    service = bd.scene("service_metro")
+    modes = modes_of_effects(service.effects)
+    assert isinstance(service.operation, QuarterVehicleOperation)
+    for noun in (service.background, service.sensors[0].type, service.operation.vehicle, modes):
+        assert len(repr(noun)) < 120
+        assert len(repr(noun).splitlines()) == 1
+    assert (
+        repr(service.background) == "Background driven_metro: roughness, drive, other_bearing, knocks, pickup"
+    )
 
 
 def test_simulating_again_does_not_load_again() -> None:

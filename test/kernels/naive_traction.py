@@ -59,12 +59,18 @@ def dry_friction(load: float, slip: float, traction: CoulombTraction) -> float:
     return full * u / math.hypot(u, speed)
 
 
+def roelands_viscosity(oil: Lubricant, temperature: float, pressure: float) -> float:
+    level, exponent = oil.roelands_constants(temperature)
+    thickening = level * ((1.0 + 5.1e-9 * pressure) ** exponent - 1.0)
+    return oil.dynamic_viscosity(temperature) * math.exp(thickening)
+
+
 def viscosity_at(pressure: float, lamina: Lamina, thickening: str) -> float:
     """Viscosity in the contact, at most 2^30 times that of the inlet, [Pa s]."""
     oil, temperature = lamina.oil, lamina.temperature
     ambient = oil.dynamic_viscosity(temperature)
     if thickening == "roelands":
-        return min(oil.roelands_viscosity(temperature, pressure), ambient * 2.0**30)
+        return min(roelands_viscosity(oil, temperature, pressure), ambient * 2.0**30)
     exponent = oil.pressure_viscosity_at(temperature) * pressure
     return ambient * math.exp(min(exponent, 30.0 * math.log(2.0)))
 

@@ -1,16 +1,12 @@
-"""``beardyn contacts`` and its page."""
+"""``beardyn contacts``; its run and its page are in `evidence.contacts`."""
 
 import argparse
-import json
-import subprocess
-import sys
 
 import pytest
 
 from beardyn_core.cli.contacts import option_problems
-from beardyn_core.cli.main import BAD_INPUT, DONE, main
+from beardyn_core.cli.main import BAD_INPUT, main
 from beardyn_core.study.table import Table, digits, duration_text
-from test.cli.json_page import check
 
 
 def test_all_mistakes_are_named_at_once_and_nothing_is_written(tmp_path, capsys) -> None:
@@ -48,30 +44,3 @@ def test_numbers_have_few_digits(value: float, text: str) -> None:
 @pytest.mark.parametrize(("hours", "text"), [(24.0, "24.0 h"), (0.12, "7.2 min"), (2.0 / 3600.0, "2.0 s")])
 def test_durations_have_a_unit_that_reads(hours: float, text: str) -> None:
     assert duration_text(hours) == text
-
-
-@pytest.mark.slow
-def test_quick_run_prints_writes_and_makes_the_page(tmp_path, capsys) -> None:
-    folder = tmp_path / "out"
-    assert main(["contacts", "--quick", "--json", "-o", str(folder), "--rrd", str(folder / "a.rrd")]) == DONE
-    found = json.loads(capsys.readouterr().out)
-    assert found == json.loads((folder / "contacts.json").read_text())
-    check("contacts", found)
-    assert found["row_difference_m"] < 1e-9
-    time = {entry["method"]: entry["time_s"] for entry in found["whole_bearing"]}
-    assert time["closed form, compiled"] < time["analytic Newton, compiled"] < time["analytic Newton, plain"]
-    assert (folder / "a.rrd").stat().st_size > 10_000
-    page = tmp_path / "docs"
-    page.mkdir()
-    write = [sys.executable, "-m", "evidence.contacts.page", str(folder), "--to", str(page)]
-    subprocess.run(write, check=True)
-    (page / "contacts.md").write_text(
-        (page / "contacts.md").read_text().replace("Not yet on this page.", "Kept.")
-    )
-    subprocess.run(write, check=True)
-    text = (page / "contacts.md").read_text()
-    assert text.count("<!-- the runs of Santos (2017) -->") == 1
-    assert "\nKept.\n" in text
-    for line in text.splitlines():
-        if line.startswith("!["):
-            assert (page / line.split("](")[1].rstrip(")")).stat().st_size > 5_000

@@ -13,11 +13,13 @@ from scipy.stats import beta
 
 from beardyn_core.choice import load_trial, trial_scene
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.config import config_folder
+from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_append
 from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Trial
 from beardyn_core.study import trial as trial_module
-from beardyn_core.study.trial import RUNS_FILE, TrialRun, conduct, conduct_run, plan_of, read_runs
+from beardyn_core.study.trial import RUNS_FILE, TrialRun, conduct, conduct_run, plan_of, read_runs, run_digest
 from beardyn_core.study.trial_report import json_object, table
 from beardyn_core.study.trial_result import Rate, TrialResult
 
@@ -282,6 +284,24 @@ def test_runs_of_changed_code_are_counted_and_stay_until_they_have_been_run_agai
     assert len(read_runs(tmp_path / RUNS_FILE)) == count
     assert len(conducted) == 2 * count
     assert not plan_of(small, "", tmp_path).missing
+
+
+def test_a_run_depends_on_the_content_of_its_files(
+    quick: Trial, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of the modes of a shipped box a scene has only the name."""
+    tables = tmp_path / "structures"
+    tables.mkdir()
+    text = (config_folder() / "structures" / "metro.csv").read_text(encoding="utf-8")
+    (tables / "metro.csv").write_text(text)
+    scene = replace(
+        trial_scene(quick, quick.cells()[0]), effects=EffectSet(structure=ModalStructure("metro"))
+    )
+    monkeypatch.setattr("beardyn_core.config.structure.config_folder", lambda: tmp_path)
+    before = run_digest(scene, quick, "code")
+    assert run_digest(scene, quick, "code") == before
+    (tables / "metro.csv").write_text(f"{text}\n")
+    assert run_digest(scene, quick, "code") != before
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")

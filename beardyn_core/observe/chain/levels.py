@@ -9,7 +9,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.arrays import Float
-from beardyn_core.observe.features import analytic_band, kurtosis
+from beardyn_core.observe.features import kurtosis
 
 
 @dataclass(frozen=True)
@@ -20,11 +20,6 @@ class Levels:
     kurtosis: A[float, "the largest of the axes, 3 for noise, [-]"] = np.nan
     crest: A[float, "peak over RMS, the largest of the axes, [-]"] = np.nan
     shaft_frequency: A[float, "mean, [Hz]"] = np.nan
-
-
-def levels_in_band(acceleration: Float, rate: float, band: tuple[float, float], speed: float) -> Levels:
-    """Compute the levels of an acceleration [m/s^2], shape [sample, axis]; rate, band and speed in [Hz]."""
-    return levels_of(analytic_band(acceleration, rate, band).real, speed)
 
 
 def levels_of(passed: Float, speed: float) -> Levels:

@@ -1,0 +1,68 @@
+"""Options that several commands have, with one wording."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from typing import Any
+
+
+def add_choice(parser: ArgumentParser) -> None:
+    """Add effects and tier, and what `auto` chooses them for; `chosen` reads them."""
+    parser.add_argument(
+        "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's"
+    )
+    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's")
+    parser.add_argument(
+        "--accuracy",
+        metavar="PERCENT",
+        type=float,
+        help="accuracy that auto is chosen for, %%; default the scene's, or 5",
+    )
+    parser.add_argument(
+        "--quantities",
+        metavar="NAMES",
+        help="quantities that the accuracy applies to, with commas between: force, deflection, "
+        "roller_load, torque, vibration, cage_speed; default the scene's",
+    )
+    parser.add_argument(
+        "--vibration-to",
+        metavar="HZ",
+        type=float,
+        help="highest third octave of the vibration, Hz; default the scene's, or what its sensors hear",
+    )
+
+
+def chosen(args: Namespace) -> dict[str, Any]:
+    """Gather the options of `add_choice` as `beardyn_core.choice.load_scene` takes them."""
+    return {
+        "effects": args.effects,
+        "tier": args.tier,
+        "accuracy_percent": args.accuracy,
+        "quantities": names(args.quantities),
+        "vibration_to": args.vibration_to,
+    }
+
+
+def names(text: str | None) -> list[str] | None:
+    """Split names with commas between them; ``None`` where there is no option."""
+    return None if text is None else [name.strip() for name in text.split(",")]
+
+
+def add_monitor(parser: ArgumentParser) -> None:
+    """Add the monitor of one's own."""
+    parser.add_argument(
+        "--monitor",
+        metavar="MODULE:FUNCTION",
+        default="",
+        help="your algorithm, its module may be in this folder; default the reference chain",
+    )
+
+
+def add_force(parser: ArgumentParser, what: str = "replace files that exist; default refuse") -> None:
+    """Add the permission to replace files."""
+    parser.add_argument("--force", action="store_true", help=what)
+
+
+def add_json(parser: ArgumentParser) -> None:
+    """Add the output for programs."""
+    parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")

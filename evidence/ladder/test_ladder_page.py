@@ -1,0 +1,21 @@
+"""The page of the ladders says what the levels of a ladder showed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from beardyn_core.choice import load_scene
+from beardyn_core.study.ladder import plan_of
+from evidence.ladder.page import section, summary
+from test.study.test_ladder import FakeRuns, climbed
+
+
+def test_a_section_has_every_level_and_the_summary_the_cheapest_good_one() -> None:
+    ladder = climbed(plan_of(load_scene("static_80kN"), 0.5, 0.1), FakeRuns())
+    lines = section(ladder, Path("somewhere/static.png"))
+    assert lines[0] == "## static_80kN"
+    assert "![Accuracy against wall time of static_80kN](pictures/static.png)" in lines
+    assert any("No fault, so no fault line" in line for line in lines)
+    for row in ladder.rows:
+        assert sum(line.startswith("|") and row.level.name in line for line in lines) == 1
+    assert any("static_80kN" in line and "middle" in line for line in summary([ladder]))
