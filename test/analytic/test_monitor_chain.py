@@ -24,13 +24,18 @@ def _stretch(fault: str | None, seed: int, **situation: object) -> Stretch:
     return Stretch(RATE, acceleration, angle, 8e4, 0)
 
 
-def _with_flat(stretch: Stretch) -> Stretch:
-    """A strike once a revolution through a resonance at 2.4 kHz, ten times the noise."""
+def _with_flat(stretch: Stretch, resonance: float = 2400.0, by_rollers: float = 0.0) -> Stretch:
+    """A strike once a revolution through a resonance [Hz], ten times the noise.
+
+    ``by_rollers``: how much louder and quieter it is as the rollers stand.
+    """
     revolution = stretch.shaft_angle / (2.0 * np.pi)
     strikes = np.zeros(len(revolution))
-    strikes[np.searchsorted(revolution, np.arange(0.3, revolution[-1], 1.0))] = 1.0
+    turned = np.arange(0.3, revolution[-1], 1.0)
+    loudness = 1.0 + by_rollers * np.cos(2.0 * np.pi * ORDERS.bpfi * turned)
+    strikes[np.searchsorted(revolution, turned)] = loudness
     decay = np.arange(200) / RATE
-    ringing = 100.0 * np.exp(-800.0 * decay) * np.sin(2.0 * np.pi * 2400.0 * decay)
+    ringing = 100.0 * np.exp(-800.0 * decay) * np.sin(2.0 * np.pi * resonance * decay)
     added = np.convolve(strikes, ringing)[: len(strikes), None] * [0.3, 0.1, 1.0]
     return replace(stretch, acceleration=stretch.acceleration + added)
 
@@ -77,6 +82,15 @@ def test_a_flat_wheel_raises_no_alarm_and_hides_no_spall(seed: int) -> None:
     assert healthy.crest > 10.0  # it is anything but quiet
     spalled = REFERENCE(_with_flat(_stretch("cup", 30 + seed)), ORDERS, ROLLERS, SETTINGS)
     assert spalled.verdict == "cup", spalled.reason
+
+
+@pytest.mark.parametrize("resonance", [2400.0, 4800.0, 8000.0, 11_000.0])
+def test_strikes_as_loud_as_the_rollers_let_them_be_are_no_fault(resonance: float) -> None:
+    stretch = _with_flat(_stretch(None, 36), resonance, by_rollers=0.7)
+    assert struck_sectors(stretch, SETTINGS)[int(0.3 * SECTORS)]
+    found = REFERENCE(stretch, ORDERS, ROLLERS, SETTINGS)
+    assert found.verdict == "healthy", found.reason
+    assert max(found.scores) < found.threshold
 
 
 def test_a_stretch_cut_off_in_a_strike_is_heard_like_any_other() -> None:

@@ -102,7 +102,10 @@ class MonitorSettings:
         "the spectrum of an envelope ends at the width of its band, which is at least this many times the "
         "shaft frequency: the last harmonics must fit, [-]",
     ] = 60.0
-    strike_band: A[tuple[float, float], "where strikes of the wheel are sought, [Hz]"] = (1600.0, 3200.0)
+    strike_bands: A[
+        tuple[tuple[float, float], ...],
+        "where strikes of the wheel are sought, each by itself, as far as the signal reaches, [Hz]",
+    ] = ((1600.0, 3200.0), (3200.0, 6400.0), (6400.0, 12_800.0))
     window_revolutions: A[float, "shaft revolutions in one analysis; 60 are some 25 of the cage, [-]"] = 60.0
     least_revolutions: A[float, "shaft revolutions before the first verdict, [-]"] = 15.0
     longest_window: A[float, "the window at slow speed, [s]"] = 20.0

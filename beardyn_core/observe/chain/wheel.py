@@ -21,24 +21,38 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     Notes
     -----
     A sector is struck where the lower quartile of its power over the revolutions is ten times that of the
-    usual sector; sectors beside that still ring belong to it. A flat comes back at the same angle each time.
-    A spall on the cone is loud in one half of the revolution too, but its strikes lie elsewhere in each, and
-    between them is noise: the quartile stays low.
+    usual sector in one of the bands; sectors beside that still ring there belong to it. A flat comes back at
+    the same angle each time. A spall on the cone is loud in one half of the revolution too, but its strikes
+    lie elsewhere in each, and between them is noise: the quartile stays low.
+
+    One band does not do: a box may ring at any frequency, and a strike that goes unnoticed is as loud as the
+    rollers stand well for it at that moment. They come back to the same place by a fraction of a revolution,
+    so its lines lie at whole orders plus and minus that of BPFO, where those of BPFI with their sidebands
+    are: the two orders add up to the number of rollers.
     """
     turned = (stretch.shaft_angle - stretch.shaft_angle[0]) / (2.0 * np.pi)
     revolutions = int(turned[-1])
     if revolutions < _LEAST_REVOLUTIONS:
         return np.zeros(SECTORS, dtype=bool)
-    power = stretch.squared_envelope(settings.strike_band)
-    sums = np.concatenate(([0.0], np.cumsum(power)))
     edges = np.searchsorted(turned, np.arange(revolutions * SECTORS + 1) / SECTORS)
-    means = np.diff(sums[edges]) / np.maximum(np.diff(edges), 1)
-    quartile = np.quantile(means.reshape(revolutions, SECTORS), 0.25, axis=0)
+    struck = np.zeros(SECTORS, dtype=bool)
+    for low, high in settings.strike_bands:
+        if low < 0.5 * stretch.rate:
+            power = stretch.squared_envelope((low, min(high, 0.5 * stretch.rate)))
+            sums = np.concatenate(([0.0], np.cumsum(power)))
+            means = np.diff(sums[edges]) / np.maximum(np.diff(edges), 1)
+            struck |= _struck_in(means.reshape(revolutions, SECTORS))
+    return struck
+
+
+def _struck_in(power: Float, known: Bool | bool = False) -> Bool:
+    """Find the struck sectors in the power of one band, shape [revolution, sector], beside known ones."""
+    quartile = np.quantile(power, 0.25, axis=0)
     usual = np.median(quartile)
-    struck, ringing = quartile > _STRIKE * usual, quartile > _RINGING * usual
+    struck, ringing = known | (quartile > _STRIKE * usual), quartile > _RINGING * usual
     for _ in range(SECTORS):
         struck = struck | (ringing & (np.roll(struck, 1) | np.roll(struck, -1)))
-    return struck
+    return np.asarray(struck)
 
 
 def quiet_samples(stretch: Stretch, settings: MonitorSettings) -> Bool:
@@ -56,7 +70,8 @@ def without_wheel(power: Float, struck: Bool) -> Float:
     The power, shape [revolution, step], is the squared envelope over the angle of the shaft, in a multiple of
     `SECTORS` steps. Its mean over the revolutions at each angle holds all that comes back with the shaft:
     every whole order. No bearing fault has one. The mean is weighted as `order_spectrum` does: with equal
-    weights a single knock near an end of the stretch would be lines at every whole order.
+    weights a single knock near an end of the stretch would be lines at every whole order. In a narrow band
+    the wheel rings longer than where its strikes were found, and may strike where it did not elsewhere.
 
     References
     ----------
@@ -65,5 +80,7 @@ def without_wheel(power: Float, struck: Bool) -> Float:
     """
     weight = np.hanning(power.size + 1)[:-1].reshape(power.shape)
     rest = power - np.sum(weight * power, axis=0) / np.sum(weight, axis=0)
+    if len(power) >= _LEAST_REVOLUTIONS:
+        struck = _struck_in(power.reshape(len(power), SECTORS, -1).mean(axis=2), struck)
     rest[:, np.repeat(struck, power.shape[1] // SECTORS)] = 0.0
     return rest
