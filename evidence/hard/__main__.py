@@ -14,6 +14,7 @@ from evidence.hard.case import TOPICS, HardCase
 from evidence.hard.catalogue import CASES
 from evidence.hard.explicit_contact import hidden_chatter
 from evidence.hard.report import HEAD, details, line, summary, write_json
+from evidence.hard.run import STARTS
 from evidence.hard.verdict import FAILED, Outcome
 
 ROLLER_OF = "HS130x230"
@@ -27,6 +28,7 @@ def main(words: list[str] | None = None) -> int:
     )
     parser.add_argument("names", nargs="*", metavar="CASE", help="cases or topics; all when left out")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="side by side (2)")
+    parser.add_argument("--starts", type=int, default=STARTS, metavar="N", help=f"of each case ({STARTS})")
     parser.add_argument("--fast", action="store_true", help="only the subset that the tests run")
     parser.add_argument("--no-long", action="store_true", help="without the two longest cases")
     parser.add_argument("--again", action="store_true", help="repeat cases that are done already")
@@ -40,6 +42,8 @@ def main(words: list[str] | None = None) -> int:
         parser.error(f"there is no case or topic {', '.join(unknown)}; topics are {', '.join(TOPICS)}")
     if arguments.jobs < 1:
         parser.error(f"--jobs is {arguments.jobs}; at least 1 is needed")
+    if arguments.starts < 1:
+        parser.error(f"--starts is {arguments.starts}; at least 1 is needed")
     cases = _chosen(arguments)
     if arguments.list:
         for case in cases:
@@ -49,7 +53,7 @@ def main(words: list[str] | None = None) -> int:
         for case in cases:
             for path in arguments.folder.glob(f"{case.name.replace('.', '_')}-*"):
                 path.unlink()
-    return _battery(cases, arguments.folder, arguments.jobs, arguments.output)
+    return _battery(cases, arguments.folder, arguments.jobs, arguments.starts, arguments.output)
 
 
 def _chosen(arguments: argparse.Namespace) -> list[HardCase]:
@@ -62,7 +66,7 @@ def _chosen(arguments: argparse.Namespace) -> list[HardCase]:
     ]
 
 
-def _battery(cases: list[HardCase], folder: Path, jobs: int, output: Path) -> int:
+def _battery(cases: list[HardCase], folder: Path, jobs: int, starts: int, output: Path) -> int:
     by_name = {case.name: case for case in cases}
     kernels = kernels_of(cases)
     print(f"{len(cases)} hard cases on {kernels} kernels, {jobs} side by side; a kernel that is not in the "
@@ -74,7 +78,7 @@ def _battery(cases: list[HardCase], folder: Path, jobs: int, output: Path) -> in
         print("\n".join([line(outcome), *details(by_name[outcome.name], outcome)]), flush=True)
 
     try:
-        outcomes = run_battery(cases, folder, jobs, report)
+        outcomes = run_battery(cases, folder, jobs, report, starts)
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command goes on with what is in {folder}", file=sys.stderr)
         return 130

@@ -28,7 +28,7 @@ from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from evidence.hard.case import HardCase
 from evidence.hard.case_scene import scene_of
-from evidence.hard.run import keep, run_case
+from evidence.hard.run import STARTS, keep, run_case
 from evidence.hard.verdict import FAILED, Outcome
 
 _CORE = Path(beardyn_core.__path__[0])
@@ -38,7 +38,11 @@ _NO_KERNEL = ("refused scene", "explicit")
 
 
 def run_battery(
-    cases: Iterable[HardCase], folder: Path, jobs: int, report: Callable[[Outcome, int, int], None]
+    cases: Iterable[HardCase],
+    folder: Path,
+    jobs: int,
+    report: Callable[[Outcome, int, int], None],
+    starts: int = STARTS,
 ) -> list[Outcome]:
     """Run cases and keep their outcomes in a folder; returns them in the order of the cases.
 
@@ -51,23 +55,27 @@ def run_battery(
         Processes side by side.
     report : callable
         Gets every outcome, how many are there and of how many.
+    starts : int
+        Of each case, where it has more than one.
     """
     folder.mkdir(parents=True, exist_ok=True)
     cases = list(cases)
-    done = {case.name: found for case in cases if (found := _kept(case, folder)) is not None}
+    done = {case.name: found for case in cases if (found := _kept(_place(case, folder, starts))) is not None}
     for number, outcome in enumerate(list(done.values()), start=1):
         report(outcome, number, len(cases))
     todo = [case for case in cases if case.name not in done]
     if not todo:
         return [done[case.name] for case in cases]
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_quiet) as pool:
-        for outcome in _as_done(pool, todo, folder, jobs):
+        for outcome in _as_done(pool, todo, folder, jobs, starts):
             done[outcome.name] = outcome
             report(outcome, len(done), len(cases))
     return [done[case.name] for case in cases]
 
 
-def _as_done(pool: ProcessPoolExecutor, cases: list[HardCase], folder: Path, jobs: int) -> Iterator[Outcome]:
+def _as_done(
+    pool: ProcessPoolExecutor, cases: list[HardCase], folder: Path, jobs: int, starts: int
+) -> Iterator[Outcome]:
     """Yield outcomes as they come; two processes never compile the same kernel."""
     kernels = {case.name: kernel_of(case) for case in cases}
     size = Counter(kernels.values())
@@ -80,7 +88,7 @@ def _as_done(pool: ProcessPoolExecutor, cases: list[HardCase], folder: Path, job
             kernel = kernels[case.name]
             alone = kernel not in ready
             if len(running) < jobs and not (alone and (kernel in running.values() or case.long)):
-                running[pool.submit(_one, case, _place(case, folder))] = kernel
+                running[pool.submit(_one, case, _place(case, folder, starts), starts)] = kernel
                 waiting.remove(case)
         if not running:  # only long ones of a new kernel are left
             ready.update(kernels.values())
@@ -94,10 +102,10 @@ def _quiet() -> None:
     logging.getLogger("beardyn").setLevel(logging.WARNING)
 
 
-def _one(case: HardCase, place: Path) -> Outcome:
+def _one(case: HardCase, place: Path, starts: int) -> Outcome:
     """Run a case in this process; a crash of the model is a verdict too."""
     try:
-        outcome = run_case(case, place.with_suffix(".checkpoint"))
+        outcome = run_case(case, place.with_suffix(".checkpoint"), starts)
     except Exception:
         outcome = Outcome(case.name, FAILED, (f"crashed: {traceback.format_exc(limit=-3)}",))
     keep(place.with_suffix(".outcome"), outcome)
@@ -105,8 +113,8 @@ def _one(case: HardCase, place: Path) -> Outcome:
     return outcome
 
 
-def _kept(case: HardCase, folder: Path) -> Outcome | None:
-    path = _place(case, folder).with_suffix(".outcome")
+def _kept(place: Path) -> Outcome | None:
+    path = place.with_suffix(".outcome")
     if not path.exists():
         return None
     outcome = pickle.loads(path.read_bytes())
@@ -114,9 +122,10 @@ def _kept(case: HardCase, folder: Path) -> Outcome | None:
     return outcome
 
 
-def _place(case: HardCase, folder: Path) -> Path:
+def _place(case: HardCase, folder: Path, starts: int) -> Path:
     """Name the file of a case; the name has no dot, so that a suffix can follow."""
-    return folder / f"{case.name.replace('.', '_')}-{_mark(case)}"
+    fewer = "" if starts == STARTS else f"-{starts}"
+    return folder / f"{case.name.replace('.', '_')}-{_mark(case)}{fewer}"
 
 
 def _mark(case: HardCase) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, LARGEST_PENETRATION
 from evidence.hard.case import RUN_AS
 from evidence.hard.report import cells, outcome_from
+from evidence.hard.run import STARTS, WITHOUT_STARTS
 from evidence.hard.verdict import FAILED, GOOD, KNOWN, SKIPPED
 from evidence.pages import DOCS
 
@@ -115,14 +116,22 @@ def counted(cases: list[dict[str, Any]]) -> str:
 
 
 def known(cases: list[dict[str, Any]]) -> list[str]:
-    """List what fails or was skipped, and why."""
+    """List what fails or was skipped, and why, and what has fewer starts."""
     lines = [
         f"- `{case['name']}`, {case['outcome']['verdict']}: {'; '.join(case['outcome']['reasons'])}."
         f"{' ' if case['known_failure'] else ''}{case['known_failure']}\n"
         for case in cases
         if case["outcome"]["verdict"] in (KNOWN, SKIPPED, FAILED)
     ]
-    return ["## What does not pass\n\n", *lines, "\n"] if lines else []
+    fewer = [
+        f"- `{case['name']}`: {case['outcome']['starts']} of {STARTS} starts was run.\n"
+        for case in cases
+        if case["outcome"]["starts"] < STARTS and case["run_as"] not in WITHOUT_STARTS
+    ]
+    return [
+        *(["## What does not pass\n\n", *lines, "\n"] if lines else []),
+        *(["## Fewer starts\n\n", *fewer, "\n"] if fewer else []),
+    ]
 
 
 def chatter_row(row: dict[str, Any]) -> str:
