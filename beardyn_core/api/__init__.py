@@ -4,6 +4,7 @@
 module      responsibility
 =========== ==================================================================
 making      bearings, lubricants and scenes from a handful of arguments
+measuring   read measured files, make recordings of them
 simulating  simulate a scene, read a recording, let a monitor judge a run
 statics     stiffness, torque, life, film and load distribution, no run needed
 heat        steady temperatures and losses by source, no run needed either

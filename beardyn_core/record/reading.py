@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
@@ -20,7 +21,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
 from beardyn_core.record import arrays
-from beardyn_core.record.bag_scanning import BagScan, scan_recording
+from beardyn_core.record.bag_scanning import BagScan, is_folder_of_files, scan_recording
 from beardyn_core.record.checking import MessageChecker, take_out_malformed
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
@@ -34,8 +35,8 @@ from beardyn_core.record.encoding import (
     joint_template,
 )
 from beardyn_core.record.load_stream import decode_load, joined_load
-from beardyn_core.record.mcap_scanning import McapScan
-from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, SCENE_FILE
+from beardyn_core.record.mcap_scanning import MAGIC, McapScan
+from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, MEASURED_FILE, SCENE_FILE
 from beardyn_core.record.messages import (
     Template,
     decode,
@@ -52,6 +53,7 @@ from beardyn_core.record.topics import (
     WRENCH,
     namespace_of,
     relative_name,
+    topic,
     vibration_topic,
 )
 from beardyn_core.scene.load import WRENCH_AXES
@@ -89,6 +91,28 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
         return _run(scan, cdrs, {names[path]: kind for path, kind in types.items()})
 
 
+def is_recording(path: Path | str) -> bool:
+    """Tell whether a path means a recording of an axlebox, not a file of another tool.
+
+    A folder, and a file that cannot be read, count as one: reading it says what is wrong.
+    """
+    path = Path(path)
+    if not path.is_file() or is_folder_of_files(path):
+        return True
+    with path.open("rb") as file:
+        if file.read(len(MAGIC)) != MAGIC:
+            return False
+    scan = McapScan(path)
+    for message in scan.messages():
+        space = namespace_of(message.topic)
+        if space is None:
+            continue
+        with suppress(KeyError):
+            if topic(relative_name(message.topic, space)).type == message.type:
+                return True
+    return not scan.channels
+
+
 def namespace_in(paths: Iterable[str]) -> str:
     """Find the namespace of the first axlebox that absolute topic names tell of."""
     return next((space for space in map(namespace_of, paths) if space is not None), NAMESPACE)
@@ -110,6 +134,7 @@ def _run(scan: McapScan | BagScan, cdrs: dict[str, list[bytes]], types: Mapping[
         status=scan.metadata[END_RECORD].get("status") or COMPLETE if END_RECORD in scan.metadata else None,
         scene_text=scene_text or (description.scene_text if description else ""),
         malformed=malformed,
+        measured=_measured(scan),
     )
 
 
@@ -120,15 +145,28 @@ def run_of_messages(
 
     The messages are decoded when their array is first used. What else is known goes to `Run`.
     """
-    return Run(MessageSource(cdrs, description), description, **facts)
+    sensors = tuple((facts.get("measured") or {}).get("sensors", ()))
+    return Run(MessageSource(cdrs, description, sensors), description, **facts)
 
 
 class MessageSource:
-    """The arrays of a run, decoded from its messages."""
+    """The arrays of a run, decoded from its messages.
 
-    def __init__(self, cdrs: Mapping[str, Sequence[bytes]], description: RunDescription | None) -> None:
+    Parameters
+    ----------
+    sensor_names : tuple of str
+        Accelerometers of a run without a description, in the order of their topics.
+    """
+
+    def __init__(
+        self,
+        cdrs: Mapping[str, Sequence[bytes]],
+        description: RunDescription | None,
+        sensor_names: tuple[str, ...] = (),
+    ) -> None:
         self._cdrs = cdrs
         self._description = description
+        self._sensor_names = sensor_names if description is None else description.sensor_names
 
     def _of(self, name: str) -> Sequence[bytes]:
         return self._cdrs.get(name, ())
@@ -142,7 +180,7 @@ class MessageSource:
         return _waveform(self._of("force_waveform"), WRENCH_AXES, "N, N m")
 
     def sensors(self) -> dict[str, arrays.Signal]:
-        known = () if self._description is None else self._description.sensor_names
+        known = self._sensor_names
         topics = {vibration_topic(number, known): name for number, name in enumerate(known)}
         found = sorted(n for n in self._cdrs if n == "vibration" or n.startswith("vibration/"))
         order = [name for name in topics if name in found] + [name for name in found if name not in topics]
@@ -260,6 +298,8 @@ class MessageSource:
         """Give `Run.duration`: a block ends with its last snapshot."""
         snapshots = self._bodies.time_ns
         times = snapshots if len(snapshots) > 1 else self.shaft().time_ns
+        if self._description is None and len(snapshots) < 2:  # a tachometer may begin late and end early
+            times = next((each.time_ns for each in self.sensors().values() if len(each) > 1), times)
         return float(times[-1] - 2 * times[0] + times[1]) * 1e-9 if len(times) > 1 else 0.0
 
 
@@ -280,6 +320,17 @@ def _description(scan: McapScan | BagScan, cdrs: Mapping[str, list[bytes]]) -> R
         with suppress(InputError):  # damaged: the topic says the same
             return RunDescription.from_json(scan.attachments[DESCRIPTION_FILE].decode(errors="replace"))
     return RunDescription.from_json(decode_string(truth[0])) if truth else None
+
+
+def _measured(scan: McapScan | BagScan) -> dict[str, Any]:
+    """Give what a measured recording says about itself; empty for a simulated one."""
+    if MEASURED_FILE not in scan.attachments:
+        return {}
+    with suppress(ValueError):
+        found = json.loads(scan.attachments[MEASURED_FILE])
+        if isinstance(found, dict):
+            return found
+    raise InputError(f"{scan.path}: what it says about its measured files is damaged ({MEASURED_FILE})")
 
 
 def _clouds(cdrs: Sequence[bytes]) -> tuple[NDArray[Any], Int]:

@@ -1,0 +1,90 @@
+"""Channels of arrays with one or two axes, and the single numbers and words beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated as A
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.measured.source import UNKNOWN, Channel
+from beardyn_core.measured.units import usual
+
+RATE_NAMES = (
+    *("fs", "sr", "f_s", "samplerate", "sample_rate", "samplingrate", "sampling_rate", "samplefrequency"),
+    *("sampling_frequency", "samplingfrequency", "sample_frequency", "rate_hz", "fs_hz", "fsamp", "fsample"),
+)
+STEP_NAMES = ("dt", "ts", "time_step", "wf_increment", "increment", "sample_interval")
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of an array that is sliced along its longer axis."""
+
+    array: A[Any, "with ``shape`` and slices; of one or two axes"]
+    across: A[int | None, "which of the shorter axis; None: the array has one axis"] = None
+    lying: A[bool, "whether time runs along the second axis"] = False
+
+    def __len__(self) -> int:
+        return int(self.array.shape[1 if self.lying else 0])
+
+    def __getitem__(self, part: slice) -> Float:
+        if self.across is None:
+            return np.asarray(self.array[part], np.float64)
+        place = (self.across, part) if self.lying else (part, self.across)
+        return np.asarray(self.array[place], np.float64)
+
+
+def columns_in(name: str, array: Any) -> dict[str, Column]:
+    """List the columns of an array of real numbers by name: itself, or ``name[0]``, ``name[1]``, ...
+
+    Time runs along the longer axis. Empty for what is no such array.
+    """
+    shape, kind = tuple(array.shape), np.dtype(array.dtype).kind
+    if kind not in "fiu" or len(shape) not in (1, 2) or 0 in shape or int(np.prod(shape)) < 2:
+        return {}
+    if len(shape) == 1:
+        return {name: Column(array)}
+    lying = shape[1] > shape[0]
+    across = min(shape)
+    if across == 1:
+        return {name: Column(array, 0, lying)}
+    return {f"{name}[{k}]": Column(array, k, lying) for k in range(across)}
+
+
+def claimed_rate(numbers: Mapping[str, float]) -> float:
+    """Find the sampling rate among the numbers of a file by its usual names; NaN without, [Hz]."""
+    last = {
+        name.lower().replace("/", ".").rpartition(".")[2].replace(" ", "_"): value
+        for name, value in numbers.items()
+    }
+    found = [last[name] for name in RATE_NAMES if name in last]
+    found += [1.0 / last[name] for name in STEP_NAMES if last.get(name, 0.0) > 0.0]
+    return float(found[0]) if found and found[0] > 0.0 else UNKNOWN
+
+
+def channels_of(
+    columns: Mapping[str, Column], rates: Mapping[str, float], units: Mapping[str, str], rate: float
+) -> tuple[Channel, ...]:
+    """List the channels of columns: those of the same length are sampled together.
+
+    Parameters
+    ----------
+    rates, units : mapping
+        What the file says of a column.
+    rate : float
+        What it says of all, [Hz].
+    """
+    return tuple(
+        Channel(
+            name,
+            table=f"{len(column)} samples" + (f" at {rates[name]:g} Hz" if name in rates else ""),
+            count=len(column),
+            unit=usual(units.get(name, "")),
+            rate=rates.get(name, rate),
+        )
+        for name, column in columns.items()
+    )

@@ -1,0 +1,128 @@
+"""Sampling rate of time stamps, and where they go back, jump, or change their rate."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+
+_ALIKE = 0.01  # by which steps may differ and still be even; of a rate, by which two are one
+_LEAST_SAMPLES = 1000  # of which the mean step is compared
+_SHOWN = 3
+
+
+class Clock:
+    """Takes the time stamps of one table, block by block.
+
+    Stamps that are rounded more coarsely than their step, or that jitter, are even on the mean.
+
+    Parameters
+    ----------
+    seconds : float
+        In their unit.
+    """
+
+    def __init__(self, seconds: float) -> None:
+        self._seconds = seconds
+        self.count = 0
+        self.first = self.last = float("nan")
+        self._step = float("nan")
+        self.coarse = 0.0
+        self._backward: list[int] = []
+        self._doubled: list[int] = []
+        self._jumps: list[tuple[int, float]] = []
+        self._change: tuple[int, float] | None = None
+        self._head = 0.0
+
+    def take(self, stamps: Float) -> None:
+        """Add the next stamps; those that are not finite are somebody else's complaint."""
+        time = stamps * self._seconds
+        if not len(time):
+            return
+        begin = self.count
+        if begin == 0:
+            self.first = float(time[0])
+            if len(time) > 1:
+                self._settle(np.diff(time))
+        else:
+            time = np.concatenate(([self.last], time))
+            begin -= 1
+        self.count += len(stamps)
+        self.last = float(time[-1])
+        with np.errstate(invalid="ignore"):
+            step = np.diff(time)
+            self._backward += (np.flatnonzero(step < 0.0)[:_SHOWN] + begin + 2).tolist()
+            if not self.coarse:
+                self._doubled += (np.flatnonzero(step == 0.0)[:_SHOWN] + begin + 2).tolist()
+            far = np.flatnonzero(step > 1.5 * self._step + 2.0 * self.coarse)
+        self._compare(step, far, begin)
+
+    def _settle(self, step: Float) -> None:
+        """Learn the usual step, and how coarse the stamps are, from the first block."""
+        good = step[np.isfinite(step) & (step >= 0.0)]
+        if not len(good):
+            return
+        self._step = float(np.median(good))
+        uneven = np.abs(good - self._step) > _ALIKE * max(self._step, 1e-300)
+        if uneven.mean() > _ALIKE:
+            positive = good[good > 0.0]
+            self.coarse = float(positive.min()) if len(positive) else 0.0
+            jitter = float(np.quantile(np.abs(good - good.mean()), 0.99))
+            self.coarse = max(self.coarse, 2.0 * jitter)
+            self._step = float(good.mean())
+
+    def _compare(self, step: Float, far: Any, begin: int) -> None:
+        """Tell a change of the rate from jumps."""
+        if len(step) >= _LEAST_SAMPLES:
+            parts = np.array_split(step, max(1, len(step) // _LEAST_SAMPLES))
+            at = begin
+            for part in parts:
+                mean = float(np.median(part) if not self.coarse else part.mean())
+                tolerance = _ALIKE * self._step + 2.0 * self.coarse / len(part)
+                if self._change is None and abs(mean - self._step) > tolerance and mean > 0.0:
+                    lonely = np.count_nonzero(part > 1.5 * self._step + 2.0 * self.coarse)
+                    if lonely == 0 or lonely > 0.01 * len(part):
+                        self._change = (at, 1.0 / mean)
+                at += len(part)
+        if self._change is None:
+            self._jumps += [(int(k) + begin + 2, float(step[k])) for k in far[:_SHOWN]]
+
+    @property
+    def rate(self) -> float:
+        """Mean rate, NaN for fewer than two stamps, [Hz]."""
+        span = self.last - self.first
+        return float(f"{(self.count - 1) / span:.9g}") if self.count > 1 and span > 0.0 else float("nan")
+
+    def problems(self, where: str) -> list[str]:
+        """Write what is wrong with the stamps, in sentences; `where` is the file and the channel."""
+        found = []
+        if self._backward:
+            found.append(
+                f"{where}: the time goes back at sample {_numbers(self._backward)}; it must increase"
+            )
+        if self._doubled and not self._backward:
+            found.append(
+                f"{where}: the time stands still at sample {_numbers(self._doubled)}; it must increase"
+            )
+        if self._change is not None and not self._backward:
+            at, rate = self._change
+            found.append(
+                f"{where}: has two sampling rates, {1.0 / self._step:.6g} Hz and from about "
+                f"sample {at + 1} on {rate:.6g} Hz; split it, or give --rate-hz and --time-channel none "
+                "if its time is wrong"
+            )
+        elif self._jumps and not self._backward:
+            at, step = self._jumps[0]
+            more = f", and at {len(self._jumps) - 1} samples more" if len(self._jumps) > 1 else ""
+            found.append(
+                f"{where}: the time jumps by {step:.6g} s at sample {at}{more}, where the usual step is "
+                f"{self._step:.6g} s; split the file there"
+            )
+        return found
+
+
+def _numbers(found: list[int]) -> str:
+    shown = ", ".join(map(str, found[:_SHOWN]))
+    return f"{shown} and later" if len(found) > _SHOWN else shown
