@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from types import TracebackType
 from typing import Any
 
 import numpy as np
@@ -24,7 +26,7 @@ class _Mdf(Held):
     def blocks(self, names: Sequence[str]) -> Iterator[Float]:
         """Give the samples of channels of one table from the beginning, shape [sample, channel]."""
         try:
-            with self.asammdf.MDF(self.path) as file:
+            with _opened(self.path, self.asammdf) as file:
                 group = self.columns[names[0]][0]
                 count = file.groups[group].channel_group.cycles_nr
                 for begin in range(0, count, BLOCK):
@@ -34,6 +36,27 @@ class _Mdf(Held):
                     )
         except Exception as error:  # the reader breaks in any way on bytes that are not what they should be
             raise broken(self.path, "MDF", error) from error
+
+
+@contextmanager
+def _opened(path: Path, asammdf: Any) -> Iterator[Any]:
+    with path.open("rb") as raw:
+        try:
+            file = asammdf.MDF(raw)
+        except Exception as error:
+            _let_go(error.__traceback__)
+            raise
+        with file:
+            yield file
+
+
+def _let_go(trace: TracebackType | None) -> None:
+    """Keep a file that could not be opened from complaining again when it is deleted."""
+    while trace is not None:
+        opener = trace.tb_frame.f_locals.get("self")
+        if hasattr(opener, "_closed"):
+            opener._closed = True
+        trace = trace.tb_next
 
 
 def _samples(file: Any, group: int, index: int | None, part: dict[str, int]) -> Float:
@@ -50,7 +73,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
     places: dict[str, tuple[int, int | None]] = {}
     facts: dict[str, str] = {}
     try:
-        with asammdf.MDF(path) as file:
+        with _opened(path, asammdf) as file:
             if (start := in_text(file.header.start_time)) is not None:
                 facts["start"] = start
             masters = file.masters_db

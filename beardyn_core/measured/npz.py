@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import IO, Any
@@ -15,7 +16,7 @@ from beardyn_core.measured.arrays_inside import Column, channels_of, claimed_rat
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Held, broken, in_text
 
-_DAMAGE = (OSError, ValueError, EOFError, zipfile.BadZipFile, KeyError)
+_DAMAGE = (OSError, ValueError, EOFError, zipfile.BadZipFile, KeyError, zlib.error)
 
 
 class _Head:

@@ -50,9 +50,10 @@ class Range:
         if isnan(self.origin):
             self.origin = float(values[0])
         self.low, self.high = min(self.low, float(values.min())), max(self.high, float(values.max()))
-        about = values - self.origin
-        self.total += float(about.sum())
-        self.power += float(about @ about)
+        with np.errstate(over="ignore", invalid="ignore"):  # of a damaged file; its range is refused
+            about = values - self.origin
+            self.total += float(about.sum())
+            self.power += float(about @ about)
 
     @property
     def deviation(self) -> float:

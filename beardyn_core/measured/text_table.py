@@ -49,8 +49,9 @@ class TextTable:
         )
 
     def cells(self, line: str) -> list[str]:
-        """Split a line."""
-        return _split(line, self.separator)
+        """Split a line; a separator behind its last cell begins no other."""
+        cells = _cells(line, self.separator)
+        return cells[:-1] if len(cells) == len(self.names) + 1 and not cells[-1] else cells
 
 
 def encoding_of(head: bytes) -> str:
@@ -123,8 +124,12 @@ def _likely(lines: list[str]) -> list[str | None]:
 
 
 def _split(line: str, separator: str | None) -> list[str]:
-    cells = [cell.strip().strip('"').strip() for cell in line.strip("\r\n").split(separator)]
+    cells = _cells(line, separator)
     return cells[:-1] if separator is not None and len(cells) > 1 and not cells[-1] else cells
+
+
+def _cells(line: str, separator: str | None) -> list[str]:
+    return [cell.strip().strip('"').strip() for cell in line.strip("\r\n").split(separator)]
 
 
 def _kind(cell: str, decimal: str) -> str:

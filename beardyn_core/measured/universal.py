@@ -49,7 +49,8 @@ def open_file(path: Path, _reading: Reading) -> Held:
         for key in ("id1", "id2", "id3"):
             if text := str(each.get(key, "") or "").strip():
                 facts.setdefault(key, text)
-    problems = (
+    problems = [] if _is_whole(path) else [f"{path}: is cut off: its last data set has no end"]
+    problems += (
         [] if channels else [f"{path}: has no time response (data set 58, function type 1), has {kinds}"]
     )
     return Held(tuple(channels), columns, {}, facts, problems=problems)
@@ -62,3 +63,10 @@ def _label(each: dict[str, Any]) -> str:
     direction = int(each.get("rsp_dir", 0) or 0)
     sign = "-" if direction < 0 else "+"
     return f"node {each.get('rsp_node', 0)} {sign}{_DIRECTIONS.get(abs(direction), '?')}"
+
+
+def _is_whole(path: Path) -> bool:
+    """Tell whether a file ends with the delimiter of a data set."""
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - 200))
+        return file.read().strip().rpartition(b"\n")[2].strip() == b"-1"

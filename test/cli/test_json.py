@@ -133,7 +133,9 @@ def test_monitor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_import(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "a.csv"
     file.write_text("time_s,az_g\n" + "".join(f"{k / 1000:.4f},{k % 7}.5\n" for k in range(100)))
-    check("import", printed(capsys, "import", str(file), "-o", str(tmp_path / "run.mcap"), "--speed-rpm", "600"))
+    check(
+        "import", printed(capsys, "import", str(file), "-o", str(tmp_path / "run.mcap"), "--speed-rpm", "600")
+    )
 
 
 def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

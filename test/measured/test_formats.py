@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -61,8 +62,7 @@ def test_the_size_of_blocks_changes_nothing(
 ) -> None:
     path = kind.make(tmp_path, noise(axes=3))
     whole = bd.read_measured(path, **kind.needs)
-    for module in (source, *map(__import__, ())):
-        monkeypatch.setattr(module, "BLOCK", 777)
+    monkeypatch.setattr(source, "BLOCK", 777)
     for name in ("npz", "wav", "mdf", "parquet"):
         monkeypatch.setattr(f"beardyn_core.measured.{name}.BLOCK", 777)
     monkeypatch.setattr("beardyn_core.record.other_messages._BLOCK", 777)
@@ -90,14 +90,16 @@ def test_a_file_that_was_cut_off_ends_in_sentences_that_name_it(
     path = kind.make(tmp_path, noise(axes=3))
     data = path.read_bytes()
     path.write_bytes(data[: int(share * len(data))])
+    problems = [str(path)]
     try:
         run = bd.read_measured(path, **kind.needs)
     except bd.InputError as error:
-        assert error.problems
-        assert all(str(path) in problem for problem in error.problems)
+        problems = error.problems
     else:  # text without its end is a shorter text, and a log of segments a shorter log
-        assert kind.name in ("csv", "tdms", "universal")
+        assert kind.name in ("csv", "tdms")
         assert 0 < len(run.vibration) < COUNT
+    assert problems
+    assert all(str(path) in problem for problem in problems)
 
 
 @EVERY
@@ -110,10 +112,8 @@ def test_bytes_that_were_damaged_never_end_in_a_traceback(kind: Kind, tmp_path: 
         for at in draw.integers(0, len(data), 20):
             damaged[at] = draw.integers(0, 256)
         path.write_bytes(damaged)
-        try:
+        with suppress(bd.InputError):
             bd.read_measured(path, **kind.needs)
-        except bd.InputError as error:
-            assert error.problems
 
 
 def test_json_messages_are_read(tmp_path: Path) -> None:
