@@ -17,6 +17,7 @@ RATE_NAMES = (
     *("fs", "sr", "f_s", "samplerate", "sample_rate", "samplingrate", "sampling_rate", "samplefrequency"),
     *("sampling_frequency", "samplingfrequency", "sample_frequency", "rate_hz", "fs_hz", "fsamp", "fsample"),
 )
+_NOTHING: Mapping[str, Any] = {}
 STEP_NAMES = ("dt", "ts", "time_step", "wf_increment", "increment", "sample_interval")
 
 
@@ -67,13 +68,17 @@ def claimed_rate(numbers: Mapping[str, float]) -> float:
 
 
 def channels_of(
-    columns: Mapping[str, Column], rates: Mapping[str, float], units: Mapping[str, str], rate: float
+    columns: Mapping[str, Column],
+    rate: float,
+    rates: Mapping[str, float] = _NOTHING,
+    units: Mapping[str, str] = _NOTHING,
+    groups: Mapping[str, str] = _NOTHING,
 ) -> tuple[Channel, ...]:
-    """List the channels of columns: those of the same length are sampled together.
+    """List the channels of columns: those of a group and of the same length are sampled together.
 
     Parameters
     ----------
-    rates, units : mapping
+    rates, units, groups : mapping
         What the file says of a column.
     rate : float
         What it says of all, [Hz].
@@ -81,7 +86,7 @@ def channels_of(
     return tuple(
         Channel(
             name,
-            table=f"{len(column)} samples" + (f" at {rates[name]:g} Hz" if name in rates else ""),
+            table=f"{groups.get(name, '')}, {len(column)} samples".removeprefix(", "),
             count=len(column),
             unit=usual(units.get(name, "")),
             rate=rates.get(name, rate),

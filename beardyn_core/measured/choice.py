@@ -304,6 +304,7 @@ def _asked(work: _Choosing) -> dict[str, dict[str, Channel]]:
 
 def _guessed(work: _Choosing, candidates: Sequence[Channel]) -> dict[str, dict[str, Channel]]:
     """Take the only channel, or those that say their axis."""
+    candidates = [each for each in candidates if each.axis] or candidates
     if len(candidates) == 1:
         return {USUAL_SENSOR: {candidates[0].axis or "z": candidates[0]}}
     said = {each.name: each.axis or _axis_in(each.name) for each in candidates}

@@ -11,6 +11,7 @@ from beardyn_core.arrays import Float
 _ALIKE = 0.01  # by which steps may differ and still be even; of a rate, by which two are one
 _LEAST_SAMPLES = 1000  # of which the mean step is compared
 _SHOWN = 3
+_FIRST, _HEAD = 200, 2000  # stamps by which the usual step, and their rounding, are known
 
 
 class Clock:
@@ -45,7 +46,7 @@ class Clock:
         if begin == 0:
             self.first = float(time[0])
             if len(time) > 1:
-                self._settle(np.diff(time))
+                self._settle(time)
         else:
             time = np.concatenate(([self.last], time))
             begin -= 1
@@ -59,19 +60,22 @@ class Clock:
             far = np.flatnonzero(step > 1.5 * self._step + 2.0 * self.coarse)
         self._compare(step, far, begin)
 
-    def _settle(self, step: Float) -> None:
-        """Learn the usual step, and how coarse the stamps are, from the first block."""
-        good = step[np.isfinite(step) & (step >= 0.0)]
-        if not len(good):
+    def _settle(self, time: Float) -> None:
+        """Learn the usual step, and how coarse the stamps are, from the first ones."""
+        step = np.diff(time[: _HEAD + 1])
+        step = step[np.isfinite(step) & (step >= 0.0)]
+        if not len(step):
             return
-        self._step = float(np.median(good))
-        uneven = np.abs(good - self._step) > _ALIKE * max(self._step, 1e-300)
-        if uneven.mean() > _ALIKE:
-            positive = good[good > 0.0]
-            self.coarse = float(positive.min()) if len(positive) else 0.0
-            jitter = float(np.quantile(np.abs(good - good.mean()), 0.99))
-            self.coarse = max(self.coarse, 2.0 * jitter)
-            self._step = float(good.mean())
+        first = step[:_FIRST]
+        self._step = float(np.median(first))
+        uneven = np.abs(first - self._step) > _ALIKE * self._step
+        if uneven.mean() > _ALIKE:  # they jitter
+            self._step = float(first.mean())
+            self.coarse = 2.0 * float(np.quantile(np.abs(first - self._step), 0.99))
+        digit = _last_digit(time[:_HEAD])
+        if digit > _ALIKE * self._step and (np.abs(step - step[0]) > 0.5 * digit).any():  # they are rounded
+            self._step = float(step.mean())
+            self.coarse = max(self.coarse, digit)
 
     def _compare(self, step: Float, far: Any, begin: int) -> None:
         """Tell a change of the rate from jumps."""
@@ -94,6 +98,12 @@ class Clock:
         """Mean rate, NaN for fewer than two stamps, [Hz]."""
         span = self.last - self.first
         return float(f"{(self.count - 1) / span:.9g}") if self.count > 1 and span > 0.0 else float("nan")
+
+    @property
+    def uncertainty(self) -> float:
+        """Share by which that rate may be wrong because stamps are rounded or jitter."""
+        span = self.last - self.first
+        return self.coarse / span if span > 0.0 else float("nan")
 
     def problems(self, where: str) -> list[str]:
         """Write what is wrong with the stamps, in sentences; `where` is the file and the channel."""
@@ -118,7 +128,8 @@ class Clock:
             more = f", and at {len(self._jumps) - 1} samples more" if len(self._jumps) > 1 else ""
             found.append(
                 f"{where}: the time jumps by {step:.6g} s at sample {at}{more}, where the usual step is "
-                f"{self._step:.6g} s; split the file there"
+                f"{self._step:.6g} s; split the file there, or give --rate-hz and "
+                "--time-channel none if the time is wrong"
             )
         return found
 
@@ -126,3 +137,12 @@ class Clock:
 def _numbers(found: list[int]) -> str:
     shown = ", ".join(map(str, found[:_SHOWN]))
     return f"{shown} and later" if len(found) > _SHOWN else shown
+
+
+def _last_digit(time: Float) -> float:
+    """Find the last decimal digit that stamps have, [s]; 0 when they have more than nine."""
+    noise = 4.0 * np.spacing(np.abs(time).max()) if len(time) else 0.0
+    for digits in range(10):
+        if (np.abs(time - np.round(time, digits)) <= noise).all():
+            return float(10.0**-digits)
+    return 0.0

@@ -61,17 +61,19 @@ def open_file(path: Path, _reading: Reading) -> Held:
             for each, column in found.items():
                 columns[each] = Column(None, column.across, column.lying)
                 lengths[each], places[each] = len(column), place
+                groups[each] = place.rpartition("/")[0]
                 units[each] = next((in_text(said[key]) or "" for key in _UNITS if key in said), "")
                 if rate == rate:
                     rates[each] = rate
 
     lengths: dict[str, int] = {}
+    groups: dict[str, str] = {}
     try:
         with h5py.File(path, "r") as file:
             take("", file)
             file.visititems(take)
             known = {name: Column(_Length(lengths[name])) for name in columns}
-            channels = channels_of(known, rates, units, claimed_rate(numbers))
+            channels = channels_of(known, claimed_rate(numbers), rates, units, groups)
     except (OSError, RuntimeError, ValueError, KeyError) as error:
         raise broken(path, "HDF5", error) from error
     found = _File(channels, {name: (places[name], columns[name]) for name in columns}, numbers, facts)

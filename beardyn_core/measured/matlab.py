@@ -31,7 +31,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
             columns |= found
         elif (text := in_text(value)) is not None:
             facts[name.strip("_")] = text
-    channels = channels_of(columns, {}, {}, claimed_rate(numbers))
+    channels = channels_of(columns, claimed_rate(numbers))
     return Held(channels, columns, numbers, facts)
 
 

@@ -54,7 +54,7 @@ def _let_go(trace: TracebackType | None) -> None:
     """Keep a file that could not be opened from complaining again when it is deleted."""
     while trace is not None:
         opener = trace.tb_frame.f_locals.get("self")
-        if hasattr(opener, "_closed"):
+        if opener is not None and hasattr(opener, "_closed"):
             opener._closed = True
         trace = trace.tb_next
 

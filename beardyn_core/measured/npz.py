@@ -95,7 +95,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
                 columns |= columns_in(name, head)
     except _DAMAGE as error:
         raise broken(path, "NumPy", error) from error
-    found = _Archive(channels_of(columns, {}, {}, claimed_rate(numbers)), columns, numbers, facts)
+    found = _Archive(channels_of(columns, claimed_rate(numbers)), columns, numbers, facts)
     found.path = path
     return found
 

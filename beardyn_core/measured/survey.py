@@ -260,6 +260,11 @@ def _rate(
                 f"{chosen.path}: {what} {rate:.6g} Hz and {other} {its:.6g} Hz; "
                 "give --rate-hz with the right one"
             )
+    if time is not None and clock.uncertainty > _SAME_RATE and len(claims) == 1:
+        found.warnings.append(
+            f"{chosen.path}: the time stamps {time.name} are so coarse that the rate, {rate:.6g} Hz, may be "
+            f"wrong by {100.0 * clock.uncertainty:.2g} %; give --rate-hz if it is known"
+        )
     best = clock.rate if time is not None and isfinite(clock.rate) and not others else rate
     nearest = round(best)
     return float(nearest) if nearest and abs(best - nearest) < 1e-6 * best else best

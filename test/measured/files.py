@@ -240,5 +240,5 @@ KINDS = (
     Kind("universal", ".uff", _universal, {}, {}, single=True),
     Kind("mdf", ".mf4", _mdf, {}, {}),
     Kind("parquet", ".parquet", _parquet, {}, {}),
-    Kind("mcap", ".mcap", mcap, {"channels": "x=*on.x,y=*on.y,z=*on.z"}, {"channels": "z=*on.z"}),
+    Kind("mcap", ".mcap", mcap, {}, {"channels": "z=*acceleration.z"}),
 )  # fmt: skip

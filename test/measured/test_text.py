@@ -50,8 +50,8 @@ def written(
 )
 @settings(max_examples=examples(150), deadline=None)
 def test_separator_decimal_header_and_unit_are_understood(
-    tmp_path_factory: pytest.TempPathFactory, separator: str, decimal: str, heading: str, unit: tuple[str, str],
-    axes: int, comments: int, end: str, seed: int, asked: bool,
+    tmp_path_factory: pytest.TempPathFactory, separator: str, decimal: str, heading: str,
+    unit: tuple[str, str], axes: int, comments: int, end: str, seed: int, asked: bool,
 ) -> None:  # fmt: skip
     if separator == "comma" and decimal == "comma":
         return
@@ -157,8 +157,8 @@ def test_text_without_numbers_is_a_sentence(content: str, tmp_path: Path) -> Non
 
 @pytest.mark.parametrize(
     ("text", "unit"),
-    [("m/s^2", "m/s2"), ("m s⁻²", "m/s2"), ("M/S²", "m/s2"), ("G", "g"), ("g's", "g"), ("U/min", "rpm"), ("V", "V"),
-     ("mm/s²", "mm/s2"), ("kph", "km/h"), ("µs", "us")],
+    [("m/s^2", "m/s2"), ("m s⁻²", "m/s2"), ("M/S²", "m/s2"), ("G", "g"), ("g's", "g"), ("U/min", "rpm"),
+     ("V", "V"), ("mm/s²", "mm/s2"), ("kph", "km/h"), ("µs", "us")],
 )  # fmt: skip
 def test_units_are_known_as_people_write_them(text: str, unit: str) -> None:
     assert usual(text) == unit
