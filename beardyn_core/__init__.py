@@ -79,10 +79,10 @@ else:
     from beardyn_core import bearing, scene
 
 __all__ = ["Bearing", "Block", "Chain", "EffectSet", "InputError", "Lubricant", "MonitorSettings"]
-__all__ += ["NamePlate", "Run", "import_measured", "name_plate", "read_measured"]
-__all__ += ["RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks", "equilibrium"]
-__all__ += ["fault_frequencies", "film", "life", "load_distribution", "lubricant", "monitor", "read"]
-__all__ += ["scene", "simulate", "steady_heat", "stiffness", "torque"]
+__all__ += ["NamePlate", "Run", "RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks"]
+__all__ += ["equilibrium", "fault_frequencies", "film", "import_measured", "life", "load_distribution"]
+__all__ += ["lubricant", "monitor", "name_plate", "read", "read_measured", "scene", "simulate"]
+__all__ += ["steady_heat", "stiffness", "torque"]
 
 _MODULES = {
     "api.heat": ("steady_heat",),

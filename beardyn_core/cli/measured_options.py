@@ -56,11 +56,20 @@ def flag(key: str) -> str:
 def _add(group: Any, place: Place, kind: type, several: bool = False, suffix: str = "") -> None:
     unit = place.key.rpartition("_")[2] if place.at.unit else place.field.rpartition("_")[2]
     allowed = [each for each in place.at.one_of if each]
-    words = f"{place.words}{f': {chr(44).join(allowed)}' if allowed else ''}{suffix}".replace("%", "%%")
+    words = place.words if "default" in place.words else f"{place.words}; default {_default(place)}"
+    words += f"; one of {', '.join(allowed)}" if allowed else ""
     action = {"action": "append"} if several else {"type": kind}
     group.add_argument(
-        flag(place.key), dest=f"measured_{place.key}", metavar=unit.upper(), help=words, **action
+        flag(place.key),
+        dest=f"measured_{place.key}",
+        metavar="N" if kind is int else unit.upper(),
+        help=f"{words}{suffix}".replace("%", "%%"),
+        **action,
     )
+
+
+def _default(place: Place) -> str:
+    return f"{place.default:g}" if isinstance(place.default, int | float) else "none"
 
 
 def reading_of(args: argparse.Namespace) -> Reading:

@@ -25,6 +25,7 @@ clock         sampling rate and gaps from time stamps
 choice        which channels are axes, speed and time; unit and rate: told, or refused
 survey        the first pass: rate, range and mistakes of every channel
 shaft         angle of the shaft from a constant, a speed channel or tacho pulses
+about         what a recording says of where it comes from
 stream        vibration and shaft of all files as parts in the order of time
 writing       the same as a recording
 in_memory     the same as a `Run`

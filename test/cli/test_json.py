@@ -15,7 +15,7 @@ from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.cli import report as report_command
 from beardyn_core.cli import simulate
 from beardyn_core.cli.json_output import SCHEMA_VERSION, json_text, plain
-from beardyn_core.cli.main import COMMANDS, DONE, main
+from beardyn_core.cli.main import COMMANDS, DONE, main, module_of
 from beardyn_core.integrate.rating_life import RatingLife
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSSES
@@ -178,7 +178,9 @@ def test_trial() -> None:
 def test_every_command_with_json_has_a_section() -> None:
     text = PAGE.read_text(encoding="utf-8")
     for name in (name for names in COMMANDS.values() for name in names):
-        source = (Path(simulate.__file__).parent / f"{name}.py").read_text(encoding="utf-8")
+        source = (Path(simulate.__file__).parent / f"{module_of(name).rpartition('.')[2]}.py").read_text(
+            encoding="utf-8"
+        )
         assert ('"--json"' in source) == (f"## `beardyn {name}`" in text), name
 
 
