@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated as A
 from typing import Any
@@ -33,10 +33,35 @@ class Column:
         return int(self.array.shape[1 if self.lying else 0])
 
     def __getitem__(self, part: slice) -> Float:
+        return self.of(np.asarray(self.array[self.place(part)]))
+
+    def place(self, part: slice) -> Any:
+        """Give the index of a stretch of time in the array, all its columns."""
+        return (slice(None), part) if self.lying else part
+
+    def of(self, stretch: Any) -> Float:
+        """Take this column out of such a stretch."""
         if self.across is None:
-            return np.asarray(self.array[part], np.float64)
-        place = (self.across, part) if self.lying else (part, self.across)
-        return np.asarray(self.array[place], np.float64)
+            return np.asarray(stretch, np.float64)
+        return np.asarray(stretch[self.across] if self.lying else stretch[:, self.across], np.float64)
+
+
+def stretches(columns: Mapping[str, Any], names: Sequence[str], count: int, block: int) -> Iterator[Float]:
+    """Give columns stretch by stretch, shape [sample, column]; an array is read once for all its columns."""
+    for begin in range(0, count, block):
+        part = slice(begin, min(begin + block, count))
+        read: dict[int, Any] = {}
+        found = []
+        for name in names:
+            column = columns[name]
+            if isinstance(column, Column):
+                key = id(column.array)
+                if key not in read:
+                    read[key] = np.asarray(column.array[column.place(part)])
+                found.append(column.of(read[key]))
+            else:
+                found.append(np.asarray(column[part], np.float64))
+        yield np.stack(found, axis=1)
 
 
 def columns_in(name: str, array: Any) -> dict[str, Column]:

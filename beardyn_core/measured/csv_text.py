@@ -32,7 +32,7 @@ class _Table(Held):
         bad: list[tuple[int, str]] = []
         for line, text in self._texts():
             rows = text.splitlines()
-            quick = None if table.moments & set(wanted) else _quick(rows, table, wanted)
+            quick = None if table.moments & set(wanted) else _quick(text, rows, table, wanted)
             yield _slow(rows, line, table, wanted, first, bad) if quick is None else quick
         if bad:
             shown = "; ".join(f"line {line + 1}: {what}" for line, what in bad[:_SHOWN])
@@ -58,22 +58,34 @@ class _Table(Held):
             yield line, rest
 
 
-def _quick(rows: list[str], table: TextTable, wanted: list[int]) -> Float | None:
+def _quick(text: str, rows: list[str], table: TextTable, wanted: list[int]) -> Float | None:
     """Read rows that all are as they should be; None when one is not."""
+    marks = tuple(mark for mark in "#%" if mark in text)
+    quoted = '"' in text
+    if marks and quoted:  # NumPy knows the one or the other
+        return None
     if table.decimal == ",":
-        rows = "\n".join(rows).replace(",", ".").split("\n")
+        rows = text.replace(",", ".").splitlines()
+    every = table.separator is None  # then only all columns show that none is too many
+    if every and table.moments:
+        return None
     try:
-        return np.loadtxt(
+        block = np.loadtxt(
             rows,
             np.float64,
             delimiter=table.separator,
-            usecols=wanted,
+            usecols=None if every else wanted,
             ndmin=2,
-            comments=("#", "%"),
-            quotechar='"',
+            comments=marks or None,
+            quotechar='"' if quoted else None,
         )
     except (ValueError, IndexError):
         return None
+    width = len(table.names)
+    if table.separator is None:
+        return block[:, wanted] if block.shape[1] == width else None
+    between = text.count(table.separator)
+    return block if between in (len(block) * (width - 1), len(block) * width) else None
 
 
 def _slow(

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.arrays import Float
-from beardyn_core.measured.arrays_inside import Column, channels_of, claimed_rate, columns_in
+from beardyn_core.measured import source
+from beardyn_core.measured.arrays_inside import Column, channels_of, claimed_rate, columns_in, stretches
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Held, broken, in_text, library
 
@@ -26,11 +27,13 @@ class _File(Held):
         """Give the samples of channels of one table from the beginning, shape [sample, channel]."""
         with self.h5py.File(self.path, "r") as file:
             try:
+                arrays = {place: file[place] for place, _ in (self.columns[name] for name in names)}
                 columns = {
-                    name: Column(file[place], column.across, column.lying)
+                    name: Column(arrays[place], column.across, column.lying)
                     for name, (place, column) in ((name, self.columns[name]) for name in names)
                 }
-                yield from Held(self.channels, columns).blocks(names)
+                count = min(map(len, columns.values()))
+                yield from stretches(columns, names, count, source.BLOCK)
             except (OSError, RuntimeError, ValueError) as error:
                 raise broken(self.path, "HDF5", error) from error
 

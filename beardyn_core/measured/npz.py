@@ -12,6 +12,7 @@ import numpy as np
 from numpy.lib import format as npy
 
 from beardyn_core.arrays import Float
+from beardyn_core.errors import InputError
 from beardyn_core.measured.arrays_inside import Column, channels_of, claimed_rate, columns_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Held, broken, in_text
@@ -59,7 +60,9 @@ class _Members:
         self._path = path
         self._zip = zipfile.ZipFile(path) if zipfile.is_zipfile(path) else None
         self.names = (
-            [path.stem] if self._zip is None else [n.removesuffix(".npy") for n in self._zip.namelist()]
+            [path.stem]
+            if self._zip is None
+            else [name.removesuffix(".npy") for name in self._zip.namelist() if name.endswith(".npy")]
         )
 
     def open(self, name: str) -> IO[bytes]:
@@ -86,6 +89,10 @@ def open_file(path: Path, _reading: Reading) -> Held:
         if packed and not zipfile.is_zipfile(path):
             raise zipfile.BadZipFile("the list of its arrays, at its end, is missing")
         with _Members(path) as archive:
+            if not archive.names:
+                raise InputError(
+                    f"{path}: is a ZIP file without NumPy arrays; of a spreadsheet save the sheet as CSV"
+                )
             for name in archive.names:
                 with archive.open(name) as file:
                     head = _head(file)

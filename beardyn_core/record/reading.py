@@ -215,6 +215,8 @@ class MessageSource:
     def cages(self) -> arrays.Turning:
         orbit = self._orbit
         columns = [orbit.names.index(name) for name in ("cage_0", "cage_1") if name in orbit.names]
+        if not len(orbit.time_ns):
+            return arrays.Turning(orbit.time_ns, np.zeros((0, ROWS)), np.zeros((0, ROWS)))
         return arrays.Turning(orbit.time_ns, orbit.position[:, columns], orbit.velocity[:, columns])
 
     def rollers(self) -> arrays.Turning:

@@ -140,6 +140,19 @@ def test_what_is_exported_is_read_again(tmp_path: Path) -> None:
         assert again.vibration.rate == pytest.approx(RATE)
 
 
+def test_one_axis_is_one_channel_of_a_wav_file(tmp_path: Path) -> None:
+    import soundfile
+
+    run = bd.read_measured(KINDS[0].make(tmp_path, noise()))
+    (path, _) = run.to_wav(tmp_path / "a.wav")
+    values, rate = soundfile.read(path)
+    np.testing.assert_array_equal(values, run.vibration.values[:, 2].astype(np.float32))
+    assert rate == RATE
+    assert np.isnan(run.to_xarray().vibration.sel(axis="x")).all()
+    assert "measured.csv" in repr(run)
+    assert run.labels == {}
+
+
 def test_whole_numbers_of_a_wav_file_are_shares_of_full_scale(tmp_path: Path) -> None:
     import soundfile
 

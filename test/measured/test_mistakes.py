@@ -197,6 +197,22 @@ def test_nothing_existing_is_replaced_unasked_and_an_input_never(
     assert not (tmp_path / "new.mcap").exists()
 
 
+def test_what_is_no_measured_file_is_a_sentence(tmp_path: Path) -> None:
+    import zipfile
+
+    with zipfile.ZipFile(tmp_path / "a.xlsx", "w") as file:
+        file.writestr("xl/workbook.xml", "<x/>")
+    (tmp_path / "a.xls").write_bytes(b"\xd0\xcf\x11\xe0" + bytes(600))
+    (tmp_path / "empty.csv").touch()
+    files = [tmp_path / name for name in ("a.xlsx", "a.xls", "empty.csv")]
+    found = problems([*files, tmp_path])
+    assert "is a ZIP file without NumPy arrays; of a spreadsheet save the sheet as CSV" in found[0]
+    assert "is of no known format; known are CSV, MATLAB 7.3, MATLAB, HDF5, WAV" in found[1]
+    assert found[2] == f"{files[2]}: the file is empty"
+    assert found[3] == f"{tmp_path}: is a folder; give the files in it"
+    assert problems([]) == ["no measured file is given"]
+
+
 def test_ctrl_c_keeps_what_is_done(tmp_path: Path) -> None:
     big = tmp_path / "a.npy"
     np.save(big, np.random.default_rng(1).normal(size=8_000_000))

@@ -170,3 +170,27 @@ def test_units_stand_in_brackets_or_at_the_end_of_a_name() -> None:
     assert unit_in("X097RPM", {"rpm": 1.0}) == "rpm"
     assert unit_in("az_m_s2", ACCELERATION) == "m/s2"
     assert unit_in("swing", ACCELERATION) == ""
+
+
+@pytest.mark.parametrize("mark", ["", "# a remark\n", "% another\n"])
+@pytest.mark.parametrize("quote", ["", '"'])
+def test_a_file_without_mistakes_is_read_the_quick_way(
+    mark: str, quote: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rows = [f"{quote}{k / 100:.2f}{quote};{quote}{k % 7},5{quote}\n" for k in range(60)]
+    rows.insert(30, mark)
+    path = tmp_path / "a.csv"
+    path.write_text("time_s;az_g\n" + "".join(rows).replace(".", ","))
+    if not (mark and quote):  # NumPy does not know both at once
+        monkeypatch.setattr("beardyn_core.measured.csv_text._slow", None)
+    run = bd.read_measured(path)
+    np.testing.assert_allclose(run.vibration.values[:, 2], (np.arange(60) % 7 + 0.5) * STANDARD_GRAVITY)
+
+
+def test_a_row_with_too_many_cells_is_found_although_its_first_ones_are_numbers(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    rows = [f"{k / 100:.2f},{k % 7}.5\n" for k in range(60)]
+    rows[20] = "0.20,1.5,9,9\n"
+    path.write_text("time_s,az_g\n" + "".join(rows))
+    with pytest.raises(bd.InputError, match="line 22: has 4 values where 2 belong"):
+        bd.read_measured(path)
