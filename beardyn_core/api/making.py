@@ -14,7 +14,8 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.choice import scene_from_mapping
 from beardyn_core.config.folders import find
-from beardyn_core.config.load import bearing_from_mapping, load_lubricant, load_plate, read_noun
+from beardyn_core.config.load import bearing_from_mapping, load_lubricant, read_noun
+from beardyn_core.config.plates import load_plate
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet

@@ -65,7 +65,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.observe.chain import algorithm_named
-    from beardyn_core.record.reading import is_recording
+    from beardyn_core.record.other_messages import is_recording
 
     algorithm = algorithm_named(args.monitor)
     recorded = len(args.files) == 1 and not says_how_to_read(args) and is_recording(args.files[0])

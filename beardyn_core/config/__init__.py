@@ -14,6 +14,7 @@ problems     refusals to sentences with file, key, value, what is allowed
 automatic    what `auto` leaves open
 missing      rows and rollers that are not there
 load         references resolved, nouns made: scenes, their parts, trials
+plates       name plates by name
 schema       JSON schema for editors
 ============ ==================================================================
 
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
         load_box,
         load_effects,
         load_lubricant,
-        load_plate,
         load_sensor,
         load_vehicle,
         read_scene,
@@ -44,6 +44,7 @@ if TYPE_CHECKING:
         read_scene_text,
         read_trial,
     )
+    from beardyn_core.config.plates import load_plate
     from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
     from beardyn_core.config.yaml_text import scene_text
 
@@ -65,6 +66,7 @@ _MODULES = {
     "SCHEMA_KINDS": "schema",
     "config_folder": "folders",
     "json_schema": "schema",
+    "load_plate": "plates",
     "scene_text": "yaml_text",
     "shipped_names": "folders",
 }

@@ -16,7 +16,6 @@ from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config.automatic import AUTO, auto_in_its_box, take_auto
 from beardyn_core.config.content import located_table, self_contained, with_table
 from beardyn_core.config.folders import find, shipped_names
@@ -102,29 +101,6 @@ def bearing_from_mapping(data: dict[str, Any], label: str) -> Bearing:
     if problems := check(bearing):
         raise InputError([f"{label}: {problem.removesuffix('.')}" for problem in problems])
     return bearing
-
-
-def load_plate(name: str | Path) -> NamePlate:
-    """Load a shipped name plate or that of a file, or take that of a whole bearing.
-
-    Raises
-    ------
-    InputError
-        With every mistake, or the names there are.
-    """
-    text = str(name)
-    if text not in shipped_names("plates") and text in shipped_names("bearings"):
-        return NamePlate.of(load_bearing(text))
-    try:
-        path = find("plates", text)
-    except InputError as error:
-        bearings = ", ".join(shipped_names("bearings"))
-        raise InputError([f"{each}; bearings are {bearings}" for each in error.problems]) from None
-    data = read_file(path)
-    if "row_spacing_mm" in data or "cage" in data:
-        return NamePlate.of(bearing_from_mapping(data, str(path)))
-    plate: NamePlate = read_noun(NamePlate, data, str(path))
-    return plate
 
 
 def load_lubricant(name: str | Path) -> Lubricant:

@@ -24,7 +24,7 @@ _TIME_NAME = re.compile(
     re.I,
 )
 _AXIS_NAME = re.compile(
-    r"(?:^|[^a-z])(?:a|acc|accel|acceleration|vib|vibration)?[_ .\-]?([xyz])(?:$|[^a-z])", re.I
+    r"(?:^|[^a-z])(?:a|acc|accel|acceleration|vib|vibration)?[_ .\-]?([xyz])(?:$|[^a-z0-9])", re.I
 )
 _SHOWN = 12
 

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
-import numpy as np
-
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import sealed
 from beardyn_core.measured.about import Mounted, about
@@ -89,4 +87,4 @@ def write_measured(
     finally:
         with sealed():
             writer.close(status)
-    return Imported(path, survey.duration, survey, tuple(np.unique(stream.warnings).tolist()))
+    return Imported(path, survey.duration, survey, tuple(dict.fromkeys(stream.warnings)))

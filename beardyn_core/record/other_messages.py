@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, is_dataclass
 from pathlib import Path
 from typing import Annotated as A
@@ -15,13 +16,37 @@ from mcap.records import Channel, Schema
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from beardyn_core.arrays import Float
+from beardyn_core.record.bag_scanning import is_folder_of_files
 from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import CLOUD
-from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.mcap_scanning import MAGIC, McapScan
+from beardyn_core.record.topics import namespace_of, relative_name, topic
 
 TIME = "time"
 _BLOCK = 65_536
 _LONGEST_LIST = 3  # components of a vector; a longer list in a message is a stretch of samples
+
+
+def is_recording(path: Path | str) -> bool:
+    """Tell whether a path means a recording of an axlebox, not a file of another tool.
+
+    A folder, and a file that cannot be read, count as one: reading it says what is wrong.
+    """
+    path = Path(path)
+    if not path.is_file() or is_folder_of_files(path):
+        return True
+    with path.open("rb") as file:
+        if file.read(len(MAGIC)) != MAGIC:
+            return False
+    scan = McapScan(path)
+    for message in scan.messages():
+        space = namespace_of(message.topic)
+        if space is None:
+            continue
+        with suppress(KeyError):
+            if topic(relative_name(message.topic, space)).type == message.type:
+                return True
+    return not scan.channels
 
 
 @dataclass

@@ -21,7 +21,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
 from beardyn_core.record import arrays
-from beardyn_core.record.bag_scanning import BagScan, is_folder_of_files, scan_recording
+from beardyn_core.record.bag_scanning import BagScan, scan_recording
 from beardyn_core.record.checking import MessageChecker, take_out_malformed
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
@@ -35,7 +35,7 @@ from beardyn_core.record.encoding import (
     joint_template,
 )
 from beardyn_core.record.load_stream import decode_load, joined_load
-from beardyn_core.record.mcap_scanning import MAGIC, McapScan
+from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, MEASURED_FILE, SCENE_FILE
 from beardyn_core.record.messages import (
     Template,
@@ -53,7 +53,6 @@ from beardyn_core.record.topics import (
     WRENCH,
     namespace_of,
     relative_name,
-    topic,
     vibration_topic,
 )
 from beardyn_core.scene.load import WRENCH_AXES
@@ -89,28 +88,6 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     with arrays.decoding_checked(scan.path):
         cdrs = {names[path]: messages for path, messages in recorded.items()}
         return _run(scan, cdrs, {names[path]: kind for path, kind in types.items()})
-
-
-def is_recording(path: Path | str) -> bool:
-    """Tell whether a path means a recording of an axlebox, not a file of another tool.
-
-    A folder, and a file that cannot be read, count as one: reading it says what is wrong.
-    """
-    path = Path(path)
-    if not path.is_file() or is_folder_of_files(path):
-        return True
-    with path.open("rb") as file:
-        if file.read(len(MAGIC)) != MAGIC:
-            return False
-    scan = McapScan(path)
-    for message in scan.messages():
-        space = namespace_of(message.topic)
-        if space is None:
-            continue
-        with suppress(KeyError):
-            if topic(relative_name(message.topic, space)).type == message.type:
-                return True
-    return not scan.channels
 
 
 def namespace_in(paths: Iterable[str]) -> str:

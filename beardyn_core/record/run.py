@@ -249,8 +249,13 @@ class Run:
         Raises
         ------
         InputError
-            The file has none.
+            The file has none, as one that was measured.
         """
+        if self.measured:
+            raise InputError(
+                f"{self.label}: was measured, so there is no bearing in it to draw or to sum up; report, "
+                "monitor and export read it"
+            )
         if self.description is None:
             raise InputError(
                 f"{self.label}: the recording does not say which bearing it is of (no run.json and no topic "

@@ -151,6 +151,8 @@ def test_one_axis_is_one_channel_of_a_wav_file(tmp_path: Path) -> None:
     assert np.isnan(run.to_xarray().vibration.sel(axis="x")).all()
     assert "measured.csv" in repr(run)
     assert run.labels == {}
+    with pytest.raises(bd.InputError, match="was measured, so there is no bearing in it to draw"):
+        run.described()
 
 
 def test_whole_numbers_of_a_wav_file_are_shares_of_full_scale(tmp_path: Path) -> None:
