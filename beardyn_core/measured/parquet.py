@@ -14,6 +14,8 @@ from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Channel, Held, broken, library
 from beardyn_core.measured.units import split_unit, usual
 
+_READ_BYTES = 1 << 20
+
 
 class _Parquet(Held):
     path: Path
@@ -23,7 +25,8 @@ class _Parquet(Held):
         """Give the samples of channels of one table from the beginning, shape [sample, channel]."""
         first: dict[str, int] = {}
         try:
-            with self.parquet.ParquetFile(self.path) as file:
+            # by default whole groups of rows are read ahead
+            with self.parquet.ParquetFile(self.path, pre_buffer=False, buffer_size=_READ_BYTES) as file:
                 for batch in file.iter_batches(BLOCK, columns=[self.columns[name] for name in names]):
                     yield np.stack(
                         [_numbers(batch, self.columns[name], name, first) for name in names], axis=1
