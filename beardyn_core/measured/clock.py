@@ -11,6 +11,7 @@ from beardyn_core.arrays import Float
 _ALIKE = 0.01  # by which steps may differ and still be even; of a rate, by which two are one
 _LEAST_SAMPLES = 1000  # of which the mean step is compared
 _SHOWN = 3
+_JITTERING = 0.05  # share of uneven steps from which they are no single mistakes
 _FIRST, _HEAD = 200, 2000  # stamps by which the usual step, and their rounding, are known
 
 
@@ -35,10 +36,24 @@ class Clock:
         self._doubled: list[int] = []
         self._jumps: list[tuple[int, float]] = []
         self._change: tuple[int, float] | None = None
-        self._head = 0.0
+        self._waiting: list[Float] = []  # the first stamps, until they are enough to know the usual step
 
     def take(self, stamps: Float) -> None:
         """Add the next stamps; those that are not finite are somebody else's complaint."""
+        if self.count:
+            self._take(stamps)
+            return
+        self._waiting.append(stamps)
+        if sum(map(len, self._waiting)) > _HEAD:
+            self.end()
+
+    def end(self) -> None:
+        """Look at what waits for more; after this there is none."""
+        if self._waiting:
+            self._take(np.concatenate(self._waiting))
+            self._waiting = []
+
+    def _take(self, stamps: Float) -> None:
         time = stamps * self._seconds
         if not len(time):
             return
@@ -69,7 +84,7 @@ class Clock:
         first = step[:_FIRST]
         self._step = float(np.median(first))
         uneven = np.abs(first - self._step) > _ALIKE * self._step
-        if uneven.mean() > _ALIKE:  # they jitter
+        if uneven.mean() > _JITTERING:
             self._step = float(first.mean())
             self.coarse = 2.0 * float(np.quantile(np.abs(first - self._step), 0.99))
         digit = _last_digit(time[:_HEAD])

@@ -186,6 +186,7 @@ def _table(chosen: Chosen, name: str, channels: list[Channel], reading: Reading,
             ranges[channel].take(column)
         if time is not None:
             clock.take(block[:, names.index(time.name)])
+    clock.end()
     found.problems += chosen.source.problems
     count = max(each.count for each in ranges.values())
     where = str(chosen.path)
