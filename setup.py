@@ -19,9 +19,11 @@ ROS_WHEELS = [
 ]
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
 STRUCTURE = ["gmsh>=4.11", "pyuff>=2.4", "scikit-fem>=9"]
+MEASURED = ["asammdf>=8", "h5py>=3.10", "nptdms>=1.7", "pyarrow>=15", "pyuff>=2.4", "soundfile>=0.12"]
 TEST = [
     *DATA,
     *STRUCTURE,
+    *MEASURED,
     "hypothesis>=6.100",
     "jsonschema>=4.18",
     "mcap-ros2-support>=0.5",
@@ -87,7 +89,14 @@ setup(
         "tqdm>=4.66",
         "zstandard>=0.22",
     ],
-    extras_require={"ros": ROS_WHEELS, "data": DATA, "structure": STRUCTURE, "test": TEST, "dev": DEV},
+    extras_require={
+        "ros": ROS_WHEELS,
+        "data": DATA,
+        "structure": STRUCTURE,
+        "measured": MEASURED,
+        "test": TEST,
+        "dev": DEV,
+    },
     entry_points={"console_scripts": ["beardyn = beardyn_core.cli.main:main"]},
     zip_safe=False,
 )

@@ -34,6 +34,7 @@ laboratory general contact search against closed forms: `beardyn contacts`
 twin       a scene that advances block by block
 run        the one loop: load, kernels, equilibrium, blocks to the end
 record     the topic table, MCAP files, runs as arrays, the rerun view
+measured   files of measuring programs as recordings and runs
 study      desk runs, ladders, trials, summaries, pictures
 api        the functions of this module
 cli        the beardyn command, a module a subcommand
@@ -51,7 +52,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beardyn_core.api.heat import steady_heat
-    from beardyn_core.api.making import bearing, lubricant, scene
+    from beardyn_core.api.making import bearing, lubricant, name_plate, scene
+    from beardyn_core.api.measuring import import_measured, read_measured
     from beardyn_core.api.reading import monitor, read
     from beardyn_core.api.simulating import simulate
     from beardyn_core.api.statics import (
@@ -65,6 +67,7 @@ if TYPE_CHECKING:
     )
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
+    from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.effects import EffectSet
     from beardyn_core.errors import InputError, ValidityError
     from beardyn_core.observe.block import Block
@@ -77,14 +80,16 @@ if TYPE_CHECKING:
 else:
     from beardyn_core import bearing, scene
 
-__all__ = ["Bearing", "Block", "Chain", "EffectSet", "InputError", "Lubricant", "MonitorSettings", "Run"]
-__all__ += ["RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks", "equilibrium"]
-__all__ += ["fault_frequencies", "film", "life", "load_distribution", "lubricant", "monitor", "read"]
-__all__ += ["scene", "simulate", "steady_heat", "stiffness", "torque"]
+__all__ = ["Bearing", "Block", "Chain", "EffectSet", "InputError", "Lubricant", "MonitorSettings"]
+__all__ += ["NamePlate", "Run", "RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks"]
+__all__ += ["equilibrium", "fault_frequencies", "film", "import_measured", "life", "load_distribution"]
+__all__ += ["lubricant", "monitor", "name_plate", "read", "read_measured", "scene", "simulate"]
+__all__ += ["steady_heat", "stiffness", "torque"]
 
 _MODULES = {
     "api.heat": ("steady_heat",),
-    "api.making": ("lubricant",),
+    "api.making": ("lubricant", "name_plate"),
+    "api.measuring": ("import_measured", "read_measured"),
     "api.reading": ("monitor", "read"),
     "api.simulating": ("simulate",),
     "api.statics": (
@@ -92,6 +97,7 @@ _MODULES = {
     ),
     "bearing.geometry": ("Bearing",),
     "bearing.lubricant": ("Lubricant",),
+    "bearing.name_plate": ("NamePlate",),
     "effects": ("EffectSet",),
     "errors": ("InputError", "ValidityError"),
     "observe.block": ("Block",),

@@ -6,12 +6,16 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.cli.measured_options import flag
 from beardyn_core.config import SCHEMA_KINDS, json_schema
+from beardyn_core.edge import places
+from beardyn_core.measured.options import Reading
 from beardyn_core.units import unit_of
 
 PAGE = Path(__file__).with_name("reference.md")
@@ -20,11 +24,11 @@ HEAD = """# Reference of the files
 
 Written by `python docs/write_reference.py` from the declarations in the code.
 
-Every key of scenes, bearings, lubricants, vehicles, effects, trials, boxes, sensors and backgrounds: what it
-means, in which unit, what is allowed, and what it is when it is not given (**required**: it must be given;
-*none*: then there is none).
+Every key of scenes, bearings, lubricants, vehicles, effects, trials, boxes, sensors, backgrounds and name
+plates: what it means, in which unit, what is allowed, and what it is when it is not given (**required**: it
+must be given; *none*: then there is none).
 The unit of a number is the end of its key. A key with a mapping leads to its own table. Where a file of a
-bearing, lubricant, vehicle, sensor or background has a number it may as well have
+bearing, lubricant, vehicle, sensor, background or name plate has a number it may as well have
 `{value: 17, source: catalogue}`.
 
 `beardyn schema KIND` prints the same as a JSON schema for editors.
@@ -40,7 +44,9 @@ TITLES = {
     "modes": "Structure by modes of another program",
     "sensor": "Sensor",
     "background": "Background",
+    "plate": "Name plate",
 }
+_SIGNS = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<"}
 _LIMITS = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}
 _TYPES = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false"}
 
@@ -167,6 +173,29 @@ def _usual(found: dict[str, Any], required: bool) -> str:
     return f"`{json.dumps(value).strip(chr(34))}`" if value != "" else "*none*"
 
 
+def measured_options() -> Iterator[str]:
+    """Write the table of what `beardyn import` and `beardyn monitor` take for measured files."""
+    yield "## Options of measured files"
+    yield ""
+    yield (
+        "`beardyn import` and `beardyn monitor` take them as options, `beardyn_core.read_measured` and "
+        "`import_measured` as arguments of the names in the second column ([measured.md](measured.md))."
+    )
+    yield ""
+    yield "| option | argument | meaning | unit | allowed |"
+    yield "|---|---|---|---|---|"
+    for place in places(Reading):
+        allowed = ", ".join(f"`{each}`" for each in place.at.one_of if each)
+        limits = [
+            f"{sign} {_number(place.at.limits[name])}"
+            for name, sign in _SIGNS.items()
+            if abs(place.at.limits.get(name, math.inf)) < 1e12
+        ]
+        cells = (f"`{flag(place.key)}`", f"`{place.key}`", _plain(place.words), unit_of(place.key) or "")
+        yield f"| {' | '.join((*cells, allowed or ', '.join(limits)))} |"
+    yield ""
+
+
 def page() -> str:
     """Write the whole page."""
     known: dict[str, str] = {}
@@ -175,6 +204,7 @@ def page() -> str:
     lines = [HEAD]
     for kind in SCHEMA_KINDS:
         lines += Kind(kind, known).sections()
+    lines += measured_options()
     return "\n".join(lines).rstrip() + "\n"
 
 

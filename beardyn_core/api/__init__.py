@@ -6,6 +6,7 @@ module      responsibility
 making      bearings, lubricants and scenes from a handful of arguments
 simulating  simulate a scene
 reading     read a recording, let a monitor judge a run
+measuring   read measured files, make recordings of them
 statics     stiffness, torque, life, film and load distribution, no run needed
 heat        steady temperatures and losses by source, no run needed either
 =========== ==================================================================

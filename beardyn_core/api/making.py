@@ -11,9 +11,11 @@ from typing import Any
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.choice import scene_from_mapping
 from beardyn_core.config.folders import find
-from beardyn_core.config.nouns import bearing_from_mapping, load_lubricant
+from beardyn_core.config.nouns import bearing_from_mapping, load_lubricant, read_noun
+from beardyn_core.config.plates import load_plate
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet
@@ -144,6 +146,33 @@ def _ring(inner_mm: float, outer_mm: float, width_mm: float) -> tuple[float, flo
     mass = math.pi * _STEEL_DENSITY * width * max(outer**2 - inner**2, 1e-6)
     polar = 0.5 * mass * (outer**2 + inner**2)
     return mass, polar, 0.5 * polar + mass * width**2 / 12.0
+
+
+def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
+    """Give a shipped name plate, one of a file, that of a bearing, or one made in code.
+
+    Parameters
+    ----------
+    name : str or Path, optional
+        Shipped name plate or bearing, or YAML file.
+    **keys
+        ``roller_count``, ``roller_diameter_mm``, ``pitch_diameter_mm``, ``contact_angle_deg``: without a name
+        all but the angle, with one in place of what the file gives.
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+
+    Examples
+    --------
+    >>> round(name_plate("6205").frequencies.bpfo, 4)
+    3.5848
+    """
+    known = {} if name is None else written(load_plate(name))
+    known.pop("sources", None)
+    made: NamePlate = read_noun(NamePlate, {**known, **_plain(keys)}, "name plate")
+    return made
 
 
 def lubricant(name: str | Path) -> Lubricant:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.choice import scene_from_text
 from beardyn_core.errors import InputError
+from beardyn_core.measured.about import mounted_in
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
@@ -35,7 +37,8 @@ def monitor(
     run: Run | Path | str,
     algorithm: Algorithm = REFERENCE,
     *,
-    bearing: Bearing | None = None,
+    bearing: Bearing | NamePlate | None = None,
+    sensor: str = "",
     settings: MonitorSettings | None = None,
 ) -> Conclusion:
     """Let a monitor judge a run, as ``beardyn monitor`` does.
@@ -43,12 +46,14 @@ def monitor(
     Parameters
     ----------
     run : Run or Path
-        A run or a recording: vibration of its first accelerometer, shaft, load and temperature are used,
+        A run or a recording: vibration of one accelerometer, shaft, load and temperature are used,
         and nothing else.
     algorithm : function, optional
         In place of the reference chain: a `Chain`, or a function like it.
-    bearing : Bearing, optional
-        What the name plate says; by default the bearing of the scene.
+    bearing : Bearing or NamePlate, optional
+        What the name plate says; by default that of the scene, of a measured run the one it was read with.
+    sensor : str, optional
+        Accelerometer to listen to; by default the first, or the one that hears the bearing of a measured run.
     settings : MonitorSettings, optional
 
     Returns
@@ -62,7 +67,16 @@ def monitor(
         The run has no vibration with a shaft angle, or does not say which bearing it is of.
     """
     run = run if isinstance(run, Run) else read_run(run)
-    if bearing is None and not run.scene_text:
-        raise InputError(f"{run.label}: does not say which bearing it is of; give bearing")
-    plate = bearing or scene_from_text(run.scene_text, run.label).bearing
-    return conclude(findings_of(run, plate, algorithm, settings))
+    if bearing is None and run.scene_text:
+        bearing = scene_from_text(run.scene_text, run.label).bearing
+    elif bearing is None:
+        known = mounted_in(run.measured, run.label)
+        if len(known) != 1:
+            several = (
+                f"has the bearings {', '.join(each.label for each in known)}" if known else "does not say"
+            )
+            raise InputError(
+                f"{run.label}: {several}{'' if known else ' which bearing it is of'}; give bearing"
+            )
+        bearing, sensor = known[0].plate, sensor or known[0].sensor
+    return conclude(findings_of(run, bearing, algorithm, settings, sensor))

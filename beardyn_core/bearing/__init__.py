@@ -7,6 +7,7 @@ profile            drop of the roller generator along its length
 geometry           `Bearing`: numbers of its file, material, apex closure, rib, roller inertia
 consistency        `check`: refuses numbers that contradict each other
 kinematics         speeds of cage and roller, fault frequencies
+name_plate         `NamePlate`: what the fault frequencies of any rolling bearing need
 contact_law        line contact (Palmgren), point contact (Hertz), rib of a bearing with its ellipse
 lamina_coupling    laminae coupled through the half-space, also those partly over a patch
 ring_bending       stiffness and mass of the bending modes of a thin ring

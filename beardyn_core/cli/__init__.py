@@ -1,28 +1,30 @@
 """The ``beardyn`` command, a module for each subcommand.
 
-=========== ========================================================================
-module      responsibility
-=========== ========================================================================
-main        the parser, the list of subcommands, exit codes, complaints
-json_output strict JSON with a version, for every ``--json``
-files       inputs and outputs of a command: complaints at once, doubts, a folder to write
-options     options that several commands have
-quantities  numbers with units in options
-demo        the main job in one go
-scenes      what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are
-new         a copy of a shipped file to start from
-simulate    a desk run
-explain     which effects a scene is computed with, why, and what each costs
-ladder      what accuracy costs
-warmup      kernels compiled ahead
-view        a recording in 3-D
-report      what a recording holds
-monitor     what a monitor says over a recording
-export      signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
-bearing     static answers about one bearing
-structure   modes of an axlebox
-trial       a monitor over a matrix of scenes
-contacts    the contact laboratory
-schema      JSON schemas for editors
-=========== ========================================================================
+================ ========================================================================
+module           responsibility
+================ ========================================================================
+main             the parser, the list of subcommands, exit codes, complaints
+json_output      strict JSON with a version, for every ``--json``
+files            inputs and outputs of a command: complaints at once, doubts, a folder to write
+options          options that several commands have
+quantities       numbers with units in options
+demo             the main job in one go
+scenes           what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are
+new              a copy of a shipped file to start from
+simulate         a desk run
+import_          a recording of measured files
+measured_options options of measured files and name plates, from their declarations
+explain          which effects a scene is computed with, why, and what each costs
+ladder           what accuracy costs
+warmup           kernels compiled ahead
+view             a recording in 3-D
+report           what a recording holds
+monitor          what a monitor says over a recording
+export           signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
+bearing          static answers about one bearing
+structure        modes of an axlebox
+trial            a monitor over a matrix of scenes
+contacts         the contact laboratory
+schema           JSON schemas for editors
+================ ========================================================================
 """

@@ -24,7 +24,7 @@ DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
 COMMANDS = {
     "start here": ("demo", "scenes", "new"),
     "simulate": ("simulate", "explain", "ladder", "warmup"),
-    "recordings": ("view", "report", "monitor", "export"),
+    "recordings": ("import", "view", "report", "monitor", "export"),
     "bearings and monitors": ("bearing", "structure", "trial", "contacts"),
     "files": ("schema",),
 }
@@ -34,6 +34,13 @@ COMMANDS = {
 def command_names() -> list[str]:
     """List the subcommands in the order of the help."""
     return [name for names in COMMANDS.values() for name in names]
+
+
+def module_of(command: str) -> str:
+    """Name the module of a subcommand; a word of Python has an underscore behind it there."""
+    from keyword import iskeyword
+
+    return f"beardyn_core.cli.{command}{'_' * iskeyword(command)}"
 
 
 def program_version() -> str:
@@ -59,7 +66,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"beardyn {program_version()}")
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True, help="one of those below")
     for name in command_names():
-        importlib.import_module(f"beardyn_core.cli.{name}").add_parser(subparsers)
+        importlib.import_module(module_of(name)).add_parser(subparsers)
     purposes = {action.dest: action.help for action in subparsers._choices_actions}
     subparsers._choices_actions.clear()  # they are shown under headings instead
     lines = []

@@ -1,17 +1,30 @@
-"""``beardyn monitor``: what a monitor says over a finished recording."""
+"""``beardyn monitor``: what a monitor says over a finished recording, or over measured files."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from contextlib import nullcontext, suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.cli.json_output import json_text, renamed
+from beardyn_core.cli.measured_options import (
+    USUAL_LABEL,
+    add_plates,
+    add_reading,
+    mounted_of,
+    reading_of,
+    says_how_to_read,
+)
 from beardyn_core.cli.options import add_json, add_monitor
+from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.measured.about import Mounted
+    from beardyn_core.observe.chain import Algorithm
+    from beardyn_core.study.monitored_recording import Finding
 
 _UNITS = {
     "s": ("time",),
@@ -28,70 +41,149 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "monitor",
-        help="run a monitor, ours or yours, over a recording",
-        description="Pass vibration, shaft and load of a recording to a monitor, and print its verdicts.",
+        help="run a monitor, ours or yours, over a recording or measured files",
+        description="Pass vibration, shaft and load of a recording, or of measured files as `beardyn "
+        "import` reads them, to a monitor, and print its verdicts; one for each bearing on the shaft.",
     )
-    parser.add_argument("recording", metavar="run.mcap", help="recording to analyse")
-    add_monitor(parser)
     parser.add_argument(
-        "--bearing",
-        metavar="NAME",
-        help="name plate: shipped bearing or file; default that of the recorded scene",
+        "files",
+        nargs="+",
+        metavar="FILE",
+        help="recording to analyse, or measured files in the order of time",
     )
+    add_monitor(parser)
     add_json(parser)
+    add_plates(parser, "default that of the recording")
+    add_reading(parser)
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from dataclasses import asdict
-
-    from beardyn_core.choice import scene_from_text
-    from beardyn_core.config import load_bearing
-    from beardyn_core.errors import InputError
     from beardyn_core.observe.chain import algorithm_named
-    from beardyn_core.record.reading import read_run
-    from beardyn_core.study.monitored_recording import conclude, findings_of
+    from beardyn_core.record.other_messages import is_recording
 
     algorithm = algorithm_named(args.monitor)
-    recording = read_run(args.recording)
-    if recording.problem:
-        print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
-    recorded = None
-    with suppress(InputError) if args.bearing else nullcontext():
-        if recording.scene_text:
-            recorded = scene_from_text(recording.scene_text, args.recording).bearing
-    bearing = load_bearing(args.bearing) if args.bearing else recorded
-    if bearing is None:
-        raise InputError(f"{args.recording}: does not say which bearing it is of; give --bearing")
-    if recorded is not None and (doubt := other_bearing(bearing, recorded)):
-        print(f"beardyn: warning: --bearing {args.bearing}: {doubt}", file=sys.stderr)
-    findings = findings_of(recording, bearing, algorithm)
-    conclusion = conclude(findings)
+    recorded = len(args.files) == 1 and not says_how_to_read(args) and is_recording(args.files[0])
+    heard = _recorded(args, algorithm) if recorded else _measured(args, algorithm)
     if args.json:
-        content = {
-            "recording": args.recording,
-            "bearing": bearing.name,
-            "verdict": conclusion.verdict,
-            "agreeing": conclusion.agreeing,
-            "analyses": conclusion.analyses,
-            "findings": renamed([asdict(finding) for finding in findings], _KEYS),
-        }
-        print(json_text("monitor", content))
+        print(json_text("monitor", json_object(args, heard)))
         return 0
-    for finding in findings:
-        print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
-    print(f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses")
+    labelled = len(heard) > 1
+    for mounted, findings in heard.items():
+        if labelled:
+            print(f"{mounted.label}, {mounted.plate.name}:")
+        for finding in findings:
+            print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
+    for mounted, findings in heard.items():
+        print(f"{f'{mounted.label} ' if labelled else ''}{_ending(findings)}")
     return 0
 
 
-def other_bearing(given: Bearing, recorded: Bearing) -> str:
+def _ending(findings: list[Finding]) -> str:
+    """Sum up the findings of one bearing."""
+    from beardyn_core.study.monitored_recording import WAITING, conclude
+
+    conclusion = conclude(findings)
+    if conclusion.verdict != WAITING:
+        return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses"
+    reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
+    return f"{WAITING}: no analysis; {reason}"
+
+
+def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:
+    """Let the monitor analyse a recording."""
+    from beardyn_core.choice import scene_from_text
+    from beardyn_core.measured.about import Mounted, mounted_in
+    from beardyn_core.record.reading import read_run
+    from beardyn_core.study.monitored_recording import findings_of
+
+    path = args.files[0]
+    bearings = mounted_of(args)
+    recording = read_run(path)
+    if recording.problem:
+        print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
+    recorded = None
+    with suppress(InputError) if bearings else nullcontext():
+        if recording.scene_text:
+            recorded = NamePlate.of(scene_from_text(recording.scene_text, path).bearing)
+    known = mounted_in(recording.measured, path)
+    for each in bearings if recorded is not None else ():
+        assert recorded is not None
+        if doubt := other_bearing(each.plate, recorded):
+            print(f"beardyn: warning: --bearing {each.plate.name}: {doubt}", file=sys.stderr)
+    bearings = bearings or known or (() if recorded is None else (Mounted(USUAL_LABEL, recorded),))
+    if not bearings:
+        raise InputError(f"{path}: does not say which bearing it is of; give --bearing")
+    return {each: findings_of(recording, each.plate, algorithm, sensor=each.sensor) for each in bearings}
+
+
+def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:
+    """Let the monitor analyse measured files, block by block."""
+    from beardyn_core.cli.import_ import sensor_problems
+    from beardyn_core.measured.survey import survey
+    from beardyn_core.measured.watching import watch
+    from beardyn_core.study.monitored_recording import Finding
+
+    problems: list[str] = []
+    bearings: tuple[Mounted, ...] = ()
+    try:
+        bearings = mounted_of(args)
+        if not bearings:
+            numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
+            problems.append(
+                f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}"
+            )
+    except InputError as error:
+        problems += error.problems
+    try:
+        measured = survey(args.files, reading_of(args), needs_speed=True)
+        problems += sensor_problems(measured.sensors, bearings)
+    except InputError as error:
+        problems += error.problems
+    if problems:
+        raise InputError(problems)
+    told = [*(f"warning: {each}" for each in measured.warnings), *measured.told]
+    for sentence in told:
+        print(f"beardyn: {sentence}", file=sys.stderr)
+    found: dict[Mounted, list[Finding]] = {each: [] for each in bearings}
+    warnings: list[str] = []
+    for mounted, result in watch(measured, bearings, algorithm, warnings=warnings):
+        found[mounted].append(Finding.of(result))
+    for sentence in warnings:
+        print(f"beardyn: warning: {sentence}", file=sys.stderr)
+    return found
+
+
+def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -> dict[str, Any]:
+    """Gather what ``--json`` prints: the first bearing, and all of them."""
+    from dataclasses import asdict
+
+    from beardyn_core.study.monitored_recording import conclude
+
+    every = []
+    for mounted, findings in heard.items():
+        conclusion = conclude(findings)
+        every.append(
+            {
+                "label": mounted.label,
+                "bearing": mounted.plate.name,
+                "sensor": mounted.sensor or None,
+                "verdict": conclusion.verdict,
+                "agreeing": conclusion.agreeing,
+                "analyses": conclusion.analyses,
+                "findings": renamed([asdict(finding) for finding in findings], _KEYS),
+            }
+        )
+    first = {key: every[0][key] for key in ("bearing", "verdict", "agreeing", "analyses", "findings")}
+    return {"recording": args.files[0], "files": args.files, **first, "bearings": every}
+
+
+def other_bearing(given: Bearing | NamePlate, recorded: Bearing | NamePlate) -> str:
     """Say how a bearing differs from the recorded one for a monitor; empty when it does not."""
     from dataclasses import astuple
 
-    from beardyn_core.bearing.kinematics import fault_frequencies
-
-    one, other = fault_frequencies(given), fault_frequencies(recorded)
+    one, other = given.frequencies, recorded.frequencies
     if astuple(one) == astuple(other) and given.roller_count == recorded.roller_count:
         return ""
     return (

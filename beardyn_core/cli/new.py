@@ -23,6 +23,7 @@ _HOW = {
     "structures": "beardyn structure {file}",
     "sensors": "in a sensor of a scene beside it: type: {file}",
     "backgrounds": "in a scene beside it: background: {file}",
+    "plates": "beardyn monitor MEASURED_FILE --bearing {file}",
 }
 # What else a scene may say: shown as comments where the scene does not say it.
 POSSIBLE = {

@@ -26,6 +26,7 @@ KINDS = (
     "structures",
     "sensors",
     "backgrounds",
+    "plates",
 )
 _ZERO_CELSIUS = 273.15
 _GROUPS = (
@@ -45,6 +46,7 @@ _USE = {
     "structures": "modes: beardyn structure NAME",
     "sensors": "in a scene: sensors: [{name: top, type: NAME}]",
     "backgrounds": "in a scene: background: NAME",
+    "plates": "of measured files: beardyn monitor FILE --bearing NAME",
 }
 
 
@@ -238,6 +240,19 @@ def _background(name: str) -> dict[str, Any]:
     return {"purpose": background.description, "parts": parts}
 
 
+def _plate(name: str) -> dict[str, Any]:
+    from beardyn_core.config import load_plate
+
+    plate = load_plate(name)
+    return {
+        "purpose": plate.description,
+        "roller_count": plate.roller_count,
+        "roller_diameter_m": plate.roller_diameter,
+        "pitch_diameter_m": plate.pitch_diameter,
+        "contact_angle_rad": plate.contact_angle,
+    }
+
+
 _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "scenes": _scene,
     "bearings": _bearing,
@@ -248,6 +263,7 @@ _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "structures": _structure,
     "sensors": _sensor,
     "backgrounds": _background,
+    "plates": _plate,
 }
 
 
@@ -326,4 +342,8 @@ _FIGURES: dict[str, Callable[[dict[str, Any]], list[str]]] = {
     "structures": lambda entry: [f"for {entry['bearing']}"],
     "sensors": _sensor_figures,
     "backgrounds": lambda entry: [", ".join(entry["parts"])],
+    "plates": lambda entry: [
+        f"{entry['roller_count']} x {entry['roller_diameter_m'] * 1e3:g} mm",
+        f"on {entry['pitch_diameter_m'] * 1e3:g} mm",
+    ],
 }

@@ -16,6 +16,7 @@ KINDS = (
     "modes",
     "sensor",
     "background",
+    "plate",
 )
 
 

@@ -16,6 +16,7 @@ automatic    what `auto` leaves open
 missing      rows and rollers that are not there
 nouns        files of one noun: bearings, lubricants, boxes, effects, trials
 load         scenes: references resolved, every mistake found
+plates       name plates by name
 schema       JSON schema for editors
 ============ ==================================================================
 
@@ -42,17 +43,26 @@ if TYPE_CHECKING:
         load_vehicle,
         read_trial,
     )
+    from beardyn_core.config.plates import load_plate
     from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
     from beardyn_core.config.yaml_text import scene_text
 
 __all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_background", "load_bearing"]
-__all__ += ["load_box", "load_effects", "load_lubricant", "load_sensor", "load_vehicle", "read_scene"]
-__all__ += ["read_scene_mapping", "read_scene_text", "read_trial", "scene_text", "shipped_names"]
+__all__ += ["load_box", "load_effects", "load_lubricant", "load_plate", "load_sensor", "load_vehicle"]
+__all__ += [
+    "read_scene",
+    "read_scene_mapping",
+    "read_scene_text",
+    "read_trial",
+    "scene_text",
+    "shipped_names",
+]
 
 _MODULES = {
     "SCHEMA_KINDS": "schema",
     "config_folder": "folders",
     "json_schema": "schema",
+    "load_plate": "plates",
     "scene_text": "yaml_text",
     "shipped_names": "folders",
     **dict.fromkeys(("OpenScene", "read_scene", "read_scene_mapping", "read_scene_text"), "load"),

@@ -21,6 +21,7 @@ KINDS = (
     "structures",
     "sensors",
     "backgrounds",
+    "plates",
 )
 _SUFFIXES = (".yaml", ".yml")
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config.keys import in_order, keys_of
 from beardyn_core.config.scene_file import EffectSet, Scene
 from beardyn_core.scene.background import Background
@@ -26,6 +27,7 @@ _NOUNS: dict[str, type] = {
     "modes": ModeFile,
     "sensor": SensorType,
     "background": Background,
+    "plate": NamePlate,
 }
 SCHEMA_KINDS = tuple(_NOUNS)
 

@@ -26,7 +26,7 @@ class MonitorInput:
     """Signals of a short time that a train passes to its monitor; the only input of a `Monitor`."""
 
     vibration_time_ns: A[Int, "shape [sample], [ns]"]
-    acceleration: A[Float, "shape [sample, 3], of the first accelerometer, [m/s^2]"]
+    acceleration: A[Float, "shape [sample, axis], of one accelerometer, [m/s^2]"]
     shaft_time_ns: A[Int, "shape [sample], [ns]"]
     shaft_angle: A[Float, "shape [sample], [rad]"]
     load_time_ns: A[Int, "shape [sample], [ns]"]
@@ -44,6 +44,12 @@ class MonitorInput:
             np.array([block.end_ns] if known else [], np.int64),
             np.array([block.temperature[BOX_NODE]] if block.temperature is not None else []),
         )  # fmt: skip
+
+
+def measured_axes(acceleration: Float) -> Float:
+    """Leave out the axes that were not measured, NaN from end to end, shape [sample, axis]."""
+    absent = np.isnan(acceleration).all(axis=0)
+    return acceleration if absent.all() or not absent.any() else acceleration[:, ~absent]
 
 
 def listen(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[chain.MonitorResult]:
@@ -73,7 +79,7 @@ class _Samples:
 
     def __init__(self, axes: tuple[int, ...], longest_ns: int) -> None:
         self._longest_ns = longest_ns
-        self._axes = axes
+        self.axes = axes
         self.clear()
 
     def __len__(self) -> int:
@@ -81,7 +87,7 @@ class _Samples:
 
     def clear(self) -> None:
         """Drop everything."""
-        self._blocks: list[tuple[Int, Float]] = [(np.empty(0, np.int64), np.empty((0, *self._axes)))]
+        self._blocks: list[tuple[Int, Float]] = [(np.empty(0, np.int64), np.empty((0, *self.axes)))]
 
     def append(self, time_ns: Int, values: Float) -> None:
         """Add a block that is not empty; the oldest go when nobody has wanted them for long."""
@@ -134,7 +140,7 @@ class Monitor:
     lost : int
         Gaps found in the vibration; the signal before a gap is dropped.
     refused : int
-        Blocks with NaN or time that does not increase.
+        Blocks with NaN, time that does not increase, or another number of axes.
     """
 
     def __init__(
@@ -177,12 +183,19 @@ class Monitor:
         Parameters
         ----------
         time_ns : int64 array, shape [sample]
-        acceleration : array, shape [sample, 3]
-            [m/s^2].
+        acceleration : array, shape [sample, axis] or, of one axis, [sample]
+            [m/s^2]; as many axes as in the block before.
         """
         if not len(time_ns):
             return
+        if acceleration.ndim == 1:
+            acceleration = acceleration[:, None]
         known = len(self._vibration) > 0
+        if not known:
+            self._vibration.axes = acceleration.shape[1:]
+        elif acceleration.shape[1:] != self._vibration.axes:
+            self.refused += 1
+            return
         behind = known and time_ns[0] <= self._vibration.last_ns
         if behind or not np.isfinite(acceleration).all() or (np.diff(time_ns) <= 0).any():
             self.refused += 1

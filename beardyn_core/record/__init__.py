@@ -19,6 +19,7 @@ background_file    a file that a slow disk does not hold up
 bag_metadata       what rosbag2 wants to know of a recording
 mcap_writing       crash-safe MCAP that rosbag2 reads
 mcap_scanning      reading that survives a cut file
+other_messages     numbers in the messages of other tools, and whose a file is
 bag_scanning       the files of a recording in several, and whichever of both a path means
 bag_writing        a recording split by size and time into a folder with an index
 arrays             the arrays of a run: signals, angles, bodies, contacts, load

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from beardyn_core.errors import InputError
+from beardyn_core.observe.monitoring import measured_axes
 from beardyn_core.outputs import as_a_whole, file_problems, write_whole
 from beardyn_core.record import tables
 
@@ -147,7 +148,7 @@ def _write_hdf5(run: Run, path: Path, names: Sequence[str]) -> None:
 
 
 def _write_wav(run: Run, path: Path, name: str) -> None:
-    """Write three channels x, y, z of 32-bit floats in m/s^2, not scaled."""
+    """Write the axes x, y, z that were measured as channels of 32-bit floats in m/s^2, not scaled."""
     from scipy.io import wavfile
 
     signal: Any = tables.signal_of(run, name)
@@ -158,4 +159,4 @@ def _write_wav(run: Run, path: Path, name: str) -> None:
         raise InputError(
             f"{run.label}: {name} has {missing} gaps, which WAV cannot say; choose another format"
         )
-    wavfile.write(path, round(signal.rate), signal.values.astype(np.float32))
+    wavfile.write(path, round(signal.rate), measured_axes(signal.values).astype(np.float32))

@@ -30,6 +30,7 @@ FLUSH_SECONDS = 0.5
 DESCRIPTION_FILE = "run.json"
 SCENE_FILE = "scene.yaml"
 SUMMARY_RECORD = "beardyn"
+MEASURED_FILE = "measured.json"
 COMPLETE = "complete"
 
 _VERSION = versions()["beardyn"]
@@ -100,6 +101,14 @@ class McapWriter:
             self._writer.add_attachment(0, 0, SCENE_FILE, "application/yaml", run.scene_text.encode())
             self._writer.add_attachment(0, 0, DESCRIPTION_FILE, "application/json", run.to_json().encode())
             self._writer.add_metadata(SUMMARY_RECORD, facts)
+            self._writer.flush()
+
+    def describe_measured(self, facts: Mapping[str, Any]) -> None:
+        """Mark the recording as measured: what is known of it as an attachment, and no truth."""
+        text = json.dumps(facts, default=str)
+        with self._disk():
+            self._writer.add_attachment(0, 0, MEASURED_FILE, "application/json", text.encode())
+            self._writer.add_metadata(SUMMARY_RECORD, {"origin": "measured", "beardyn": _VERSION})
             self._writer.flush()
 
     def add(self, name: str, stamp_ns: int, cdr: bytes) -> None:

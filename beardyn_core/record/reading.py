@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
@@ -35,7 +36,7 @@ from beardyn_core.record.encoding import (
 )
 from beardyn_core.record.load_stream import decode_load, joined_load
 from beardyn_core.record.mcap_scanning import McapScan
-from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, SCENE_FILE
+from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, MEASURED_FILE, SCENE_FILE
 from beardyn_core.record.messages import (
     Template,
     decode,
@@ -110,6 +111,7 @@ def _run(scan: McapScan | BagScan, cdrs: dict[str, list[bytes]], types: Mapping[
         status=scan.metadata[END_RECORD].get("status") or COMPLETE if END_RECORD in scan.metadata else None,
         scene_text=scene_text or (description.scene_text if description else ""),
         malformed=malformed,
+        measured=_measured(scan),
     )
 
 
@@ -120,15 +122,28 @@ def run_of_messages(
 
     The messages are decoded when their array is first used. What else is known goes to `Run`.
     """
-    return Run(MessageSource(cdrs, description), description, **facts)
+    sensors = tuple((facts.get("measured") or {}).get("sensors", ()))
+    return Run(MessageSource(cdrs, description, sensors), description, **facts)
 
 
 class MessageSource:
-    """The arrays of a run, decoded from its messages."""
+    """The arrays of a run, decoded from its messages.
 
-    def __init__(self, cdrs: Mapping[str, Sequence[bytes]], description: RunDescription | None) -> None:
+    Parameters
+    ----------
+    sensor_names : tuple of str
+        Accelerometers of a run without a description, in the order of their topics.
+    """
+
+    def __init__(
+        self,
+        cdrs: Mapping[str, Sequence[bytes]],
+        description: RunDescription | None,
+        sensor_names: tuple[str, ...] = (),
+    ) -> None:
         self._cdrs = cdrs
         self._description = description
+        self._sensor_names = sensor_names if description is None else description.sensor_names
 
     def _of(self, name: str) -> Sequence[bytes]:
         return self._cdrs.get(name, ())
@@ -142,7 +157,7 @@ class MessageSource:
         return _waveform(self._of("force_waveform"), WRENCH_AXES, "N, N m")
 
     def sensors(self) -> dict[str, arrays.Signal]:
-        known = () if self._description is None else self._description.sensor_names
+        known = self._sensor_names
         topics = {vibration_topic(number, known): name for number, name in enumerate(known)}
         found = sorted(n for n in self._cdrs if n == "vibration" or n.startswith("vibration/"))
         order = [name for name in topics if name in found] + [name for name in found if name not in topics]
@@ -177,6 +192,8 @@ class MessageSource:
     def cages(self) -> arrays.Turning:
         orbit = self._orbit
         columns = [orbit.names.index(name) for name in ("cage_0", "cage_1") if name in orbit.names]
+        if not len(orbit.time_ns):
+            return arrays.Turning(orbit.time_ns, np.zeros((0, ROWS)), np.zeros((0, ROWS)))
         return arrays.Turning(orbit.time_ns, orbit.position[:, columns], orbit.velocity[:, columns])
 
     def rollers(self) -> arrays.Turning:
@@ -260,6 +277,8 @@ class MessageSource:
         """Give `Run.duration`: a block ends with its last snapshot."""
         snapshots = self._bodies.time_ns
         times = snapshots if len(snapshots) > 1 else self.shaft().time_ns
+        if self._description is None and len(snapshots) < 2:  # a tachometer may begin late and end early
+            times = next((each.time_ns for each in self.sensors().values() if len(each) > 1), times)
         return float(times[-1] - 2 * times[0] + times[1]) * 1e-9 if len(times) > 1 else 0.0
 
 
@@ -280,6 +299,17 @@ def _description(scan: McapScan | BagScan, cdrs: Mapping[str, list[bytes]]) -> R
         with suppress(InputError):  # damaged: the topic says the same
             return RunDescription.from_json(scan.attachments[DESCRIPTION_FILE].decode(errors="replace"))
     return RunDescription.from_json(decode_string(truth[0])) if truth else None
+
+
+def _measured(scan: McapScan | BagScan) -> dict[str, Any]:
+    """Give what a measured recording says about itself; empty for a simulated one."""
+    if MEASURED_FILE not in scan.attachments:
+        return {}
+    with suppress(ValueError):
+        found = json.loads(scan.attachments[MEASURED_FILE])
+        if isinstance(found, dict):
+            return found
+    raise InputError(f"{scan.path}: what it says about its measured files is damaged ({MEASURED_FILE})")
 
 
 def _clouds(cdrs: Sequence[bytes]) -> tuple[NDArray[Any], Int]:

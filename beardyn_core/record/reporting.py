@@ -81,6 +81,7 @@ class Report:
         "topics of which the twin has published more than is recorded; ``None``: it had no last word",
     ]
     malformed_messages: A[Mapping[str, int], "left out because they are not what their topic promises"]
+    measured: A[Mapping[str, Any], "files, channels, units and speed of what was measured; empty: simulated"]
 
     def to_json(self) -> dict[str, Any]:
         """Give the content as a mapping for JSON."""
@@ -143,9 +144,12 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
         monitor=run.results[-1][1][0].message if run.results and run.results[-1][1] else None,
         sensor_rates_Hz=dict(zip(description.sensor_names, description.sensor_rates, strict=True))
         if description
+        else {name: signal.rate for name, signal in run.sensors.items()}
+        if run.measured
         else {},
         missing_messages=_missing(run, times),
         malformed_messages=run.malformed,
+        measured=run.measured,
     )
 
 
@@ -201,6 +205,7 @@ def _lines(r: Report) -> list[str]:
     lines = [f"{r.path}: {r.size_bytes / 1e6:.2f} MB, {r.begin:.3f} s to {r.end:.3f} s"]
     ending = "" if r.status in (None, COMPLETE) else f"; the run ended: {r.status}"
     lines += [f"closed properly{ending}" if r.complete else r.problem, ""]
+    lines += _measured_lines(r.measured)
     if r.scene is not None:
         lines.append(f"scene    {r.scene}, bearing {r.bearing}")
         faults = [defect_from(fault).described() for fault in r.faults]
@@ -244,4 +249,18 @@ def _lines(r: Report) -> list[str]:
     if r.malformed_messages:
         counts = ", ".join(f"{name} {count}" for name, count in r.malformed_messages.items())
         lines.append(f"malformed messages, left out: {counts}")
+    return lines
+
+
+def _measured_lines(measured: Mapping[str, Any]) -> list[str]:
+    """Describe what was measured, and how its files were understood."""
+    if not measured:
+        return []
+    lines = [f"measured {sentence}" for sentence in measured.get("understood", ())]
+    for label, plate in measured.get("bearings", {}).items():
+        lines.append(
+            f"{label:8} {plate.get('name')}: {plate.get('roller_count')} rolling elements of "
+            f"{1e3 * plate.get('roller_diameter_m', np.nan):g} mm on a circle of "
+            f"{1e3 * plate.get('pitch_diameter_m', np.nan):g} mm"
+        )
     return lines

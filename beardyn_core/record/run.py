@@ -12,7 +12,7 @@ import numpy as np
 
 from beardyn_core.errors import InputError
 from beardyn_core.observe.labels import flat_labels, load_labels
-from beardyn_core.observe.monitoring import MonitorInput
+from beardyn_core.observe.monitoring import MonitorInput, measured_axes
 from beardyn_core.record import arrays
 from beardyn_core.record.encoding import ACCELERATION_AXES
 from beardyn_core.record.topics import vibration_topic
@@ -53,6 +53,9 @@ class Run:
         Gives the summary of the simulation; otherwise it is made from the arrays.
     malformed : mapping of str to int, optional
         Messages of a file that were left out because they are not what their topic promises, by topic.
+    measured : mapping, optional
+        Of a run that was measured and not simulated: files, channels, units, speed, name plates; see
+        docs/measured.md. Empty for a simulated one.
     """
 
     def __init__(
@@ -67,6 +70,7 @@ class Run:
         scene_text: str = "",
         summary: Callable[[], RunSummary] | None = None,
         malformed: Mapping[str, int] | None = None,
+        measured: Mapping[str, Any] | None = None,
     ) -> None:
         self._source = source
         self.description = description
@@ -76,6 +80,7 @@ class Run:
         self.status = status
         self.scene_text = scene_text
         self.malformed = dict(malformed or {})
+        self.measured = dict(measured or {})
         self._summary = summary
 
     @classmethod
@@ -244,8 +249,13 @@ class Run:
         Raises
         ------
         InputError
-            The file has none.
+            The file has none, as one that was measured.
         """
+        if self.measured:
+            raise InputError(
+                f"{self.label}: was measured, so there is no bearing in it to draw or to sum up; report, "
+                "monitor and export read it"
+            )
         if self.description is None:
             raise InputError(
                 f"{self.label}: the recording does not say which bearing it is of (no run.json and no topic "
@@ -258,9 +268,24 @@ class Run:
         """Name for messages: the path, or that the run is in memory."""
         return "run in memory" if self.path is None else str(self.path)
 
-    def monitor_inputs(self) -> Iterator[MonitorInput]:
-        """Give the signals that a monitor may read, in parts in the order of time, as in a live run."""
-        vibration, shaft, load, temperature = self.vibration, self.shaft, self.load, self.temperature
+    def monitor_inputs(self, sensor: str = "") -> Iterator[MonitorInput]:
+        """Give the signals that a monitor may read, in parts in the order of time, as in a live run.
+
+        Parameters
+        ----------
+        sensor : str
+            Accelerometer to listen to; by default the first.
+
+        Raises
+        ------
+        InputError
+            There is none of that name.
+        """
+        if sensor and sensor not in self.sensors:
+            raise InputError(f"{self.label}: has no sensor {sensor!r}; it has {', '.join(self.sensors)}")
+        vibration = self.sensors[sensor] if sensor else self.vibration
+        shaft, load, temperature = self.shaft, self.load, self.temperature
+        heard = measured_axes(vibration.values)
         box = temperature.components.index("axlebox") if len(temperature) else 0
         used = [0, 0, 0]
         for begin in range(0, len(vibration), MONITOR_PART):
@@ -272,7 +297,7 @@ class Run:
             turned, carried, warmed = (slice(*pair) for pair in zip(used, until, strict=True))
             used = until
             yield MonitorInput(
-                vibration.time_ns[part], vibration.values[part],
+                vibration.time_ns[part], heard[part],
                 shaft.time_ns[turned], shaft.angle[turned],
                 load.time_ns[carried], load.wrench[carried, 2],
                 temperature.time_ns[warmed], temperature.values[warmed, box] if len(temperature) else _NONE,
@@ -281,7 +306,9 @@ class Run:
     def __repr__(self) -> str:
         """Describe scene, length and end of the run in two lines."""
         what = "blocks without a description" if self.path is None else "a recording without truth"
-        if self.description is not None:
+        if self.measured:
+            what = f"measured files: {', '.join(each['name'] for each in self.measured.get('files', ()))}"
+        elif self.description is not None:
             truth = self.truth
             what = (
                 f"{truth.get('scene')}: bearing {truth.get('bearing')}, tier {truth.get('tier')}, "

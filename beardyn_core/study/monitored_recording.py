@@ -10,6 +10,7 @@ from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
@@ -206,21 +207,21 @@ class MonitoredRecording(McapSink):
 
 def findings_of(
     run: Run,
-    bearing: Bearing,
+    bearing: Bearing | NamePlate,
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
+    sensor: str = "",
 ) -> list[Finding]:
     """Let a monitor, ours or another, analyse a finished run, as it would have done beside it.
 
-    The bearing is what the name plate says.
+    The bearing is what the name plate says; the sensor is the first one by default.
 
     Raises
     ------
     InputError
-        When there is no vibration or no shaft in the recording.
+        When there is no vibration or no shaft in the recording, or no such sensor.
     """
     if not len(run.vibration) or not len(run.shaft):
         raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
-    orders, count = fault_frequencies(bearing), bearing.roller_count
-    monitor = Monitor(orders, count, settings=settings, algorithm=algorithm)
-    return [Finding.of(result) for result in listen(monitor, run.monitor_inputs())]
+    monitor = Monitor(bearing.frequencies, bearing.roller_count, settings=settings, algorithm=algorithm)
+    return [Finding.of(result) for result in listen(monitor, run.monitor_inputs(sensor))]

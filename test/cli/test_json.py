@@ -15,7 +15,7 @@ from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.cli import report as report_command
 from beardyn_core.cli import simulate
 from beardyn_core.cli.json_output import SCHEMA_VERSION, json_text, plain
-from beardyn_core.cli.main import COMMANDS, DONE, main
+from beardyn_core.cli.main import COMMANDS, DONE, main, module_of
 from beardyn_core.integrate.rating_life import RatingLife
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSSES
@@ -35,6 +35,20 @@ from test.record.conftest import write_recording
 from test.study.test_ladder import FakeRuns, climbed
 from test.study.test_trial import run_of
 
+MEASURED = {
+    "duration_s": 1.0,
+    "files": [{"name": "a.csv", "format": "text", "size_bytes": 9, "begin_s": 0.0, "says": {"fs": 12000.0}}],
+    "sensors": {"top": {"rate_Hz": 12000.0, "channels": {"z": "a"}, "m_per_s2_per_number": {"z": 9.80665}}},
+    "speed": {"from": "constant", "channel": None, "constant_rad_per_s": 188.0},
+    "bearings": {
+        "drive_end": {
+            "name": "6205", "description": "", "roller_count": 9, "roller_diameter_m": 0.00794,
+            "pitch_diameter_m": 0.03904, "contact_angle_rad": 0.0, "sensor": None,
+        }
+    },
+    "understood": ["a.csv: text"],
+    "warnings": [],
+}  # fmt: skip
 UNITS = (
     *("m_per_s2", "m_per_s", "rad_per_s", "N_per_m", "m2_per_s", "kg_m2", "N_m", "per_rev", "bytes"),
     *("rev", "rad", "Pa", "Hz", "dB", "kg", "N", "W", "J", "K", "s", "m"),
@@ -116,6 +130,14 @@ def test_monitor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     check("monitor", printed(capsys, "monitor", str(path), "--bearing", "HS130x230"))
 
 
+def test_import(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "a.csv"
+    file.write_text("time_s,az_g\n" + "".join(f"{k / 1000:.4f},{k % 7}.5\n" for k in range(100)))
+    check(
+        "import", printed(capsys, "import", str(file), "-o", str(tmp_path / "run.mcap"), "--speed-rpm", "600")
+    )
+
+
 def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = write_recording(tmp_path / "run.mcap", 10)
     budget = torque_budget([0.0, 1.0], np.ones((2, LOSSES + 1)), 10.0)
@@ -128,6 +150,7 @@ def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         faults=[asdict(fault) for fault in faults],
         missing_messages=(MissingMessages("imu", 80, 32),),
         malformed_messages={"load/blocks": 1},
+        measured=MEASURED,
     )
     found = read(json_text("report", report_command.json_object(full, ())))
     assert found["defects"][0]["growth"]["width_grows"] is True
@@ -155,7 +178,9 @@ def test_trial() -> None:
 def test_every_command_with_json_has_a_section() -> None:
     text = PAGE.read_text(encoding="utf-8")
     for name in (name for names in COMMANDS.values() for name in names):
-        source = (Path(simulate.__file__).parent / f"{name}.py").read_text(encoding="utf-8")
+        source = (Path(simulate.__file__).parent / f"{module_of(name).rpartition('.')[2]}.py").read_text(
+            encoding="utf-8"
+        )
         assert ("add_json(" in source) == (f"## `beardyn {name}`" in text), name
 
 

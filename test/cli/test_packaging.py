@@ -17,13 +17,16 @@ from beardyn_core.config.folders import KINDS
 EXECUTABLES = ("twin", "load", "recorder", "viewer", "monitor", "car_load", "car_recorder")
 # no rosdep key
 FROM_PIP = {
+    "asammdf",
     "gmsh",
     "mcap",
     "mcap-ros2-support",
+    "nptdms",
     "pyarrow",
     "pyuff",
     "rerun-sdk",
     "scikit-fem",
+    "soundfile",
     "xarray",
     "zstandard",
 }

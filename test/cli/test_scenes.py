@@ -19,6 +19,7 @@ from beardyn_core.config import (
     load_box,
     load_effects,
     load_lubricant,
+    load_plate,
     load_sensor,
     load_vehicle,
     shipped_names,
@@ -34,6 +35,7 @@ LOADERS: dict[str, Any] = {
     "structures": load_box,
     "sensors": load_sensor,
     "backgrounds": load_background,
+    "plates": load_plate,
 }
 
 

@@ -19,6 +19,8 @@ from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strong
 from beardyn_core.observe.chain.wheel import quiet_samples, struck_sectors, without_wheel
 from beardyn_core.observe.features import resample_by_angle
 
+_RATE_TOLERANCE = 1e-3  # of a rate that is known from time stamps
+
 
 def squared_envelope(stretch: Stretch, band: Band) -> Float:
     """Compute the squared envelope of the band, summed over the axes.
@@ -93,6 +95,16 @@ class Chain:
             Rollers of one row.
         """
         speed = stretch.shaft_frequency
+        least = 2.0 * (settings.lowest_band + settings.narrowest_band)
+        if stretch.rate < least * (1.0 - _RATE_TOLERANCE):
+            return MonitorResult(
+                "waiting",
+                f"the sampling rate is {stretch.rate:.6g} Hz; at least {least:g} Hz are needed for a band "
+                f"above {settings.lowest_band:g} Hz",
+                stretch.end_ns,
+                shaft_frequency=speed,
+                revolutions=stretch.revolutions,
+            )
         band = self.select_band(stretch, settings)
         power = self.envelope(stretch, band)
         tracked = self.track(power, stretch, settings)

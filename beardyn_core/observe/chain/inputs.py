@@ -28,6 +28,10 @@ class Stretch:
     heating: A[float, "rise of that temperature, NaN when unknown, [K/s]"] = np.nan
     earlier: A[tuple[Levels, ...], "of the stretches before, the oldest first"] = ()
 
+    def __post_init__(self) -> None:
+        if self.acceleration.ndim == 1:  # it would be multiplied with itself instead of sample by sample
+            object.__setattr__(self, "acceleration", self.acceleration[:, None])
+
     @property
     def revolutions(self) -> float:
         """Revolutions of the shaft, [-]."""

@@ -1,0 +1,101 @@
+"""Read measured files as a run, or make a recording of them."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config import load_plate
+from beardyn_core.measured.about import Mounted
+from beardyn_core.measured.in_memory import run_of
+from beardyn_core.measured.options import Reading
+from beardyn_core.measured.survey import Survey, survey
+from beardyn_core.measured.writing import write_measured
+from beardyn_core.record.run import Run
+
+Files = Path | str | Sequence[Path | str]
+Plates = NamePlate | str | Mapping[str, NamePlate | str]
+
+
+def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any) -> Run:
+    """Read measured files as a run: CSV, MATLAB, HDF5, WAV, NumPy, TDMS, Universal, MDF, Parquet, MCAP.
+
+    All samples are in memory; `import_measured` makes a recording of any size.
+
+    Parameters
+    ----------
+    files : Path or sequence of Path
+        In the order of time.
+    bearing : NamePlate, str or mapping, optional
+        What the name plate says; of several bearings on the shaft a mapping of names for them.
+    **options
+        How the files are to be read, in the units of the names: ``channels``, ``unit``, ``rate_Hz``,
+        ``speed_rpm``, ... (docs/measured.md lists them).
+
+    Returns
+    -------
+    Run
+        ``run.measured`` says how the files were understood, in ``understood``; its truth is empty. Of an axis
+        that was not measured the vibration is NaN.
+
+    Warns
+    -----
+    UserWarning
+        What was asked for and what a file says differ.
+
+    Raises
+    ------
+    InputError
+        With every mistake in options and files.
+    """
+    found = _surveyed(files, options)
+    run = run_of(found, _mounted(bearing))
+    for sentence in run.measured["warnings"][len(found.warnings) :]:
+        warnings.warn(sentence, stacklevel=2)
+    return run
+
+
+def import_measured(
+    files: Files, recording: Path | str, *, bearing: Plates | None = None, force: bool = False, **options: Any
+) -> Path:
+    """Make a recording of measured files, block by block, as ``beardyn import`` does.
+
+    Parameters
+    ----------
+    files, bearing, options
+        See `read_measured`.
+    recording : Path
+        MCAP file to write; `beardyn_core.read` reads it.
+    force : bool
+        Replace it if it exists.
+
+    Raises
+    ------
+    InputError
+        With every mistake; then nothing is written.
+    """
+    made = write_measured(_surveyed(files, options), recording, _mounted(bearing), force=force)
+    for sentence in made.warnings:
+        warnings.warn(sentence, stacklevel=2)
+    return made.path
+
+
+def _surveyed(files: Files, options: Mapping[str, Any]) -> Survey:
+    paths = [files] if isinstance(files, str | Path) else list(files)
+    found = survey(paths, Reading.of(**options))
+    for sentence in found.warnings:
+        warnings.warn(sentence, stacklevel=3)
+    return found
+
+
+def _mounted(bearing: Plates | None) -> tuple[Mounted, ...]:
+    if bearing is None:
+        return ()
+    several = bearing if isinstance(bearing, Mapping) else {"bearing": bearing}
+    return tuple(
+        Mounted(label, each if isinstance(each, NamePlate) else load_plate(each))
+        for label, each in several.items()
+    )

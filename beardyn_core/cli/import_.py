@@ -1,0 +1,119 @@
+"""``beardyn import``: measured files as a recording."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.measured_options import add_plates, add_reading, mounted_of, reading_of
+from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.errors import InputError
+from beardyn_core.interrupts import last_words
+from beardyn_core.outputs import recording_problems
+
+if TYPE_CHECKING:
+    from beardyn_core.measured.writing import Imported
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "import",
+        help="make a recording of measured files: CSV, MATLAB, HDF5, WAV, TDMS, MDF, ...",
+        description="Make a recording of measured vibration and speed, like that of a simulation and without "
+        "truth, for `beardyn report`, `monitor` and `export`. Read are CSV and other text, MATLAB (also "
+        "7.3), HDF5, WAV, FLAC, NumPy, TDMS, Universal files (58), MDF, Parquet and MCAP of other tools; "
+        "how a file was understood is said. Several files are one measurement in the order given.",
+    )
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="measured file to read")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        metavar="run.mcap",
+        help="recording to write, without default",
+    )
+    add_force(parser, "replace the recording when it exists")
+    add_json(parser)
+    add_plates(parser, "default none; they are kept in the recording")
+    add_reading(parser)
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from tqdm import tqdm
+
+    from beardyn_core.measured.survey import survey
+    from beardyn_core.measured.writing import write_measured
+
+    problems = recording_problems("--output", args.output, inputs=args.files, force=args.force)
+    found: list[Any] = []
+    for make in (lambda: reading_of(args), lambda: mounted_of(args)):
+        try:
+            found.append(make())
+        except InputError as error:
+            problems += error.problems
+    if len(found) < 2:
+        raise InputError(problems)
+    reading, bearings = found
+    try:
+        measured = survey(args.files, reading)
+        problems += sensor_problems(measured.sensors, bearings)
+    except InputError as error:
+        problems += error.problems
+    if problems:
+        raise InputError(problems)
+    for sentence in measured.warnings:
+        print(f"beardyn: warning: {sentence}", file=sys.stderr)
+    until = [0.0]
+    layout = "{desc} {bar} {n:.2f}/{total:.2f} s [{elapsed}<{remaining}]"
+    with tqdm(total=measured.duration, desc="imported", bar_format=layout, disable=None, leave=False) as bar:
+
+        def progress(seconds: float) -> None:
+            bar.update(seconds - until[0])
+            until[0] = seconds
+
+        with last_words(lambda: _kept(args.output, until[0])):
+            made = write_measured(measured, args.output, bearings, force=args.force, progress=progress)
+    for sentence in made.warnings:
+        print(f"beardyn: warning: {sentence}", file=sys.stderr)
+    if args.json:
+        print(json_text("import", json_object(made)))
+        return 0
+    for sentence in measured.told:
+        print(sentence)
+    print(f"{made.path}: {made.duration:.6g} s, {made.path.stat().st_size / 1e6:.2f} MB")
+    return 0
+
+
+def sensor_problems(sensors: tuple[str, ...], bearings: Any) -> list[str]:
+    """Find bearings that are heard by a sensor that is not there."""
+    return [
+        f"--bearing {each.label}: there is no sensor {each.sensor!r}; there is {', '.join(sensors)}"
+        for each in bearings
+        if each.sensor and each.sensor not in sensors
+    ]
+
+
+def json_object(made: Imported) -> dict[str, Any]:
+    """Gather what ``--json`` prints."""
+    survey = made.survey
+    return {
+        "recording": made.path,
+        "files": [each.chosen.path for each in survey.files],
+        "duration_s": made.duration,
+        "sensor_rate_Hz": {name: survey.rate(name) for name in survey.sensors},
+        "understood": survey.told,
+        "warnings": [*survey.warnings, *made.warnings],
+    }
+
+
+def _kept(path: Path, seconds: float) -> str:
+    if not seconds:
+        return "nothing has been written"
+    return f"{path} holds the measurement until {seconds:.2f} s, and is closed and readable"

@@ -1,0 +1,155 @@
+"""Options of commands that read measured files, made from their declaration; name plates of bearings."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from beardyn_core.edge import Place, places
+from beardyn_core.errors import InputError
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.measured.about import Mounted
+    from beardyn_core.measured.options import Reading
+
+_PLATE = ("roller_count", "roller_diameter_mm", "pitch_diameter_mm", "contact_angle_deg")
+USUAL_LABEL = "bearing"
+
+
+def add_reading(parser: argparse.ArgumentParser) -> None:
+    """Declare how measured files are read."""
+    from beardyn_core.measured.options import Reading, kind_of
+
+    group = parser.add_argument_group("measured files", "what the files do not say, or say wrongly")
+    for place in places(Reading):
+        _add(group, place, kind_of(place), several=place.field == "channels")
+
+
+def add_plates(parser: argparse.ArgumentParser, default: str) -> None:
+    """Declare the bearings on the shaft."""
+    from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.measured.options import kind_of
+
+    group = parser.add_argument_group("bearings", "what their name plates say")
+    group.add_argument(
+        "--bearing",
+        metavar="[LABEL=]NAME[@SENSOR]",
+        action="append",
+        default=[],
+        help="name plate: shipped (`beardyn scenes plates`, `beardyn scenes bearings`) or a YAML file; "
+        "again for each bearing on the shaft, with a label, and with the accelerometer that hears it; "
+        f"{default}",
+    )
+    for place in places(NamePlate):
+        if place.key in _PLATE:
+            _add(group, place, kind_of(place), suffix="; these in place of --bearing")
+
+
+def flag(key: str) -> str:
+    """Write the option of a key."""
+    return f"--{key.lower().replace('_', '-')}"
+
+
+def _add(group: Any, place: Place, kind: type, several: bool = False, suffix: str = "") -> None:
+    unit = place.key.rpartition("_")[2] if place.at.unit else place.field.rpartition("_")[2]
+    allowed = [each for each in place.at.one_of if each]
+    words = place.words if "default" in place.words else f"{place.words}; default {_default(place)}"
+    words += f"; one of {', '.join(allowed)}" if allowed else ""
+    action = {"action": "append"} if several else {"type": kind}
+    group.add_argument(
+        flag(place.key),
+        dest=f"measured_{place.key}",
+        metavar="N" if kind is int else unit.upper(),
+        help=f"{words}{suffix}".replace("%", "%%"),
+        **action,
+    )
+
+
+def _default(place: Place) -> str:
+    return f"{place.default:g}" if isinstance(place.default, int | float) else "none"
+
+
+def reading_of(args: argparse.Namespace) -> Reading:
+    """Make the reading of the options; raises `InputError` with every mistake, as options are written."""
+    from beardyn_core.measured.options import Reading
+
+    given = {place.key: getattr(args, f"measured_{place.key}") for place in places(Reading)}
+    return _in_words_of_options(lambda: Reading.of(**given), [place.key for place in places(Reading)])
+
+
+def says_how_to_read(args: argparse.Namespace) -> bool:
+    """Tell whether an option of measured files was given."""
+    from beardyn_core.measured.options import Reading
+
+    return any(getattr(args, f"measured_{place.key}") is not None for place in places(Reading))
+
+
+def mounted_of(args: argparse.Namespace) -> tuple[Mounted, ...]:
+    """List the bearings of the options; none when none is given.
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
+    from beardyn_core.config import load_plate
+    from beardyn_core.measured.about import Mounted
+
+    found: list[Mounted] = []
+    problems: list[str] = []
+    for text in args.bearing:
+        match = re.fullmatch(r"(?:([A-Za-z]\w*)=)?([^=@]+)(?:@([A-Za-z]\w*))?", text)
+        if match is None:
+            problems.append(f"--bearing {text!r}: must be NAME, LABEL=NAME or LABEL=NAME@SENSOR")
+            continue
+        label = match[1] or (USUAL_LABEL if len(args.bearing) == 1 else match[2])
+        try:
+            found.append(Mounted(label, load_plate(match[2]), match[3] or ""))
+        except InputError as error:
+            problems += [f"--bearing {text}: {each}" for each in error.problems]
+    for label in {each.label for each in found}:
+        if sum(each.label == label for each in found) > 1:
+            problems.append(f"--bearing: two bearings are called {label}; write LABEL=NAME with two labels")
+    try:
+        if (plate := _plate_of(args)) is not None:
+            if args.bearing:
+                problems.append("--bearing and the numbers of a bearing are given; give one of both")
+            found.append(Mounted(USUAL_LABEL, plate))
+    except InputError as error:
+        problems += error.problems
+    if problems:
+        raise InputError(problems)
+    return tuple(found)
+
+
+def _plate_of(args: argparse.Namespace) -> NamePlate | None:
+    from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.config.nouns import read_noun
+
+    given = {key: getattr(args, f"measured_{key}") for key in _PLATE}
+    given = {key: value for key, value in given.items() if value is not None}
+    if not given:
+        return None
+    return _in_words_of_options(lambda: read_noun(NamePlate, given, "bearing of the options"), list(_PLATE))
+
+
+def _in_words_of_options(make: Callable[[], Any], keys: list[str]) -> Any:
+    try:
+        return make()
+    except InputError as error:
+        raise InputError([in_options(each, keys) for each in error.problems]) from None
+
+
+def in_options(sentence: str, keys: list[str]) -> str:
+    """Write the keys in a sentence as the options that they are."""
+    pattern = "|".join(sorted(map(re.escape, keys), key=len, reverse=True))
+    plain = [key for key in keys if "_" not in key]
+    found = re.sub(
+        rf"(?<![\w-])({pattern})(?![\w])", lambda m: m[0] if m[0] in plain else flag(m[0]), sentence
+    )
+    if plain and (match := re.match(rf"measured files: ({'|'.join(plain)})\b", found)):
+        found = found.replace(match[1], flag(match[1]), 1)
+    return found

@@ -1,0 +1,37 @@
+"""Measured data in: files of other programs as the recording and the `Run` of a simulation.
+
+In the order of the data:
+
+============= ===========================================================================
+module        responsibility
+============= ===========================================================================
+options       what a person says about the files: one declaration of every option
+units         units of acceleration, speed and time as people write them
+source        what a file has: channels, their samples block by block, its own words
+formats       which format a file is of: the registry
+text_table    separator, decimal sign, header and units of a table in text
+csv_text      CSV and other tables in text
+arrays_inside channels of arrays with one or two axes, and numbers beside them
+matlab        MATLAB up to version 7
+hdf5          HDF5, and with it MATLAB 7.3
+npz           NumPy archives and arrays
+wav           WAV, and what else is sound
+tdms          TDMS of LabVIEW
+universal     Universal files, data set 58
+mdf           MDF 3 and 4
+parquet       Parquet
+other_mcap    MCAP of other tools
+clock         sampling rate and gaps from time stamps
+choice        which channels are axes, speed and time; unit and rate: told, or refused
+survey        the first pass: rate, range and mistakes of every channel
+shaft         angle of the shaft from a constant, a speed channel or tacho pulses
+about         what a recording says of where it comes from
+stream        vibration and shaft of all files as parts in the order of time
+writing       the same as a recording
+in_memory     the same as a `Run`
+watching      the same through a monitor, without a recording
+============= ===========================================================================
+
+A file is read twice and in blocks: first for its rate and its mistakes, then for its samples. No library of a
+format is imported before a file of it is read.
+"""

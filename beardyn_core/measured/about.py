@@ -1,0 +1,98 @@
+"""What a measured recording says about itself: files, channels, units, speed, name plates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated as A
+from typing import Any
+
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.errors import InputError
+from beardyn_core.measured.survey import Survey
+
+
+@dataclass(frozen=True)
+class Mounted:
+    """A bearing on the shaft, and the accelerometer that hears it."""
+
+    label: A[str, "such as ``drive_end``"]
+    plate: NamePlate
+    sensor: A[str, "name of an accelerometer; empty: the first"] = ""
+
+
+def about(survey: Survey, bearings: Sequence[Mounted] = ()) -> dict[str, Any]:
+    """Describe measured files, JSON-able, units in the keys."""
+    first = survey.files[0]
+    speed = first.chosen.speed
+    sensors = {}
+    for sensor in first.chosen.sensors:
+        sensors[sensor.name] = {
+            "rate_Hz": survey.rate(sensor.name),
+            "channels": {axis: found.channel.name for axis, found in sensor.axes.items()},
+            "m_per_s2_per_number": {axis: found.factor for axis, found in sensor.axes.items()},
+        }
+    return {
+        "duration_s": survey.duration,
+        "files": [
+            {
+                "name": each.chosen.path.name,
+                "format": each.chosen.format.name,
+                "size_bytes": each.chosen.path.stat().st_size,
+                "begin_s": each.begin_ns * 1e-9,
+                "says": {**each.chosen.source.facts, **each.chosen.source.numbers},
+            }
+            for each in survey.files
+        ],
+        "sensors": sensors,
+        "speed": {
+            "from": speed.kind,
+            "channel": None if speed.channel is None else speed.channel.name,
+            "constant_rad_per_s": speed.value if speed.kind == "constant" else None,
+        },
+        "bearings": {each.label: _written(each) for each in bearings},
+        "understood": list(survey.told),
+        "warnings": list(survey.warnings),
+    }
+
+
+def mounted_in(facts: Mapping[str, Any], label: str) -> tuple[Mounted, ...]:
+    """Read the bearings that a measured recording names.
+
+    Raises
+    ------
+    InputError
+        They are damaged.
+    """
+    found = []
+    bearings = facts.get("bearings")
+    for name, keys in (bearings if isinstance(bearings, Mapping) else {}).items():
+        try:
+            plate = NamePlate(
+                name=str(keys["name"]),
+                description=str(keys["description"]),
+                roller_count=int(keys["roller_count"]),
+                roller_diameter=float(keys["roller_diameter_m"]),
+                pitch_diameter=float(keys["pitch_diameter_m"]),
+                contact_angle=float(keys["contact_angle_rad"]),
+            )
+        except (KeyError, TypeError, ValueError) as error:
+            raise InputError(
+                f"{label}: what it says of its bearing {name} is damaged ({error!r}); give --bearing"
+            ) from error
+        found.append(Mounted(name, plate, str(keys.get("sensor") or "")))
+    return tuple(found)
+
+
+def _written(mounted: Mounted) -> dict[str, Any]:
+    """Write a bearing, SI."""
+    plate = mounted.plate
+    return {
+        "name": plate.name,
+        "description": plate.description,
+        "roller_count": plate.roller_count,
+        "roller_diameter_m": plate.roller_diameter,
+        "pitch_diameter_m": plate.pitch_diameter,
+        "contact_angle_rad": plate.contact_angle,
+        "sensor": mounted.sensor or None,
+    }

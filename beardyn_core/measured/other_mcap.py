@@ -1,0 +1,37 @@
+"""MCAP of other tools: ROS 2 messages with their definitions, and JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from beardyn_core.arrays import Float
+from beardyn_core.measured.options import Reading
+from beardyn_core.measured.source import Channel, Held
+from beardyn_core.record.other_messages import TIME, Topics
+
+
+class _Topics(Held):
+    topics: Topics
+
+    def blocks(self, names: Sequence[str]) -> Iterator[Float]:
+        """Give the samples of channels of one topic from the beginning, shape [sample, channel]."""
+        topic = self.columns[names[0]][0]
+        yield from self.topics.blocks(topic, [self.columns[name][1] for name in names])
+
+
+def open_file(path: Path, _reading: Reading) -> Held:
+    """List every number of the messages: ``/imu.linear_acceleration.x``, and the time of each topic."""
+    topics = Topics(path)
+    channels, columns = [], {}
+    for topic, found in topics.found.items():
+        for member in (TIME, *found.members):
+            name = f"{topic}.{member}"
+            unit = "s" if member == TIME else found.unit(member)
+            axis = found.axis(member)
+            channels.append(Channel(name, topic, None, unit, is_time=member == TIME, axis=axis))
+            columns[name] = (topic, member)
+    made = _Topics(tuple(channels), columns, {}, {}, notes=topics.notes)
+    made.topics = topics
+    made.problems += topics.problems
+    return made

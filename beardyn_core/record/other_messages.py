@@ -1,0 +1,232 @@
+"""Numbers in the messages of MCAP files of other tools, by topic and member."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, is_dataclass
+from pathlib import Path
+from typing import Annotated as A
+from typing import Any
+
+import numpy as np
+from mcap.records import Channel, Schema
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from beardyn_core.arrays import Float
+from beardyn_core.record.bag_scanning import is_folder_of_files
+from beardyn_core.record.cloud_layout import cloud_points
+from beardyn_core.record.clouds import CLOUD
+from beardyn_core.record.mcap_scanning import MAGIC, McapScan
+from beardyn_core.record.topics import namespace_of, relative_name, topic
+
+TIME = "time"
+_BLOCK = 65_536
+_LONGEST_LIST = 3  # components of a vector; a longer list in a message is a stretch of samples
+
+
+def is_recording(path: Path | str) -> bool:
+    """Tell whether a path means a recording of an axlebox, not a file of another tool.
+
+    A folder, and a file that cannot be read, count as one: reading it says what is wrong.
+    """
+    path = Path(path)
+    if not path.is_file() or is_folder_of_files(path):
+        return True
+    with path.open("rb") as file:
+        if file.read(len(MAGIC)) != MAGIC:
+            return False
+    scan = McapScan(path)
+    for message in scan.messages():
+        space = namespace_of(message.topic)
+        if space is None:
+            continue
+        with suppress(KeyError):
+            if topic(relative_name(message.topic, space)).type == message.type:
+                return True
+    return not scan.channels
+
+
+@dataclass
+class Found:
+    """What the messages of a topic have."""
+
+    type: str
+    members: A[dict[str, None], "numbers by their path in a message, in its order"] = field(
+        default_factory=dict
+    )
+
+    def unit(self, member: str) -> str:
+        """Tell the unit of a member where its message defines it."""
+        known = self.type.endswith(("/Imu", "/Accel", "/AccelStamped")) and member.startswith(
+            ("linear_acceleration.", "accel.linear.", "linear.")
+        )
+        return "m/s2" if known else ""
+
+    def axis(self, member: str) -> str:
+        """Tell the axis of an acceleration where its message defines it."""
+        return member[-1] if self.unit(member) and member[-1] in "xyz" else ""
+
+
+class Topics:
+    """Topics of a file that hold numbers.
+
+    Attributes
+    ----------
+    found : dict
+        By name of the topic.
+    problems, notes : list and tuple of str
+        Why the file stops early; what is in it that cannot be decoded.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self.found: dict[str, Found] = {}
+        self.problems: list[str] = []
+        self._decoders: dict[int, Callable[[bytes], Any] | None] = {}
+        unknown: dict[str, str] = {}
+        scan = McapScan(path)
+        for message in scan.raw_messages():
+            channel = scan.channels[message.channel_id]
+            if channel.topic in self.found or channel.topic in unknown:
+                continue
+            schema = scan.schemas[channel.schema_id]
+            values = self._decoded(channel, schema, message.data)
+            if values is None:
+                unknown[channel.topic] = f"{schema.name} as {channel.message_encoding}"
+            elif values:
+                self.found[channel.topic] = Found(schema.name, dict.fromkeys(values))
+        if scan.problem:
+            self.problems.append(scan.problem)
+        each = ", ".join(f"{topic} ({what})" for topic, what in unknown.items())
+        self.notes = (f"not decoded: {each}",) if unknown else ()
+
+    def blocks(self, topic: str, members: Sequence[str]) -> Iterator[Float]:
+        """Give members of the messages of a topic with the time, shape [sample, member].
+
+        The time is that of the header of a message, or that of the log, in seconds from the first; samples
+        inside of a message are spread evenly up to the next.
+        """
+        rows: list[Float] = []
+        count, first, step = 0, None, 0.0
+        waiting: tuple[float, Float, Float | None] | None = None
+        wanted = [member for member in members if member != TIME]
+        for stamp, values, offsets in self._samples(topic, wanted):
+            first = stamp if first is None else first
+            time = (stamp - first) * 1e-9
+            if waiting is not None:
+                rows.append(_placed(waiting, time - waiting[0], members))
+                count += len(rows[-1])
+                if count >= _BLOCK:
+                    yield np.concatenate(rows)
+                    rows, count = [], 0
+                step = (time - waiting[0]) / max(len(waiting[1]), 1)
+            waiting = (time, values, offsets)
+        if waiting is not None:
+            rows.append(_placed(waiting, step * len(waiting[1]), members))
+        if rows:
+            yield np.concatenate(rows)
+
+    def _samples(self, topic: str, members: Sequence[str]) -> Iterator[tuple[int, Float, Float | None]]:
+        """Give stamp [ns], samples, shape [sample, member], and their times after the stamp [s] if known."""
+        scan = McapScan(self._path)
+        for message in scan.raw_messages():
+            channel = scan.channels[message.channel_id]
+            if channel.topic != topic:
+                continue
+            values = self._decoded(channel, scan.schemas[channel.schema_id], message.data) or {}
+            count = max((len(values[name]) for name in members if name in values), default=1)
+            out = np.full((count, len(members)), np.nan)
+            for k, name in enumerate(members):
+                if name in values and len(values[name]) == count:
+                    out[:, k] = values[name]
+            stamp = values.get("header.stamp")
+            begin = message.log_time if stamp is None else int(stamp[0]) * 10**9 + int(stamp[1])
+            offsets = values.get("t")
+            yield begin, out, None if offsets is None or len(offsets) != count else offsets * 1e-9
+
+    def _decoded(self, channel: Channel, schema: Schema, data: bytes) -> dict[str, Any] | None:
+        """Give the numbers of a message by their path, arrays; None for what cannot be decoded."""
+        if channel.id not in self._decoders:
+            self._decoders[channel.id] = _decoder(channel, schema)
+        decoder = self._decoders[channel.id]
+        if decoder is None:
+            return None
+        try:
+            return decoder(data)
+        except Exception:  # the decoders break in any way on bytes of another type
+            return None
+
+
+def _placed(part: tuple[float, Float, Float | None], span: float, members: Sequence[str]) -> Float:
+    """Give the samples of a message with their time where it is wanted."""
+    begin, values, offsets = part
+    count = len(values)
+    times = begin + (np.arange(count) * (span / max(count, 1)) if offsets is None else offsets)
+    columns = iter(values.T)
+    return np.stack([times if name == TIME else next(columns) for name in members], axis=1)
+
+
+def _decoder(channel: Channel, schema: Schema) -> Callable[[bytes], Any] | None:
+    if channel.message_encoding == "json":
+        return lambda data: _flat(json.loads(data))
+    if channel.message_encoding != "cdr" or schema.encoding not in ("ros2msg", "ros2idl", ""):
+        return None
+    name = schema.name if "/msg/" in schema.name else schema.name.replace("/", "/msg/", 1)
+    if name == CLOUD:
+        return _cloud
+    store = get_typestore(Stores.ROS2_JAZZY)
+    if schema.encoding == "ros2msg" and schema.data:
+        try:
+            types = get_types_from_msg(schema.data.decode(), name)
+            store.register({key: value for key, value in types.items() if key not in store.types})
+        except Exception:  # a definition that is none
+            return None
+    if name not in store.types:
+        return None
+    return lambda data: _flat(store.deserialize_cdr(data, name))
+
+
+def _cloud(data: bytes) -> dict[str, Any]:
+    """Give the fields of a cloud: its points are samples."""
+    points = cloud_points(data)
+    seconds, nanoseconds = struct.unpack_from("<iI", data, 4)
+    found: dict[str, Any] = {"header.stamp": (seconds, nanoseconds)}
+    for name in points.dtype.names or ():
+        if points[name].ndim == 1 and points[name].dtype.kind in "fiu":
+            found[name] = points[name].astype(np.float64)
+    return found
+
+
+def _flat(message: Any, above: str = "") -> dict[str, Any]:
+    """List the numbers of a message by their path."""
+    found: dict[str, Any] = {}
+    members = vars(message) if is_dataclass(message) else message
+    for name, value in members.items():
+        path = f"{above}{name}"
+        if name.startswith("__"):
+            continue
+        if name == "stamp" and above == "header.":
+            part = vars(value) if is_dataclass(value) else value
+            if isinstance(part, dict) and "sec" in part:
+                found["header.stamp"] = (part["sec"], part.get("nanosec", part.get("nsec", 0)))
+        elif isinstance(value, bool | str):
+            continue
+        elif isinstance(value, int | float):
+            found[path] = np.array([value], np.float64)
+        elif isinstance(value, list | tuple | np.ndarray):
+            found |= _listed(path, value)
+        elif isinstance(value, dict) or is_dataclass(value):
+            found |= _flat(value, f"{path}.")
+    return found
+
+
+def _listed(path: str, value: Any) -> dict[str, Any]:
+    if not len(value) or not isinstance(value[0], int | float | np.number):
+        return {}
+    numbers = np.asarray(value, np.float64)
+    if len(numbers) > _LONGEST_LIST:
+        return {path: numbers}
+    return {f"{path}[{k}]": numbers[k : k + 1] for k in range(len(numbers))}
