@@ -89,10 +89,21 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
             continue
         if best is not None and best[0][0] == 0.0 and _hopeless(evidence, name, offered, looked_at, limits):
             continue
-        for stage in _stages(evidence, scene, free, given, looked_at, name):
-            for deciding in product(*offered[:_DECIDING]):
-                step = clock.step(scene, stage.tier, stage.laminae, deciding)
-                fixed = [[option] for option in deciding]
+        for count in _counts(scene, free, given, name):
+            steps = {
+                deciding: clock.step(scene, name, count, (offered[index][each] for index, each in deciding))
+                for deciding in _deciding(offered)
+            }
+            if best is not None and best[0][0] == 0.0:
+                least = _least_cost(evidence.costs, offered, name, count)
+                fewest = min(step.steps_per_sample for step in steps.values())
+                if evidence.costs.seconds(least, fewest, name) > best[0][1]:
+                    continue  # its errors need not be known
+            stage = _stage(evidence, name, count, looked_at)
+            if stage is None:
+                continue
+            for deciding, step in steps.items():
+                fixed = [[offered[index][each]] for index, each in deciding]
                 found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
                 # cost counts per simulated second; between equal costs the smaller error
                 seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
@@ -146,24 +157,39 @@ def _hopeless(
     return False
 
 
-def _stages(
-    evidence: Evidence, scene: Scene, free: Free, given: EffectSet, asked: tuple[str, ...], name: str
-) -> list[Stage]:
-    found = []
+def _counts(scene: Scene, free: Free, given: EffectSet, name: str) -> list[int]:
+    """List the lamina counts that a tier can take for a scene."""
     limits = TIERS[name]
-    for count in numerics.LAMINAE if free.laminae else (scene.numerics.laminae,):
-        if (limits.needs_rib and given.rib is None) or count < limits.smallest_laminae:
-            continue
-        lamina = numerics.laminae(evidence, count)
-        verdict = numerics.tier(evidence, name, count)
-        if verdict is None:
-            continue
-        total = tuple(
-            verdict.influence.get(quantity, 0.0) + lamina.influence.get(quantity, 0.0) for quantity in asked
-        )
-        cost = evidence.costs.base(name, count)
-        found.append(Stage(name, count, cost, total, verdict.reason, lamina.reason))
-    return found
+    if limits.needs_rib and given.rib is None:
+        return []
+    counts = numerics.LAMINAE if free.laminae else (scene.numerics.laminae,)
+    return [count for count in counts if count >= limits.smallest_laminae]
+
+
+def _deciding(offered: list[list[Alternative]]) -> list[tuple[tuple[int, int], ...]]:
+    """List what the step depends on: rule and number of an alternative, for each deciding rule."""
+    return list(product(*([(rule, each) for each in range(len(offered[rule]))] for rule in range(_DECIDING))))
+
+
+def _least_cost(costs: Costs, offered: list[list[Alternative]], name: str, count: int) -> float:
+    """Work out what a step costs at least, a rounding less."""
+    added = (
+        min(costs.scaled(next(iter(option.members)), option.cost, name, count) for option in alternatives)
+        for alternatives in offered
+    )
+    return (costs.base(name, count) + sum(added)) * (1.0 - 1.0e-9)
+
+
+def _stage(evidence: Evidence, name: str, count: int, asked: tuple[str, ...]) -> Stage | None:
+    """Judge a tier with a lamina count before any effect; ``None`` where no spring fits."""
+    lamina = numerics.laminae(evidence, count)
+    verdict = numerics.tier(evidence, name, count)
+    if verdict is None:
+        return None
+    total = tuple(
+        verdict.influence.get(quantity, 0.0) + lamina.influence.get(quantity, 0.0) for quantity in asked
+    )
+    return Stage(name, count, evidence.costs.base(name, count), total, verdict.reason, lamina.reason)
 
 
 def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[Alternative]:

@@ -11,7 +11,7 @@ from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
 from beardyn_core.config.load import OpenScene, load_effects, read_scene, read_scene_mapping, read_scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.scene.scene import EFFECTS, Scene
+from beardyn_core.scene.scene import EFFECTS, Free, Scene
 
 if TYPE_CHECKING:
     from beardyn_core.choice.rule import Choice
@@ -137,15 +137,26 @@ def with_usual_step(found: OpenScene, outside_load: bool = False) -> OpenScene:
 
 
 def choice_for(found: OpenScene) -> Choice:
-    """Choose for a scene as it is read."""
-    from beardyn_core.choice.choose import choose  # brings the compiler along
-
+    """Choose for a scene as it is read, or find what was chosen for it before."""
     scene = found.scene
     if found.free.anything:
         # what is written down is wanted so, and not an error
-        return choose(scene, found.free)
+        return _choice(scene, found.free, None)
     reference = load_effects(REFERENCE)
-    return choose(replace(scene, effects=_judged_by(scene.effects, reference)), found.free, scene.effects)
+    judged = replace(scene, effects=_judged_by(scene.effects, reference))
+    return _choice(judged, found.free, scene.effects)
+
+
+def _choice(scene: Scene, free: Free, given: EffectSet | None) -> Choice:
+    from beardyn_core.choice.kept import kept, typical  # brings the compiler along
+
+    def work_out() -> Choice:
+        from beardyn_core.choice.choose import choose
+
+        return choose(scene, free, given)
+
+    scene = typical(scene)
+    return kept(scene, free, given, work_out)
 
 
 def in_box_of(effects: EffectSet, given: EffectSet) -> EffectSet:

@@ -122,6 +122,12 @@ class Choice:
     within: A[bool, "whether the expected errors are within the accuracy"]
     vibration_to: A[float, "highest third octave asked for, [Hz]; NaN where nothing is known"] = math.nan
     told: A[tuple[str, ...], "where sensors and the modes of the box do not reach equally far"] = ()
+    kept: A[bool, "whether it was made before and kept, see `beardyn_core.choice.kept`"] = False
+
+    @property
+    def judged(self) -> bool:
+        """Whether there was an equilibrium by which to judge."""
+        return not math.isnan(self.vibration_to)
 
     @property
     def real_time_factor(self) -> float:
@@ -154,6 +160,7 @@ class Choice:
             "quantities": self.quantities,
             "vibration_to_Hz": self.vibration_to,
             "within_accuracy": self.within,
+            "kept": self.kept,
             "expected_error": _errors(self.expected),
             "real_time_factor": self.real_time_factor,
             "step_cost": self.step_cost,

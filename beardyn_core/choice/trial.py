@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.choice.load import scene_from_mapping
+from beardyn_core.choice.load import closed
 from beardyn_core.config.folders import find
-from beardyn_core.config.load import read_trial
+from beardyn_core.config.load import OpenScene, read_scene_mapping, read_trial
 from beardyn_core.config.scene_file import overlay
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import UNITS, written
@@ -47,14 +47,19 @@ def load_trial(name: str | Path, *, tier: str | None = None, seed: int | None = 
 
 def _scene_problems(trial: Trial, cell: Cell) -> tuple[str, ...]:
     try:
-        trial_scene(trial, cell)
+        read_trial_scene(trial, cell)
     except InputError as error:
         return tuple(error.problems)
     return ()
 
 
 def trial_scene(trial: Trial, cell: Cell) -> Scene:
-    """Make the scene of one run.
+    """Make the scene of one run, ready to run; see `read_trial_scene`."""
+    return closed(read_trial_scene(trial, cell))
+
+
+def read_trial_scene(trial: Trial, cell: Cell) -> OpenScene:
+    """Read the scene of one run.
 
     The bearing of a lot, row and place of the spall follow from the run's seed: on the cup within 30 degrees
     of the middle of the load zone, anywhere on the cone or a roller.
@@ -107,7 +112,7 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
         )
     elif trial.effects is not None:
         data["effects"] = trial.effects
-    return scene_from_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)
+    return read_scene_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)
 
 
 def _spall(spall: Spall, cell: Cell, seed: int) -> dict[str, Any]:

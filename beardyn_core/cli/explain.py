@@ -93,6 +93,10 @@ def text(found: Explanation) -> str:
         parts += ["", *_lines(found.current, "as the scene has it")]
         parts += ["", *_lines(found.automatic, "what `effects: auto` would choose")]
     parts += _heard(found)
+    if (found.automatic or found.current).kept:
+        from beardyn_core.choice.kept import folder
+
+        parts += ["", f"This choice was made before and kept in {folder()}."]
     parts += ["", f"Cost shares and real-time factor as measured on {costs.machine}, {costs.date}."]
     return "\n".join(parts)
 
