@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def load_scene(
     name: str | Path,
     *,
-    effects: str | None = None,
+    effects: str | dict[str, Any] | None = None,
     tier: str | None = None,
     duration: float | None = None,
     laminae: int | None = None,
@@ -36,8 +36,8 @@ def load_scene(
     ----------
     name : str or Path
         A shipped scene, or the path of a YAML file.
-    effects : str, optional
-        Preset or file instead of the scene's effects, or ``auto``.
+    effects : str or dict, optional
+        Preset, file or keys of effects instead of the scene's, or ``auto``.
     duration : float, optional
         [s].
     accuracy_percent, quantities, vibration_to : float, list of str, float, optional

@@ -9,6 +9,7 @@ from beardyn_core.scene.scene import EFFECTS, NOTHING, Free
 
 AUTO = "auto"
 REFERENCE = "full"
+UNNAMED = "standard"  # of a scene that names no effects
 
 
 def names_a_box(effects: Any) -> bool:

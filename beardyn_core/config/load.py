@@ -16,6 +16,7 @@ from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.config import automatic
 from beardyn_core.config.automatic import AUTO, auto_in_its_box, take_auto
 from beardyn_core.config.content import located_table, self_contained, with_table
 from beardyn_core.config.folders import find, shipped_names
@@ -214,7 +215,7 @@ class _Reading:
         self._inline(self.data, "bearing", "bearings", ())
         self._inline(self.data, "lubricant", "lubricants", ())
         self._inline(self.data, "background", "backgrounds", ())
-        self.data.setdefault("effects", "standard")
+        self.data.setdefault("effects", automatic.UNNAMED)
         free = take_auto(self.data)
         self._inline_effects()
         self._inline_sensors()
