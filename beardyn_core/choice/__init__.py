@@ -34,7 +34,7 @@ from beardyn_core.choice.load import (
     scene_from_mapping,
     scene_from_text,
 )
-from beardyn_core.choice.trial import load_trial, trial_scene
+from beardyn_core.choice.trial import load_trial, trial_scene, with_choices
 
 __all__ = [
     "Explanation",
@@ -44,4 +44,5 @@ __all__ = [
     "scene_from_mapping",
     "scene_from_text",
     "trial_scene",
+    "with_choices",
 ]

@@ -25,6 +25,7 @@ from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
 _DECIDING = 2  # so many first rules decide the step: friction, and what damps the bounce of rollers
+_BESIDES = 0.5  # of a limit, beside an error beyond it that a tier has whatever is chosen in it
 _OF_STEP = ("traction", "film", "contact_damping", "structure")
 
 RULES: tuple[Callable[[Evidence], Rule], ...] = (
@@ -59,7 +60,8 @@ class Stage:
 def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = None) -> Choice:
     """Choose the cheapest tier, effects, laminae and step within the accuracy of a scene.
 
-    Where nothing is within the accuracy, the one that comes nearest.
+    Where nothing is within the accuracy, the one that comes nearest; in a tier that the scene names, the
+    cheapest that misses by hardly more than the tier does anyway.
 
     Parameters
     ----------
@@ -87,24 +89,28 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
         offered = [_offered(rule, free, name, given) for rule in rules]
         if any(not alternatives for alternatives in offered):
             continue
-        if best is not None and best[0][0] == 0.0 and _hopeless(evidence, name, offered, looked_at, limits):
+        least = _least_errors(evidence, name, offered, looked_at)
+        beyond = any(error > limit for error, limit in zip(least, limits, strict=True))
+        if best is not None and best[0][0] == 0.0 and beyond:
             continue
+        # no fineness is bought for what a tier that the scene names misses anyway
+        allowed = limits if free.tier else tuple(map(_allowed, limits, least))
         for count in _counts(scene, free, given, name):
             steps = {
                 deciding: clock.step(scene, name, count, (offered[index][each] for index, each in deciding))
                 for deciding in _deciding(offered)
             }
             if best is not None and best[0][0] == 0.0:
-                least = _least_cost(evidence.costs, offered, name, count)
+                cheapest = _least_cost(evidence.costs, offered, name, count)
                 fewest = min(step.steps_per_sample for step in steps.values())
-                if evidence.costs.seconds(least, fewest, name) > best[0][1]:
+                if evidence.costs.seconds(cheapest, fewest, name) > best[0][1]:
                     continue  # its errors need not be known
             stage = _stage(evidence, name, count, looked_at)
             if stage is None:
                 continue
             for deciding, step in steps.items():
                 fixed = [[offered[index][each]] for index, each in deciding]
-                found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
+                found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, allowed, evidence.costs)
                 # cost counts per simulated second; between equal costs the smaller error
                 seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
                 key = (found[0], seconds, found[2])
@@ -139,22 +145,21 @@ class _Clock:
         return self._known[key]
 
 
-def _hopeless(
-    evidence: Evidence,
-    name: str,
-    offered: list[list[Alternative]],
-    asked: tuple[str, ...],
-    limits: tuple[float, ...],
-) -> bool:
-    """Tell whether a tier is beyond a limit whatever its laminae and springs are."""
-    least = numerics.least_errors(evidence, name)
-    for quantity, limit in zip(asked, limits, strict=True):
-        smallest = (
-            min(option.influence.get(quantity, 0.0) for option in alternatives) for alternatives in offered
-        )
-        if least.get(quantity, 0.0) + sum(smallest) > limit:
-            return True
-    return False
+def _allowed(limit: float, least: float) -> float:
+    """Widen a limit that cannot be kept to what can be."""
+    return limit if least <= limit else least + _BESIDES * limit
+
+
+def _least_errors(
+    evidence: Evidence, name: str, offered: list[list[Alternative]], asked: tuple[str, ...]
+) -> tuple[float, ...]:
+    """Add up the errors that a tier has at least, whatever its laminae and springs are."""
+    of_tier = numerics.least_errors(evidence, name)
+    return tuple(
+        of_tier.get(quantity, 0.0)
+        + sum(min(option.influence.get(quantity, 0.0) for option in options) for options in offered)
+        for quantity in asked
+    )
 
 
 def _counts(scene: Scene, free: Free, given: EffectSet, name: str) -> list[int]:

@@ -11,7 +11,7 @@ from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
 from beardyn_core.config.load import OpenScene, load_effects, read_scene, read_scene_mapping, read_scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.scene.scene import EFFECTS, Free, Scene
+from beardyn_core.scene.scene import EFFECTS, Free, LeftOpen, Scene
 
 if TYPE_CHECKING:
     from beardyn_core.choice.rule import Choice
@@ -62,6 +62,12 @@ def load_scene(
         ("vibration_to_Hz",): vibration_to,
     }
     return closed(read_scene(name, _given(overrides)), outside_load)
+
+
+def scene_with_all(name: str | Path) -> Scene:
+    """Load a scene as `load_scene` does, but with every effect, in its own box, where it leaves them open."""
+    found = read_scene(name)
+    return found.scene if found.free.effects else closed(found)
 
 
 def scene_from_text(text: str, label: str = "scene") -> Scene:
@@ -123,7 +129,9 @@ def _given(overrides: dict[Any, Any]) -> dict[Any, Any]:
 def closed(found: OpenScene, outside_load: bool = False) -> Scene:
     """Complete a scene: by the automatic choice with its reasons, or by the usual step of its tier."""
     if found.free.anything:
-        return choice_for(found).applied(found.scene)
+        scene = choice_for(found).applied(found.scene)
+        chosen = (scene.tier, scene.effects, scene.numerics)
+        return replace(scene, left_open=LeftOpen(found.free, found.scene.effects, chosen))
     return with_usual_step(found, outside_load).scene
 
 

@@ -41,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.demo_report import RECORDING_NAME, demo_folder
     from beardyn_core.study.monitored_recording import MonitoredRecording
 
-    scene = load_scene(args.scene, duration=args.duration)
+    scene = load_scene(args.scene, effects=args.effects, duration=args.duration)
     folder = demo_folder(args.out, force=args.force)
     say(f"{scene.name}: {scene.purpose}")
     say("compiling ... (a minute the first time, kept for the next)")

@@ -55,6 +55,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="keep the runs here, write trial.json and, of a trial with spalls, trial.png; default none",
     )
     parser.add_argument("--jobs", metavar="N", type=int, help="processes; default one for each core")
+    parser.add_argument(
+        "--effects",
+        metavar="NAME",
+        help="set or file of effects, or auto; default the trial's or its scene's, or what an accuracy of "
+        "5 %% needs, the same in all runs of a tier",
+    )
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full; default the trial's")
     parser.add_argument(
         "--seed",
@@ -77,7 +83,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.trial_result import TrialResult
 
     with checked(lambda _: option_problems(args)):
-        trial = load_trial(args.matrix, tier=args.tier, seed=args.seed)
+        trial = load_trial(args.matrix, tier=args.tier, seed=args.seed, effects=args.effects)
     folder = args.output
     plan = plan_of(trial, args.monitor, folder, force=args.force)
     if folder is not None:
@@ -101,7 +107,7 @@ def run(args: argparse.Namespace) -> int:
     interrupted = False
     if plan.missing:
         with last_words(kept):
-            warm(trial)
+            warm(plan.trial)
     try:
         with last_words(kept):
             runs = conduct(plan, folder, jobs, progress)

@@ -16,7 +16,6 @@ from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.config import automatic
 from beardyn_core.config.automatic import AUTO, auto_in_its_box, take_auto
 from beardyn_core.config.content import located_table, self_contained, with_table
 from beardyn_core.config.folders import find, shipped_names
@@ -156,12 +155,14 @@ def load_effects(name: str | Path) -> EffectSet:
     return with_table(effects)
 
 
-def read_trial(name: str | Path, *, tier: str | None = None, seed: int | None = None) -> tuple[Trial, Path]:
+def read_trial(
+    name: str | Path, *, tier: str | None = None, seed: int | None = None, effects: str | None = None
+) -> tuple[Trial, Path]:
     """Read the trial of a shipped name or of a file, its sizes in order, and find its path.
 
     Parameters
     ----------
-    tier, seed : optional
+    tier, seed, effects : optional
         Instead of the file's; with another tier the check falls away where it is the same one.
 
     Raises
@@ -177,6 +178,8 @@ def read_trial(name: str | Path, *, tier: str | None = None, seed: int | None = 
             del data["check"]
     if seed is not None:
         data["seed"] = seed
+    if effects is not None:
+        data["effects"] = effects
     trial: Trial = read_noun(Trial, data, str(path))
     return replace(trial, folder=path.parent, sizes=tuple(sorted(trial.sizes))), path
 
@@ -215,7 +218,6 @@ class _Reading:
         self._inline(self.data, "bearing", "bearings", ())
         self._inline(self.data, "lubricant", "lubricants", ())
         self._inline(self.data, "background", "backgrounds", ())
-        self.data.setdefault("effects", automatic.UNNAMED)
         free = take_auto(self.data)
         self._inline_effects()
         self._inline_sensors()
@@ -398,6 +400,9 @@ class _Reading:
             has_rib = effects.rib is not None
             steps, bends = numerics.steps_per_sample, effects.structure is not None
             found = contradictions(tier, has_rib, numerics.laminae, steps, bends)
+            if "structure" in free.effects:
+                hint = "; effects that nobody names are chosen: name some without structure, such as dry"
+                found = [f"{each}{hint}" if "structure" in each else each for each in found]
             if free.tier:
                 found = [f"auto may have to take the tier {tier!r}: {problem}" for problem in found]
             self._complain(("tier",), found)
