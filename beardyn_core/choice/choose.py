@@ -25,7 +25,7 @@ from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
 _DECIDING = 2  # so many first rules decide the step: friction, and what damps the bounce of rollers
-_BESIDES = 0.5  # of a limit, beside an error beyond it that a tier has whatever is chosen in it
+_BESIDES = 1.0  # of a limit, beside an error beyond it that a tier has whatever is chosen in it
 _OF_STEP = ("traction", "film", "contact_damping", "structure")
 
 RULES: tuple[Callable[[Evidence], Rule], ...] = (
@@ -96,20 +96,20 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
         # no fineness is bought for what a tier that the scene names misses anyway
         allowed = limits if free.tier else tuple(map(_allowed, limits, least))
         for count in _counts(scene, free, given, name):
-            steps = {
-                deciding: clock.step(scene, name, count, (offered[index][each] for index, each in deciding))
-                for deciding in _deciding(offered)
-            }
+            steps = [
+                (deciding, clock.step(scene, name, count, deciding))
+                for deciding in product(*offered[:_DECIDING])
+            ]
             if best is not None and best[0][0] == 0.0:
                 cheapest = _least_cost(evidence.costs, offered, name, count)
-                fewest = min(step.steps_per_sample for step in steps.values())
+                fewest = min(step.steps_per_sample for _, step in steps)
                 if evidence.costs.seconds(cheapest, fewest, name) > best[0][1]:
                     continue  # its errors need not be known
             stage = _stage(evidence, name, count, looked_at)
             if stage is None:
                 continue
-            for deciding, step in steps.items():
-                fixed = [[offered[index][each]] for index, each in deciding]
+            for deciding, step in steps:
+                fixed = [[option] for option in deciding]
                 found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, allowed, evidence.costs)
                 # cost counts per simulated second; between equal costs the smaller error
                 seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
@@ -169,11 +169,6 @@ def _counts(scene: Scene, free: Free, given: EffectSet, name: str) -> list[int]:
         return []
     counts = numerics.LAMINAE if free.laminae else (scene.numerics.laminae,)
     return [count for count in counts if count >= limits.smallest_laminae]
-
-
-def _deciding(offered: list[list[Alternative]]) -> list[tuple[tuple[int, int], ...]]:
-    """List what the step depends on: rule and number of an alternative, for each deciding rule."""
-    return list(product(*([(rule, each) for each in range(len(offered[rule]))] for rule in range(_DECIDING))))
 
 
 def _least_cost(costs: Costs, offered: list[list[Alternative]], name: str, count: int) -> float:
@@ -279,7 +274,7 @@ def _choice_of(
             rule.effect,
             option.word,
             option.reason,
-            any(value is not None for value in option.members.values()),
+            next(iter(option.members.values())) is not None,  # a film may stay without traction
             part / total,
             {name: option.influence.get(name, 0.0) for name in asked},
         )

@@ -83,6 +83,11 @@ def with_choices(trial: Trial) -> Trial:
     return replace(trial, choices=(*trial.choices, *(choice for choice in found if choice is not None)))
 
 
+def leaves_open(trial: Trial) -> bool:
+    """Tell whether scene and trial leave anything to be chosen."""
+    return not trial.choices and read_trial_scene(trial, trial.cells()[0]).free.anything
+
+
 def _choice_of(trial: Trial, tier: str) -> TrialChoice | None:
     cells = dict.fromkeys(replace(cell, tier=tier) for cell in _corners(trial))
     scenes = [read_trial_scene(trial, cell) for cell in cells]

@@ -60,6 +60,9 @@ def test_fast_tiers_get_what_they_can_have(tier: str) -> None:
     scene = load_scene("static_80kN", tier=tier)
     assert scene.tier == tier
     assert scene.missing_effects == ()
+    assert scene.effects.film is not None, (
+        "it starves the rolling resistance: else the torque is three times as large"
+    )
     assert "more than asked for" in scene.chosen[0]
     assert scene.numerics.laminae <= 12, "no fineness is bought for what the tier misses anyway"
 
