@@ -15,6 +15,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from hypothesis import settings
 
 REPOSITORY = Path(__file__).resolve().parent
+
+STANDARD_CONFIGURATION = REPOSITORY / ".pytest_cache" / "standard_config"
 # Tests of nodes, browsers and signals leave their core idle for two thirds of their time.
 WAITING = ("test/ros/", "test/browser/", "test/cli/test_interrupts.py")
 # Files that take longer than about twenty seconds, once compiled or before, the longest first.
@@ -66,8 +68,18 @@ def keep_bytecode(folder: Path) -> None:
 keep_bytecode(REPOSITORY / ".pytest_cache" / "bytecode")
 
 
+def use_standard_effects() -> None:
+    """Read every scene that names no effects with the standard ones, here and in processes begun here."""
+    from beardyn_core.config import automatic
+    from test.standard import NAME, write_configuration
+
+    automatic.UNNAMED = NAME
+    os.environ["BEARDYN_CONFIG"] = str(write_configuration(STANDARD_CONFIGURATION))
+
+
 def pytest_configure(config: pytest.Config) -> None:
-    """Select the examples of hypothesis: the same every time in the fast suite, new ones in the long one."""
+    """Take the standard effects, and examples of hypothesis: always the same ones in the fast suite."""
+    use_standard_effects()
     settings.register_profile("repeatable", derandomize=True)
     if config.getoption("markexpr") == "not slow":
         settings.load_profile("repeatable")
@@ -130,9 +142,13 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     return ByFile(config, log)
 
 
-@pytest.fixture(autouse=True)
-def _shipped_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("BEARDYN_CONFIG", raising=False)
+@pytest.fixture
+def shipped_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Take the configuration as it is shipped, and what is computed where a scene names no effects."""
+    from beardyn_core.config import automatic
+
+    monkeypatch.delenv("BEARDYN_CONFIG")
+    monkeypatch.setattr(automatic, "UNNAMED", automatic.AUTO)
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from beardyn_core.choice import load_scene
+from beardyn_core.config import read_scene
 from beardyn_core.errors import InputError
 from beardyn_core.rail.build import load_history, load_of_scene
 from beardyn_core.rail.measured import read_measurement
@@ -88,7 +88,7 @@ class CarScenario:
         self, boxes: tuple[Box, ...], geometry: CarGeometry, scene: str, csv: str, duration: float
     ) -> None:
         self._geometry = geometry
-        self._scene = load_scene(scene)
+        self._scene = read_scene(scene).scene  # of which only the load matters
         if csv:
             self._scene = replace(self._scene, operation=MeasuredOperation(Path(csv)))
         length = duration or self._scene.duration

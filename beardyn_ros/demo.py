@@ -17,6 +17,7 @@ from beardyn_core.record.messages import Diagnostic, decode_diagnostics
 from beardyn_core.study.demo_console import Progress, add_arguments, say
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available, this_machine_only
 from beardyn_ros.processes import Processes, free_domain_id, local_environment
+from beardyn_ros.run_state import SCENE_OWN
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL
 
 EXIT_FAILED, EXIT_INTERRUPTED = 1, 130
@@ -65,12 +66,15 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _demo(args: argparse.Namespace) -> int:
-    from beardyn_core.choice import load_scene
+    from beardyn_core.config import read_scene
     from beardyn_core.outputs import files_read
     from beardyn_core.study.demo_report import RECORDING_NAME, Pace, demo_folder, report
 
-    with files_read() as inputs:
-        scene = load_scene(args.scene, duration=args.duration)
+    wanted = {("effects",): args.effects, ("duration_s",): args.duration}
+    with files_read() as inputs:  # the twin chooses what is open
+        scene = read_scene(
+            args.scene, {key: value for key, value in wanted.items() if value is not None}
+        ).scene
     folder = demo_folder(args.out, inputs=inputs, force=args.force).resolve()
     logs = folder / "logs"
     logs.mkdir(exist_ok=True)
@@ -80,7 +84,8 @@ def _demo(args: argparse.Namespace) -> int:
     say(f"{scene.name}: {scene.purpose}")
     say(f"nodes on ROS domain {domain}, this machine only, logs in {logs}")
     with Processes(local_environment(domain), logs) as processes:
-        nodes = _Nodes(processes, scene.name if args.scene == scene.name else str(Path(args.scene).resolve()))
+        name = scene.name if args.scene == scene.name else str(Path(args.scene).resolve())
+        nodes = _Nodes(processes, name, args.effects)
         with _Observer(domain) as graph:
             twin = _run_nodes(nodes, graph, scene, recording)
     pace = Pace(
@@ -98,7 +103,7 @@ def _demo(args: argparse.Namespace) -> int:
 
 def _run_nodes(nodes: _Nodes, graph: _Observer, scene: Any, recording: Path) -> Diagnostic:
     """Start everybody, follow the run, wait for everybody's end; the twin's last words."""
-    nodes.start("twin", scene=nodes.scene)
+    nodes.start("twin", scene=nodes.scene, effects=nodes.effects)
     nodes.start("recorder", output=str(recording))
     nodes.start("monitor", bearing=scene.bearing.name)
     begin = time.monotonic()
@@ -149,9 +154,10 @@ def _run_nodes(nodes: _Nodes, graph: _Observer, scene: Any, recording: Path) -> 
 class _Nodes:
     """The nodes of the demonstration as processes."""
 
-    def __init__(self, processes: Processes, scene: str) -> None:
+    def __init__(self, processes: Processes, scene: str, effects: str | None) -> None:
         self.processes = processes
         self.scene = scene
+        self.effects = effects or SCENE_OWN
 
     def start(self, node: str, **parameters: object) -> None:
         words = ["-m", "beardyn_ros", node, "--ros-args"]

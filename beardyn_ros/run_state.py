@@ -22,7 +22,7 @@ INTERRUPTED = "interrupted"
 END_STATES = (FINISHED, STOPPED, INTERRUPTED)
 LEFT = "the run was left by a reset"  # begins the last word of such a run
 
-SCENE_TIER = "scene"
+SCENE_OWN = "scene"
 
 
 @dataclass(frozen=True)
@@ -43,24 +43,31 @@ class Rig:
     background: str = ""
 
 
-def scene_rig(scene_name: str, tier: str = SCENE_TIER) -> Callable[[], Rig]:
+def scene_rig(scene_name: str, tier: str = SCENE_OWN, effects: str = SCENE_OWN) -> Callable[[], Rig]:
     """Make the builder of rigs for a scene by name or path; the scene is read and checked at once.
+
+    What it leaves open is chosen when the first rig is built.
 
     Parameters
     ----------
     scene_name : str
     tier : str
-        `SCENE_TIER` for the scene's own.
+        `SCENE_OWN` for the scene's own.
+    effects : str
+        Preset, file or ``auto``; `SCENE_OWN` for the scene's own.
     """
-    from beardyn_core.choice import load_scene
+    from beardyn_core.choice.load import closed
+    from beardyn_core.config import read_scene
     from beardyn_core.record.description import RunDescription
     from beardyn_core.twin import Twin
 
-    scene = load_scene(scene_name, tier=None if tier == SCENE_TIER else tier, outside_load=True)
-
-    forces = scene.background.name if scene.background is not None and scene.background.forces else ""
+    given = {("tier",): tier, ("effects",): effects}
+    found = read_scene(scene_name, {place: value for place, value in given.items() if value != SCENE_OWN})
+    background = found.scene.background
+    forces = background.name if background is not None and background.forces else ""
 
     def build() -> Rig:
+        scene = closed(found, outside_load=True)
         twin = Twin(scene)
         return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names), forces)
 

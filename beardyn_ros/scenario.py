@@ -47,12 +47,12 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
     duration : float
         0 for the scene's own, or the whole CSV, [s].
     """
-    from beardyn_core.choice import load_scene
+    from beardyn_core.config import read_scene
     from beardyn_core.rail.build import load_of_scene
     from beardyn_core.rail.measured import read_measurement
     from beardyn_core.scene.operation import MeasuredOperation
 
-    scene = load_scene(scene_name)
+    scene = read_scene(scene_name).scene  # of which only the load matters
     length = duration or scene.duration
     if csv:
         path = Path(csv)

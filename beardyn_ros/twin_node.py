@@ -41,7 +41,7 @@ from beardyn_ros.twin_parameters import PARAMETERS
 from beardyn_ros.twin_report import TwinReporter
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
-RigLoader = Callable[[str, str], Callable[[], Rig]]
+RigLoader = Callable[[str, str, str], Callable[[], Rig]]
 
 REPORT_PERIOD_S = 0.2
 LAST_WORDS_TIMEOUT_S = 2.0
@@ -70,7 +70,7 @@ class TwinNode(LifecycleNode):
     Parameters
     ----------
     load_rig : callable or None
-        Gives, for ``scene`` and ``tier``, a builder of rigs; ``None``: scenes of the config room.
+        Gives, for ``scene``, ``tier`` and ``effects``, a builder of rigs; ``None``: scenes.
     """
 
     def __init__(self, load_rig: RigLoader | None = None) -> None:
@@ -122,7 +122,7 @@ class TwinNode(LifecycleNode):
         """Read the scene and start compiling it in the background."""
         values = self._values
         try:
-            make_rig = self._load_rig(values.scene, values.tier)
+            make_rig = self._load_rig(values.scene, values.tier, values.effects)
         except InputError as error:
             for sentence in error.problems:
                 self.get_logger().error(sentence)

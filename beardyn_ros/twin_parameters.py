@@ -6,15 +6,20 @@ from beardyn_core.scene.tier import TIER_NAMES
 from beardyn_ros.description_publisher import DESCRIPTION_PARAMETERS
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.parameters import NodeParameter
-from beardyn_ros.run_state import SCENE_TIER
+from beardyn_ros.run_state import SCENE_OWN
 
 PARAMETERS = (
     NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
     NodeParameter(
         "tier",
-        SCENE_TIER,
+        SCENE_OWN,
         "how much of the bearing moves by itself: lumped and quasistatic are fast; scene: the scene's own",
-        choices=(SCENE_TIER, *TIER_NAMES),
+        choices=(SCENE_OWN, *TIER_NAMES),
+    ),
+    NodeParameter(
+        "effects",
+        SCENE_OWN,
+        "set or file of effects, or auto; scene: the scene's own, chosen for its operation if it names none",
     ),
     NodeParameter(
         "mode",

@@ -104,11 +104,11 @@ def _in_box(scene: Scene) -> Scene:
 
 
 def _with_faults(scene: Scene) -> Scene:
-    return replace(scene, defects=load_scene("cup_spall").defects)
+    return replace(scene, defects=load_scene("cup_spall", effects="standard").defects)
 
 
 def _wavy(scene: Scene) -> Scene:
-    return replace(scene, waviness=load_scene("waviness").waviness)
+    return replace(scene, waviness=load_scene("waviness", effects="standard").waviness)
 
 
 def _with_laminae(count: int) -> Callable[[Scene], Scene]:
@@ -149,7 +149,7 @@ def _microseconds(twin: Twin) -> tuple[float, float]:
 
 def measure(scene_name: str, turns: int, only: list[str]) -> list[dict[str, float | str]]:
     """Measure the time per step of every set, and its ratio to `standard`."""
-    base = load_scene(scene_name)
+    base = load_scene(scene_name, effects="standard")
     scenes = {name: replace(base, effects=effects) for name, effects in _sets().items()}
     scenes |= {name: change(replace(base, effects=STANDARD)) for name, change in CHANGES.items()}
     chosen = [name for name in scenes if not only or name == "standard" or any(o in name for o in only)]

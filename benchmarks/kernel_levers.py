@@ -15,7 +15,6 @@ import numba
 
 from beardyn_core import kernels
 from beardyn_core.choice import load_scene
-from beardyn_core.config import load_effects
 from beardyn_core.integrate import imex
 from beardyn_core.jit import LANE_WIDTH, OPTIONS, inline
 from beardyn_core.scene.scene import Scene
@@ -73,7 +72,7 @@ def kernel_levers(turns: int) -> Table:
     turns : int
         Stretches of 512 steps of each, in turns.
     """
-    scenes = {name: replace(load_scene("static_80kN"), effects=load_effects(name)) for name in SETS}
+    scenes = {name: load_scene("static_80kN", effects=name) for name in SETS}
     ratios = {name: _ratios(scene, turns) for name, scene in scenes.items()}
     rows = [(lever, *(ratios[name][lever] for name in SETS)) for lever in ratios[SETS[0]]]
     return Table(

@@ -41,7 +41,7 @@ class Run:
     """One number of steps per sample: blocks in turn with the others."""
 
     def __init__(self, effects: str, load: float, speed: float, steps: int, blocks: int) -> None:
-        scene = load_scene("static_80kN")
+        scene = load_scene("static_80kN", effects="standard")
         scene = replace(
             scene,
             effects=load_effects(effects),

@@ -34,7 +34,7 @@ def _advance(twin: Twin, blocks: int) -> tuple[float, float]:
 
 def _child(connection: Connection, blocks: int) -> None:
     """Run a twin in its own process: as many blocks as the connection asks for; 0 ends it."""
-    twin = started(load_scene(SCENE), blocks)
+    twin = started(load_scene(SCENE, effects="standard"), blocks)
     connection.send(None)
     while count := connection.recv():
         connection.send(_advance(twin, count))
@@ -86,7 +86,7 @@ def _in_threads(twins: list[Twin], blocks: int) -> float:
 def parallel(turns: int) -> Table:
     """Measure the throughput of two twins against one."""
     blocks = turns * (BLOCKS + 1) + 1
-    twins = [started(load_scene(SCENE), 2 * blocks) for _ in range(TWINS)]
+    twins = [started(load_scene(SCENE, effects="standard"), 2 * blocks) for _ in range(TWINS)]
     children = _Children(blocks)
     shares: list[float] = []
 

@@ -64,7 +64,7 @@ def chosen_steps(scene: Scene) -> float:
 def fast_tiers(turns: int) -> Table:
     """Time the fast tiers with cup held and suspended, and with a fault."""
     scenes = {
-        f"{tier} {name}": load_scene(name, tier=tier)
+        f"{tier} {name}": load_scene(name, tier=tier, effects="standard")
         for tier in ("lumped", "quasistatic")
         for name in ("static_80kN", "smooth_run", "cup_spall")
     }
@@ -80,8 +80,8 @@ def fast_tiers(turns: int) -> Table:
 
 
 def scenes(turns: int) -> Table:
-    """Time shipped scenes as they are."""
-    found = {name: load_scene(name) for name in SCENES}
+    """Time shipped scenes with the standard effects."""
+    found = {name: load_scene(name, effects="standard") for name in SCENES}
     return _table("scenes", "Real-time factor of shipped scenes", take_turns(found, turns), SCENES[0])
 
 
@@ -102,5 +102,5 @@ def _table(name: str, title: str, timings: dict[str, Timing], reference: str) ->
 
 def standard_alone(turns: int) -> Table:
     """Time the full tier with standard effects, for a comparison."""
-    timings = take_turns({"full standard": load_scene("static_80kN")}, turns)
+    timings = take_turns({"full standard": load_scene("static_80kN", effects="standard")}, turns)
     return _table("standard", "Real-time factor, standard effects", timings, "full standard")

@@ -17,7 +17,7 @@ from benchmarks.runs import Table
 
 def sinks(blocks: int, repetitions: int) -> Table:
     """Write the blocks of one run into every sink, opening and closing included."""
-    scene = load_scene("static_80kN")
+    scene = load_scene("static_80kN", effects="standard")
     simulation = start(scene, blocks * Twin.block_ns * 1e-9)
     twin = simulation.twin
     description = RunDescription.of(scene, twin.truth(), twin.body_names, simulation.load)

@@ -37,7 +37,7 @@ from beardyn_core.rail.build import load_history
 from beardyn_core.study import desk_run
 from beardyn_core.twin import Twin
 stamps.append(time.time())
-scene = load_scene(sys.argv[1], duration=0.1)
+scene = load_scene(sys.argv[1], duration=0.1, effects="standard")
 stamps.append(time.time())
 twin = Twin(scene)
 twin.warm()

@@ -26,7 +26,7 @@ def stages(blocks: int) -> Table:
     """Measure the stage clocks of runs with the standard and with every effect, medians over blocks."""
     times: list[dict[str, float]] = []
     for name in ("standard", "full"):
-        scene = replace(load_scene("static_80kN"), effects=load_effects(name))
+        scene = replace(load_scene("static_80kN", effects="standard"), effects=load_effects(name))
         twin = started(scene, blocks + SETTLING_BLOCKS)
         clocks = []
         for _ in range(blocks + SETTLING_BLOCKS):
@@ -63,7 +63,7 @@ def share(times: dict[str, float], stage: str) -> float:
 
 def laminae(turns: int) -> Table:
     """Fit a straight line of the step's time over the number of laminae, per set of effects."""
-    base = load_scene("static_80kN")
+    base = load_scene("static_80kN", effects="standard")
     scenes = {
         f"{name} {count}": replace(
             base, effects=load_effects(name), numerics=replace(base.numerics, laminae=count)
@@ -94,7 +94,7 @@ def laminae(turns: int) -> Table:
 
 def rollers(turns: int) -> Table:
     """Step time over the number of rollers, the load of each kept."""
-    base = load_scene("static_80kN")
+    base = load_scene("static_80kN", effects="standard")
     timings = take_turns({str(count): _with_rollers(base, count) for count in ROLLERS}, turns)
     line = straight_line([2.0 * n for n in ROLLERS], [timings[str(n)].step_us() for n in ROLLERS])
     rows = [

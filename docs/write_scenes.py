@@ -15,8 +15,7 @@ from typing import Any, get_args
 import numpy as np
 from pydantic import BaseModel
 
-from beardyn_core.choice import load_scene
-from beardyn_core.config import shipped_names
+from beardyn_core.config import read_scene, shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of
 from beardyn_core.rail.build import load_history, load_of_scene
@@ -38,7 +37,8 @@ Written by `python docs/write_scenes.py` from the files in `config/scenes`.
 
 A scene is a YAML file: a bearing, a lubricant, an operation, faults, sensors. `beardyn simulate cup_spall`
 runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come first; the others turn a
-bearing under a constant load.
+bearing under a constant load. But for those of a publication (`santos_*`) they name no effects, so each is
+computed with those that an accuracy of 5 % [needs](effects_auto.md); [the choices](choices.md).
 
 Every railway scene is there to test a monitor: some have a fault that must be found (*true*), some only
 something that looks like one (*similar disturbance*), some both, and the healthy ones nothing at all. The
@@ -112,7 +112,7 @@ def irregularity(scene: Scene) -> str:
 
 def page() -> str:
     """Write the whole page."""
-    scenes = [load_scene(name) for name in shipped_names("scenes")]
+    scenes = [read_scene(name).scene for name in shipped_names("scenes")]
     lines = [HEAD, "| scene | km/h | rail | fault | similar disturbances |", "|---|---|---|---|---|"]
     for scene in filter(railway, scenes):
         cells = (f"[{scene.name}](#{scene.name})", speeds(scene), irregularity(scene))
@@ -241,7 +241,7 @@ def problems() -> list[str]:
     found = []
     if not PAGE.exists() or PAGE.read_text(encoding="utf-8") != page():
         found.append(f"{PAGE.name} is not what the scenes say: python docs/write_scenes.py")
-    for name in filter(lambda name: railway(load_scene(name)), shipped_names("scenes")):
+    for name in filter(lambda name: railway(read_scene(name).scene), shipped_names("scenes")):
         path = FOLDER / f"{name}.png"
         if not path.exists():
             found.append(f"{path.name} is missing: python docs/write_scenes.py")
@@ -254,7 +254,7 @@ def problems() -> list[str]:
 
 def write_measured() -> None:
     """Make the CSV file of measured_run: a coach on the rail model, filtered to 40 Hz, 100 rows a second."""
-    coach = load_scene("healthy_80").operation
+    coach = read_scene("healthy_80").scene.operation
     assert isinstance(coach, QuarterVehicleOperation)
     operation = QuarterVehicleOperation(
         coach.vehicle, Irregularity("german_high", 0.5), ((0.0, 100 / 3.6), (1.0, 100 / 3.6), (5.0, 85 / 3.6))
@@ -285,7 +285,7 @@ def main(arguments: list[str]) -> int:
         return 2
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in shipped_names("scenes"):
-        if railway(scene := load_scene(name)):
+        if railway(scene := read_scene(name).scene):
             (FOLDER / f"{name}.png").write_bytes(picture(scene))
     PAGE.write_text(page(), encoding="utf-8")
     return 0

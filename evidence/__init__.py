@@ -19,6 +19,7 @@ automatic   docs/automatic.md: what `effects: auto` chooses, on trial
 trial       docs/trial.md: the monitor on trial
 performance docs/performance.md: speeds measured by `benchmarks`
 ros         the ROS graph with nodes killed, starved and fed nonsense; what each node costs
+standard    shipped scenes with the standard effects
 pages       where pages and pictures go, and how pictures are made small
 =========== ======================================================================================
 

@@ -41,6 +41,7 @@ ARGUMENTS = (
         "scene of the faulty box: its bearing and defects; the load stays the car's",
     ),
     ("tier", "lumped", "tier of every twin: lumped, quasistatic, full; scene: the scene's own"),
+    ("effects", "scene", "effects of every twin: a set or file, or auto; scene: the scene's own, or chosen"),
     ("csv", "", "CSV file of time, speed and force for the first wheel; empty: the scene's operation"),
     ("duration", "0.0", "simulated time, s; 0: the scene's own"),
     ("speed_factor", "0.0", "simulated seconds per wall second, 0 is as fast as it goes"),
@@ -75,6 +76,7 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
                 {
                     "scene": given["faulty_scene" if faulty else "scene"],
                     "tier": given["tier"],
+                    "effects": given["effects"],
                     "speed_factor": float(given["speed_factor"]),
                     "publish_clock": box == boxes[0],
                     "parent_frame": car,

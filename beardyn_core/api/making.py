@@ -13,6 +13,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.choice import scene_from_mapping
+from beardyn_core.config.automatic import AUTO, names_a_box
 from beardyn_core.config.folders import find
 from beardyn_core.config.nouns import bearing_from_mapping, load_lubricant, read_noun
 from beardyn_core.config.plates import load_plate
@@ -20,7 +21,7 @@ from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
-from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.scene import EFFECTS, Scene
 
 USUAL_BEARING, USUAL_LUBRICANT = "HS130x230", "L055"
 USUAL_LOAD_KN, USUAL_SPEED_RPM = 80.0, 1000.0
@@ -207,7 +208,8 @@ def scene(
     Parameters
     ----------
     source : str, Path, mapping or Scene, optional
-        Name of a shipped scene, YAML file, mapping with the keys of a scene file, or a scene. Without it
+        Name of a shipped scene, YAML file, mapping with the keys of a scene file, or a scene; what was chosen
+        automatically for that is chosen anew for the changed one. Without it
         the scene has the bearing HS130x230, the grease L055, 80 kN upwards on the journal and 1000 rpm.
     bearing, lubricant : optional
         Name, file, keys of such a file, or what `bearing` and `lubricant` give.
@@ -223,7 +225,8 @@ def scene(
     tier : str, optional
         ``lumped``, ``quasistatic``, ``full`` or ``auto``.
     effects : str, mapping or EffectSet, optional
-        Preset, file, ``auto`` or the effects themselves.
+        Preset, file, ``auto`` or the effects themselves; those that 5 % of accuracy need when nothing names
+        any.
     duration : float, optional
         [s].
     laminae, seed : int, optional
@@ -240,6 +243,8 @@ def scene(
         With every mistake.
     """
     data, label, folder = _mapping_of(source)
+    if isinstance(source, Scene) and effects is None:
+        data |= _left_open(source)
     changes: dict[str, Any] = {
         "bearing": written(bearing) if isinstance(bearing, Bearing) else bearing,
         "lubricant": written(lubricant) if isinstance(lubricant, Lubricant) else lubricant,
@@ -276,6 +281,24 @@ def _mapping_of(source: str | Path | Mapping[str, Any] | Scene | None) -> tuple[
         return read_file(path), str(path), path.parent
     usual = {"scene": "scene", "bearing": USUAL_BEARING, "lubricant": USUAL_LUBRICANT}
     return {**usual, "operation": _usual_operation()}, "scene made in code", Path()
+
+
+def _left_open(scene: Scene) -> dict[str, Any]:
+    """Write the keys that open again what was chosen for a scene; none where that has been changed."""
+    opened = scene.left_open
+    if opened is None or not opened.still(scene):
+        return {}
+    free, had = opened.free, written(opened.effects)
+    kept = {name: had.get(name, False) for name in EFFECTS if name not in free.effects}
+    box = {"structure": had["structure"]} if names_a_box(had) else {}
+    numerics = written(scene.numerics)
+    numerics |= {"laminae": AUTO} if free.laminae else {}
+    numerics |= {"steps_per_sample": AUTO} if free.steps else {}
+    return {
+        "effects": {"preset": AUTO, **kept, **box},
+        "numerics": numerics,
+        "tier": AUTO if free.tier else scene.tier,
+    }
 
 
 def _usual_operation() -> dict[str, Any]:

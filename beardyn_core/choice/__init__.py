@@ -19,11 +19,12 @@ fast_step     the step of the fast tiers
 usual_step    the step of a scene that names none
 numerics      what a tier or a lamina count leaves out; the step
 choose        scene in, the cheapest alternatives within the limits out
+kept          choices made before, beside the compiled kernels
 load          scenes ready to run: read by `config`, what they leave open closed
 trial         the scenes of a trial
 ============= =================================================================
 
-Importing `choose` brings the compiler along; the room itself, and a scene without `auto`, do not.
+Importing `choose` or `kept` brings the compiler along; the room itself, and a scene without `auto`, do not.
 """
 
 from beardyn_core.choice.load import (
@@ -33,7 +34,7 @@ from beardyn_core.choice.load import (
     scene_from_mapping,
     scene_from_text,
 )
-from beardyn_core.choice.trial import load_trial, trial_scene
+from beardyn_core.choice.trial import load_trial, trial_scene, with_choices
 
 __all__ = [
     "Explanation",
@@ -43,4 +44,5 @@ __all__ = [
     "scene_from_mapping",
     "scene_from_text",
     "trial_scene",
+    "with_choices",
 ]

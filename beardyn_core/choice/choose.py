@@ -25,6 +25,7 @@ from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
 _DECIDING = 2  # so many first rules decide the step: friction, and what damps the bounce of rollers
+_BESIDES = 1.0  # of a limit, beside an error beyond it that a tier has whatever is chosen in it
 _OF_STEP = ("traction", "film", "contact_damping", "structure")
 
 RULES: tuple[Callable[[Evidence], Rule], ...] = (
@@ -59,7 +60,8 @@ class Stage:
 def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = None) -> Choice:
     """Choose the cheapest tier, effects, laminae and step within the accuracy of a scene.
 
-    Where nothing is within the accuracy, the one that comes nearest.
+    Where nothing is within the accuracy, the one that comes nearest; in a tier that the scene names, the
+    cheapest that misses by hardly more than the tier does anyway.
 
     Parameters
     ----------
@@ -87,13 +89,28 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
         offered = [_offered(rule, free, name, given) for rule in rules]
         if any(not alternatives for alternatives in offered):
             continue
-        if best is not None and best[0][0] == 0.0 and _hopeless(evidence, name, offered, looked_at, limits):
+        least = _least_errors(evidence, name, offered, looked_at)
+        beyond = any(error > limit for error, limit in zip(least, limits, strict=True))
+        if best is not None and best[0][0] == 0.0 and beyond:
             continue
-        for stage in _stages(evidence, scene, free, given, looked_at, name):
-            for deciding in product(*offered[:_DECIDING]):
-                step = clock.step(scene, stage.tier, stage.laminae, deciding)
+        # no fineness is bought for what a tier that the scene names misses anyway
+        allowed = limits if free.tier else tuple(map(_allowed, limits, least))
+        for count in _counts(scene, free, given, name):
+            steps = [
+                (deciding, clock.step(scene, name, count, deciding))
+                for deciding in product(*offered[:_DECIDING])
+            ]
+            if best is not None and best[0][0] == 0.0:
+                cheapest = _least_cost(evidence.costs, offered, name, count)
+                fewest = min(step.steps_per_sample for _, step in steps)
+                if evidence.costs.seconds(cheapest, fewest, name) > best[0][1]:
+                    continue  # its errors need not be known
+            stage = _stage(evidence, name, count, looked_at)
+            if stage is None:
+                continue
+            for deciding, step in steps:
                 fixed = [[option] for option in deciding]
-                found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, limits, evidence.costs)
+                found = _cheapest([*fixed, *offered[_DECIDING:]], stage, looked_at, allowed, evidence.costs)
                 # cost counts per simulated second; between equal costs the smaller error
                 seconds = evidence.costs.seconds(found[1], step.steps_per_sample, stage.tier)
                 key = (found[0], seconds, found[2])
@@ -128,42 +145,51 @@ class _Clock:
         return self._known[key]
 
 
-def _hopeless(
-    evidence: Evidence,
-    name: str,
-    offered: list[list[Alternative]],
-    asked: tuple[str, ...],
-    limits: tuple[float, ...],
-) -> bool:
-    """Tell whether a tier is beyond a limit whatever its laminae and springs are."""
-    least = numerics.least_errors(evidence, name)
-    for quantity, limit in zip(asked, limits, strict=True):
-        smallest = (
-            min(option.influence.get(quantity, 0.0) for option in alternatives) for alternatives in offered
-        )
-        if least.get(quantity, 0.0) + sum(smallest) > limit:
-            return True
-    return False
+def _allowed(limit: float, least: float) -> float:
+    """Widen a limit that cannot be kept to what can be."""
+    return limit if least <= limit else least + _BESIDES * limit
 
 
-def _stages(
-    evidence: Evidence, scene: Scene, free: Free, given: EffectSet, asked: tuple[str, ...], name: str
-) -> list[Stage]:
-    found = []
+def _least_errors(
+    evidence: Evidence, name: str, offered: list[list[Alternative]], asked: tuple[str, ...]
+) -> tuple[float, ...]:
+    """Add up the errors that a tier has at least, whatever its laminae and springs are."""
+    of_tier = numerics.least_errors(evidence, name)
+    return tuple(
+        of_tier.get(quantity, 0.0)
+        + sum(min(option.influence.get(quantity, 0.0) for option in options) for options in offered)
+        for quantity in asked
+    )
+
+
+def _counts(scene: Scene, free: Free, given: EffectSet, name: str) -> list[int]:
+    """List the lamina counts that a tier can take for a scene."""
     limits = TIERS[name]
-    for count in numerics.LAMINAE if free.laminae else (scene.numerics.laminae,):
-        if (limits.needs_rib and given.rib is None) or count < limits.smallest_laminae:
-            continue
-        lamina = numerics.laminae(evidence, count)
-        verdict = numerics.tier(evidence, name, count)
-        if verdict is None:
-            continue
-        total = tuple(
-            verdict.influence.get(quantity, 0.0) + lamina.influence.get(quantity, 0.0) for quantity in asked
-        )
-        cost = evidence.costs.base(name, count)
-        found.append(Stage(name, count, cost, total, verdict.reason, lamina.reason))
-    return found
+    if limits.needs_rib and given.rib is None:
+        return []
+    counts = numerics.LAMINAE if free.laminae else (scene.numerics.laminae,)
+    return [count for count in counts if count >= limits.smallest_laminae]
+
+
+def _least_cost(costs: Costs, offered: list[list[Alternative]], name: str, count: int) -> float:
+    """Work out what a step costs at least, a rounding less."""
+    added = (
+        min(costs.scaled(next(iter(option.members)), option.cost, name, count) for option in alternatives)
+        for alternatives in offered
+    )
+    return (costs.base(name, count) + sum(added)) * (1.0 - 1.0e-9)
+
+
+def _stage(evidence: Evidence, name: str, count: int, asked: tuple[str, ...]) -> Stage | None:
+    """Judge a tier with a lamina count before any effect; ``None`` where no spring fits."""
+    lamina = numerics.laminae(evidence, count)
+    verdict = numerics.tier(evidence, name, count)
+    if verdict is None:
+        return None
+    total = tuple(
+        verdict.influence.get(quantity, 0.0) + lamina.influence.get(quantity, 0.0) for quantity in asked
+    )
+    return Stage(name, count, evidence.costs.base(name, count), total, verdict.reason, lamina.reason)
 
 
 def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[Alternative]:
@@ -248,7 +274,7 @@ def _choice_of(
             rule.effect,
             option.word,
             option.reason,
-            any(value is not None for value in option.members.values()),
+            next(iter(option.members.values())) is not None,  # a film may stay without traction
             part / total,
             {name: option.influence.get(name, 0.0) for name in asked},
         )

@@ -67,7 +67,8 @@ def traction(evidence: Evidence) -> Rule:
     tiers = FAST if effects.traction is not None else FAST | FULL
     rolling = f"the tier's rollers roll without slip; {reason}"
     without = _without_slip(evidence, reference)
-    off = Alternative({"traction": None, "film": None}, rolling, without, 0.0, tiers, "off")
+    # a film stays: it is what starves the rolling resistance
+    off = Alternative({"traction": None, "film": effects.film}, rolling, without, 0.0, tiers, "off")
     return Rule("traction", (*found, off))
 
 

@@ -12,7 +12,7 @@ from beardyn_core.config.automatic import AUTO, REFERENCE
 from beardyn_core.config.load import OpenScene, read_scene, read_scene_mapping, read_scene_text
 from beardyn_core.config.nouns import load_effects
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.scene.scene import EFFECTS, Scene
+from beardyn_core.scene.scene import EFFECTS, Free, LeftOpen, Scene
 
 if TYPE_CHECKING:
     from beardyn_core.choice.rule import Choice
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def load_scene(
     name: str | Path,
     *,
-    effects: str | None = None,
+    effects: str | dict[str, Any] | None = None,
     tier: str | None = None,
     duration: float | None = None,
     laminae: int | None = None,
@@ -37,8 +37,8 @@ def load_scene(
     ----------
     name : str or Path
         A shipped scene, or the path of a YAML file.
-    effects : str, optional
-        Preset or file instead of the scene's effects, or ``auto``.
+    effects : str or dict, optional
+        Preset, file or keys of effects instead of the scene's, or ``auto``.
     duration : float, optional
         [s].
     accuracy_percent, quantities, vibration_to : float, list of str, float, optional
@@ -63,6 +63,12 @@ def load_scene(
         ("vibration_to_Hz",): vibration_to,
     }
     return closed(read_scene(name, _given(overrides)), outside_load)
+
+
+def scene_with_all(name: str | Path) -> Scene:
+    """Load a scene as `load_scene` does, but with every effect, in its own box, where it leaves them open."""
+    found = read_scene(name)
+    return found.scene if found.free.effects else closed(found)
 
 
 def scene_from_text(text: str, label: str = "scene") -> Scene:
@@ -124,7 +130,9 @@ def _given(overrides: dict[Any, Any]) -> dict[Any, Any]:
 def closed(found: OpenScene, outside_load: bool = False) -> Scene:
     """Complete a scene: by the automatic choice with its reasons, or by the usual step of its tier."""
     if found.free.anything:
-        return choice_for(found).applied(found.scene)
+        scene = choice_for(found).applied(found.scene)
+        chosen = (scene.tier, scene.effects, scene.numerics)
+        return replace(scene, left_open=LeftOpen(found.free, found.scene.effects, chosen))
     return with_usual_step(found, outside_load).scene
 
 
@@ -138,15 +146,26 @@ def with_usual_step(found: OpenScene, outside_load: bool = False) -> OpenScene:
 
 
 def choice_for(found: OpenScene) -> Choice:
-    """Choose for a scene as it is read."""
-    from beardyn_core.choice.choose import choose  # brings the compiler along
-
+    """Choose for a scene as it is read, or find what was chosen for it before."""
     scene = found.scene
     if found.free.anything:
         # what is written down is wanted so, and not an error
-        return choose(scene, found.free)
+        return _choice(scene, found.free, None)
     reference = load_effects(REFERENCE)
-    return choose(replace(scene, effects=_judged_by(scene.effects, reference)), found.free, scene.effects)
+    judged = replace(scene, effects=_judged_by(scene.effects, reference))
+    return _choice(judged, found.free, scene.effects)
+
+
+def _choice(scene: Scene, free: Free, given: EffectSet | None) -> Choice:
+    from beardyn_core.choice.kept import kept, typical  # brings the compiler along
+
+    def work_out() -> Choice:
+        from beardyn_core.choice.choose import choose
+
+        return choose(scene, free, given)
+
+    scene = typical(scene)
+    return kept(scene, free, given, work_out)
 
 
 def in_box_of(effects: EffectSet, given: EffectSet) -> EffectSet:

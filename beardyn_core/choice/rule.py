@@ -85,8 +85,16 @@ class Decision:
     ]
 
     def sentence(self) -> str:
-        """Write effect, decision and reason in a sentence."""
-        return f"{self.effect} {self.word}: {self.reason}"
+        """Write effect, decision, reason and the error that it is expected to cause in a sentence."""
+        return f"{self.effect} {self.word}: {self.reason}{self.left_out}"
+
+    @property
+    def left_out(self) -> str:
+        """Write what the decision makes wrong in brackets; nothing where it does not."""
+        errors = ", ".join(
+            f"{name} {error_text(name, error)}" for name, error in self.influence.items() if error > 0.0
+        )
+        return f" (error: {errors})" if errors else ""
 
 
 def tolerance(quantity: str, accuracy: float) -> float:
@@ -122,6 +130,12 @@ class Choice:
     within: A[bool, "whether the expected errors are within the accuracy"]
     vibration_to: A[float, "highest third octave asked for, [Hz]; NaN where nothing is known"] = math.nan
     told: A[tuple[str, ...], "where sensors and the modes of the box do not reach equally far"] = ()
+    kept: A[bool, "whether it was made before and kept, see `beardyn_core.choice.kept`"] = False
+
+    @property
+    def judged(self) -> bool:
+        """Whether there was an equilibrium by which to judge."""
+        return not math.isnan(self.vibration_to)
 
     @property
     def real_time_factor(self) -> float:
@@ -129,9 +143,29 @@ class Choice:
         return 1.0 / self.seconds
 
     @property
+    def asked(self) -> str:
+        """Write what was asked for."""
+        means = [name for name in self.quantities if name != "vibration"]
+        parts = [f"{', '.join(means)} within {100.0 * self.accuracy:.3g} %"] if means else []
+        if "vibration" in self.quantities:
+            to = f" to {1e-3 * self.vibration_to:.3g} kHz" if math.isfinite(self.vibration_to) else ""
+            parts.append(f"vibration in third-octave bands{to} within {VIBRATION_TOLERANCE_DB:g} dB")
+        return "; ".join(parts)
+
+    @property
+    def summary(self) -> str:
+        """Write in a sentence what was asked for, what is expected, and what is left out."""
+        errors = ", ".join(f"{name} {error_text(name, error)}" for name, error in self.expected.items())
+        off = ", ".join(each.effect for each in self.decisions if not each.on and each.left_out)
+        more = "" if self.within else ", more than asked for"
+        left = f"; left out: {off}" if off else ""
+        return f"chosen for {self.asked}; expected errors {errors or 'unknown'}{more}{left}"
+
+    @property
     def reasons(self) -> tuple[str, ...]:
-        """List the reasons, a sentence for each choice."""
+        """List what the choice is for, and a reason for each part of it, in sentences."""
         return (
+            self.summary,
             f"tier {self.tier}: {self.tier_reason}",
             f"laminae {self.laminae}: {self.laminae_reason}",
             f"steps_per_sample {self.steps_per_sample}: {self.steps_reason}",
@@ -154,6 +188,7 @@ class Choice:
             "quantities": self.quantities,
             "vibration_to_Hz": self.vibration_to,
             "within_accuracy": self.within,
+            "kept": self.kept,
             "expected_error": _errors(self.expected),
             "real_time_factor": self.real_time_factor,
             "step_cost": self.step_cost,

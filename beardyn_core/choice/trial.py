@@ -3,33 +3,39 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from beardyn_core.choice.load import scene_from_mapping
+from beardyn_core.choice.load import choice_for, closed
+from beardyn_core.config import automatic
 from beardyn_core.config.folders import find
+from beardyn_core.config.load import OpenScene, read_scene_mapping
 from beardyn_core.config.nouns import read_trial
 from beardyn_core.config.scene_file import overlay
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import written
+from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
 from beardyn_core.scene.operation import QuarterVehicleOperation
-from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.trial import HEALTHY, Cell, Spall, Trial
+from beardyn_core.scene.scene import EFFECTS, Scene
+from beardyn_core.scene.trial import HEALTHY, Cell, Spall, Trial, TrialChoice
 from beardyn_core.units import UNITS
 
 # a spall of the cup is where the load is
 _LOAD_ZONE_DEG = 30.0
 
 
-def load_trial(name: str | Path, *, tier: str | None = None, seed: int | None = None) -> Trial:
+def load_trial(
+    name: str | Path, *, tier: str | None = None, seed: int | None = None, effects: str | None = None
+) -> Trial:
     """Load the trial of a shipped name or of a file.
 
     Parameters
     ----------
-    tier, seed : optional
+    tier, seed, effects : optional
         Instead of the file's; with another tier the check falls away where it is the same one.
 
     Raises
@@ -37,7 +43,7 @@ def load_trial(name: str | Path, *, tier: str | None = None, seed: int | None = 
     InputError
         With every mistake in the file and in the scenes that it asks for.
     """
-    trial, path = read_trial(name, tier=tier, seed=seed)
+    trial, path = read_trial(name, tier=tier, seed=seed, effects=effects)
     problems = dict.fromkeys(
         f"{path}: {problem}" for cell in _corners(trial) for problem in _scene_problems(trial, cell)
     )
@@ -48,14 +54,76 @@ def load_trial(name: str | Path, *, tier: str | None = None, seed: int | None = 
 
 def _scene_problems(trial: Trial, cell: Cell) -> tuple[str, ...]:
     try:
-        trial_scene(trial, cell)
+        read_trial_scene(trial, cell)
     except InputError as error:
         return tuple(error.problems)
     return ()
 
 
 def trial_scene(trial: Trial, cell: Cell) -> Scene:
-    """Make the scene of one run.
+    """Make the scene of one run, ready to run; see `read_trial_scene`.
+
+    What scene and trial leave open is as `with_choices` has it, or else chosen for this run alone.
+    """
+    found = read_trial_scene(trial, cell)
+    choice = trial.choice(cell.tier)
+    if choice is None:
+        return closed(found)
+    numerics = replace(found.scene.numerics, laminae=choice.laminae, steps_per_sample=choice.steps_per_sample)
+    return replace(found.scene, effects=choice.effects, numerics=numerics, chosen=choice.reasons)
+
+
+def with_choices(trial: Trial) -> Trial:
+    """Choose what scene and trial leave open, once for all runs of a tier.
+
+    A monitor must not tell a spall by the effects that it is computed with: every effect is on that any kind
+    of run needs.
+    """
+    tiers = dict.fromkeys(cell.tier for cell in trial.cells())
+    known = {choice.tier for choice in trial.choices}
+    found = [_choice_of(trial, tier) for tier in tiers if tier not in known]
+    return replace(trial, choices=(*trial.choices, *(choice for choice in found if choice is not None)))
+
+
+def leaves_open(trial: Trial) -> bool:
+    """Tell whether scene and trial leave anything to be chosen."""
+    return not trial.choices and read_trial_scene(trial, trial.cells()[0]).free.anything
+
+
+def _choice_of(trial: Trial, tier: str) -> TrialChoice | None:
+    cells = dict.fromkeys(replace(cell, tier=tier) for cell in _corners(trial))
+    scenes = [read_trial_scene(trial, cell) for cell in cells]
+    if not scenes[0].free.anything:
+        return None
+    choices = [choice_for(scene) for scene in scenes]
+    hardest = max(choices, key=lambda choice: choice.seconds)
+    why = f"the same in all runs of the tier, which is what any of {len(choices)} kinds of them needs"
+    return TrialChoice(
+        tier,
+        together([choice.effects for choice in choices], scenes[0].scene.effects),
+        max(choice.laminae for choice in choices),
+        max(choice.steps_per_sample for choice in choices),
+        (f"{hardest.summary}; {why}", *hardest.reasons[1:]),
+    )
+
+
+def together(sets: list[EffectSet], reference: EffectSet) -> EffectSet:
+    """Put the effects of several sets into one, each of the kind that leaves out least."""
+    found: dict[str, Any] = {}
+    for name in EFFECTS:
+        present = [getattr(effects, name) for effects in sets if getattr(effects, name) is not None]
+        whole = getattr(reference, name)
+        if whole in present or not present:
+            found[name] = whole if present else None
+        elif all(isinstance(each, ModalStructure) for each in present):
+            found[name] = max(present, key=lambda each: each.highest or inf)
+        else:
+            found[name] = present[0] if all(each == present[0] for each in present) else whole
+    return replace(sets[0], **found)
+
+
+def read_trial_scene(trial: Trial, cell: Cell) -> OpenScene:
+    """Read the scene of one run.
 
     The bearing of a lot, row and place of the spall follow from the run's seed: on the cup within 30 degrees
     of the middle of the load zone, anywhere on the cone or a roller.
@@ -104,11 +172,11 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
     if isinstance(trial.effects, dict) and "preset" not in trial.effects:
         effects = data.get("effects")
         data["effects"] = overlay(
-            effects if isinstance(effects, dict) else {"preset": effects or "standard"}, trial.effects
+            effects if isinstance(effects, dict) else {"preset": effects or automatic.UNNAMED}, trial.effects
         )
     elif trial.effects is not None:
         data["effects"] = trial.effects
-    return scene_from_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)
+    return read_scene_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)
 
 
 def _spall(spall: Spall, cell: Cell, seed: int) -> dict[str, Any]:

@@ -44,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.monitored_recording import MonitoredRecording
 
     with files_read() as inputs:
-        scene = load_scene(args.scene, duration=args.duration)
+        scene = load_scene(args.scene, effects=args.effects, duration=args.duration)
     folder = demo_folder(args.out, inputs=inputs, force=args.force)
     say(f"{scene.name}: {scene.purpose}")
     tell_doubts(scene)

@@ -69,6 +69,10 @@ def text(found: Explanation) -> str:
         parts += ["", *_lines(found.current, "as the scene has it")]
         parts += ["", *_lines(found.automatic, "what `effects: auto` would choose")]
     parts += _heard(found)
+    if (found.automatic or found.current).kept:
+        from beardyn_core.choice.kept import folder
+
+        parts += ["", f"This choice was made before and kept in {folder()}."]
     parts += ["", f"Cost shares and real-time factor as measured on {costs.machine}, {costs.date}."]
     return "\n".join(parts)
 
@@ -96,12 +100,6 @@ def _lines(choice: Choice, title: str) -> list[str]:
     from beardyn_core.model.build import WAVEFORM_RATE
 
     taken = sum(decision.cost_share for decision in choice.decisions if decision.on)
-    means = [name for name in choice.quantities if name != "vibration"]
-    parts = [f"{', '.join(means)} within {100.0 * choice.accuracy:.3g} %"] if means else []
-    if "vibration" in choice.quantities:
-        to = f" to {1e-3 * choice.vibration_to:.3g} kHz" if math.isfinite(choice.vibration_to) else ""
-        parts.append(f"vibration in third-octave bands{to} within 1.5 dB")
-    asked = "; ".join(parts)
     errors = ", ".join(f"{name} {error_text(name, error)}" for name, error in choice.expected.items())
     verdict = "" if choice.within else "; more than asked for"
     rows = [
@@ -111,10 +109,7 @@ def _lines(choice: Choice, title: str) -> list[str]:
     ]
     for decision in choice.decisions:
         share = _share(decision.cost_share) if decision.on else ""
-        left_out = ", ".join(
-            f"{name} {error_text(name, error)}" for name, error in decision.influence.items() if error > 0.0
-        )
-        reason = f"{decision.reason}{f' (error: {left_out})' if left_out else ''}"
+        reason = f"{decision.reason}{decision.left_out}"
         cost_class = measured_costs().unmeasured(decision.effect) if decision.on else None
         if cost_class is not None:
             reason += f" (cost not measured, class {cost_class})"
@@ -122,7 +117,7 @@ def _lines(choice: Choice, title: str) -> list[str]:
     lines = [
         f"{title}: tier {choice.tier}, {choice.laminae} laminae, "
         f"expected real-time factor {choice.real_time_factor:.2g}",
-        f"asked for: {asked}",
+        f"asked for: {choice.asked}",
         f"expected errors: {errors}{verdict}",
         f"{'':20} {'':20} {'cost':>7}  why",
     ]

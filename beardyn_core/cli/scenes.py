@@ -96,9 +96,12 @@ def entries(kind: str) -> list[dict[str, Any]]:
 
 
 def _scene(name: str) -> dict[str, Any]:
-    from beardyn_core.choice import load_scene
+    from beardyn_core.config import read_scene
+    from beardyn_core.config.automatic import AUTO
 
-    scene = load_scene(name)
+    found = read_scene(name)  # what is open stays so: a list is no reason to choose
+    scene = found.scene
+    effects = scene.effects.names()
     vehicle, vehicle_speed, shaft_speed = _speeds(scene)
     return {
         "purpose": scene.purpose,
@@ -109,8 +112,8 @@ def _scene(name: str) -> dict[str, Any]:
         "duration_s": scene.duration,
         "vehicle_speed_m_per_s": vehicle_speed,
         "shaft_speed_rad_per_s": shaft_speed,
-        "tier": scene.tier,
-        "effects": scene.effect_names,
+        "tier": AUTO if found.free.tier else scene.tier,
+        "effects": (*((AUTO,) if found.free.effects else effects), *scene.effect_names[len(effects) :]),
         "faults": scene.fault_sentences,
         "sensors": [sensor.name for sensor in scene.sensors],
     }

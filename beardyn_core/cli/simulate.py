@@ -119,6 +119,7 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "tier": summary.tier,
         "effects": summary.effects,
         "not_in_tier": summary.not_in_tier,
+        "chosen": summary.chosen or None,
         "faults": summary.faults,
         "clipped_samples": {sensor: count for sensor, count, _ in summary.clipped},
         "duration_s": summary.duration,
@@ -172,6 +173,7 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         ("scene", summary.scene),
         ("tier", summary.tier),
         ("effects", ", ".join(summary.effects) or "none"),
+        *([("", summary.chosen)] if summary.chosen else []),
         *([("not in this tier", ", ".join(summary.not_in_tier))] if summary.not_in_tier else []),
         ("faults", "; ".join(summary.faults) or "none"),
         (

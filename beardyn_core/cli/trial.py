@@ -33,7 +33,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         description="Run a monitor, ours or your own, over faults, sizes, speeds, tracks and wheels, and "
         "print how often it finds the fault, how often it alarms on a healthy bearing, and the smallest "
         "spall it finds, with 95 % intervals. `quick` takes under a minute, `default` some minutes on two "
-        "cores, and a minute more for every set of effects that is not compiled yet. "
+        "cores, and a minute more for every set of effects that is not compiled yet; choosing effects where "
+        "neither trial nor scene names any takes half a minute to two, once. "
         "With -o a run that is done is kept, and an interrupted trial goes on where it was; a folder of "
         "another trial or monitor is refused.",
     )
@@ -53,6 +54,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="keep the runs here, write trial.json and, of a trial with spalls, trial.png; default none",
     )
     parser.add_argument("--jobs", metavar="N", type=int, help="processes; default one for each core")
+    parser.add_argument(
+        "--effects",
+        metavar="NAME",
+        help="set or file of effects, or auto; default the trial's or its scene's, or what an accuracy of "
+        "5 %% needs, the same in all runs of a tier",
+    )
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full; default the trial's")
     parser.add_argument(
         "--seed",
@@ -68,13 +75,19 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice import load_trial
+    from beardyn_core.choice.trial import leaves_open
     from beardyn_core.study.trial import conduct, plan_of, warm
     from beardyn_core.study.trial_report import json_object, table
     from beardyn_core.study.trial_result import TrialResult
 
     with checked(lambda inputs: option_problems(args, inputs)):
-        trial = load_trial(args.matrix, tier=args.tier, seed=args.seed)
+        trial = load_trial(args.matrix, tier=args.tier, seed=args.seed, effects=args.effects)
     folder = args.output
+    if leaves_open(trial):
+        print(
+            "beardyn: choosing the effects of the runs: half a minute to two, kept for the next time",
+            file=sys.stderr,
+        )
     plan = plan_of(trial, args.monitor, folder, force=args.force)
     if folder is not None:
         folder.mkdir(exist_ok=True)
@@ -97,7 +110,7 @@ def run(args: argparse.Namespace) -> int:
     interrupted = False
     if plan.missing:
         with last_words(kept):
-            warm(trial)
+            warm(plan.trial)
     try:
         with last_words(kept):
             runs = conduct(plan, folder, jobs, progress)

@@ -9,6 +9,7 @@ from beardyn_core.scene.scene import EFFECTS, NOTHING, Free
 
 AUTO = "auto"
 REFERENCE = "full"
+UNNAMED = AUTO  # what a scene has that names no effects
 
 
 def names_a_box(effects: Any) -> bool:
@@ -25,10 +26,12 @@ def auto_in_its_box(effects: Any) -> Any:
 def take_auto(data: dict[str, Any]) -> Free:
     """Replace every `auto` of a scene's mapping by what can be read, and say what may be chosen.
 
-    With `effects: auto` everything that is not written down may be. A table of modes says which box there is,
+    With `effects: auto` everything that is not written down may be; where no effects are named, all but the
+    tier, which is then the full one. A table of modes says which box there is,
     and not how much of its bending counts, unless it comes with ``highest_Hz``.
     """
-    effects = data.get("effects")
+    named = "effects" in data
+    effects = data.setdefault("effects", UNNAMED)
     all_free = effects == AUTO or (isinstance(effects, dict) and effects.get("preset") == AUTO)
     free_effects: frozenset[str] = frozenset()
     if all_free:
@@ -39,7 +42,7 @@ def take_auto(data: dict[str, Any]) -> Free:
             {**effects, "preset": REFERENCE} if isinstance(effects, dict) else {"preset": REFERENCE}
         )
         free_effects = frozenset(name for name in EFFECTS if name not in written)
-    free_tier = data.get("tier", AUTO if all_free else "full") == AUTO
+    free_tier = data.get("tier", AUTO if all_free and named else "full") == AUTO
     if free_tier:
         data["tier"] = "full"
     numerics = data.get("numerics", {})

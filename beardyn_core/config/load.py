@@ -100,7 +100,6 @@ class _Reading:
         self._inline(self.data, "bearing", "bearings", ())
         self._inline(self.data, "lubricant", "lubricants", ())
         self._inline(self.data, "background", "backgrounds", ())
-        self.data.setdefault("effects", "standard")
         free = take_auto(self.data)
         self._inline_effects()
         self._inline_sensors()
@@ -283,6 +282,9 @@ class _Reading:
             has_rib = effects.rib is not None
             steps, bends = numerics.steps_per_sample, effects.structure is not None
             found = contradictions(tier, has_rib, numerics.laminae, steps, bends)
+            if "structure" in free.effects:
+                hint = "; effects that nobody names are chosen: name some without structure, such as dry"
+                found = [f"{each}{hint}" if "structure" in each else each for each in found]
             if free.tier:
                 found = [f"auto may have to take the tier {tier!r}: {problem}" for problem in found]
             self._complain(("tier",), found)

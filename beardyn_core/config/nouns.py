@@ -95,12 +95,14 @@ def load_effects(name: str | Path) -> EffectSet:
     return with_table(effects)
 
 
-def read_trial(name: str | Path, *, tier: str | None = None, seed: int | None = None) -> tuple[Trial, Path]:
+def read_trial(
+    name: str | Path, *, tier: str | None = None, seed: int | None = None, effects: str | None = None
+) -> tuple[Trial, Path]:
     """Read the trial of a shipped name or of a file, its sizes in order, and find its path.
 
     Parameters
     ----------
-    tier, seed : optional
+    tier, seed, effects : optional
         Instead of the file's; with another tier the check falls away where it is the same one.
 
     Raises
@@ -116,6 +118,8 @@ def read_trial(name: str | Path, *, tier: str | None = None, seed: int | None = 
             del data["check"]
     if seed is not None:
         data["seed"] = seed
+    if effects is not None:
+        data["effects"] = effects
     trial: Trial = read_noun(Trial, data, str(path))
     return replace(trial, folder=path.parent, sizes=tuple(sorted(trial.sizes))), path
 

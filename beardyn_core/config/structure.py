@@ -69,16 +69,18 @@ def modes_of_effects(effects: EffectSet) -> Modes | None:
     return _read(path, written, structure.highest)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def _read(path: Path, _written: int, highest: float | None) -> Modes:
-    modes = read_table(path)
-    return modes if highest is None else modes.below(highest)
+    if highest is not None:  # a choice asks for one limit after the other
+        return _read(path, _written, None).below(highest)
+    return read_table(path)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def _unpacked(content: str, label: str, highest: float | None) -> Modes:
-    modes = modes_of_text(unpacked(content, label), label)
-    return modes if highest is None else modes.below(highest)
+    if highest is not None:
+        return _unpacked(content, label, None).below(highest)
+    return modes_of_text(unpacked(content, label), label)
 
 
 def seat_of(sensor: Accelerometer, modes: Modes) -> str:

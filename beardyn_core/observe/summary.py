@@ -128,6 +128,7 @@ class RunSummary:
     # (sensor, samples, all samples): accelerometers that have read their largest value, and how often
     clipped: tuple[tuple[str, int, int], ...] = ()
     stages: A[tuple[StageTime, ...], "where the wall time went, recording and drawing included"] = ()
+    chosen: A[str, "what the effects were chosen for, its errors and what it leaves out; '' where named"] = ""
 
     def __repr__(self) -> str:
         """Give scene, length, torque, force and end of the run in one line."""

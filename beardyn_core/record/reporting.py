@@ -20,7 +20,7 @@ from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.published import MissingMessages, last_published, missing_messages, missing_sentence
 from beardyn_core.record.reading import namespace_in, read_run
 from beardyn_core.record.run import Run
-from beardyn_core.record.run_summary import diagnosed, recorded_budget
+from beardyn_core.record.run_summary import chosen_for, diagnosed, recorded_budget
 from beardyn_core.record.topics import relative_name
 from beardyn_core.scene.defect import defect_from
 
@@ -68,6 +68,7 @@ class Report:
     gaps: tuple[Gap, ...]
     scene: str | None
     bearing: str | None
+    chosen: A[str | None, "what its effects were chosen for; ``None`` where they were named"]
     faults: list[Any]
     fault_frequencies_per_rev: Mapping[str, float]
     mean_shaft_speed: A[float | None, "[rad/s]"]
@@ -135,6 +136,7 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
         gaps=gaps(run),
         scene=description.scene if description else None,
         bearing=description.shape.name if description else None,
+        chosen=chosen_for(run.truth),
         faults=[asdict(defect) for defect in description.defects] if description else [],
         fault_frequencies_per_rev=description.shape.fault_frequencies if description else {},
         mean_shaft_speed=float(speed.mean()) if len(speed) else None,
@@ -208,6 +210,8 @@ def _lines(r: Report) -> list[str]:
     lines += _measured_lines(r.measured)
     if r.scene is not None:
         lines.append(f"scene    {r.scene}, bearing {r.bearing}")
+        if r.chosen is not None:
+            lines.append(f"effects  {r.chosen}")
         faults = [defect_from(fault).described() for fault in r.faults]
         lines.append(f"faults   {'; '.join(faults) or 'none'}")
     if r.sensor_rates_Hz:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -48,6 +49,7 @@ def summary_of(run: Run) -> RunSummary:
         tier=str(truth.get("tier", "")),
         effects=tuple(truth.get("effects", ())),
         not_in_tier=tuple(truth.get("not_in_this_tier", {}).get("effects", ())),
+        chosen=chosen_for(truth) or "",
         duration=round(run.duration, 9),
         wall_time=run.duration / float(np.mean(factors)) if factors else 0.0,
         status=run.status or (COMPLETE if run.complete else run.problem),
@@ -64,6 +66,11 @@ def summary_of(run: Run) -> RunSummary:
         faults=tuple(each.described() for each in (*description.defects, *waves)),
         temperatures=tuple(zip(warm.components, warm.values[-1].tolist(), strict=True)) if len(warm) else (),
     )
+
+
+def chosen_for(truth: Mapping[str, Any]) -> str | None:
+    """Find the sentence of what the effects of a run were chosen for; earlier versions have none."""
+    return next((each for each in truth.get("chosen", ()) if "chosen for" in each), None)
 
 
 def _means(run: Run) -> TrendMeans:

@@ -70,7 +70,7 @@ class Scene:
         Temperatures | None, "of the parts; with them end_play_mm is the one mounted at assembly_C"
     ] = None
     effects: A[
-        EffectSet, At(reference=True, usual="standard"), "a preset, a path, which effects are on, or auto"
+        EffectSet, At(reference=True, usual="auto"), "a preset, a path, which effects are on, or auto"
     ] = EffectSet()
     accuracy: A[
         float | None,
@@ -106,6 +106,8 @@ class Scene:
     seed: A[int, SEED, "of irregularity, background and sensor noise"] = 1
     # what has been chosen automatically, each with its reason
     chosen: A[tuple[str, ...], INTERNAL] = field(default=(), compare=False)
+    # what it was chosen from, so that a changed scene is chosen for anew
+    left_open: A[LeftOpen | None, INTERNAL] = field(default=None, compare=False)
 
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
         """Write the end play as mounted, before temperatures change it."""
@@ -188,6 +190,19 @@ class Scene:
         rib = self.effects.rib
         options = () if rib is None else (name for name in _FULL_RIB_OPTIONS if getattr(rib, name))
         return missing_effects(self.tier, (*self.effect_names, *(f"rib.{name}" for name in options)))
+
+
+@dataclass(frozen=True)
+class LeftOpen:
+    """What a scene left to the automatic choice, and what was chosen."""
+
+    free: Free
+    effects: A[EffectSet, "those that were written down, the others of the reference"]
+    chosen: A[tuple[str, EffectSet, Numerics], "tier, effects and numerics"]
+
+    def still(self, scene: Scene) -> bool:
+        """Whether a scene still has what was chosen."""
+        return bool(self.free.effects) and self.chosen == (scene.tier, scene.effects, scene.numerics)
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
+from typing import Any
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.edge import At, Vector
@@ -115,6 +116,12 @@ class Accelerometer:
     sensitivity: _Sensitivity = 0.01
     low_pass: _LowPass = None
     measured_paths: A[tuple[MeasuredPath, ...], "from the rigid box to the sensor"] = ()
+
+    def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
+        """Write the usual damping, too, where the type would give another one."""
+        if self.type is not None and self.mounting_damping_ratio != self.type.mounting_damping_ratio:
+            keys["mounting_damping_ratio"] = self.mounting_damping_ratio
+        return keys
 
     def rules(self) -> Iterator[str]:
         """Check that the rate is available, and that a damping has a resonance to act on."""

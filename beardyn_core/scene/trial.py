@@ -12,6 +12,7 @@ from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.edge import INTERNAL, At
+from beardyn_core.effects import EffectSet
 from beardyn_core.scene.excitation import WheelDefect
 from beardyn_core.scene.scatter import GRADES
 
@@ -82,6 +83,17 @@ class Check:
 
 
 @dataclass(frozen=True)
+class TrialChoice:
+    """What all runs of a tier are computed with, where scene and trial leave it open."""
+
+    tier: str
+    effects: EffectSet
+    laminae: int
+    steps_per_sample: float
+    reasons: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Trial:
     """A matrix of simulated runs on which a monitor is tested.
 
@@ -120,6 +132,7 @@ class Trial:
     interval: A[float, At("s", gt=0.0, ge=0.1, le=60.0), "between two analyses"] = 1.0
     seed: A[int, At(ge=0), "of tracks, noise, bearings and places of the spalls"] = 1
     check: A[Check | None, "repeat some runs in another tier"] = None
+    choices: A[tuple[TrialChoice, ...], INTERNAL] = ()
 
     def rules(self) -> Iterator[str]:
         """Check that no entry occurs twice, and that the second tier differs from the first."""
@@ -139,6 +152,10 @@ class Trial:
             yield "wheels has a name twice; each must stand once"
         if self.check is not None and self.check.tier == self.tier:
             yield f"check.tier is {self.check.tier!r}, the tier of the matrix itself; it must be another"
+
+    def choice(self, tier: str) -> TrialChoice | None:
+        """Find what the runs of a tier are computed with; ``None`` where each scene says so itself."""
+        return next((choice for choice in self.choices if choice.tier == tier), None)
 
     @property
     def check_tier(self) -> str | None:

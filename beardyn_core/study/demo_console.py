@@ -15,6 +15,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", default=Path("demo"), type=Path, metavar="DIR", help="folder for the results; default demo"
     )
+    parser.add_argument(
+        "--effects",
+        metavar="NAME",
+        help="set or file of effects, or auto; default the scene's, or what an accuracy of 5 %% needs",
+    )
     parser.add_argument("--duration", type=float, metavar="S", help="simulated time, s; default the scene's")
     parser.add_argument("--force", action="store_true", help="replace the results of an earlier demo")
     parser.add_argument(

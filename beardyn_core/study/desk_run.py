@@ -198,6 +198,7 @@ class _Trend:
             tier=scene.tier,
             effects=tuple(name for name in scene.effect_names if name not in scene.missing_effects),
             not_in_tier=scene.missing_effects,
+            chosen=next(iter(scene.chosen), ""),
             duration=round((self.end_ns - (self._start_ns or 0)) * 1e-9, 9),
             wall_time=wall_time,
             status=status,

@@ -20,7 +20,7 @@ from typing import Annotated as A
 from typing import Any, BinaryIO
 
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.choice import trial_scene
+from beardyn_core.choice import trial_scene, with_choices
 from beardyn_core.config import scene_text
 from beardyn_core.config.content import files_of
 from beardyn_core.errors import InputError, ValidityError
@@ -121,7 +121,7 @@ def _middle(values: list[float]) -> float:
 
 
 RUNS_FILE = "runs.jsonl"
-_NOT_OF_THE_RUNS = ("purpose", "folder")  # fields of a trial that no run depends on
+_NOT_OF_THE_RUNS = ("purpose", "folder", "choices")  # fields of a trial that no run depends on
 
 Progress = Callable[[TrialRun], None]
 
@@ -130,7 +130,7 @@ Progress = Callable[[TrialRun], None]
 class Plan:
     """Runs of a trial that are done, outdated or still to do."""
 
-    trial: Trial
+    trial: A[Trial, "with what its runs are computed with"]
     algorithm: A[str, "``module:function``, '' for ours"]
     digests: A[dict[str, str], "of every run, by the key of its cell"]
     kept: A[dict[str, TrialRun], "runs of an earlier go whose digest is still the same, by key"]
@@ -155,6 +155,7 @@ def plan_of(trial: Trial, algorithm: str, folder: Path | None, *, force: bool = 
         There is no such algorithm, or the folder holds the runs of another trial or monitor.
     """
     algorithm_named(algorithm)
+    trial = with_choices(trial)
     code = f"{simulator_digest()} {monitor_digest(algorithm)}"
     digests = {cell.key: run_digest(trial_scene(trial, cell), trial, code) for cell in trial.cells()}
     if folder is None or force:

@@ -18,7 +18,6 @@ from pathlib import Path
 from typing import Any
 
 import beardyn_core
-from beardyn_core.choice import load_scene
 from beardyn_core.choice.rule import Choice, percent
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, plan_of
 from beardyn_core.study.ladder_levels import (
@@ -34,6 +33,7 @@ from beardyn_core.study.ladder_report import error_text
 from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import UNITS
 from evidence.pages import DOCS
+from evidence.standard import standard_scene
 
 FORCES = ("force", "deflection", "roller_load")
 MEANS = (*FORCES, "torque")
@@ -68,7 +68,7 @@ with its whole band.
 
 def tried(name: str) -> Iterator[dict[str, Any]]:
     """Run the cases of a scene, one reference for all of them."""
-    scene = load_scene(name)
+    scene = standard_scene(name)
     plan = plan_of(scene)
     choices = [chosen_for(scene, accuracy, asked) for asked, accuracy in CASES[name]]
     levels = tuple(

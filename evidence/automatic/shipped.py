@@ -15,6 +15,7 @@ from beardyn_core.config import shipped_names
 from beardyn_core.config.automatic import AUTO
 from beardyn_core.config.load import read_scene
 from evidence.pages import DOCS
+from evidence.standard import standard_effects
 
 PAGE = DOCS / "choices.md"
 _NOTABLE = 1e-3  # smaller errors are not written, whatever their unit
@@ -25,9 +26,10 @@ Written by `python -m evidence.automatic.shipped`; nothing is run. Asked for: fo
 roller load and torque within 5 %, third octaves to 10 kHz within 1.5 dB. *Chosen*: tier, laminae x steps for
 each sample of 25.6 kHz, and what is off, or cheaper than in `full`. Errors are those that
 [the rules](effects_auto.md) expect against every effect, bold beyond what is asked for. Real-time factors are
-those expected on the machine of the costs ({machine}, {date}).
+those expected on the machine of the costs ({machine}, {date}). A scene that names no
+effects has these in the tier `full`; the last two columns are for what its file names, or `standard`.
 
-| scene | chosen | expected errors | times real time | as the file has it: expected errors | times real time |
+| scene | chosen | expected errors | times real time | named, else `standard`: errors | times real time |
 |---|---|---|--:|---|--:|
 """
 
@@ -35,7 +37,10 @@ those expected on the machine of the costs ({machine}, {date}).
 def row(name: str) -> str:
     """Choose for a scene, judge what it has, and write both as a row of the page."""
     chosen = choice_for(read_scene(name, {("effects",): AUTO}))
-    given = choice_for(with_usual_step(read_scene(name)))
+    own = read_scene(name)
+    if own.free.effects:
+        own = read_scene(name, {("effects",): standard_effects(name)})
+    given = choice_for(with_usual_step(own))
     what = f"{chosen.tier}, {chosen.laminae} x {chosen.steps_per_sample:g}; {_less(chosen)}"
     return (
         f"| `{name}` | {what} | {_errors(chosen)} | {chosen.real_time_factor:.2g} | "

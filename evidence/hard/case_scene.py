@@ -22,7 +22,7 @@ _BLOCK_S = 0.02
 
 def scene_of(case: HardCase) -> Scene:
     """Build the scene of a case; raises `InputError` with every mistake."""
-    data = read_file(find("scenes", case.scene))
+    data = {"effects": "standard", **read_file(find("scenes", case.scene))}
     if "bearing" in case.changes:
         data["bearing"] = read_file(find("bearings", str(data["bearing"])))
     scene = scene_from_text(write_mapping(merged(data, case.changes)), case.name)

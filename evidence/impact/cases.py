@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Annotated as A
 
-from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing
 from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ContactDamping, ModalStructure
@@ -13,6 +12,7 @@ from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES, Accelerometer
+from evidence.standard import standard_scene
 
 BOX = "high_speed"
 BEARING = "HS130x230"
@@ -45,7 +45,7 @@ class Case:
 
     def scene(self) -> Scene:
         """Make the scene of the run, from `cup_spall` with its scatter of grade G1."""
-        scene = load_scene("cup_spall", tier="full")
+        scene = standard_scene("cup_spall", tier="full")
         effects = replace(scene.effects, structure=ModalStructure(BOX))
         if self.damping is not None:
             effects = replace(effects, contact_damping=ContactDamping(self.damping))

@@ -14,7 +14,6 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from beardyn_core.choice import load_scene
 from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.scene.tier import TIERS
@@ -33,6 +32,7 @@ from beardyn_core.study.ladder_report import (
 from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import QUANTITIES, UNITS
 from evidence.pages import DOCS, save_small
+from evidence.standard import standard_scene
 
 SCENES = ("service_high_speed", "service_high_speed_cup", "wheel_flat")
 ACCURACY = 0.05
@@ -86,7 +86,7 @@ one is as good, run-to-run band considered. The pictures show the worst of these
 
 def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
     """Climb the ladder of a scene, with progress on standard error."""
-    scene = load_scene(name)
+    scene = standard_scene(name)
     plan, levels = plan_of(scene, duration), levels_of(scene, quick=quick)
     levels = levels.including(automatic(scene, ACCURACY, scene.quantities))
 
@@ -254,7 +254,7 @@ def main() -> None:
         laminae=REFERENCE_LAMINAE,
         steps=REFERENCE_STEPS,
         reference_rate=WAVEFORM_RATE * REFERENCE_STEPS,
-        neighbour=levels_of(load_scene(arguments.scenes[0])).neighbour.name,
+        neighbour=levels_of(standard_scene(arguments.scenes[0])).neighbour.name,
         runs=REFERENCE_RUNS,
         accuracy=percent(ACCURACY),
     )

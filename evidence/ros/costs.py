@@ -119,7 +119,7 @@ def _at(
 
 
 def automatic(scene: str, folder: Path) -> str:
-    """Write a scene with `numerics: auto` in place of its own; its path.
+    """Write a scene with `numerics: auto`, and the standard effects if it names none; its path.
 
     Parameters
     ----------
@@ -129,7 +129,10 @@ def automatic(scene: str, folder: Path) -> str:
     """
     content = yaml.safe_load(find("scenes", scene).read_text(encoding="utf-8"))
     path = folder / f"{content['scene']}_auto.yaml"
-    path.write_text(yaml.safe_dump({**content, "numerics": "auto"}, sort_keys=False), encoding="utf-8")
+    path.write_text(
+        yaml.safe_dump({"effects": "standard", **content, "numerics": "auto"}, sort_keys=False),
+        encoding="utf-8",
+    )
     return str(path)
 
 

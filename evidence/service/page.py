@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 
-from beardyn_core.choice import load_scene
 from beardyn_core.config import load_background, load_sensor, shipped_names
 from evidence.pages import DOCS
 from evidence.service.study import PARTS, SPANS_HZ, TIERS, Heard, hear, services, with_parts
+from evidence.standard import standard_scene
 
 PAGE = DOCS / "sensors.md"
 
@@ -115,7 +115,7 @@ def main() -> int:
     text = HEAD + _kinds() + CHAIN + _backgrounds()
     text += "\n## What each part adds\n\nVertical reading of `service_high_speed`, tier `quasistatic`; rms, "
     text += "m/s².\n\n"
-    scene = load_scene("service_high_speed", tier="quasistatic")
+    scene = standard_scene("service_high_speed", tier="quasistatic")
     choices: list[tuple[str, ...]] = [(), *((part,) for part in PARTS), PARTS]
     text += _table("background", [(", ".join(p) or "none", hear(with_parts(scene, *p))) for p in choices])
     text += SERVICE

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cache
 
-from beardyn_core.choice import load_scene
 from beardyn_core.config import load_effects
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
@@ -14,6 +13,7 @@ from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.ladder import varied
+from evidence.standard import standard_scene
 
 EFFECTS = "standard"
 LAMINAE = 6
@@ -79,7 +79,7 @@ LONG_EXPLICIT = (Method("explicit", 20), Method("explicit", 4))
 
 def scene_of(point: Point, method: Method, number: int = 0, effects: str = EFFECTS) -> Scene:
     """Build the steady scene of the convergence tests; runs of other numbers begin a hair apart."""
-    scene = load_scene("static_80kN")
+    scene = standard_scene("static_80kN")
     scene = replace(
         scene,
         effects=load_effects(effects),

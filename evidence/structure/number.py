@@ -12,7 +12,6 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.arrays import Float
-from beardyn_core.choice import load_scene
 from beardyn_core.config.structure import modes_of_effects, mounting_of, table_path
 from beardyn_core.effects import ModalStructure
 from beardyn_core.rail.build import load_history
@@ -23,6 +22,7 @@ from beardyn_core.structure.table import read_table, table_text
 from beardyn_core.study.measures import BAND_CENTRES, third_octave_levels
 from beardyn_core.twin import Twin
 from evidence.hard.watch import Watch
+from evidence.standard import standard_scene
 from evidence.structure.study import BOX, unit
 
 HIGHEST = (1000.0, 2000.0, 3000.0, 4000.0, 6000.0, 8000.0, 10000.0, 12800.0)  # the last one: all modes
@@ -50,7 +50,7 @@ class Kept:
 
 def scene_of(table: Path | str, highest: float | None = None) -> Scene:
     """Put ``cup_spall`` into a box, with a sensor that has no noise."""
-    scene = load_scene("cup_spall", tier="full")
+    scene = standard_scene("cup_spall", tier="full")
     effects = replace(scene.effects, structure=ModalStructure(str(table), highest))
     modes = modes_of_effects(effects)
     assert modes is not None

@@ -13,12 +13,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import kurtosis
 
-from beardyn_core.choice import load_scene
 from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ModalStructure, RingStructure
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.measures import BAND_CENTRES, third_octave_levels
+from evidence.standard import standard_scene
 
 KINDS = {"rigid": None, "rings": RingStructure(), "modes": ModalStructure("high_speed")}
 STEPS = {"full": 4.0, "quasistatic": 1.0, "lumped": 1.0}
@@ -27,7 +27,7 @@ BANDS_HZ = (400, 800, 1250, 2000, 3150, 5000, 6300, 8000)
 
 def scene_of(name: str, tier: str, kind: str) -> Scene:
     """Make a shipped scene in a tier with a box of a kind; next to no noise."""
-    scene = load_scene(name, tier=tier)
+    scene = standard_scene(name, tier=tier)
     effects = replace(scene.effects, structure=KINDS[kind])
     modes, mounting = modes_of_effects(effects), scene.mounting
     if modes is not None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import lru_cache
 
-from beardyn_core.choice import load_scene
 from beardyn_core.study.desk_run import RunSummary, run
+from evidence.standard import standard_scene
 from evidence.validation.anchor import Anchor, Finding, Trend
 
 SANTOS = "Santos 2017, mean ring reaction"
@@ -15,14 +15,14 @@ SANTOS = "Santos 2017, mean ring reaction"
 @lru_cache
 def summary(name: str) -> RunSummary:
     """Run a shipped scene to its end, once."""
-    found = run(load_scene(name))
+    found = run(standard_scene(name))
     assert found.status == "complete", found.status
     return found
 
 
 def carried() -> float:
     """Return the mean force on the cup under 5 kN with the weight of rollers and cages added, [N]."""
-    bearing = load_scene("static_5kN").bearing
+    bearing = standard_scene("static_5kN").bearing
     weight = 9.80665 * 2 * (bearing.roller_count * bearing.roller_mass + bearing.cage.mass)
     return summary("static_5kN").mean_force[2] + weight
 
@@ -30,7 +30,7 @@ def carried() -> float:
 @lru_cache
 def small_step() -> RunSummary:
     """Run one second at 80 kN with steps of 0.6 us."""
-    scene = load_scene("static_80kN")
+    scene = standard_scene("static_80kN")
     return run(replace(scene, duration=1.0, numerics=replace(scene.numerics, steps_per_sample=64)))
 
 
@@ -110,7 +110,7 @@ SERVICE = ("static_5kN", "static_80kN", "smooth_run")
 
 def faster_than_santos_2017() -> Finding:
     """Time the case of Santos (2017), a quarter turn of the cage under 5 kN, on one processor core."""
-    found = run(replace(load_scene("static_5kN"), duration=HORIZON_S))
+    found = run(replace(standard_scene("static_5kN"), duration=HORIZON_S))
     best = min(SANTOS_S) / HORIZON_S
     ratio = found.wall_time / found.duration
     return Finding(

@@ -18,7 +18,6 @@ from beardyn_core.bearing.film_thickness import (
     thermal_loading,
 )
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction, MixedTraction
 from beardyn_core.effects.traction import Traction
@@ -29,6 +28,7 @@ from beardyn_core.model.film import FilmParams
 from beardyn_core.model.layout import LAMINA_PRESSURE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.traction import LoadSharingParams, aihara_params
+from evidence.standard import standard_scene
 from evidence.validation.anchor import Anchor
 from evidence.validation.ball_contact import (
     point_film_central,
@@ -52,7 +52,7 @@ ROUGHNESS = 3e-7
 @cache
 def parameters(traction: Traction, film: LineFilm | None) -> Parameters:
     """Build the kernel parameters of the 80 kN scene with this friction."""
-    scene = load_scene("static_80kN")
+    scene = standard_scene("static_80kN")
     scene = replace(scene, effects=replace(scene.effects, traction=traction, film=film))
     return build_parameters(scene, Arrangement(17, 8), np.zeros(6))
 

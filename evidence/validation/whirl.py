@@ -12,8 +12,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from beardyn_core.choice import load_scene
 from beardyn_core.scene.scatter import Scatter
+from evidence.standard import standard_scene
 from evidence.validation.anchor import HOLDS_FROM, Finding, Trend, falls, rises
 from evidence.validation.cage_whirl import Whirl, WhirlCase, cage_whirl
 
@@ -36,7 +36,7 @@ SCATTER = Scatter("G2", 1)
 @lru_cache
 def whirl(case: WhirlCase, duration: float, scatter: Scatter | None = SCATTER) -> Whirl:
     """Run a case for a time in s and measure the whirl of its cages in the last quarter."""
-    scene = load_scene("static_80kN")
+    scene = standard_scene("static_80kN")
     scene = replace(scene, effects=replace(scene.effects, gravity=None), scatter=scatter)
     return cage_whirl(scene, [case], duration=duration, settled=0.75 * duration)
 
@@ -131,7 +131,7 @@ def grows_with_load() -> Finding:
 def ends_at_the_play() -> Finding:
     """Check that cages come to the radial play that their pockets have as made, and not beyond it."""
     reach = microns([*over_speed(), *over_load()], "reach")
-    bearing = load_scene("static_80kN").bearing
+    bearing = standard_scene("static_80kN").bearing
     made = 1.0 + SCATTER.deviations(bearing).pocket_clearance / bearing.cage.circumferential_clearance
     least, most = play() * float(made.min()), play() * float(made.max())
     return Finding(

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from beardyn_core.bearing.life import (
@@ -172,6 +172,7 @@ def test_life_counts_only_the_load_that_was_run():
 
 
 @given(seed=st.integers(0, 1000))
+@settings(deadline=None)
 def test_classes_keep_the_mean_force_by_revolutions(seed):
     random = np.random.default_rng(seed)
     wrench = random.normal((0, 5e3, 70e3, 0, 0, 0), (1e3, 5e3, 1e4, 1, 0, 1), (200, 6))

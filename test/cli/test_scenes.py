@@ -14,6 +14,7 @@ from beardyn_core.cli.main import BAD_INPUT, DONE, main
 from beardyn_core.cli.new import POSSIBLE
 from beardyn_core.cli.scenes import KINDS
 from beardyn_core.config import (
+    config_folder,
     load_background,
     load_bearing,
     load_box,
@@ -99,7 +100,7 @@ def test_a_copy_says_the_same_with_comments(kind: str, name: str, tmp_path: Path
 
 
 def _file(kind: str, name: str) -> Path:
-    return Path(__file__).parents[2] / "config" / kind / f"{name}.yaml"
+    return config_folder() / kind / f"{name}.yaml"
 
 
 @pytest.mark.parametrize("key", POSSIBLE)

@@ -115,6 +115,14 @@ def altered(noun: Any, way: tuple[Any, ...], value: float) -> Any:
 KNOWN = {name: load_scene(name) for name in SCENES}
 
 
+def test_a_sensor_keeps_the_usual_damping_where_its_type_has_another_one() -> None:
+    scene = KNOWN["freight_100"]
+    changed = altered(scene, ("sensors", 0, "type", "mounting_damping_ratio"), 0.5)
+    again = scene_from_text(scene_text(changed))
+    assert again == changed
+    assert again.sensors[0].mounting_damping_ratio != 0.5
+
+
 @given(some.data())
 @settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
 def test_a_scene_with_any_number_changed_is_recorded_and_read_as_it_is(data: some.DataObject) -> None:

@@ -37,8 +37,11 @@ from beardyn_core.config import (
     load_effects,
     load_lubricant,
     load_vehicle,
+    read_scene,
     shipped_names,
 )
+from beardyn_core.config.folders import find
+from beardyn_core.config.yaml_text import read_file
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.encoding import BlockEncoder
@@ -46,7 +49,7 @@ from beardyn_core.twin import Twin
 
 BLOCKS = 5
 TIERS = ("full", "quasistatic", "lumped")
-# Scenes in every tier with their own effects.
+# Scenes in every tier with their own effects, or the standard ones.
 SCENES = (
     "brinelling",
     "cone_spall",
@@ -126,8 +129,16 @@ def digests_of_run(run: tuple[str, str, str, str]) -> dict[str, str]:
             return {f"{name}: {type(error).__name__}": words}
 
 
+def _named(name: str) -> Any:
+    """Name the standard effects where a scene leaves them open: choices may change, kernels must not."""
+    written = read_file(find("scenes", name)).get("effects", "auto")
+    if isinstance(written, dict) and written.get("preset") == "auto":
+        return {**written, "preset": "standard"}
+    return "standard" if written == "auto" else None
+
+
 def _simulated(name: str, tier: str, preset: str) -> Iterator[tuple[str, str]]:
-    scene = load_scene(name, tier=tier, effects=preset or None)
+    scene = load_scene(name, tier=tier, effects=preset or _named(name))
     twin = Twin(scene)
     twin.start(load_history(scene.operation, scene.mounting, 0.5, scene.seed))
     blocks: list[Block] = [twin.advance() for _ in range(BLOCKS)]
@@ -164,7 +175,7 @@ def digests_of_nouns() -> dict[str, str]:
         "bearings": load_bearing,
         "effects": load_effects,
         "lubricants": load_lubricant,
-        "scenes": load_scene,
+        "scenes": lambda name: read_scene(name).scene,
         "trials": load_trial,
         "vehicles": load_vehicle,
         "structures": load_box,

@@ -108,7 +108,7 @@ class FakeTwin:
         return dict(self._description.truth)
 
 
-def fake_rig(scene: str, _tier: str) -> Callable[[], Any]:
+def fake_rig(scene: str, _tier: str, _effects: str = "") -> Callable[[], Any]:
     from beardyn_ros.run_state import Rig
 
     if scene not in SCENES:

@@ -92,6 +92,10 @@ class MonitorSettings:
     sensor alone can hide its depth. `least_burst` and `least_depth` are assumed, after runs of the twin had
     been seen: sound bearings of grade G1 had up to 0.24 m/s² and a depth of 0.16.
 
+    Rollers slip, so that lines lie 1 to 2 % beside geometry (Randall, Antoni 2011, section 2.2); a roller
+    that spins on through the unloaded side in settled grease does so here, by 1.8 % in
+    `service_metro_roller`.
+
     EN 15437-2 asks for levels and leaves their values to the vehicle; those here are assumed: 90 and
     120 °C, and 5 K a minute above 60 °C. Healthy boxes with settled grease are silent up to 300 km/h in air
     of 40 °C (freshly greased ones are warm then), and overgreased, preloaded and starved ones are at least
@@ -116,7 +120,7 @@ class MonitorSettings:
     interval: A[float, "time between two analyses, [s]"] = 0.5
     samples_per_revolution: A[int, "angular grid of the order tracking"] = 1024
     background_width: A[float, "of the neighbourhood whose median is the background, [shaft orders]"] = 3.0
-    tolerance: A[float, "of a fault frequency against geometry, [-]"] = 0.01
+    tolerance: A[float, "of a fault frequency against geometry, for rollers slip by 1 to 2 %, [-]"] = 0.02
     harmonics: A[int, "multiples of a fault frequency that are added up, the fundamental included"] = 5
     false_alarm_rate: A[float, "probability that noise alone passes the threshold of an analysis, [-]"] = 1e-4
     least_burst: A[float, "periodic vibration below which a fault must be deep to be called, [m/s^2]"] = 0.3

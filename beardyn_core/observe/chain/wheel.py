@@ -10,6 +10,8 @@ from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 SECTORS = 64
 # power of a sector over that of the usual one: a strike, and its ringing beside
 _STRIKE, _RINGING = 10.0, 1.3
+# least share of a quartile in the mean over the revolutions where the wheel strikes
+_STEADY = 0.2
 _LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
 
 
@@ -21,7 +23,8 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     Notes
     -----
     A sector is struck where the lower quartile of its power over the revolutions is ten times that of the
-    usual sector in one of the bands; sectors beside that still ring there belong to it. A flat comes back at
+    usual sector in one of the bands, and a good part of the mean; sectors beside that still ring there, as
+    steadily, belong to it. A flat comes back at
     the same angle each time. A spall on the cone is loud in one half of the revolution too, but its strikes
     lie elsewhere in each, and between them is noise: the quartile stays low.
 
@@ -49,7 +52,9 @@ def _struck_in(power: Float, known: Bool | bool = False) -> Bool:
     """Find the struck sectors in the power of one band, shape [revolution, sector], beside known ones."""
     quartile = np.quantile(power, 0.25, axis=0)
     usual = np.median(quartile)
-    struck, ringing = known | (quartile > _STRIKE * usual), quartile > _RINGING * usual
+    steady = quartile > _STEADY * np.mean(power, axis=0)
+    struck = known | (steady & (quartile > _STRIKE * usual))
+    ringing = steady & (quartile > _RINGING * usual)
     for _ in range(SECTORS):
         struck = struck | (ringing & (np.roll(struck, 1) | np.roll(struck, -1)))
     return np.asarray(struck)
