@@ -11,7 +11,7 @@ SECTORS = 64
 # power of a sector over that of the usual one: a strike, and its ringing beside
 _STRIKE, _RINGING = 10.0, 1.3
 # least share of a quartile in the mean over the revolutions where the wheel strikes
-_STEADY = 0.2
+_STEADY = 0.1
 _LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
 
 
@@ -23,10 +23,10 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     Notes
     -----
     A sector is struck where the lower quartile of its power over the revolutions is ten times that of the
-    usual sector in one of the bands, and a good part of the mean; sectors beside that still ring there, as
-    steadily, belong to it. A flat comes back at
-    the same angle each time. A spall on the cone is loud in one half of the revolution too, but its strikes
-    lie elsewhere in each, and between them is noise: the quartile stays low.
+    usual sector in one of the bands, and no small part of the mean there; sectors beside that still ring, as
+    steadily, belong to it. A flat comes back at the same angle each time. A spall on the cone is loud in one
+    half of the revolution too, but its strikes lie elsewhere in each: between them the quartile stays low, or
+    where they ring long, low beside the mean.
 
     One band does not do: a box may ring at any frequency, and a strike that goes unnoticed is as loud as the
     rollers stand well for it at that moment. They come back to the same place by a fraction of a revolution,
