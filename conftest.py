@@ -79,7 +79,8 @@ def use_standard_effects() -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Take the standard effects, and examples of hypothesis: always the same ones in the fast suite."""
-    use_standard_effects()
+    if (REPOSITORY / "test" / "standard.py").is_file():  # not beside a copy of this file, in its own tests
+        use_standard_effects()
     settings.register_profile("repeatable", derandomize=True)
     if config.getoption("markexpr") == "not slow":
         settings.load_profile("repeatable")

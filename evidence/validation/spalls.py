@@ -68,6 +68,10 @@ SATURATES = (
     "above; and over 1 mm it takes the load up again as soon as it has given it up, one stroke of twice the "
     "change, which an elastic half-space has, too (docs/impact.md)"
 )
+SHORTEST = (
+    "1 mm at 200 km/h alone, by 0.03 ms over 2 mm, for which no cause was looked for; from 2 mm on bursts "
+    "last longer at both speeds"
+)
 WIDE = 4e-3  # from here on the two events of a crossing are apart [m]
 IMPULSIVE = 3e-3  # from here on a spall must be more impulsive than a sound bearing [m]
 
@@ -235,7 +239,7 @@ TRENDS = (
     Trend(TOPIC, "the exit is louder than the entry", SINGH, exit_is_louder),
     Trend(TOPIC, "the exit is a burst of several pulses", SINGH, exit_is_a_burst, misses=FEW_PULSES),
     Trend(TOPIC, "the entry is a soft step, the exit sharper", SAWALHI, exit_is_sharper),
-    Trend(TOPIC, "bursts last longer from wider spalls", MBA, burst_grows),
+    Trend(TOPIC, "bursts last longer from wider spalls", MBA, burst_grows, misses=SHORTEST),
     Trend(
         TOPIC, "a spall from 3 mm is more impulsive than a sound bearing", DYER,
         partial(more_impulsive, "kurtosis"),

@@ -219,7 +219,10 @@ def test_ctrl_c_keeps_what_is_done(tmp_path: Path) -> None:
     out = tmp_path / "run.mcap"
     words = ["import", str(big), "-o", str(out), "--unit", "g", "--rate-hz", "12000"]
     process = subprocess.Popen(
-        [sys.executable, "-m", "beardyn_core.cli.main", *words], stderr=subprocess.PIPE, text=True
+        [sys.executable, "-m", "beardyn_core.cli.main", *words],
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # jobs of a shell ignore it
     )
     for _ in range(600):
         if (out.exists() and out.stat().st_size > 500_000) or process.poll() is not None:
