@@ -73,6 +73,7 @@ def test_settled_grease_lies_between_measured_boxes_and_the_catalogue() -> None:
         assert supplies == sorted(supplies)
 
 
+@pytest.mark.slow
 def test_healthy_boxes_are_as_warm_as_in_service_at_high_speed_and_cooler_below() -> None:
     """In service 20 to 50 K above the air: ours at 300 km/h; below it is less, as the page says."""
     found = {speed: steady(HEALTHY, speed) for speed in SPEEDS_KMH}
@@ -82,6 +83,7 @@ def test_healthy_boxes_are_as_warm_as_in_service_at_high_speed_and_cooler_below(
     assert 10.0 < rises[80.0] < rises[200.0] < 20.0
 
 
+@pytest.mark.slow
 def test_the_monitor_is_silent_on_healthy_boxes_and_calls_those_in_trouble() -> None:
     """At 300 km/h in air of 40 °C; what runs away passes every threshold on its way to 200 °C inside."""
     settings, summer = MonitorSettings(), (("ambient", SUMMER),)
@@ -93,6 +95,7 @@ def test_the_monitor_is_silent_on_healthy_boxes_and_calls_those_in_trouble() -> 
         assert found.box > settings.warm
 
 
+@pytest.mark.slow
 def test_little_grease_and_light_seals_are_what_the_rig_asks_for() -> None:
     """The cause that the validation page names."""
     assert on_the_rig(NTN_STATE).rise("cup") > 2.0 * NTN_RISE

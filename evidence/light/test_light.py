@@ -7,11 +7,15 @@ import pytest
 from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.status import Status
 from evidence.light.grid import LOADS_KN, SETS, SPEEDS_RPM, run_point
+from test.examples import fast_ones
 
 
 @pytest.mark.parametrize(
     ("effects", "load_kn", "speed_rpm"),
-    [("full", 0.2, 1165.0), ("full", 5.0, 2500.0), ("standard", 1.0, 2500.0), ("standard", 80.0, 300.0)],
+    fast_ones(
+        [("full", 0.2, 1165.0), ("full", 5.0, 2500.0), ("standard", 1.0, 2500.0), ("standard", 80.0, 300.0)],
+        0,
+    ),
 )
 def test_cages_neither_over_run_nor_turn_back(effects: str, load_kn: float, speed_rpm: float) -> None:
     point = run_point(effects, load_kn, speed_rpm)

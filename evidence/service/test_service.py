@@ -8,9 +8,10 @@ import pytest
 from beardyn_core.run import blocks
 from evidence.service.study import PARTS, SPANS_HZ, hear, levels, service_names, with_parts
 from evidence.standard import standard_scene
+from test.examples import fast_ones
 
 
-@pytest.mark.parametrize("name", service_names())
+@pytest.mark.parametrize("name", fast_ones(service_names(), 1, 2))
 def test_the_monitor_says_what_is_so(name: str) -> None:
     """Every analysis of 3 s in the quasistatic tier."""
     scene = standard_scene(name, tier="quasistatic")
@@ -18,7 +19,7 @@ def test_the_monitor_says_what_is_so(name: str) -> None:
     assert set(hear(scene, 3.0).verdicts) == {truth}
 
 
-@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("part", fast_ones(PARTS, 0))
 def test_every_part_of_a_background_is_heard(part: str) -> None:
     """The same run with it reads otherwise, by more than the noise of the sensor in some band."""
     scene = standard_scene("service_high_speed", tier="quasistatic")

@@ -15,7 +15,8 @@ class Anchor:
     """A published number, its source, and how we come to ours.
 
     `topic` begins the row on the validation page; `tolerance` is relative, `absolute` adds to it; `misses`
-    says why ours is known to lie outside; `slow` rows are dynamic runs. `beside`: ours is a formula of the
+    says why ours is known to lie outside; `slow` rows are dynamic runs, and what warms
+    slowly like another row. `beside`: ours is a formula of the
     literature that stands in `evidence` alone, or what the twin's sensors do not read; it does not count.
     `measured`: the reference comes from an instrument, not from a formula, a catalogue or another model.
     """

@@ -81,6 +81,7 @@ ANCHORS = tuple(
         partial(loaded, eccentricity, row),
         absolute=PLACES,
         misses=MISSES.get((eccentricity, name), ""),
+        slow=eccentricity == 0.0,
         measured=True,
     )
     for eccentricity, name, row, measured in (

@@ -24,6 +24,7 @@ from evidence.validation.rigs import (
     warmed,
 )
 from evidence.validation.roller_loads import counts
+from test.examples import fast_ones
 
 COLD_PLAY = 2.0e-4
 MEASURED_32216 = {(celsius, speed): measured for celsius, speed, measured in COMBINED_TORQUES}
@@ -71,6 +72,7 @@ def test_higher_ribs_serve_the_32008_at_200_rpm_and_not_at_400() -> None:
     assert abs(off[200.0]) < GHENT_TOLERANCE < off[400.0]
 
 
+@pytest.mark.slow
 def test_a_rigid_cup_little_axial_force_and_the_cold_play_together_load_as_many_rollers_as_measured() -> None:
     assert counts(0.0, 3.0, True, COLD_PLAY) == (5.0, 5.0)
     assert counts(40.0, 3.0, True, COLD_PLAY) == (7.0, 5.0)
@@ -80,7 +82,9 @@ def test_a_rigid_cup_little_axial_force_and_the_cold_play_together_load_as_many_
 
 @pytest.mark.parametrize(
     "state",
-    [State("summer", thermal=(("ambient", SUMMER),)), State("small box", thermal=(("box_area", 0.4),))],
+    fast_ones(
+        [State("summer", thermal=(("ambient", SUMMER),)), State("small box", thermal=(("box_area", 0.4),))], 0
+    ),
     ids=lambda state: state.name,
 )
 def test_summer_or_a_smaller_box_warms_the_grease_to_what_is_reported(state: State) -> None:
@@ -96,7 +100,7 @@ IN_TRAIN = {
 }
 
 
-@pytest.mark.parametrize(("place", "speed", "air", "coolest", "warmest"), FLEET)
+@pytest.mark.parametrize(("place", "speed", "air", "coolest", "warmest"), fast_ones(FLEET, 0))
 def test_surroundings_and_seals_bring_boxes_into_the_span_of_the_train_at_one_speed(
     place: str, speed: float, air: float, coolest: float, warmest: float
 ) -> None:

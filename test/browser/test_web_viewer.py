@@ -18,8 +18,8 @@ import pytest
 from test.browser.chromium import EXECUTABLE, Chromium
 from test.record.conftest import write_recording
 
-WIDTH, HEIGHT = 1600, 900
-PATIENCE = 120.0
+WIDTH, HEIGHT = 1120, 630
+PATIENCE = 240.0
 
 pytestmark = [
     pytest.mark.browser,

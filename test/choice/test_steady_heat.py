@@ -21,6 +21,7 @@ from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
 from beardyn_core.twin import Twin
+from test.examples import fast_ones
 
 RPM = math.pi / 30.0
 
@@ -40,7 +41,7 @@ def carried_off(scene: Scene, found: SteadyHeat) -> float:
     return float((found.temperature - found.ambient) @ network.to_ambient)
 
 
-@pytest.mark.parametrize("speed_rpm", [400.0, 1165.0])
+@pytest.mark.parametrize("speed_rpm", fast_ones([400.0, 1165.0], 1))
 def test_all_that_friction_loses_leaves_to_the_air(speed_rpm: float) -> None:
     scene = at(speed_rpm)
     found = steady_heat(scene)
@@ -67,6 +68,7 @@ def test_a_bearing_that_closes_up_runs_away_and_is_told() -> None:
     assert found.temperature.max() >= HOTTEST
 
 
+@pytest.mark.slow
 def test_python_asks_for_it_by_the_name_of_a_scene() -> None:
     """The scene's end play is that at its 70 °C, and all parts start from there."""
     found = bd.steady_heat("static_80kN", effects="full")

@@ -13,6 +13,7 @@ from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.model.layout import CONE_BODY, POSITION, SIGNAL_TORQUE
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.tier import TIERS
+from test.examples import fast_ones
 from test.kernels.rig import SPEED, Float, Rig, scene_with, standard_scene
 from test.kernels.runs import Record, record
 
@@ -74,7 +75,7 @@ def dynamic_run(laminae: int) -> Record:
     return record(replace(scene, numerics=replace(scene.numerics, laminae=laminae)), 0.4)
 
 
-@pytest.mark.parametrize("laminae", [8, 20])
+@pytest.mark.parametrize("laminae", fast_ones([8, 20], 0))
 def test_running_bearing_settles_with_the_laminae(laminae: int) -> None:
     """Against 40: largest roller load within 0.5 %; torque of 0.2 s within 2 %, twice its scatter."""
     run, fine = dynamic_run(laminae), dynamic_run(40)
