@@ -25,6 +25,7 @@ bearing          static answers about one bearing
 structure        modes of an axlebox
 trial            a monitor over a matrix of scenes
 contacts         the contact laboratory
+sweep            sets of labelled runs over a population of bearings
 schema           JSON schemas for editors
 ================ ========================================================================
 """
