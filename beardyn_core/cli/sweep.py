@@ -28,7 +28,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "sweep",
         help="make a set of labelled runs over a population of bearings, on all cores or a Dask cluster",
         description="Draw runs from the distributions of a sweep file, simulate them on all cores of this "
-        "machine or on the workers of a Dask scheduler, and keep signals (Zarr), labels with units (Parquet), "
+        "machine or on the workers of a Dask scheduler; keep signals (Zarr), labels with units (Parquet), "
         "features, a data card and checksums in a folder. Parts for training and testing share no bearing. "
         "An interrupted sweep goes on where it was with the same command; the same seed gives the same bits "
         "on any number of workers.",

@@ -47,9 +47,7 @@ class Cluster:
     workers: A[int | None, "processes of this machine; ``None``: one for each core"] = None
     scheduler: A[str, "address of a scheduler, ``tcp://host:8786``; empty: processes of this machine"] = ""
     tls: A[Tls, "how that is reached safely"] = field(default_factory=Tls)
-    memory: A[float | None, "of one worker, above which it is started anew; ``None``: its share, [byte]"] = (
-        None
-    )
+    memory: A[float | None, "of a worker, above which it is started anew; ``None``: its share, [byte]"] = None
     patience: A[float, "how long a scheduler that has gone is waited for, [s]"] = 120.0
 
     def problems(self) -> list[str]:
@@ -115,7 +113,7 @@ class LocalCluster:
     def __init__(self, workers: int, memory: float | None) -> None:
         settings = {"workers": workers, "memory": memory}
         command = [sys.executable, "-m", "beardyn_core.engine.local", json.dumps(settings)]
-        self._log = tempfile.TemporaryFile()  # what its processes complain about when they are killed
+        self._log = tempfile.TemporaryFile()  # noqa: SIM115 (its processes write there to their end)
         self._process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,

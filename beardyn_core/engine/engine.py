@@ -223,8 +223,8 @@ class Engine:
             except (OSError, TimeoutError) as error:
                 if time.monotonic() > end:
                     raise EngineError(
-                        f"--scheduler {address}: cannot be reached ({error}); start one with `dask scheduler`, "
-                        "and workers with `dask worker`"
+                        f"--scheduler {address}: cannot be reached ({error}); start one with "
+                        "`dask scheduler`, and workers with `dask worker`"
                     ) from error
                 time.sleep(1.0)
         if not wait_until(self.worker_count, cluster.patience):

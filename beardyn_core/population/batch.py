@@ -18,14 +18,15 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.jit import LANE_WIDTH, cache_folder
+from beardyn_core.observe.block import Block
 from beardyn_core.population.draw import Row
 from beardyn_core.population.features import NAMES, features_of
 from beardyn_core.population.plan import Plan, bearing_name, check_rows
+from beardyn_core.record.description import RunDescription
 from beardyn_core.record.run import Run
-from beardyn_core.record.sinks import MemorySink
 from beardyn_core.record.tables import parts_of, signal_of
+from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
-from beardyn_core.study import desk_run
 from beardyn_core.study.code_digest import simulator_digest
 from beardyn_core.twin import Twin
 
@@ -91,7 +92,7 @@ def checked_batch(rows: tuple[Row, ...], plan: Plan) -> list[str]:
 
 
 def code_digest() -> str:
-    """Hash the code of this worker, and how many rollers its kernels take at once: other lanes, other bits."""
+    """Hash the code of this worker, and how many rollers its kernels take at once, which sets the bits."""
     return f"{simulator_digest()}-{LANE_WIDTH}"
 
 
@@ -106,13 +107,15 @@ def _made(row: Row, plan: Plan) -> tuple[Made, dict[str, Array], dict[str, NDArr
         scene = plan.scene(row)
         labels["bearing_id"] = bearing_name(scene)
         run = simulated(scene)
-        complete = (run.status or "").startswith(DONE)
+        complete = run.status == DONE
         labels |= {"status": DONE if complete else FAILED, "reason": "" if complete else run.status}
         labels |= {name: value for name, value in run.labels.items() if name not in labels}
         arrays, times = arrays_of(run, plan.sweep.signals)
         features = features_of(run, fault_frequencies(scene.bearing), scene.bearing.roller_count)
-    except (InputError, ValidityError, ArithmeticError, np.linalg.LinAlgError) as error:
+    except (InputError, ValidityError) as error:
         labels |= {"status": FAILED, "reason": str(error)}
+    except Exception as error:  # one run of thousands must not end the others
+        labels |= {"status": FAILED, "reason": f"{type(error).__name__}: {error}"}
     labels = {name: value for name, value in labels.items() if name not in _NOT_LABELS} | values
     plain = {name: each.values for name, each in arrays.items()}
     return Made(row.run, labels, features, plain, time.perf_counter() - began), arrays, times
@@ -133,9 +136,16 @@ _NOT_LABELS = (
 def simulated(scene: Scene) -> Run:
     """Simulate a scene; what ended it early is in the status of the run."""
     _warm(scene)
-    memory = MemorySink()
-    desk_run.run(scene, [memory], life=False)
-    return memory.to_run()
+    simulation = start(scene)
+    twin, status, blocks = simulation.twin, DONE, list[Block]()
+    description = RunDescription.of(scene, twin.truth(), twin.body_names, simulation.load, text="")
+    try:
+        blocks.extend(simulation.blocks(twin.blocks_at_once))
+    except ValidityError as error:
+        status = str(error)
+        if isinstance(error.block, Block):
+            blocks.append(error.block)
+    return Run.of_blocks(blocks, description, status)
 
 
 def arrays_of(run: Run, signals: tuple[str, ...]) -> tuple[dict[str, Array], dict[str, NDArray[np.int64]]]:

@@ -15,8 +15,8 @@ _LIMITS = (
     "Every run is simulated by a model of a double-row tapered roller bearing in an axlebox. What the model "
     "leaves out is not in the signals; `docs/validation.md` and `docs/sweep.md` of beardyn say how far they "
     "agree with measurements. A learner that is good on this set is not therefore good on a railway.",
-    "The distributions are those of the sweep below: they say what was asked for, and not how often it occurs "
-    "in service.",
+    "The distributions are those of the sweep below: they say what was asked for, and not how often it is "
+    "so in service.",
     "Failed runs stand in the table with their sentence; their signals end early, and are NaN from there on.",
 )
 
@@ -52,7 +52,7 @@ def card_text(plan: Plan, about: Mapping[str, Any], rows: Sequence[Mapping[str, 
         "",
         "## Files",
         "",
-        "- `signals.zarr`: signals, an array each (Zarr 3), the runs along the first axis, SI units in `units`",
+        "- `signals.zarr`: signals, an array each (Zarr 3), runs along the first axis, SI units in `units`",
         "- `runs.parquet`: a row a run: part, bearing, status, every drawn key and every label, units in the "
         "metadata of the columns",
         "- `features.parquet`: what a monitor works out of each run, and band levels",

@@ -13,11 +13,12 @@ from scipy.fft import rfft
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain import FAULTS, MonitorResult
+from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.record.run import Run
 
 PARTS = FAULTS
+_ONCE = MonitorSettings(interval=1e9)  # one analysis, of the last revolutions
 _BANDS = (250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0)  # middles of octaves, [Hz]
 _RESULT = ("score", "strongest_level", "rms", "kurtosis", "crest", "shaft_frequency")
 UNITS = {
@@ -54,10 +55,9 @@ def features_of(run: Run, orders: FaultFrequencies, roller_count: int, sensor: s
     sensor : str
         Accelerometer; by default the first.
     """
-    monitor = Monitor(orders, roller_count)
-    result: MonitorResult | None = None
+    monitor = Monitor(orders, roller_count, settings=_ONCE)
     for part in run.monitor_inputs(sensor):
-        result = monitor.take(part) or result
+        monitor.take(part)
     result = monitor.result()
     signal = run.sensors[sensor] if sensor else run.vibration
     values = signal.values[:, np.isfinite(signal.values).all(axis=0)]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from beardyn_core.errors import InputError
 from beardyn_core.population.closing import verify
 from beardyn_core.population.folder import read_about
-from beardyn_core.population.store import RUN, SIGNALS, library
+from beardyn_core.population.store import RUN, SIGNALS, library, zarr_library
 from beardyn_core.population.table import FEATURES, RUNS, units_of
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ class LabelledSet:
     @cached_property
     def arrays(self) -> dict[str, Any]:
         """Signals as arrays of Zarr, shape [run, sample, ...]: nothing is read before it is indexed."""
-        group = library("zarr").open_group(str(self.folder / SIGNALS), mode="r")
+        group = zarr_library().open_group(str(self.folder / SIGNALS), mode="r")
         found = {name: group[name] for name in group.array_keys()}
         return {name: each for name, each in found.items() if each.metadata.dimension_names[0] == RUN}
 

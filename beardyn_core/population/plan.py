@@ -230,8 +230,8 @@ def _unused(plan: Plan, rows: Sequence[Row], used: set[str], wrong: bool) -> lis
     if wrong or not rows:
         return []
     return [
-        f"{plan.label}: vary[{index}].key is {variable.key!r}: no run has such an entry; the list in the scene "
-        "is shorter"
+        f"{plan.label}: vary[{index}].key is {variable.key!r}: no run has such an entry; its list in the "
+        "scene is shorter"
         for index, variable in enumerate(plan.sweep.vary)
         if variable.key not in used
     ]
@@ -251,8 +251,8 @@ def _unlike(plan: Plan, frames: dict[Frame, int]) -> list[str]:
     if not needs_rollers:
         del what["rows and rollers"]
     return [
-        f"{plan.label}: {name} is {a} in run {first} and {b} in run {second}; the signals of a set are of one "
-        "length: leave it the same, or make two sets"
+        f"{plan.label}: {name} is {a} in run {first} and {b} in run {second}; the signals of a set are of "
+        "one length: leave it the same, or make two sets"
         for name, (a, b) in what.items()
         if a != b
     ]

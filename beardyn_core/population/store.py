@@ -30,7 +30,7 @@ class SignalStore:
     """
 
     def __init__(self, folder: Path, count: int, together: int) -> None:
-        zarr = library("zarr")
+        zarr = zarr_library()
         self._zarr = zarr
         self._group = zarr.open_group(str(folder / SIGNALS), mode="a", zarr_format=3)
         self._count, self._together = count, together
@@ -101,6 +101,21 @@ class SignalStore:
 def forget(folder: Path) -> None:
     """Remove the signals of a set."""
     shutil.rmtree(folder / SIGNALS, ignore_errors=True)
+
+
+def zarr_library() -> Any:
+    """Import Zarr, which nothing but this room needs.
+
+    Raises
+    ------
+    InputError
+        It is not installed.
+    """
+    try:
+        import zarr
+    except ImportError:
+        return library("zarr")  # says what to install
+    return zarr
 
 
 def library(name: str, extra: str = "sweep") -> Any:

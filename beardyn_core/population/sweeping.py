@@ -199,7 +199,7 @@ class _Go:
             )
         if lanes != known:
             raise InputError(
-                f"worker {batch.worker}: its processor takes {lanes} rollers at once, and the runs so far were "
+                f"worker {batch.worker}: its processor takes {lanes} rollers at once, the runs so far were "
                 f"made {known} at once; their last bits would differ: use machines of one kind"
             )
         if known == lanes and self.count == 0:
@@ -220,7 +220,7 @@ class _Go:
 
 
 def _check(engine: Engine, plan: Plan, rows: Sequence[Row]) -> None:
-    """Make the scenes of the runs that have not been checked here, on the workers, before any of them runs."""
+    """Make the scenes of runs that have not been checked here, on the workers, before any of them runs."""
     if len(rows) <= CHECKED_HERE:
         return
     parts = [tuple(rows[first : first + _CHECKED_AT_ONCE]) for first in range(0, len(rows), _CHECKED_AT_ONCE)]
