@@ -15,7 +15,7 @@ from beardyn_core.population.labelled_set import LabelledSet
 from beardyn_core.population.plan import plan_of
 from beardyn_core.population.sweeping import Progress, conduct
 
-_TOLD_EVERY_S = 5.0
+_TOLD_EVERY_S = 10.0
 
 
 def sweep(
@@ -118,17 +118,22 @@ class Lines:
     """Progress as lines on standard error, one in a while."""
 
     def __init__(self) -> None:
+        self.done = 0
         self._next = 0.0
         self._linked = False
 
     def __call__(self, now: Progress) -> None:
         """Print a line when it is time."""
+        self.done = now.done
         if not self._linked and now.dashboard:
             _say(f"dashboard {now.dashboard}")
             self._linked = True
         if now.seconds >= self._next or now.done == now.total:
             self._next = now.seconds + _TOLD_EVERY_S
             _say(sentence(now))
+
+    def close(self) -> None:
+        """End the lines, of which none is open."""
 
 
 def sentence(now: Progress) -> str:

@@ -26,6 +26,7 @@ structure        modes of an axlebox
 trial            a monitor over a matrix of scenes
 contacts         the contact laboratory
 sweep            sets of labelled runs over a population of bearings
+baseline         a simple learner on such a set
 schema           JSON schemas for editors
 ================ ========================================================================
 """

@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
         return _verify(args)
     if args.sweep is None:
         raise InputError("SWEEP is missing: give a shipped sweep or a YAML file, or --verify")
-    from beardyn_core.api.sweeping import cluster_of
+    from beardyn_core.api.sweeping import Lines, cluster_of
     from beardyn_core.config import read_sweep
     from beardyn_core.engine import EngineError
     from beardyn_core.population.plan import plan_of
@@ -90,7 +90,7 @@ def run(args: argparse.Namespace) -> int:
     with checked(lambda inputs: option_problems(args, cluster, inputs)):
         sweep, label = read_sweep(args.sweep, runs=args.runs, seed=args.seed, hours=args.hours)
         plan = plan_of(sweep, label, _say)
-    bar = _Bar(sweep.run_count)
+    bar = _Bar(sweep.run_count) if sys.stderr.isatty() else Lines()
     try:
         with last_words(lambda: f"{bar.done} of {sweep.run_count} runs are done; the same command goes on"):
             swept = conduct(plan, args.output, cluster, force=args.force, report=bar, say=_say)

@@ -15,6 +15,8 @@ card         the data card
 closing      tables, card and checksums at the end, and checking them
 sweeping     rows to the workers of the engine, what comes back to the folder
 labelled_set a set, opened: table, lazy signals, batches
+exporting    a set as one file for other programs
+learner      a learner to compare others with: features, random forests
 torch_data   a set as a PyTorch dataset
 ============ ==================================================================
 

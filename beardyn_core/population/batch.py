@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import os
-import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
@@ -17,7 +13,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.jit import LANE_WIDTH, cache_folder
+from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.observe.block import Block
 from beardyn_core.population.draw import Row
 from beardyn_core.population.features import NAMES, features_of
@@ -28,12 +24,7 @@ from beardyn_core.record.tables import parts_of, signal_of
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.code_digest import simulator_digest
-from beardyn_core.twin import Twin
-
-try:
-    import fcntl
-except ImportError:  # a system without file locks
-    fcntl = None  # type: ignore[assignment]
+from beardyn_core.study.compiling import warm_once
 
 DONE, FAILED = "complete", "failed"
 _WIDE = ("angle",)  # grows without end: of eight bytes, the others of four
@@ -135,7 +126,7 @@ _NOT_LABELS = (
 
 def simulated(scene: Scene) -> Run:
     """Simulate a scene; what ended it early is in the status of the run."""
-    _warm(scene)
+    warm_once(scene)
     simulation = start(scene)
     twin, status, blocks = simulation.twin, DONE, list[Block]()
     description = RunDescription.of(scene, twin.truth(), twin.body_names, simulation.load, text="")
@@ -159,31 +150,3 @@ def arrays_of(run: Run, signals: tuple[str, ...]) -> tuple[dict[str, Array], dic
             name = signal if part == "values" else f"{signal}_{part}"
             arrays[name] = Array(np.asarray(array.values, kept), array.dims, array.unit, signal)
     return arrays, times
-
-
-_warmed: set[tuple[Any, ...]] = set()
-_warming = threading.Lock()
-
-
-def _warm(scene: Scene) -> None:
-    """Compile the kernels of a scene, or wait until another process of this machine has."""
-    kinds = (scene.tier, scene.effect_names, tuple(sorted(type(each).__name__ for each in scene.faults)))
-    with _warming:
-        if kinds in _warmed:
-            return
-        with _alone_on_this_machine():
-            Twin(scene).warm()
-        _warmed.add(kinds)
-
-
-@contextmanager
-def _alone_on_this_machine() -> Iterator[None]:
-    """Let no other process of this machine compile meanwhile; a lock of a process that dies is free."""
-    if fcntl is None:
-        yield
-        return
-    folder = cache_folder(Path(__file__)).parent
-    folder.mkdir(parents=True, exist_ok=True)
-    with (folder / "compiling.lock").open("ab") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        yield

@@ -55,7 +55,7 @@ def with_value(data: dict[str, Any], place: Place, value: Any, folder: Path) -> 
     InputError
         There is something on the way that has no keys or no entries.
     """
-    return _set(data, place, 0, value, folder)  # type: ignore[no-any-return]
+    return _set(data, place, 0, value, folder)
 
 
 def value_at(data: Any, place: Place) -> Any:

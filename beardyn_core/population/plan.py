@@ -24,7 +24,7 @@ from beardyn_core.scene.scene import Free, Scene
 from beardyn_core.scene.sweep import Scaled, Sweep
 from beardyn_core.scene.tier import TIER_NAMES
 
-CHECKED_HERE = 1024  # runs whose scenes are made before the workers are started, which make the others
+CHECKED_HERE = 256  # runs whose scenes are made before the workers are started, which make the others
 _SHOWN = 20  # sentences about rows
 _NAME = "scene"
 

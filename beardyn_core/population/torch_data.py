@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Item = tuple[dict[str, Any], dict[str, Any]]
 
 
-class TorchRuns(Dataset):  # type: ignore[misc]
+class TorchRuns(Dataset):
     """Complete runs of a part; item k is ``(signals, labels)``.
 
     Both are mappings by name. Signals are tensors of the shape that the set keeps, ``vibration`` [sample,
@@ -78,7 +78,7 @@ class TorchRuns(Dataset):  # type: ignore[misc]
         return TorchStream(self, buffer, seed)
 
 
-class TorchStream(IterableDataset):  # type: ignore[misc]
+class TorchStream(IterableDataset):
     """Runs of a part in random order, file by file; each process of a ``DataLoader`` has its own share.
 
     Call `set_epoch` before every epoch for another order.
