@@ -61,7 +61,8 @@ def features_of(run: Run, orders: FaultFrequencies, roller_count: int, sensor: s
     result = monitor.result()
     signal = run.sensors[sensor] if sensor else run.vibration
     values = signal.values[:, np.isfinite(signal.values).all(axis=0)]
-    return {**_of_result(result), **_levels(np.asarray(values, np.float64), signal.rate)}
+    found = {**_of_result(result), **_levels(np.asarray(values, np.float64), signal.rate)}
+    return {name: found[name] for name in NAMES}
 
 
 def _of_result(result: MonitorResult) -> dict[str, float]:

@@ -86,7 +86,10 @@ def _set(owner: Any, place: Place, depth: int, value: Any, folder: Path) -> Any:
         owner = {}
     if not isinstance(owner, dict):
         raise InputError(f"{_text(place[:depth])} has no keys: it is {owner!r}")
-    return {**owner, part: _set(owner.get(part), place, depth + 1, value, folder)}
+    changed = {**owner, part: _set(owner.get(part), place, depth + 1, value, folder)}
+    if part == "table":  # what was read from the table before
+        changed.pop("content", None)
+    return changed
 
 
 def _opened(place: Place, name: str, folder: Path) -> dict[str, Any]:

@@ -20,8 +20,9 @@ from beardyn_core.edge import written
 from beardyn_core.errors import InputError
 from beardyn_core.population.draw import Row, rows_of, scaled_value
 from beardyn_core.population.places import AbsentError, Place, place_of, with_value
+from beardyn_core.record.tables import SIGNALS, VIBRATION
 from beardyn_core.scene.scene import Free, Scene
-from beardyn_core.scene.sweep import Scaled, Sweep
+from beardyn_core.scene.sweep import Choice, Scaled, Sweep
 from beardyn_core.scene.tier import TIER_NAMES
 
 CHECKED_HERE = 256  # runs whose scenes are made before the workers are started, which make the others
@@ -131,6 +132,8 @@ def plan_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: Non
         With every mistake in the sweep, in its scene, and in the scenes of its runs.
     """
     plan, opened = _begun(sweep, label)
+    if problems := _unknown_signals(plan, opened.scene):
+        raise InputError(problems)
     rows = rows_of(sweep)
     extremes = _extremes(rows)
     few = rows if len(rows) <= CHECKED_HERE else [*extremes, *rows[:: len(rows) // CHECKED_HERE]]
@@ -174,6 +177,15 @@ def _begun(sweep: Sweep, label: str) -> tuple[Plan, OpenScene]:
     if problems:
         raise InputError(problems)
     return Plan(sweep, label, opened.keys, folder, str(path)), opened
+
+
+def _unknown_signals(plan: Plan, scene: Scene) -> list[str]:
+    known = (*SIGNALS, *(f"{VIBRATION}_{sensor.name}" for sensor in scene.sensors[1:]))
+    return [
+        f"{plan.label}: signals[{index}] is {name!r}; allowed are {', '.join(known)}"
+        for index, name in enumerate(plan.sweep.signals)
+        if name not in known
+    ]
 
 
 def _extremes(rows: Sequence[Row]) -> list[Row]:
@@ -233,8 +245,21 @@ def _unused(plan: Plan, rows: Sequence[Row], used: set[str], wrong: bool) -> lis
         f"{plan.label}: vary[{index}].key is {variable.key!r}: no run has such an entry; its list in the "
         "scene is shorter"
         for index, variable in enumerate(plan.sweep.vary)
-        if variable.key not in used
+        if variable.key not in used and not _reachable(plan, variable.key)
     ]
+
+
+def _reachable(plan: Plan, key: str) -> bool:
+    """Tell whether some value of a choice brings the entry that a key is of; few runs may have drawn none."""
+    for choice in (each for each in plan.sweep.vary if isinstance(each, Choice)):
+        for value in choice.one_of:
+            try:
+                data = with_value(plan.base, place_of(choice.key), value, plan.folder)
+                with_value(data, place_of(key), None, plan.folder)
+            except (AbsentError, InputError):
+                continue
+            return True
+    return False
 
 
 def _unlike(plan: Plan, frames: dict[Frame, int]) -> list[str]:

@@ -22,8 +22,6 @@ TINY: dict[str, Any] = {
         {"key": "operation.speed_profile[0].speed_kmh", "kind": "uniform", "low": 80, "high": 200},
     ],
 }
-# a load and a speed at which no tier finds an equilibrium with this preload
-BROKEN = {"key": "end_play_mm", "kind": "choice", "one_of": [0.1, -0.5]}
 
 
 def tiny(**changes: Any) -> dict[str, Any]:
