@@ -25,8 +25,8 @@ HEAD = """# Reference of the files
 Written by `python docs/write_reference.py` from the declarations in the code.
 
 Every key of scenes, bearings, lubricants, vehicles, effects, trials, sweeps, boxes, sensors, backgrounds and
-name plates: what it means, in which unit, what is allowed, and what it is when it is not given (**required**: it
-must be given; *none*: then there is none).
+name plates: what it means, in which unit, what is allowed, and what it is when it is not given (**required**:
+it must be given; *none*: then there is none).
 The unit of a number is the end of its key. A key with a mapping leads to its own table. Where a file of a
 bearing, lubricant, vehicle, sensor, background or name plate has a number it may as well have
 `{value: 17, source: catalogue}`.
