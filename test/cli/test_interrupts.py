@@ -24,6 +24,7 @@ from beardyn_core.config import config_folder
 from beardyn_core.interrupts import GRACE_S
 from beardyn_core.record.reading import read_run
 from test.finite_elements import need_finite_elements
+from test.population.sweeps import tiny
 
 ROOT = Path(__file__).resolve().parents[2]
 # What is promised is 2 s. Noise may double it, and a machine with more to do than it has cores is slower
@@ -245,6 +246,19 @@ def test_an_interrupted_trial_keeps_every_run_that_was_done(
         if (least and took < GRACE_S) or summary.exists():
             assert json.loads(summary.read_text())["complete"] is False
         assert count() >= before + least
+
+
+def test_an_interrupted_sweep_keeps_every_run_that_was_done(tmp_path: Path) -> None:
+    (tmp_path / "tiny.yaml").write_text(json.dumps(tiny(runs=200)))
+    journal = tmp_path / "out" / "journal.jsonl"
+
+    def count() -> int:
+        return 2 * len(journal.read_text().splitlines()) if journal.exists() else 0
+
+    with running(["sweep", "tiny.yaml", "-o", "out", "--workers", "2"], tmp_path) as started:
+        started.wait_for(lambda: count() >= 2)
+        took = started.interrupt()
+        check(started, took, f"interrupted; {count()} of 200 runs are done; the same command goes on")
 
 
 def test_a_killed_trial_leaves_no_process_behind(small_trial: list[str], tmp_path: Path) -> None:
