@@ -42,7 +42,8 @@ class TextTable:
         """Say how the table was understood."""
         separators = {value: word for word, value in SEPARATORS.items()}
         signs = {value: word for word, value in DECIMALS.items()}
-        names = f"line {self.first_line} and above name them" if self.named else "no line names them"
+        lines = "line 1 names" if self.first_line == 1 else f"line {self.first_line} and above name"
+        names = f"{lines} them" if self.named else "no line names them"
         return (
             f"{len(self.names)} columns, {separators[self.separator]} between, "
             f"decimal {signs[self.decimal]}; {names}; numbers begin in line {self.first_line + 1}"
