@@ -213,7 +213,7 @@ def _table(lines: list[str], fit: _Fit, encoding: str) -> TextTable:
 
 
 def _headings(above: list[tuple[int, str]], fit: _Fit) -> list[tuple[int, list[str]]]:
-    """Find the lines right above the numbers that have a word for their columns; lines further up have none."""
+    """Find the lines right above the numbers that name their columns; lines further up do not."""
     width, found = len(fit.sample), []
     for n, line in reversed(above):
         cells = _split(line, fit.separator)

@@ -51,6 +51,14 @@ def test_every_mistake_of_every_file_is_told_at_once(tmp_path: Path) -> None:
     assert len(found) == 4
 
 
+def test_a_recording_is_not_taken_for_a_file_of_another_tool(tmp_path: Path) -> None:
+    made = bd.import_measured(csv(tmp_path), tmp_path / "run.mcap")
+    (found,) = problems(made)
+    assert "is a recording of an axlebox; report, monitor, export and beardyn_core.read take it" in found
+    again = bd.read_measured(made, channels="z=*vibration.az", unit="m/s2")
+    assert len(again.vibration) == COUNT
+
+
 def test_what_is_true_of_many_files_is_said_once(tmp_path: Path) -> None:
     loud = [csv(tmp_path, f"{k}.csv", az_g=noise(seed=k)[:, 0] * k) for k in range(1, 7)]
     found = problems(loud, channels="z=none")
