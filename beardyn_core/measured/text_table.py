@@ -214,7 +214,8 @@ def _table(lines: list[str], fit: _Fit, encoding: str) -> TextTable:
 
 def _headings(above: list[tuple[int, str]], fit: _Fit) -> list[tuple[int, list[str]]]:
     """Find the lines right above the numbers that name their columns; lines further up do not."""
-    width, found = len(fit.sample), []
+    width = len(fit.sample)
+    found: list[tuple[int, list[str]]] = []
     for n, line in reversed(above):
         cells = _split(line, fit.separator)
         if fit.separator in _OPTIONAL_COLUMNS and not found:
