@@ -106,7 +106,9 @@ def _hdf5(runs: LabelledSet, path: Path, names: Sequence[str]) -> None:
 
 
 def _npz(runs: LabelledSet, path: Path, names: Sequence[str]) -> None:
-    arrays = {name: np.concatenate([_read(runs, name, piece) for piece in _pieces(runs)]) for name in names}
+    arrays: dict[str, Any] = {
+        name: np.concatenate([_read(runs, name, piece) for piece in _pieces(runs)]) for name in names
+    }
     for name, column in runs.table.items():
         values = column.to_numpy()
         text = values.dtype.kind not in "biuf"

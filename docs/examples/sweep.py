@@ -11,7 +11,7 @@ import numpy as np
 import beardyn_core as bd
 from beardyn_core.population.learner import Learner
 
-runs = bd.sweep("quick", "my_set", runs=50, progress=True)
+runs = bd.sweep("fifty", "my_set", runs=50, progress=True)
 print(runs)
 
 # %% [markdown]

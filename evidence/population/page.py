@@ -147,11 +147,11 @@ def _scale(found: dict[str, Any], made: dict[str, Any]) -> list[str]:
     return [
         "## How fast, how big",
         "",
-        f"The set above: {runs} runs of 2 s, {made['failed']} failed; {made['median_s']:.2f} s a run "
-        "(median; "
-        f"{made['fastest_s']:.2f} s for the fastest twentieth) on {made['cores']} cores that other work "
-        "shared, and "
-        f"{made['bytes_a_run'] / 1e6:.2f} MB a run.",
+        f"The set above has {runs} runs of 2 s, {made['failed']} of them failed, of "
+        f"{made['processes']} processes on {made['cores']} cores. A run took {made['median_s']:.2f} s "
+        "(median), "
+        f"for the machine had other work; of processor time it takes {made['processor_s']:.2f} s, and "
+        f"{made['bytes_a_run'] / 1e6:.2f} MB of the disk.",
         "",
         "The engine by itself, on runs that only wait "
         f"({scale.SLOW_S:g} s each): what is lost to it, and the memory of the largest process.",
@@ -171,9 +171,7 @@ def _scale(found: dict[str, Any], made: dict[str, Any]) -> list[str]:
             ),
         ).markdown(),
         "",
-        "On paper, with the time of the fastest twentieth of the runs (what one takes on a core of its "
-        "own) and an "
-        "efficiency of 90 %:",
+        f"On paper, with {made['processor_s']:.2f} s of a core a run and an efficiency of 90 %:",
         "",
         _paper(made).markdown(),
         "",
@@ -204,7 +202,7 @@ def _paper(made: dict[str, Any]) -> Table:
     """Work out what more runs would take, from what was measured."""
     rows = []
     for runs in (10_000, 1_000_000):
-        hours = runs * made["fastest_s"] / 0.9 / 3600.0
+        hours = runs * made["processor_s"] / 0.9 / 3600.0
         size = runs * made["bytes_a_run"]
         rows.append(
             (

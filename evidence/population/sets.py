@@ -38,6 +38,9 @@ def other_sweep(name: str, runs: int) -> dict[str, Any]:
 
 
 def other_set(name: str, folder: Path, runs: int, workers: int | None) -> LabelledSet:
-    """Make a set of `OTHERS` in a folder, or take it up where it was."""
+    """Make a set of `OTHERS` in a folder, or take it up where it was; one that is complete is opened."""
     folder.mkdir(exist_ok=True)
-    return bd.sweep(other_sweep(name, runs), folder / name.replace(" ", "_"), workers=workers, progress=True)
+    own = folder / name.replace(" ", "_")
+    if (own / "runs.parquet").is_file():
+        return LabelledSet(own)
+    return bd.sweep(other_sweep(name, runs), own, workers=workers, progress=True)

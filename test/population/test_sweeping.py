@@ -139,7 +139,7 @@ def test_each_run_is_the_scene_that_its_values_say() -> None:
         if scene.defects:
             (spall,) = scene.defects
             assert 1e3 * spall.width == pytest.approx(values["defects[0].width_mm"])  # type: ignore[union-attr]
-            assert spall.length == pytest.approx(2.0 * spall.width, rel=1e-5)  # type: ignore[union-attr,operator]
+            assert spall.length == pytest.approx(2.0 * spall.width, rel=1e-5)  # type: ignore[union-attr]
         else:
             assert values["defects[0].width_mm"] is None
     assert {bool(scene.defects) for scene in scenes} == {True, False}
