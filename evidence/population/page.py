@@ -128,8 +128,10 @@ def _of_tier(gap: list[dict[str, Any]]) -> list[str]:
     if not shares.get("another tier", 1.0) < shares.get("other speeds", 0.0):
         return []
     return [
-        "The tier matters as much as the machine: a learner that is trained in one and judged in another loses "
-        "more than one that is taken to other speeds. Train in the tier that is as true as what is judged; for "
+        "The tier matters as much as the machine: a learner that is trained in one and judged in another "
+        "loses "
+        "more than one that is taken to other speeds. Train in the tier that is as true as what is "
+        "judged; for "
         "vibration above 1 kHz that is not `lumped`.",
         "",
     ]
