@@ -23,6 +23,7 @@ Task = TypeVar("Task")
 # tasks that wait at the scheduler for each worker: enough that none is idle, few enough to be forgotten soon
 _AHEAD = 3
 _LOOK_S = 0.5
+_FETCHED_S = 30.0  # a result that has not come by then was with a worker that has died
 
 
 class EngineError(Exception):
@@ -141,6 +142,10 @@ class Engine:
                         task = running[future]
                         ended = self._ended(future, task)
                         del running[future]
+                        if ended is None:
+                            future.cancel()
+                            todo.insert(0, task)
+                            continue
                         future.release()
                         yield ended
                 except _LostError:
@@ -150,10 +155,6 @@ class Engine:
             for future in running:
                 with suppress(Exception):
                     future.cancel()
-
-    def on_every_worker(self, function: Callable[..., Any], *arguments: Any) -> dict[str, Any]:
-        """Call a function once on every worker that is there; results by the address of the worker."""
-        return dict(self._client.run(function, *arguments))
 
     def _wanted(self, running: int) -> int:
         return max(_AHEAD * max(self.worker_count(), 1) - running, 0)
@@ -175,21 +176,24 @@ class Engine:
     def _reachable(self) -> bool:
         return self._client.status == "running" and (self._local is None or self._local.alive)
 
-    def _ended(self, future: Any, task: Task) -> Ended[Task]:
+    def _ended(self, future: Any, task: Task) -> Ended[Task] | None:
+        """Fetch what a task gave; ``None`` where its worker has died with it, and it must be done again."""
         from distributed import CancelledError, KilledWorker
         from distributed.comm import CommClosedError
 
         try:
-            return Ended(task, future.result(timeout=60.0))
+            return Ended(task, future.result(timeout=_FETCHED_S))
         except KilledWorker as error:
             self._say(f"a task has been given up: {len(_workers_of(error))} workers died of it")
             return Ended(task, killed=len(_workers_of(error)))
         except (CancelledError, CommClosedError) as error:
             raise _LostError from error
         except (TimeoutError, OSError) as error:
-            if self._reachable():
+            if not self._reachable():
+                raise _LostError from error
+            if not isinstance(error, TimeoutError) or future.status == "error":  # of the task itself
                 raise
-            raise _LostError from error
+            return None
 
     def _reconnect(self) -> None:
         client, self._client = self._client, None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
@@ -181,11 +180,6 @@ def plain(value: Any) -> Any:
 def size_of(folder: Path) -> int:
     """Measure the signals of a set, [byte]."""
     return sum(path.stat().st_size for path in (folder / SIGNALS).rglob("*") if path.is_file())
-
-
-def room_for(folder: Path) -> int:
-    """Measure the free room of the disk of a folder, [byte]."""
-    return shutil.disk_usage(folder).free
 
 
 def numbers_missing(count: int, done: Sequence[int] | dict[int, Any]) -> list[int]:

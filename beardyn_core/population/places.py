@@ -58,16 +58,6 @@ def with_value(data: dict[str, Any], place: Place, value: Any, folder: Path) -> 
     return _set(data, place, 0, value, folder)
 
 
-def value_at(data: Any, place: Place) -> Any:
-    """Find the value at a place; ``None`` where there is none."""
-    for part in place:
-        if isinstance(part, int):
-            data = data[part] if isinstance(data, list) and part < len(data) else None
-        else:
-            data = data.get(part) if isinstance(data, dict) else None
-    return data
-
-
 def _set(owner: Any, place: Place, depth: int, value: Any, folder: Path) -> Any:
     if depth == len(place):
         return value

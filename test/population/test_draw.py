@@ -12,7 +12,7 @@ import pytest
 from beardyn_core.config import json_schema, read_sweep, shipped_names
 from beardyn_core.errors import InputError
 from beardyn_core.population.draw import rows_of
-from beardyn_core.population.places import AbsentError, place_of, value_at, with_value
+from beardyn_core.population.places import AbsentError, place_of, with_value
 from beardyn_core.population.table import splits_of, unit_in
 from beardyn_core.scene.sweep import Normal, Split, Sweep, Uniform
 from test.population.sweeps import tiny
@@ -117,9 +117,8 @@ def test_a_value_is_set_where_its_path_says_and_nowhere_else(tmp_path: Path) -> 
     opened = with_value(scene, place_of("bearing.end_play_mm"), 0.3, tmp_path)["bearing"]
     assert opened["roller_count"]["value"] == 17
     assert opened["end_play_mm"] == 0.3
-    assert (
-        value_at(with_value(scene, place_of("scatter.grade"), "G2", tmp_path), ("scatter", "grade")) == "G2"
-    )
+    graded = with_value(scene, place_of("scatter.grade"), "G2", tmp_path)
+    assert graded["scatter"] == {"grade": "G2"}
     with pytest.raises(AbsentError):
         with_value(scene, place_of("defects[1].width_mm"), 5, tmp_path)
     with pytest.raises(InputError, match="has no keys"):
