@@ -72,6 +72,9 @@ Parts:
 
 
 SERVICE = """
+Where the monitor says *cup* here it is wrong: rollers of this tier pass as evenly as they are drawn, and without
+roughness nothing lies around their lines ([model.md](model.md#manufacturing-scatter)).
+
 ## Service scenes
 
 Vertical reading; rms, m/s². The monitor is the shipped one; its analyses by verdict. Effects `standard` in
