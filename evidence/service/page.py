@@ -72,8 +72,8 @@ Parts:
 
 
 SERVICE = """
-Where the monitor says *cup* here it is wrong: rollers of this tier pass as evenly as they are drawn, and without
-roughness nothing lies around their lines ([model.md](model.md#manufacturing-scatter)).
+Where the monitor says *cup* here it is wrong: rollers of this tier pass as evenly as they are drawn, and
+without roughness nothing lies around their lines ([model.md](model.md#manufacturing-scatter)).
 
 ## Service scenes
 
