@@ -97,8 +97,8 @@ class McapSink:
             self._first = False
             writer.add("truth", block.start_ns, encode_string(self._run.to_json()))
         self._write_load(writer, block.end_ns)
-        for name, stamp, cdr in self._encoder.encode(block):
-            writer.add(name, stamp, cdr)
+        for batch in self._encoder.batches(block):
+            writer.add_rows(*batch)
         if block.index % DIAGNOSTICS_EVERY == 0 or block.status != 0:
             status = block_diagnostic(block)
             writer.add("/diagnostics", block.end_ns, encode_diagnostics(block.end_ns, FRAME, [status]))
