@@ -18,7 +18,14 @@ from beardyn_core.arrays import Int
 # as small as that of the library's level, 3, in a third of the time: samples of noise do not pack
 LEVEL = 1
 _MESSAGE = np.dtype(
-    [("opcode", "u1"), ("length", "<u8"), ("channel", "<u2"), ("sequence", "<u4"), ("log", "<u8"), ("at", "<u8")]
+    [
+        ("opcode", "u1"),
+        ("length", "<u8"),
+        ("channel", "<u2"),
+        ("sequence", "<u4"),
+        ("log", "<u8"),
+        ("at", "<u8"),
+    ]
 )
 MESSAGE_BYTES = _MESSAGE.itemsize
 _INDEX = np.dtype([("time", "<u8"), ("offset", "<u8")])

@@ -22,6 +22,7 @@ from beardyn_core.scene.load import WRENCH_AXES
 ZERO_CELSIUS = 273.15
 TEMPERATURE_EVERY = 10  # blocks
 DIAGNOSTICS_EVERY = 10
+USUAL_NAME = "beardyn twin"
 POSE_AXES = ("x", "y", "z", "qx", "qy", "qz", "qw")
 ACCELERATION_AXES = ("ax", "ay", "az")
 TWIST_AXES = ("vx", "vy", "vz", "wx", "wy", "wz")
@@ -115,7 +116,8 @@ class Batch(NamedTuple):
     rows: A[NDArray[np.uint8], "CDR, shape [message, byte]"]
 
 
-def _single(topic: str, stamp_ns: int, cdr: bytes) -> Batch:
+def single(topic: str, stamp_ns: int, cdr: bytes) -> Batch:
+    """Make a batch of one message."""
     return Batch(topic, np.array([stamp_ns], np.int64), np.frombuffer(cdr, np.uint8)[None])
 
 
@@ -192,7 +194,7 @@ class BlockEncoder:
         stamp = int(times[0])
         points = points_of(WAVEFORM, block.waveform_sample, times, stamp)
         fill(points, WRENCH_AXES, block.force_waveform)
-        yield _single("force_waveform", stamp, self._waveform.encode(points, stamp))
+        yield single("force_waveform", stamp, self._waveform.encode(points, stamp))
         for sensor, vibration in enumerate(block.vibration):
             if not len(vibration.time_ns):
                 continue
@@ -200,7 +202,7 @@ class BlockEncoder:
             points = points_of(VIBRATION, vibration.sample, vibration.time_ns, stamp)
             fill(points, ACCELERATION_AXES, vibration.acceleration)
             cdr = self._vibration[sensor].encode(points, stamp)
-            yield _single(vibration_topic(sensor, self._sensor_names), stamp, cdr)
+            yield single(vibration_topic(sensor, self._sensor_names), stamp, cdr)
 
     def _snapshots(self, block: Block) -> Iterator[Batch]:
         times = block.snapshot_time_ns
@@ -212,17 +214,17 @@ class BlockEncoder:
         points["body"] = np.tile(np.arange(bodies), len(times))
         numbers = np.concatenate((block.body_pose, block.body_twist), axis=2).reshape(-1, 13)
         fill(points, POSE_AXES + TWIST_AXES, numbers)
-        yield _single("bodies", stamp, self._bodies.encode(points, stamp))
+        yield single("bodies", stamp, self._bodies.encode(points, stamp))
 
         snapshot, row, roller, kind = np.nonzero(np.any(block.contacts[..., 3:6] != 0.0, axis=-1))
         points = points_of(CONTACTS, 0, times[snapshot], stamp)
         points["sample"] = samples[snapshot]
         points["row"], points["roller"], points["kind"] = row, roller, kind
         fill(points, CONTACT_FIELDS, block.contacts[snapshot, row, roller, kind])
-        yield _single("contacts", stamp, self._contacts.encode(points, stamp))
+        yield single("contacts", stamp, self._contacts.encode(points, stamp))
 
 
-def block_diagnostic(block: Block) -> Diagnostic:
+def block_diagnostic(block: Block, name: str = USUAL_NAME) -> Diagnostic:
     """Report how a block was computed: real-time factor, status bits, energy residual, losses by source."""
     span = (block.end_ns - block.start_ns) * 1e-9
     values = [
@@ -234,7 +236,7 @@ def block_diagnostic(block: Block) -> Diagnostic:
         values.append(("energy_residual", f"{block.audit.residual:.3e}"))
         values += _losses(block.audit)
     sentence = "running" if block.status == 0 else f"the model left its validity, status {block.status}"
-    return Diagnostic("beardyn twin", 0 if block.status == 0 else 2, sentence, tuple(values))
+    return Diagnostic(name, 0 if block.status == 0 else 2, sentence, tuple(values))
 
 
 def loss_key(source: str) -> str:

@@ -11,6 +11,7 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.edge import INTERNAL, SEED, At
 from beardyn_core.effects import EffectSet
+from beardyn_core.scene.axleboxes import Axleboxes
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
 from beardyn_core.scene.mounting import Mounting
@@ -96,6 +97,9 @@ class Scene:
     ] = None
     mounting: A[Mounting, "axlebox on its suspension, and the journal in it"] = Mounting()
     rows: A[Literal[1, 2], "2, or 1 for row 0 (inboard) alone"] = 2
+    axleboxes: A[
+        Axleboxes | None, "all boxes of a wheelset, a bogie, a car or a train at once; left out: one box"
+    ] = None
     missing_rollers: A[tuple[MissingRoller, ...], "rollers that are not there"] = ()
     defects: A[tuple[Defect, ...], "patches, a roller of another diameter, worn pockets"] = ()
     waviness: A[tuple[Waviness, ...], "harmonics of raceways and rollers"] = ()
