@@ -58,7 +58,8 @@ def simulate(
     Returns
     -------
     Run
-        Of a scene with ``axleboxes`` that of the first one; every one is in its ``boxes``, by name. Its ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its range of
+        Of a scene with ``axleboxes`` that of the first one; every one is in its ``boxes``, by name. Its
+        ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its range of
         validity; the arrays end there.
 
     Warns
@@ -79,9 +80,7 @@ def simulate(
     with files_read() as inputs:
         made = scene if isinstance(scene, Scene) and untouched else make_scene(scene, **asked)  # type: ignore[arg-type]
     inputs += files_of(made)
-    if record is not None and (
-        problems := recording_problems("", Path(record), inputs=inputs, force=force)
-    ):
+    if record is not None and (problems := recording_problems("", Path(record), inputs=inputs, force=force)):
         raise InputError(problems)
     for doubt in made.doubts:
         warnings.warn(doubt, stacklevel=2)
@@ -107,7 +106,9 @@ def simulate(
 
 def _train(scene: Scene, record: Path | str | None, force: bool, progress: bool) -> Run:
     """Simulate all axleboxes of a scene; see `simulate`."""
-    sink = None if record is None else TrainSink(record, replace=force)
+    assert scene.axleboxes is not None
+    pictures = scene.axleboxes.pictures
+    sink = None if record is None else TrainSink(record, replace=force, pictures=pictures)
     boxes = train_run.start(scene)
     with _bar(scene.duration, progress) as shown:
 

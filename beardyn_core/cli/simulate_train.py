@@ -33,7 +33,8 @@ def run(scene: Scene, args: argparse.Namespace) -> int:
     print(f"beardyn: {scene.name}, {count} axleboxes, {scene.purpose}", file=sys.stderr)
     tell_doubts(scene)
     boxes = train_run.start(scene)
-    sink = None if args.output is None else TrainSink(args.output, replace=args.force)
+    pictures = scene.axleboxes.pictures
+    sink = None if args.output is None else TrainSink(args.output, replace=args.force, pictures=pictures)
     bar_format = "{desc} {bar} {n:.2f}/{total:.2f} s [{elapsed}<{remaining}]"
     with tqdm(
         total=scene.duration, desc="simulated", bar_format=bar_format, disable=None, leave=False
@@ -102,8 +103,8 @@ def text(done: TrainRun, recording: Path | None) -> str:
         *([("not in this tier", ", ".join(first.not_in_tier))] if first.not_in_tier else []),
         (
             "simulated",
-            f"{done.duration:.2f} s of {len(summaries)} axleboxes in {done.wall_time:.2f} s, real-time factor "
-            f"{done.real_time_factor:.2f}, {1e3 * share:.1f} ms of processor for a second of one",
+            f"{done.duration:.2f} s of {len(summaries)} axleboxes in {done.wall_time:.2f} s, real-time "
+            f"factor {done.real_time_factor:.2f}, {1e3 * share:.1f} ms of processor for a second of one",
         ),
     ]
     if recording is not None and recording.exists():

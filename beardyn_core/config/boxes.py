@@ -59,6 +59,7 @@ def mirrored(scene: Scene) -> Scene:
             box_centre=_turned(mounting.box_centre),
             suspension_centre=_turned(mounting.suspension_centre),
             load_offset=_turned(mounting.load_offset),
+            side="left" if mounting.side == "right" else "right",
         ),
         sensors=tuple(map(_mirrored_sensor, scene.sensors)),
         effects=_with_mirrored_box(scene.effects),

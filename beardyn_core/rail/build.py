@@ -207,7 +207,7 @@ def _quarter_vehicle(
             tilt = tilt + besides.sway.flexing.tilt
         slow = decimated(tilt, 1, thinning_kernel(_TILT_FACTOR))
         moment = tilting_moment(slow, mounting, 1.0 / RIDE_RATE)
-        wrench[:, 3] = moment[::factor][:count]
+        wrench[:, 3] = (-1.0 if mounting.side == "right" else 1.0) * moment[::factor][:count]
     return sampled_load(wrench, speed / (0.5 * operation.wheel_diameter), bogie, round(1e9 / rate))
 
 

@@ -85,7 +85,7 @@ class ChunkWriter(Writer):
         builder: RecordBuilder = self._Writer__chunk_builder.record_writer  # type: ignore[attr-defined]
         return builder
 
-    def _Writer__finalize_chunk(self) -> None:  # noqa: N802 (takes the place of the library's)
+    def _Writer__finalize_chunk(self) -> None:
         """Write the chunk in progress, if it has a message, and the index of each of its channels."""
         if not self._indexes:
             return

@@ -154,13 +154,13 @@ class BlockEncoder:
             for stamp, row in zip(batch.stamps_ns.tolist(), batch.rows, strict=True):
                 yield batch.topic, stamp, row.tobytes()
 
-    def batches(self, block: Block) -> Iterator[Batch]:
-        """Encode a block as messages, those of a topic together."""
+    def batches(self, block: Block, pictures: bool = True) -> Iterator[Batch]:
+        """Encode a block as messages, those of a topic together; bodies and contacts if asked for."""
         if len(block.trend_time_ns):
             yield from self._trend(block)
         if len(block.waveform_time_ns):
             yield from self._waveforms(block)
-        if len(block.snapshot_time_ns):
+        if pictures and len(block.snapshot_time_ns):
             yield from self._snapshots(block)
         if block.temperature is not None and block.index % TEMPERATURE_EVERY == 0:
             stamp = np.array([block.end_ns], dtype=np.int64)

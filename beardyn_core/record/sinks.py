@@ -114,16 +114,18 @@ class TrainSink:
     ----------
     replace : bool
         See `McapSink`.
+    pictures : bool
+        Whether bodies and contacts are recorded.
     """
 
-    def __init__(self, path: Path | str, *, replace: bool = False) -> None:
+    def __init__(self, path: Path | str, *, replace: bool = False, pictures: bool = True) -> None:
         self._path = Path(path)
-        self._replace = replace
+        self._replace, self._pictures = replace, pictures
         self._writer: McapWriter | None = None
 
     def open(self, runs: Mapping[str, RunDescription]) -> None:
         """Create the file."""
-        self._messages = {box: RunMessages(run, box) for box, run in runs.items()}
+        self._messages = {box: RunMessages(run, box, self._pictures) for box, run in runs.items()}
         self._writer = McapWriter(self._path, f"/{next(iter(runs))}", replace=self._replace)
 
     def encode(self, box: str, block: Block) -> list[Batch]:
@@ -150,10 +152,12 @@ class RunMessages:
     ----------
     box : str
         Name of one axlebox of several, whose topics then have a namespace of their own.
+    pictures : bool
+        Whether bodies and contacts are among them.
     """
 
-    def __init__(self, run: RunDescription, box: str = "") -> None:
-        self._run, self._box, self._frame = run, box, box or FRAME
+    def __init__(self, run: RunDescription, box: str = "", pictures: bool = True) -> None:
+        self._run, self._box, self._frame, self._pictures = run, box, box or FRAME, pictures
         self._encoder = BlockEncoder(run.roller_count, run.sensor_names, self._frame)
         self._load_written = 0
         self._first = True
@@ -169,7 +173,7 @@ class RunMessages:
             self._first = False
             yield single("truth", block.start_ns, encode_string(self._run.to_json()))
         yield from self._load(block.end_ns)
-        yield from self._encoder.batches(block)
+        yield from self._encoder.batches(block, self._pictures)
         count = (block.end_ns - block.start_ns) // BLOCK_NS
         if -block.index % DIAGNOSTICS_EVERY < count or block.status != 0:
             status = block_diagnostic(block, f"{self._box}/twin" if self._box else USUAL_NAME)

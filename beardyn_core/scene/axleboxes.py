@@ -43,6 +43,9 @@ class Axleboxes:
         "boxes that have the defects and missing rollers of the scene and, on their wheels, the "
         "wheel_defects; the others are sound",
     ] = ("axle_1_left",)
+    pictures: A[
+        bool, "record bodies and contacts of every box, which ``view`` draws: about half of the file"
+    ] = True
 
     @property
     def boxes(self) -> tuple[Box, ...]:

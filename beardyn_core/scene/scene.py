@@ -27,8 +27,6 @@ QUANTITIES = ("force", "deflection", "roller_load", "torque", "vibration", "cage
 USUAL_QUANTITIES = QUANTITIES[:-1]
 EFFECTS = tuple(field.name for field in fields(EffectSet))
 
-# options of the rib that only the full tier has
-_FULL_RIB_OPTIONS = ("lubrication", "roller_end", "drilling")
 
 
 @dataclass(frozen=True)
@@ -192,8 +190,9 @@ class Scene:
     def missing_effects(self) -> tuple[str, ...]:
         """Names of the effects and options that are asked for and that the tier does not represent."""
         rib = self.effects.rib
-        options = () if rib is None else (name for name in _FULL_RIB_OPTIONS if getattr(rib, name))
-        return missing_effects(self.tier, (*self.effect_names, *(f"rib.{name}" for name in options)))
+        # the contact beyond the rim of a roller end; film and drilling are in the torque of every tier
+        beyond_rim = ("rib.roller_end",) if rib is not None and rib.roller_end else ()
+        return missing_effects(self.tier, (*self.effect_names, *beyond_rim))
 
 
 @dataclass(frozen=True)
