@@ -167,7 +167,7 @@ def kinematic_params(scene: Scene) -> KinematicParams:
 
 
 def _pocket_params(scene: Scene) -> PocketParams | None:
-    """Work out the friction of the pockets; none where there is no cage, or one that only prescribes a speed."""
+    """Work out the friction of the pockets; none without a cage, or with a prescribed one."""
     cage, bearing = scene.effects.cage, scene.bearing
     if cage is None or isinstance(cage, KinematicCage):
         return None

@@ -28,7 +28,6 @@ USUAL_QUANTITIES = QUANTITIES[:-1]
 EFFECTS = tuple(field.name for field in fields(EffectSet))
 
 
-
 @dataclass(frozen=True)
 class Numerics:
     """Discretisation of a run."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import signal
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -254,6 +255,41 @@ def test_load_of_a_car_refuses_what_it_cannot_do(graph: Graph) -> None:
         assert graph.exit_code(name) == 2
         assert word in graph.processes.log(name)
         assert "Traceback" not in graph.processes.log(name)
+
+
+def test_twins_of_a_car_refuse_boxes_that_there_are_not(graph: Graph) -> None:
+    graph.start("twins", "beardyn_ros", "car_twin", boxes="axle_1_left", faulty="axle_2_left")
+    assert graph.exit_code("twins") == 2
+    assert "faulty has axle_2_left; the boxes are axle_1_left" in graph.processes.log("twins")
+
+
+@pytest.mark.slow
+def test_twins_of_several_boxes_run_in_one_process(graph: Graph) -> None:
+    from beardyn_core.choice import load_scene
+    from beardyn_core.config.boxes import scene_of_box
+    from beardyn_core.twin import Twin
+
+    boxes = "axle_1_left axle_1_right"
+    car = Axleboxes(axles=4, faulty=("axle_1_right",))
+    scene = replace(load_scene("cup_spall", tier="lumped", effects="standard"), axleboxes=car)
+    for box in car.boxes[:2]:
+        Twin(scene_of_box(scene, box)).warm()
+    graph.start(
+        "twins", "beardyn_ros", "car_twin",
+        boxes=boxes, scene="cup_spall", tier="lumped", effects="standard", faulty="axle_1_right",
+    )  # fmt: skip
+    output = str(graph.folder / "car.mcap")
+    graph.start("recorder", "beardyn_ros", "car_recorder", boxes=boxes, output=output)
+    graph.start(
+        "load", "beardyn_ros", "car_load", boxes=boxes, scene="cup_spall", duration=0.5, axle_distance=0.0
+    )
+    for name in ("twins", "recorder"):
+        graph.until(lambda name=name: graph.processes.exit_code(name) is not None, name, timeout=200.0)
+        assert graph.exit_code(name) == 0, graph.processes.log(name)
+    for name in boxes.split():
+        run = read_run(graph.folder / f"car_{name}.mcap")
+        assert len(run.vibration) > 24 * 512  # less what the filter of the sensor looks ahead
+        assert [fault["row"] for fault in run.truth["faults"]] == ([1] if name == "axle_1_right" else [])
 
 
 @pytest.mark.slow

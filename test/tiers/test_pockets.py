@@ -50,7 +50,7 @@ def test_idle_rollers_rub_in_their_pockets(tier: str) -> None:
         drag = law.orbit * (cage_speed(bearing, speed) * 0.5 * bearing.pitch_diameter) ** 2
     slide = roller_spin(bearing, speed) * 0.5 * bearing.roller_diameter
     power = 2.0 * 0.5 * idle * (weight + drag) * slide
-    # drag acts at the mass centre, 0.2 % further out than the pitch circle; loads are looked at 200 times a second
+    # drag acts at the mass centre, 0.2 % further out than the pitch circle; loads are those at 200 Hz
     assert other - one == pytest.approx(power / speed, rel=0.02)
 
 
