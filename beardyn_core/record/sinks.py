@@ -96,15 +96,19 @@ class McapSink:
 
     def write(self, block: Block) -> None:
         """Append the messages of a block."""
-        if self._writer is None:
-            raise RuntimeError("McapSink.write before McapSink.open")
+        writer = self._opened()
         for batch in self._messages.of(block):
-            self._writer.add_rows(*batch)
+            writer.add_rows(*batch)
 
     def close(self, status: str = "") -> None:
         """Finish the file."""
         if self._writer is not None:
             self._writer.close(status)
+
+    def _opened(self) -> McapWriter:
+        if self._writer is None:
+            raise RuntimeError("McapSink.write before McapSink.open")
+        return self._writer
 
 
 class TrainSink:

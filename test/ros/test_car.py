@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import signal
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -263,6 +264,10 @@ def test_twins_of_a_car_refuse_boxes_that_there_are_not(graph: Graph) -> None:
     assert "faulty has axle_2_left; the boxes are axle_1_left" in graph.processes.log("twins")
 
 
+def _has_ended(graph: Graph, name: str) -> bool:
+    return graph.processes.exit_code(name) is not None
+
+
 @pytest.mark.slow
 def test_twins_of_several_boxes_run_in_one_process(graph: Graph) -> None:
     from beardyn_core.choice import load_scene
@@ -284,7 +289,7 @@ def test_twins_of_several_boxes_run_in_one_process(graph: Graph) -> None:
         "load", "beardyn_ros", "car_load", boxes=boxes, scene="cup_spall", duration=0.5, axle_distance=0.0
     )
     for name in ("twins", "recorder"):
-        graph.until(lambda name=name: graph.processes.exit_code(name) is not None, name, timeout=200.0)
+        graph.until(partial(_has_ended, graph, name), name, timeout=200.0)
         assert graph.exit_code(name) == 0, graph.processes.log(name)
     for name in boxes.split():
         run = read_run(graph.folder / f"car_{name}.mcap")
