@@ -136,9 +136,7 @@ def cage(evidence: Evidence) -> Rule:
         taken = evidence.torque_share(0.25 * drive.needed * scene.bearing.pitch_diameter)
         loss = {**left, "torque": left["torque"] + taken, "vibration": knock, **speed}
         found.append(alternative("kinematic", KinematicCage(), prescribed, loss, FULL))
-    # of the pockets the fast tiers have about this torque: about half of what there is
-    friction = {**left, "vibration": knock, **speed}
-    found.append(alternative("torque of the pockets", effect, 0.001, friction, FAST))
+    found.append(alternative("off", None, 0.001, {**left, "vibration": knock, **speed}, FAST))
     return Rule("cage", tuple(found))
 
 
