@@ -216,14 +216,13 @@ def sliding_torque(load, speeds, p, rib):
 
 
 @inline
-def pocket_torque(cone_load, speeds, k, drag):
+def pocket_torque(cone_load, speeds, k, drag, pocket):
     """Work out the torque of the pockets of a block of rollers, along the shaft's rotation, [N m].
 
     A roller that the cone does not press is pushed round by its bar, against the medium and its weight; what
     it takes another roller in the load zone gives to its own bar. Neglects what ribs and rolling resistance
     drive or brake idle rollers with, and the rattle of those that the load holds.
     """
-    pocket = k.pocket
     if pocket is None:
         return 0.0 * cone_load
     push = pocket.weight + drag_push(speeds, k, drag)
