@@ -20,6 +20,7 @@ from beardyn_core.kernels.kinematic_rollers import (
     RIB_SUM,
     TORQUE_RIB,
     TORQUE_ROLLING,
+    pocket_torque,
     rolling_torque,
     row_totals,
     show_contacts,
@@ -203,7 +204,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
 @inline
 def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, p):
     """Sum by row what is held for a while, torques and stiffness; call it after `load_rollers`."""
-    effects = p.base.effects
+    effects, k = p.base.effects, p.kinematic
     wave = approach_waves(lanes, motion, direction, p)[0]
     idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
     rolling, sliding = zero, zero
@@ -213,6 +214,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         load, counted = lanes.load(trend, block, 0), lanes.load(p.pockets, block, COUNTED)
         loads = cup_cone_rib(load, speeds, p)
         rolling = rolling + counted * rolling_torque(loads, speeds, p.kinematic, effects.rolling)
+        rolling = rolling + counted * pocket_torque(loads[1], speeds, k, effects.drag, k.pocket)
         sliding = sliding + counted * sliding_torque(loads[2], speeds, p, effects.rib)
         approach = wave[0] * cosine + (wave[1] * sine + wave[2])
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
