@@ -12,6 +12,7 @@ demo             the main job in one go
 scenes           what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are
 new              a copy of a shipped file to start from
 simulate         a desk run
+simulate_train   the same of several axleboxes at once
 import_          a recording of measured files
 measured_options options of measured files and name plates, from their declarations
 explain          which effects a scene is computed with, why, and what each costs

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.interrupts import last_words
 
 
@@ -34,6 +34,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="signals, with commas between: vibration, force, force_waveform, shaft, torque, cages, "
         "rollers, bodies, contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
     )
+    add_box(parser)
     add_force(parser)
     add_json(parser)
     parser.set_defaults(run=run)
@@ -50,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.record.reading import read_run
 
     with last_words(lambda: "nothing has been written"):
-        recording = read_run(args.recording)
+        recording = read_run(args.recording, args.box)
     if recording.problem:
         print(f"{recording.problem}; writing what is there", file=sys.stderr)
     names = _names(args)

@@ -14,6 +14,7 @@ scene_file   what a scene file says otherwise than its nouns; presets of effects
 problems     refusals to sentences with file, key, value, what is allowed
 automatic    what `auto` leaves open
 missing      rows and rollers that are not there
+boxes        the scene of one axlebox of several; a scene mirrored
 nouns        files of one noun: bearings, lubricants, boxes, effects, trials
 load         scenes: references resolved, every mistake found
 plates       name plates by name
