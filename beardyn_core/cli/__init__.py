@@ -26,6 +26,8 @@ bearing          static answers about one bearing
 structure        modes of an axlebox
 trial            a monitor over a matrix of scenes
 contacts         the contact laboratory
+sweep            sets of labelled runs over a population of bearings
+baseline         a simple learner on such a set
 schema           JSON schemas for editors
 ================ ========================================================================
 """

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
         load_lubricant,
         load_sensor,
         load_vehicle,
+        read_sweep,
         read_trial,
     )
     from beardyn_core.config.plates import load_plate
@@ -54,6 +55,7 @@ __all__ += [
     "read_scene",
     "read_scene_mapping",
     "read_scene_text",
+    "read_sweep",
     "read_trial",
     "scene_text",
     "shipped_names",

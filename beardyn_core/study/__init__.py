@@ -10,6 +10,7 @@ summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 code_digest         hashes of the code of a monitor and of the simulator
+compiling           kernels compiled once on a machine, whatever processes want them
 trial               its runs with a monitor beside each, kept and taken up again
 trial_result        rates with intervals, smallest sizes
 trial_report        a trial as table and JSON
