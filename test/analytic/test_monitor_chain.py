@@ -10,9 +10,10 @@ from scipy.stats import binomtest
 
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
-from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score, trimmed_tail
+from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram
 from beardyn_core.observe.chain.levels import levels_of, rise
+from beardyn_core.observe.chain.surprise import trimmed_tail
 from beardyn_core.observe.chain.verdict import Verdict, strongest_pattern, temperature_state
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors, without_wheel
 from beardyn_core.observe.features import analytic_band, order_spectrum

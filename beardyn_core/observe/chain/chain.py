@@ -1,9 +1,9 @@
-"""The chain: five plain functions in the order of the data, each of which can be replaced."""
+"""The chain: six plain functions in the order of the data, each of which can be replaced."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
@@ -12,12 +12,13 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
+from beardyn_core.observe.chain.kurtogram import Band
 from beardyn_core.observe.chain.levels import levels_of, rise
+from beardyn_core.observe.chain.loudness import with_loudness
 from beardyn_core.observe.chain.result import MonitorResult
+from beardyn_core.observe.chain.tracking import logarithm_by_angle
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
-from beardyn_core.observe.chain.wheel import quiet_samples, struck_sectors, without_wheel
-from beardyn_core.observe.features import resample_by_angle
+from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
 
 _RATE_TOLERANCE = 1e-3  # of a rate that is known from time stamps
 
@@ -38,31 +39,12 @@ def squared_envelope(stretch: Stretch, band: Band) -> Float:
     return stretch.squared_envelope((band.low, band.high))
 
 
-def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float:
-    """Resample power over equal steps of the shaft angle, whole revolutions, less the wheel's own part.
-
-    Parameters
-    ----------
-    power : float64 array, shape [sample]
-        Squared envelope.
-
-    Returns
-    -------
-    float64 array, shape [step]
-    """
-    count = settings.samples_per_revolution
-    steps = resample_by_angle(power, stretch.shaft_angle, count)
-    whole = len(steps) // count
-    struck = struck_sectors(stretch, settings)
-    return without_wheel(steps[: whole * count].reshape(whole, count), struck).reshape(-1)
-
-
 Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorResult]
 
 
 @dataclass(frozen=True)
 class Chain:
-    """A monitoring algorithm in five steps; calling it analyses a stretch.
+    """A monitoring algorithm in six steps; calling it analyses a stretch.
 
     References
     ----------
@@ -70,12 +52,15 @@ class Chain:
     Process. 25: the same order of steps.
     """
 
-    select_band: A[Callable[[Stretch, MonitorSettings], Band], "where to listen"] = by_kurtogram
+    select_band: A[Callable[[Stretch, MonitorSettings], Band], "where to listen"] = whole_band
+    whiten: A[Callable[[Stretch, MonitorSettings], Stretch], "the same with a weight for every frequency"] = (
+        by_cepstrum
+    )
     envelope: A[Callable[[Stretch, Band], Float], "shape [sample], how loud it is there"] = squared_envelope
     track: A[
         Callable[[Float, Stretch, MonitorSettings], Float],
-        "shape [step], the same evenly over the angle of the shaft",
-    ] = by_angle
+        "shape [step], how loud it is evenly over the angle of the shaft",
+    ] = logarithm_by_angle
     score: A[
         Callable[[Float, FaultFrequencies, int, float, MonitorSettings], FaultLines],
         "how much of it is on the lines of each fault",
@@ -106,11 +91,11 @@ class Chain:
                 revolutions=stretch.revolutions,
             )
         band = self.select_band(stretch, settings)
-        power = self.envelope(stretch, band)
+        power = self.envelope(self.whiten(stretch, settings), band)
         tracked = self.track(power, stretch, settings)
-        found = self.score(tracked, orders, roller_count, speed, settings)
-        beside = np.where(quiet_samples(stretch, settings), power, 0.0)[stretch.inner]
-        found = replace(found, power=float(np.mean(beside)))
+        found = with_loudness(
+            self.score(tracked, orders, roller_count, speed, settings), stretch, band, settings
+        )
         verdict = self.decide(found, stretch, settings)
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         cup, cone, roller = found.candidates
