@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields
 from math import isfinite, nan
 from typing import Annotated as A
@@ -205,13 +205,13 @@ class MonitoredRecording(McapSink):
             self._on_finding(finding)
 
 
-def findings_of(
+def results_of(
     run: Run,
     bearing: Bearing | NamePlate,
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
     sensor: str = "",
-) -> list[Finding]:
+) -> Iterator[MonitorResult]:
     """Let a monitor, ours or another, analyse a finished run, as it would have done beside it.
 
     The bearing is what the name plate says; the sensor is the first one by default.
@@ -224,4 +224,15 @@ def findings_of(
     if not len(run.vibration) or not len(run.shaft):
         raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
     monitor = Monitor(bearing.frequencies, bearing.roller_count, settings=settings, algorithm=algorithm)
-    return [Finding.of(result) for result in listen(monitor, run.monitor_inputs(sensor))]
+    yield from listen(monitor, run.monitor_inputs(sensor))
+
+
+def findings_of(
+    run: Run,
+    bearing: Bearing | NamePlate,
+    algorithm: Algorithm = REFERENCE,
+    settings: MonitorSettings | None = None,
+    sensor: str = "",
+) -> list[Finding]:
+    """Give the findings of `results_of`."""
+    return [Finding.of(result) for result in results_of(run, bearing, algorithm, settings, sensor)]

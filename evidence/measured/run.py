@@ -24,6 +24,7 @@ from beardyn_core.observe.monitoring import Monitor
 from evidence.measured.cases import Listening, Record, listenings
 
 SECONDS = 0.5  # of a block that a monitor gets at once
+INTERVAL = 1.0  # between two analyses, [s]
 NO_ANALYSIS = ("waiting",)
 
 
@@ -79,6 +80,7 @@ def verdicts_of(
     heard: Listening, algorithm: Algorithm, settings: MonitorSettings | None = None
 ) -> dict[str, int]:
     """Feed a record to a monitor block by block, as a train would, and count its verdicts."""
+    settings = settings or MonitorSettings(interval=INTERVAL)
     monitor = Monitor(heard.plate.frequencies, heard.plate.roller_count, heard.rate, settings, algorithm)
     count = len(heard.acceleration)
     time_ns = np.round(np.arange(count) * (1e9 / heard.rate)).astype(np.int64)

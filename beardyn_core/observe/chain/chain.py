@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
 
 import numpy as np
@@ -37,6 +37,15 @@ def squared_envelope(stretch: Stretch, band: Band) -> Float:
     Process. 25, section 4.3: the squared envelope has no harmonics of its own making.
     """
     return stretch.squared_envelope((band.low, band.high))
+
+
+def live_axes(stretch: Stretch) -> tuple[Stretch, str]:
+    """Leave out the axes whose signal does not change, and name them by their number from 1 on."""
+    live = np.ptp(stretch.acceleration, axis=0) > 0.0
+    if live.all():
+        return stretch, ""
+    dead = ", ".join(str(axis + 1) for axis in np.flatnonzero(~live))
+    return replace(stretch, acceleration=stretch.acceleration[:, live]), dead
 
 
 Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorResult]
@@ -90,6 +99,15 @@ class Chain:
                 shaft_frequency=speed,
                 revolutions=stretch.revolutions,
             )
+        stretch, dead = live_axes(stretch)
+        if not stretch.acceleration.shape[1]:
+            return MonitorResult(
+                "waiting",
+                "the accelerometer is dead: its signal does not change",
+                stretch.end_ns,
+                shaft_frequency=speed,
+                revolutions=stretch.revolutions,
+            )
         band = self.select_band(stretch, settings)
         power = self.envelope(self.whiten(stretch, settings), band)
         tracked = self.track(power, stretch, settings)
@@ -102,7 +120,7 @@ class Chain:
         best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
         return MonitorResult(
             verdict=verdict.name,
-            reason=verdict.reason,
+            reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",
             end_ns=stretch.end_ns,
             fault_order=best.order if called else np.nan,
             fault_frequency=best.order * speed if called else np.nan,

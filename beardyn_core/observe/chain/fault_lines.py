@@ -52,6 +52,7 @@ class Pattern:
     sideband_symbol: str
     sidebands: A[int, "how many on each side are added up"]
     explained: A[int, "how many on each side may belong to the fault"]
+    divided: A[int, "lines at this part of the order belong to the fault as well"] = 1
 
     def lines(self, harmonics: int) -> list[tuple[int, int]]:
         """List harmonic and sideband number of each line."""
@@ -103,7 +104,7 @@ def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
     return (
         Pattern("cup", "BPFO", orders.bpfo, 1.0, "shaft", 0, 1),
         Pattern("cone", "BPFI", orders.bpfi, 1.0, "shaft", 1, 4),
-        Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4),
+        Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4, 2),
     )
 
 
@@ -160,7 +161,9 @@ def _lay(
     count = len(places)
     independent = max(1.0, PLACES_PER_RESOLUTION * 2.0 * half * harmonics / resolution)
     sure = evidence(float(summed[best]), count, independent * len(FAULTS))
-    known = explained(spectrum.order, order, pattern.sideband, pattern.explained, resolution)
+    known = explained(
+        spectrum.order, order / pattern.divided, pattern.sideband, pattern.explained, resolution
+    )
     lines = []
     for h, k in places.tolist():
         where = h * order + k * pattern.sideband

@@ -21,7 +21,8 @@ class Rival:
     """The evenly spaced lines that are most surprising among those which a candidate does not explain."""
 
     order: A[float, "of the fundamental, [-]"] = np.nan
-    evidence: A[float, "against chance, [nat]"] = -inf
+    evidence: A[float, "of all its lines against chance, [nat]"] = -inf
+    own: A[float, "of those alone which the candidate does not explain, [nat]"] = -inf
 
 
 def reach(order: Float, resolution: float) -> Float:
@@ -43,7 +44,8 @@ def strongest_rival(spectrum: OrderSpectrum, power: Float, known: Bool, harmonic
     """Slide a comb of harmonics over all fundamentals and keep the most surprising one.
 
     A bearing beside the one that is judged, a gear or a fan strikes as evenly as a spall does, and some lines
-    of its comb lie near those of any pattern. Where it explains more, the pattern is no evidence.
+    of its comb lie near those of any pattern. Where it explains more, the pattern is no evidence. It is
+    sought in what the pattern leaves over, for a fault has combs at parts of its order as well.
 
     Parameters
     ----------
@@ -68,4 +70,11 @@ def strongest_rival(spectrum: OrderSpectrum, power: Float, known: Bool, harmonic
     total -= largest
     best = int(np.argmax(total))
     places = PLACES_PER_RESOLUTION * (highest - _LOWEST) * harmonics / spectrum.resolution
-    return Rival(float(trial[best]), evidence(float(total[best]), harmonics, places))
+    index = np.rint(trial[best] * np.arange(1, harmonics + 1) / spectrum.order[1]).astype(np.int64)
+    line = power[np.minimum(index, len(power) - 1)]
+    whole = float(line.sum() - line.max())
+    return Rival(
+        float(trial[best]),
+        evidence(whole, harmonics, places),
+        evidence(float(total[best]), harmonics, places),
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isnan
+from math import isnan, log
 from typing import Annotated as A
 
 from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines
@@ -28,13 +28,14 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
     """Report the fault with most evidence if that passes its threshold, unless a rival explains more.
 
     What is below `least_burst` and `least_depth` is faint and no fault, however sure it is that it is there.
-    A rival are evenly spaced lines which the fault does not explain, of another bearing, a gear or a fan:
-    some of them always lie near those of a fault. A hot box is called whatever the lines say; it leaves a
-    fault its name.
+    A rival are evenly spaced lines of another bearing, a gear or a fan, no chance where the fault does not
+    explain them: some of them always lie near those of a fault. A hot box is called whatever the lines say;
+    it leaves a fault its name.
     """
     heard = [each for each in found.candidates if not _is_faint(each, found.power, settings)]
     best = max(heard or found.candidates, key=lambda candidate: candidate.evidence)
-    contradicted = best.rival.evidence > best.evidence
+    chance = -log(settings.false_alarm_rate)
+    contradicted = best.rival.own > chance and best.rival.evidence > best.evidence
     state = temperature_state(stretch.temperature, stretch.heating, settings)
     if heard and best.score >= best.threshold and not contradicted:
         name, reason = best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency)
@@ -83,9 +84,7 @@ def _healthy_sentence(best: Candidate, contradicted: bool) -> str:
     scores = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
     if best.score >= best.threshold:
         if contradicted:
-            return (
-                f"no fault: {scores}, but multiples of order {best.rival.order:.3f} are surer and no part's"
-            )
+            return f"no fault: {scores}, but multiples of order {best.rival.order:.3f} are surer"
         return f"no fault: {scores}, but with {best.burst:.2g} m/s² it is too faint"
     return f"no fault: {scores}"
 
