@@ -128,7 +128,7 @@ class Tally:
         self.latest: Finding | None = None
         self.analyses = 0
         self._counts: Counter[str] = Counter()
-        self._last: dict[str, Finding] = {}
+        self._last: dict[str, Finding] = {}  # the one that came last at the end
 
     def add(self, finding: Finding) -> None:
         """Count a finding."""
@@ -136,13 +136,18 @@ class Tally:
         self.analyses += 1
         if finding.verdict != WAITING:
             self._counts[finding.verdict] += 1
+            self._last.pop(finding.verdict, None)
             self._last[finding.verdict] = finding
 
     def conclusion(self) -> Conclusion:
-        """Find the most frequent verdict; results before there was enough signal do not count."""
+        """Find the most frequent verdict, of equally frequent ones the later, which has heard more.
+
+        Results before there was enough signal do not count.
+        """
         if not self._counts:
             return Conclusion(None, 0, 0)
-        verdict, agreeing = self._counts.most_common(1)[0]
+        agreeing = max(self._counts.values())
+        verdict = [name for name in self._last if self._counts[name] == agreeing][-1]
         return Conclusion(self._last[verdict], agreeing, self._counts.total())
 
 

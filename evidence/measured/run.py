@@ -50,7 +50,7 @@ class Heard:
     end: A[str, "of the machine, '' when it has one bearing"]
     part: A[str, "that is faulty, '' when sound"]
     method: str
-    verdicts: A[Mapping[str, int], "analyses with each verdict"]
+    verdicts: A[Mapping[str, int], "analyses with each verdict, the one that came last at the end"]
 
     @property
     def analyses(self) -> int:
@@ -59,9 +59,10 @@ class Heard:
 
     @property
     def verdict(self) -> str:
-        """The verdict of most of them, as ``beardyn monitor`` sums up."""
-        answers = Counter({name: n for name, n in self.verdicts.items() if name not in NO_ANALYSIS})
-        return answers.most_common(1)[0][0] if answers else "waiting"
+        """The verdict of most of them, of as many the later one, as ``beardyn monitor`` sums up."""
+        answers = {name: count for name, count in self.verdicts.items() if name not in NO_ANALYSIS}
+        most = max(answers.values(), default=0)
+        return [name for name, count in answers.items() if count == most][-1] if answers else "waiting"
 
     @property
     def alarms(self) -> int:
@@ -84,17 +85,17 @@ def verdicts_of(
     monitor = Monitor(heard.plate.frequencies, heard.plate.roller_count, heard.rate, settings, algorithm)
     count = len(heard.acceleration)
     time_ns = np.round(np.arange(count) * (1e9 / heard.rate)).astype(np.int64)
-    angle = 2.0 * np.pi * heard.shaft_frequency * np.arange(count) / heard.rate
+    angle = np.asarray(2.0 * np.pi * heard.shaft_frequency * np.arange(count) / heard.rate, np.float64)
     block = int(SECONDS * heard.rate)
-    found: Counter[str] = Counter()
+    found: dict[str, int] = {}
     for first in range(0, count, block):
         here = slice(first, first + block)
         monitor.push_vibration(time_ns[here], heard.acceleration[here])
         monitor.push_shaft(time_ns[here], angle[here])
         result = monitor.update()
         if result is not None:
-            found[result.verdict] += 1
-    return dict(found)
+            found[result.verdict] = found.pop(result.verdict, 0) + 1
+    return found
 
 
 def run(
