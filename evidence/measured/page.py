@@ -57,12 +57,12 @@ twice: the faulty bearing with its own accelerometer, and the sound one at the o
 
 **Chosen and judged apart.** Whitening, logarithm and rivals were chosen on CWRU at 12 kHz, drive end, all
 of it; the floor of the logarithm also on MFPT, where one of 14 had been missed. Faults of the fan end and
-the records of 48 kHz were not looked at before this page was written. What sets the rate of false alarms is
-not fitted: the threshold is that of noise, and a rival is compared with the fault. Tried on the same part and left, because less was
-found or more alarmed beside a faulty bearing: a band by kurtosis, halves and quarters of the band among
-which the fault lines choose, whitening by a smoothed spectrum with and without its tones clipped, the square
-of the envelope, windows twice as long, the strongest unexplained line as a further contradiction. Autogram,
-fast spectral coherence and blind deconvolution (CYCBD) were not tried.
+the records of 48 kHz were not looked at before the chain stood. What sets the rate of false alarms is not
+fitted: the threshold is that of noise, and a rival is compared with the fault. Tried on the same part and
+left, because less was found or more alarmed beside a faulty bearing: a band by kurtosis, halves and
+quarters of the band among which the fault lines choose, whitening by a smoothed spectrum with and without
+its tones clipped, the square of the envelope, windows twice as long, the strongest unexplained line as a
+further contradiction. Autogram, fast spectral coherence and blind deconvolution (CYCBD) were not tried.
 
 ## Right / another part called / missed
 

@@ -36,10 +36,12 @@ Cepstrum pre-whitening leaves the phase alone (Borghesani and others 2013); `kur
 1/3-binary tree of Antoni (2007), is there as another `select_band`. Order tracking takes out the mean over
 the revolutions at each angle of the wheel, which holds every whole order, and leaves out the sectors in
 which the wheel strikes in three of four revolutions: flats and polygons. A score adds five harmonics of
-BPFO, or of BPFI or 2 BSF with a sideband on both sides, less the strongest line. Evidence is how seldom noise
-has such a sum anywhere. A part is not called when a rival has more: a comb of five harmonics of any order
-that the part's lines and sidebands do not explain. [monitor_measured.md](monitor_measured.md) has what the
-chain says of measured bearings. The scores in the tables above are of the chain before whitening.
+BPFO, or of BPFI or 2 BSF with a sideband on both sides, less the strongest line. Evidence is how seldom
+noise has such a sum anywhere. A part is not called when a rival has more: a comb of five harmonics of any
+order that the part's lines and sidebands do not explain. What strikes like clockwork is tones, which
+whitening takes away; where nothing else is found and lines make {depth:g} of the power, it is sought as
+measured. [monitor_measured.md](monitor_measured.md) has what the chain says of measured bearings. The
+scores in the tables above are of the chain before whitening.
 
 The formula of BSF is that of the mean diameters, with the common apex of a tapered bearing exactly the
 speed of pure rolling. In `roller_spall` spin against cage over BSF is 1.000 in the fast tiers. In the

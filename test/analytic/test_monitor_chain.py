@@ -173,6 +173,18 @@ def test_a_loud_tone_and_a_loud_resonance_hide_no_fault() -> None:
     assert deaf(loud, ORDERS, ROLLERS, SETTINGS).verdict == "healthy"
 
 
+def test_a_fault_that_strikes_like_clockwork_is_heard_as_measured() -> None:
+    """Its strikes are tones, which whitening takes away."""
+    stretch = _stretch(None, 48, noise=0.1)
+    passing = ORDERS.bpfo * 19.2
+    since = np.mod(np.arange(len(stretch.shaft_angle)) / RATE * passing, 1.0) / passing
+    strikes = 60.0 * np.exp(-since / 8e-4) * np.sin(2.0 * np.pi * 3400.0 * since)
+    struck = replace(stretch, acceleration=stretch.acceleration + strikes[:, None])
+    found = REFERENCE(struck, ORDERS, ROLLERS, SETTINGS)
+    assert found.verdict == "cup", found.reason
+    assert REFERENCE(stretch, ORDERS, ROLLERS, SETTINGS).verdict == "healthy"
+
+
 def test_whitening_leaves_every_frequency_of_every_axis_the_same_power() -> None:
     stretch = _stretch("cup", 45)
     white = by_cepstrum(replace(stretch, acceleration=stretch.acceleration * [1.0, 1e-3, 1e3]), SETTINGS)

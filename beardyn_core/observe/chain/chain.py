@@ -16,7 +16,7 @@ from beardyn_core.observe.chain.kurtogram import Band
 from beardyn_core.observe.chain.levels import levels_of, rise
 from beardyn_core.observe.chain.loudness import with_loudness
 from beardyn_core.observe.chain.result import MonitorResult
-from beardyn_core.observe.chain.tracking import logarithm_by_angle
+from beardyn_core.observe.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
 from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
 
@@ -111,10 +111,18 @@ class Chain:
         band = self.select_band(stretch, settings)
         power = self.envelope(self.whiten(stretch, settings), band)
         tracked = self.track(power, stretch, settings)
-        found = with_loudness(
-            self.score(tracked, orders, roller_count, speed, settings), stretch, band, settings
-        )
+        found = self.score(tracked, orders, roller_count, speed, settings)
+        measured = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
+        found = with_loudness(found, measured, stretch, band, settings)
         verdict = self.decide(found, stretch, settings)
+        if verdict.name in (HEALTHY, HOT_BOX) and found.deepest >= settings.least_depth:
+            # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
+            # it is heard as measured
+            clockwork = self.score(measured, orders, roller_count, speed, settings)
+            clockwork = with_loudness(clockwork, measured, stretch, band, settings)
+            heard = self.decide(clockwork, stretch, replace(settings, least_burst=np.inf))
+            if heard.name not in (HEALTHY, HOT_BOX):
+                found, verdict = clockwork, heard
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         cup, cone, roller = found.candidates
         best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)

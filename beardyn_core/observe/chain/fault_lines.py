@@ -91,6 +91,7 @@ class FaultLines:
     strongest_order: A[float, "of the strongest line in the band of the fault lines, no whole order, [-]"]
     strongest_level: A[float, "of that line, [dB]"]
     power: A[float, "mean squared envelope beside strikes of the wheel, NaN when unknown, [m^2/s^4]"] = np.nan
+    deepest: A[float, "share of that power in the strongest line as measured, [-]"] = 0.0
 
 
 def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:

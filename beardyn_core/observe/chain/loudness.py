@@ -10,19 +10,19 @@ from beardyn_core.arrays import Float
 from beardyn_core.observe.chain.fault_lines import FaultLines
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band
-from beardyn_core.observe.chain.tracking import by_angle
 from beardyn_core.observe.chain.wheel import quiet_samples
 from beardyn_core.observe.features import order_spectrum
 
 
-def with_loudness(found: FaultLines, stretch: Stretch, band: Band, settings: MonitorSettings) -> FaultLines:
-    """Measure the candidates in the squared envelope of a band that was not whitened.
+def with_loudness(
+    found: FaultLines, tracked: Float, stretch: Stretch, band: Band, settings: MonitorSettings
+) -> FaultLines:
+    """Measure the candidates in the squared envelope of a band that was not whitened, tracked `by_angle`.
 
     The burst of a candidate is the fourth root of the mean square of its lines but the strongest. Beside it
     stands the mean power in the band where the wheel does not strike.
     """
     power = stretch.squared_envelope((band.low, band.high))
-    tracked = by_angle(power, stretch, settings)
     spectrum = order_spectrum(
         tracked, settings.samples_per_revolution, float(found.spectrum.order[-1]), settings.background_width
     )
@@ -35,4 +35,6 @@ def with_loudness(found: FaultLines, stretch: Stretch, band: Band, settings: Mon
     candidates = tuple(
         replace(each, burst=burst(each.places(settings.harmonics))) for each in found.candidates
     )
-    return replace(found, candidates=candidates, power=float(np.mean(beside)))
+    mean = float(np.mean(beside))
+    deepest = float(spectrum.amplitude.max()) / mean if mean > 0.0 else 0.0
+    return replace(found, candidates=candidates, power=mean, deepest=deepest)
