@@ -20,7 +20,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step light damping service heat structure impact ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -74,6 +74,9 @@ structure: $(VENV)/.ready-test ## set up, then the modes of a box beside its fin
 
 impact: $(VENV)/.ready-test ## set up, then impacts of spalls in a ringing box beside published ones: docs/impact.md
 	@$(BIN)/python -m evidence.impact.page $(ARGS)
+
+monitor-measured: $(VENV)/.ready-test ## set up, then the monitor over public records in ARGS="--cwru FOLDER --mfpt FOLDER": docs/monitor_measured.md
+	@$(BIN)/python -m evidence.measured.page $(ARGS)
 
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)

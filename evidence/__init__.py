@@ -10,6 +10,7 @@ hard        docs/hard.md: situations in which codes of this kind break
 step        docs/step.md: chosen time steps beside an explicit one of 0.1 us
 light       docs/light.md: cages under light loads
 structure   docs/structure.md: modes of an axlebox beside its finite elements
+measured    docs/monitor_measured.md: the monitor over public measured records, beside plain methods
 impact      docs/impact.md: what a sensor hears of a spall, beside published observations
 damping     docs/damping.md: what the damping of the contacts changes
 service     docs/sensors.md: what a sensor in service hears, and what the monitor says of it

@@ -6,6 +6,7 @@ import argparse
 import sys
 from contextlib import nullcontext, suppress
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.bearing.name_plate import NamePlate
@@ -18,13 +19,14 @@ from beardyn_core.cli.measured_options import (
     reading_of,
     says_how_to_read,
 )
-from beardyn_core.cli.options import add_box, add_json, add_monitor
+from beardyn_core.cli.options import add_box, add_force, add_json, add_monitor
 from beardyn_core.errors import InputError
+from beardyn_core.outputs import as_a_whole, file_problems
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.measured.about import Mounted
-    from beardyn_core.observe.chain import Algorithm
+    from beardyn_core.observe.chain import Algorithm, MonitorResult
     from beardyn_core.record.run import Run
     from beardyn_core.study.monitored_recording import Finding
 
@@ -55,6 +57,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     add_box(parser, "every one")
     add_monitor(parser)
+    parser.add_argument(
+        "--picture",
+        type=Path,
+        metavar="FILE.png",
+        help="draw the envelope spectrum behind each verdict, with the lines of every part; default none",
+    )
+    add_force(parser, "replace the picture when it exists; default refuse")
     add_json(parser)
     add_plates(parser, "default that of the recording")
     add_reading(parser)
@@ -67,8 +76,13 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.record.other_messages import is_recording
 
     algorithm = algorithm_named(args.monitor)
+    if problems := _picture_problems(args):
+        raise InputError(problems)
     recorded = len(args.files) == 1 and not says_how_to_read(args) and is_recording(args.files[0])
-    heard = _recorded(args, algorithm) if recorded else _measured(args, algorithm)
+    results = _recorded(args, algorithm) if recorded else _measured(args, algorithm)
+    heard = {mounted: each.findings for mounted, each in results.items()}
+    if args.picture is not None:
+        _draw(results, args.picture, replace=args.force)
     if args.json:
         print(json_text("monitor", json_object(args, heard)))
         return 0
@@ -83,6 +97,50 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
+class _Results:
+    """Findings of one bearing, and the latest result of each verdict with its spectrum."""
+
+    def __init__(self) -> None:
+        self.findings: list[Finding] = []
+        self.latest: dict[str, MonitorResult] = {}
+
+    def add(self, result: MonitorResult) -> None:
+        """Keep a result."""
+        from beardyn_core.study.monitored_recording import Finding
+
+        self.findings.append(Finding.of(result))
+        self.latest[result.verdict] = result
+
+    @property
+    def concluded(self) -> MonitorResult | None:
+        """The latest result of the most frequent verdict."""
+        from beardyn_core.study.monitored_recording import conclude
+
+        return self.latest.get(conclude(self.findings).verdict)
+
+
+def _picture_problems(args: argparse.Namespace) -> list[str]:
+    """List why the picture cannot be written."""
+    inputs = [Path(each) for each in args.files]
+    return file_problems("--picture", args.picture, inputs=inputs, force=args.force, ending=".png")
+
+
+def _draw(results: dict[Mounted, _Results], path: Path, *, replace: bool) -> None:
+    """Write the picture of all bearings that have a verdict."""
+    from beardyn_core.study.monitor_picture import monitor_picture
+
+    shown = {
+        mounted.label: (each.concluded, mounted.plate.frequencies)
+        for mounted, each in results.items()
+        if each.concluded is not None
+    }
+    if not shown:
+        print("beardyn: warning: there is no analysis to draw; no picture is written", file=sys.stderr)
+        return
+    with as_a_whole(path, replace=replace) as fresh:
+        monitor_picture(shown, fresh)
+
+
 def _ending(findings: list[Finding]) -> str:
     """Sum up the findings of one bearing."""
     from beardyn_core.study.monitored_recording import WAITING, conclude
@@ -94,7 +152,7 @@ def _ending(findings: list[Finding]) -> str:
     return f"{WAITING}: no analysis; {reason}"
 
 
-def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:
+def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
     """Let the monitor analyse a recording, every axlebox of it or the one that is asked for."""
     from beardyn_core.record.reading import read_run
 
@@ -104,19 +162,19 @@ def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, l
         print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
     if args.box or len(recording.boxes) == 1:
         return _of_box(args, recording, algorithm)
-    found: dict[Mounted, list[Finding]] = {}
+    found: dict[Mounted, _Results] = {}
     for name, run in recording.boxes.items():
-        for mounted, findings in _of_box(args, run, algorithm).items():
+        for mounted, results in _of_box(args, run, algorithm).items():
             label = name if mounted.label == USUAL_LABEL else f"{name} {mounted.label}"
-            found[replace(mounted, label=label)] = findings
+            found[replace(mounted, label=label)] = results
     return found
 
 
-def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:
+def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> dict[Mounted, _Results]:
     """Let the monitor analyse the signals of one axlebox."""
     from beardyn_core.choice import scene_from_text
     from beardyn_core.measured.about import Mounted, mounted_in
-    from beardyn_core.study.monitored_recording import findings_of
+    from beardyn_core.study.monitored_recording import results_of
 
     path = args.files[0]
     bearings = mounted_of(args)
@@ -132,15 +190,18 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     bearings = bearings or known or (() if recorded is None else (Mounted(USUAL_LABEL, recorded),))
     if not bearings:
         raise InputError(f"{path}: does not say which bearing it is of; give --bearing")
-    return {each: findings_of(recording, each.plate, algorithm, sensor=each.sensor) for each in bearings}
+    found = {each: _Results() for each in bearings}
+    for each, results in found.items():
+        for result in results_of(recording, each.plate, algorithm, sensor=each.sensor):
+            results.add(result)
+    return found
 
 
-def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:
+def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
     """Let the monitor analyse measured files, block by block."""
     from beardyn_core.cli.import_ import sensor_problems
     from beardyn_core.measured.survey import survey
     from beardyn_core.measured.watching import watch
-    from beardyn_core.study.monitored_recording import Finding
 
     problems: list[str] = []
     bearings: tuple[Mounted, ...] = ()
@@ -163,10 +224,10 @@ def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, l
     told = [*(f"warning: {each}" for each in measured.warnings), *measured.told]
     for sentence in told:
         print(f"beardyn: {sentence}", file=sys.stderr)
-    found: dict[Mounted, list[Finding]] = {each: [] for each in bearings}
+    found = {each: _Results() for each in bearings}
     warnings: list[str] = []
     for mounted, result in watch(measured, bearings, algorithm, warnings=warnings):
-        found[mounted].append(Finding.of(result))
+        found[mounted].add(result)
     for sentence in warnings:
         print(f"beardyn: warning: {sentence}", file=sys.stderr)
     return found

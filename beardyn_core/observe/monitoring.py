@@ -251,14 +251,15 @@ class Monitor:
     def result(self) -> chain.MonitorResult:
         """Analyse the samples so far, due or not."""
         if not len(self._vibration) or not len(self._shaft) or self.rate is None:
-            return chain.MonitorResult("waiting", "no vibration or no shaft angle yet", 0)
+            return chain.MonitorResult("waiting", f"no vibration or no shaft angle yet{self._refusals()}", 0)
         time_ns, acceleration = self._vibration.joined()
         last = min(self._vibration.last_ns, self._shaft.last_ns)
         longest_ns = round(self.settings.longest_window * 1e9)
         first = max(self._vibration.first_ns, self._shaft.first_ns, last - longest_ns)
         begin, end = np.searchsorted(time_ns, (first, last + 1))
         if end - begin < 2:
-            return chain.MonitorResult("waiting", "no vibration with shaft angle yet", last)
+            reason = f"no vibration with shaft angle yet{self._refusals()}"
+            return chain.MonitorResult("waiting", reason, last)
         angle = np.interp(time_ns[begin:end], *self._shaft.joined())
         if angle[-1] < angle[0]:
             angle = -angle
@@ -291,6 +292,12 @@ class Monitor:
         self._levels.append(Levels(result.rms, result.kurtosis, result.crest, stretch.shaft_frequency))
         del self._levels[:-_REMEMBERED]
         return result
+
+    def _refusals(self) -> str:
+        """Say how many blocks were refused, empty when none was."""
+        if not self.refused:
+            return ""
+        return f"; {self.refused} blocks with NaN, other axes or time that does not increase were refused"
 
     def _heating(self) -> float:
         """Fit the rise of the temperature over the last minute, NaN with less than ten seconds, [K/s]."""

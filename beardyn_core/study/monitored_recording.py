@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields
 from math import isfinite, nan
 from typing import Annotated as A
@@ -128,7 +128,7 @@ class Tally:
         self.latest: Finding | None = None
         self.analyses = 0
         self._counts: Counter[str] = Counter()
-        self._last: dict[str, Finding] = {}
+        self._last: dict[str, Finding] = {}  # the one that came last at the end
 
     def add(self, finding: Finding) -> None:
         """Count a finding."""
@@ -136,13 +136,18 @@ class Tally:
         self.analyses += 1
         if finding.verdict != WAITING:
             self._counts[finding.verdict] += 1
+            self._last.pop(finding.verdict, None)
             self._last[finding.verdict] = finding
 
     def conclusion(self) -> Conclusion:
-        """Find the most frequent verdict; results before there was enough signal do not count."""
+        """Find the most frequent verdict, of equally frequent ones the later, which has heard more.
+
+        Results before there was enough signal do not count.
+        """
         if not self._counts:
             return Conclusion(None, 0, 0)
-        verdict, agreeing = self._counts.most_common(1)[0]
+        agreeing = max(self._counts.values())
+        verdict = [name for name in self._last if self._counts[name] == agreeing][-1]
         return Conclusion(self._last[verdict], agreeing, self._counts.total())
 
 
@@ -205,13 +210,13 @@ class MonitoredRecording(McapSink):
             self._on_finding(finding)
 
 
-def findings_of(
+def results_of(
     run: Run,
     bearing: Bearing | NamePlate,
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
     sensor: str = "",
-) -> list[Finding]:
+) -> Iterator[MonitorResult]:
     """Let a monitor, ours or another, analyse a finished run, as it would have done beside it.
 
     The bearing is what the name plate says; the sensor is the first one by default.
@@ -224,4 +229,15 @@ def findings_of(
     if not len(run.vibration) or not len(run.shaft):
         raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
     monitor = Monitor(bearing.frequencies, bearing.roller_count, settings=settings, algorithm=algorithm)
-    return [Finding.of(result) for result in listen(monitor, run.monitor_inputs(sensor))]
+    yield from listen(monitor, run.monitor_inputs(sensor))
+
+
+def findings_of(
+    run: Run,
+    bearing: Bearing | NamePlate,
+    algorithm: Algorithm = REFERENCE,
+    settings: MonitorSettings | None = None,
+    sensor: str = "",
+) -> list[Finding]:
+    """Give the findings of `results_of`."""
+    return [Finding.of(result) for result in results_of(run, bearing, algorithm, settings, sensor)]

@@ -13,4 +13,4 @@ def loudest_band(stretch, settings):
     return Band(middle - 1000.0, middle + 1000.0)
 
 
-chain = Chain(select_band=loudest_band)  # also: envelope, track, score, decide
+chain = Chain(select_band=loudest_band)  # also: whiten, envelope, track, score, decide

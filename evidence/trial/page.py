@@ -21,21 +21,27 @@ EXAMPLE = DOCS / "examples" / "my_monitor.py"
 ABOUT = """
 ## The monitor
 
-Five plain functions, put together by `beardyn_core.observe.chain.Chain`:
+Six plain functions, put together by `beardyn_core.observe.chain.Chain`:
 
 | step | ours | what it does |
 |---|---|---|
-| `select_band` | `kurtogram.by_kurtogram` | largest spectral kurtosis, else 2 to 10 kHz |
+| `select_band` | `whitening.whole_band` | 500 Hz to 12 kHz, or to 0.45 of the rate |
+| `whiten` | `whitening.by_cepstrum` | every frequency gets the same weight |
 | `envelope` | `chain.squared_envelope` | squared envelope, all axes added |
-| `track` | `chain.by_angle` | by shaft angle, less what the wheel does |
+| `track` | `tracking.logarithm_by_angle` | its logarithm by shaft angle, less what the wheel does |
 | `score` | `fault_lines.comb_score` | power on the lines of each part, over noise |
-| `decide` | `verdict.strongest_pattern` | the part most over its threshold; a hot box |
+| `decide` | `verdict.strongest_pattern` | the part with most evidence, if no rival has more; a hot box |
 
-The kurtogram is the 1/3-binary tree of Antoni (2007). Order tracking takes out the mean over the revolutions
-at each angle of the wheel, which holds every whole order, and leaves out the sectors in which the wheel
-strikes in three of four revolutions: flats and polygons. A score adds five harmonics of BPFO, or of BPFI or
-2 BSF with a sideband on both sides, less the strongest line. A part is not called when a line that is no
-chance is stronger than all of its own and belongs to none of them.
+Cepstrum pre-whitening leaves the phase alone (Borghesani and others 2013); `kurtogram.by_kurtogram`, the
+1/3-binary tree of Antoni (2007), is there as another `select_band`. Order tracking takes out the mean over
+the revolutions at each angle of the wheel, which holds every whole order, and leaves out the sectors in
+which the wheel strikes in three of four revolutions: flats and polygons. A score adds five harmonics of
+BPFO, or of BPFI or 2 BSF with a sideband on both sides, less the strongest line. Evidence is how seldom
+noise has such a sum anywhere. A part is not called when a rival has more: a comb of five harmonics of any
+order that the part's lines and sidebands do not explain. What strikes like clockwork is tones, which
+whitening takes away; where nothing else is found and lines make {depth:g} of the power, it is sought as
+measured. [monitor_measured.md](monitor_measured.md) has what the chain says of measured bearings. The
+scores in the tables above are of the chain before whitening.
 
 The formula of BSF is that of the mean diameters, with the common apex of a tapered bearing exactly the
 speed of pure rolling. In `roller_spall` spin against cage over BSF is 1.000 in the fast tiers. In the

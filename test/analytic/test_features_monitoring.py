@@ -81,7 +81,8 @@ def test_fault_is_found_within_a_percent_of_its_frequency(fault, situation):
         assert result.fault_order == pytest.approx(expected * (1 + situation.get("slip", 0.0)), rel=1e-3)
         assert result.fault_frequency == pytest.approx(result.fault_order * speed, rel=1e-3)
         assert result.score == max(result.scores) >= result.threshold
-        assert result.score > sorted(result.scores)[1] + 6.0
+        # in the logarithm of the envelope strong lines are some 4 dB less strong than in its square
+        assert result.score > sorted(result.scores)[1] + 3.0
 
 
 def test_cone_fault_shows_sidebands_at_shaft_speed_and_roller_fault_at_cage_speed():

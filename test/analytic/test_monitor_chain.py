@@ -6,15 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 from scipy.stats import binomtest
 
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
-from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score, trimmed_tail
+from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram
 from beardyn_core.observe.chain.levels import levels_of, rise
+from beardyn_core.observe.chain.surprise import evidence, trimmed_tail
 from beardyn_core.observe.chain.verdict import Verdict, strongest_pattern, temperature_state
 from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors, without_wheel
+from beardyn_core.observe.chain.whitening import by_cepstrum, not_whitened
 from beardyn_core.observe.features import analytic_band, order_spectrum
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
 
@@ -145,6 +148,89 @@ def test_threshold_rises_as_the_stated_rate_falls() -> None:
         found = comb_score(tracked, ORDERS, ROLLERS, 19.0, settings)
         thresholds.append([candidate.threshold for candidate in found.candidates])
     assert (np.diff(thresholds, axis=0) > 0.5).all()
+
+
+def test_evidence_goes_on_where_the_tail_is_no_number_any_more() -> None:
+    assert trimmed_tail(2e3, 5) == 0.0
+    sure, surer = evidence(2e3, 5, 1.0), evidence(4e3, 5, 1.0)
+    # far out the largest mean of the sum rules: 4 of 5
+    assert (surer - sure) / 2e3 == pytest.approx(1.0 / 0.8, rel=1e-2)
+    assert np.isfinite(evidence(1e12, 15, 100.0))
+    assert evidence(20.0, 5, 100.0) == pytest.approx(-np.log(100.0 * trimmed_tail(20.0, 5)))
+    assert evidence(3.0, 5, 1.0) == -np.inf
+
+
+def test_a_loud_tone_and_a_loud_resonance_hide_no_fault() -> None:
+    stretch = _stretch("cup", 44)
+    time = np.arange(len(stretch.shaft_angle)) / RATE
+    humming = np.random.default_rng(1).normal(size=(len(time), 3))
+    pole = 0.995 * np.exp(2j * np.pi * 8000.0 / RATE)
+    humming = lfilter([1.0], [1.0, -2.0 * pole.real, abs(pole) ** 2], humming, axis=0)
+    tone = 500.0 * np.sin(2.0 * np.pi * 3000.0 * time)[:, None]
+    loud = replace(stretch, acceleration=stretch.acceleration + 3.0 * humming + tone)
+    assert REFERENCE(loud, ORDERS, ROLLERS, SETTINGS).verdict == "cup"
+    deaf = Chain(whiten=not_whitened)
+    assert deaf(loud, ORDERS, ROLLERS, SETTINGS).verdict == "healthy"
+
+
+def test_a_fault_that_strikes_like_clockwork_is_heard_as_measured() -> None:
+    """Its strikes are tones, which whitening takes away."""
+    stretch = _stretch(None, 48, noise=0.1)
+    passing = ORDERS.bpfo * 19.2
+    since = np.mod(np.arange(len(stretch.shaft_angle)) / RATE * passing, 1.0) / passing
+    strikes = 60.0 * np.exp(-since / 8e-4) * np.sin(2.0 * np.pi * 3400.0 * since)
+    struck = replace(stretch, acceleration=stretch.acceleration + strikes[:, None])
+    found = REFERENCE(struck, ORDERS, ROLLERS, SETTINGS)
+    assert found.verdict == "cup", found.reason
+    assert REFERENCE(stretch, ORDERS, ROLLERS, SETTINGS).verdict == "healthy"
+
+
+def test_whitening_leaves_every_frequency_of_every_axis_the_same_power() -> None:
+    stretch = _stretch("cup", 45)
+    white = by_cepstrum(replace(stretch, acceleration=stretch.acceleration * [1.0, 1e-3, 1e3]), SETTINGS)
+    power = np.mean(white.acceleration**2, axis=0)
+    assert power == pytest.approx(np.ones(3), rel=1e-3)
+    magnitude = np.abs(np.fft.rfft(white.acceleration, axis=0))[1:-1]
+    assert np.ptp(magnitude) < 1e-6 * magnitude.max()
+
+
+def test_lines_that_another_bearing_explains_better_are_no_fault() -> None:
+    turned = np.arange(60 * 1024) / 1024
+    noise = np.random.default_rng(6).exponential(size=len(turned))
+    own, other = (
+        sum(np.cos(2.0 * np.pi * harmonic * order * turned) for harmonic in range(1, 6))
+        for order in (ORDERS.bpfo, 4.1)
+    )
+    verdicts = []
+    for beside in (0.0, 0.5):
+        found = comb_score(noise + 0.1 * own + beside * other, ORDERS, ROLLERS, 19.0, SETTINGS)
+        cup = found.candidates[0]
+        assert cup.score > cup.threshold
+        verdicts.append(strongest_pattern(replace(found, power=0.0), _stretch(None, 46), SETTINGS))
+    assert [verdict.name for verdict in verdicts] == ["cup", "healthy"]
+    assert verdicts[1].reason.endswith("but multiples of order 4.100 are surer")
+
+
+def test_a_roller_that_strikes_one_race_only_is_its_own_and_no_rival() -> None:
+    turned = np.arange(60 * 1024) / 1024
+    noise = np.random.default_rng(7).exponential(size=len(turned))
+    spin = sum(np.cos(2.0 * np.pi * harmonic * ORDERS.bsf * turned) for harmonic in range(1, 11))
+    roller = comb_score(noise + 0.2 * spin, ORDERS, ROLLERS, 19.0, SETTINGS).candidates[2]
+    assert roller.score > roller.threshold
+    assert roller.rival.evidence < 5.0
+
+
+def test_a_dead_axis_is_told_and_a_dead_accelerometer_is_no_healthy_bearing() -> None:
+    stretch = _stretch("cup", 47)
+    one = REFERENCE(
+        replace(stretch, acceleration=stretch.acceleration * [0.0, 1.0, 1.0]), ORDERS, ROLLERS, SETTINGS
+    )
+    assert one.verdict == "cup"
+    assert one.reason.endswith("dead: axis 1")
+    none = REFERENCE(
+        replace(stretch, acceleration=np.full((len(stretch.acceleration), 3), 9.8)), ORDERS, ROLLERS, SETTINGS
+    )
+    assert (none.verdict, none.reason) == ("waiting", "the accelerometer is dead: its signal does not change")
 
 
 def test_one_line_alone_is_no_fault() -> None:

@@ -136,8 +136,9 @@ def test_direct_and_recorded_verdicts_are_the_same(
         told.append(json.loads(capsys.readouterr().out)["findings"])
     assert [f["verdict"] for f in told[0]] == [f["verdict"] for f in told[1]] == ["cup"] * 7
     for one, other in zip(*told, strict=True):
-        # parts of 20 ms end elsewhere, so the windows are some samples apart
-        assert one["score_dB"] == pytest.approx(other["score_dB"], abs=0.5)
+        # parts of 20 ms end elsewhere, so the windows are up to 240 samples apart, and so are the phases
+        # that whitening leaves: 60 samples change a score by half a decibel
+        assert one["score_dB"] == pytest.approx(other["score_dB"], abs=1.0)
 
 
 def test_a_tacho_gives_the_same_verdict_as_a_constant_speed_when_the_shaft_speeds_up(tmp_path: Path) -> None:

@@ -4,9 +4,14 @@
 module      responsibility
 =========== ========================================================================
 inputs      what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
-kurtogram   select_band: where the spectral kurtosis is largest
+kurtogram   another select_band: where the spectral kurtosis is largest
+whitening   select_band and whiten: all that is usable, every frequency with the same weight
 wheel       takes out what turns with the wheel (flats, polygons)
-fault_lines score: power on the lines of each fault against noise, and the threshold
+tracking    track: over the angle of the shaft, as logarithm
+surprise    how often noise has such lines: evidence, and the threshold of a stated rate
+rivals      evenly spaced lines that no pattern explains
+fault_lines score: power on the lines of each fault against noise
+loudness    how loud and deep they are in the signal as measured
 levels      RMS, kurtosis, crest factor and their trend
 verdict     decide: which fault is called, and why; the temperature rule
 result      what an algorithm answers

@@ -1,4 +1,4 @@
-"""The chain: five plain functions in the order of the data, each of which can be replaced."""
+"""The chain: six plain functions in the order of the data, each of which can be replaced."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.chain.kurtogram import Band, by_kurtogram
+from beardyn_core.observe.chain.kurtogram import Band
 from beardyn_core.observe.chain.levels import levels_of, rise
+from beardyn_core.observe.chain.loudness import with_loudness
 from beardyn_core.observe.chain.result import MonitorResult
+from beardyn_core.observe.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
-from beardyn_core.observe.chain.wheel import quiet_samples, struck_sectors, without_wheel
-from beardyn_core.observe.features import resample_by_angle
+from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
 
 _RATE_TOLERANCE = 1e-3  # of a rate that is known from time stamps
 
@@ -38,23 +39,13 @@ def squared_envelope(stretch: Stretch, band: Band) -> Float:
     return stretch.squared_envelope((band.low, band.high))
 
 
-def by_angle(power: Float, stretch: Stretch, settings: MonitorSettings) -> Float:
-    """Resample power over equal steps of the shaft angle, whole revolutions, less the wheel's own part.
-
-    Parameters
-    ----------
-    power : float64 array, shape [sample]
-        Squared envelope.
-
-    Returns
-    -------
-    float64 array, shape [step]
-    """
-    count = settings.samples_per_revolution
-    steps = resample_by_angle(power, stretch.shaft_angle, count)
-    whole = len(steps) // count
-    struck = struck_sectors(stretch, settings)
-    return without_wheel(steps[: whole * count].reshape(whole, count), struck).reshape(-1)
+def live_axes(stretch: Stretch) -> tuple[Stretch, str]:
+    """Leave out the axes whose signal does not change, and name them by their number from 1 on."""
+    live = np.ptp(stretch.acceleration, axis=0) > 0.0
+    if live.all():
+        return stretch, ""
+    dead = ", ".join(str(axis + 1) for axis in np.flatnonzero(~live))
+    return replace(stretch, acceleration=stretch.acceleration[:, live]), dead
 
 
 Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorResult]
@@ -62,7 +53,7 @@ Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorR
 
 @dataclass(frozen=True)
 class Chain:
-    """A monitoring algorithm in five steps; calling it analyses a stretch.
+    """A monitoring algorithm in six steps; calling it analyses a stretch.
 
     References
     ----------
@@ -70,12 +61,15 @@ class Chain:
     Process. 25: the same order of steps.
     """
 
-    select_band: A[Callable[[Stretch, MonitorSettings], Band], "where to listen"] = by_kurtogram
+    select_band: A[Callable[[Stretch, MonitorSettings], Band], "where to listen"] = whole_band
+    whiten: A[Callable[[Stretch, MonitorSettings], Stretch], "the same with a weight for every frequency"] = (
+        by_cepstrum
+    )
     envelope: A[Callable[[Stretch, Band], Float], "shape [sample], how loud it is there"] = squared_envelope
     track: A[
         Callable[[Float, Stretch, MonitorSettings], Float],
-        "shape [step], the same evenly over the angle of the shaft",
-    ] = by_angle
+        "shape [step], how loud it is evenly over the angle of the shaft",
+    ] = logarithm_by_angle
     score: A[
         Callable[[Float, FaultFrequencies, int, float, MonitorSettings], FaultLines],
         "how much of it is on the lines of each fault",
@@ -105,19 +99,36 @@ class Chain:
                 shaft_frequency=speed,
                 revolutions=stretch.revolutions,
             )
+        stretch, dead = live_axes(stretch)
+        if not stretch.acceleration.shape[1]:
+            return MonitorResult(
+                "waiting",
+                "the accelerometer is dead: its signal does not change",
+                stretch.end_ns,
+                shaft_frequency=speed,
+                revolutions=stretch.revolutions,
+            )
         band = self.select_band(stretch, settings)
-        power = self.envelope(stretch, band)
+        power = self.envelope(self.whiten(stretch, settings), band)
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
-        beside = np.where(quiet_samples(stretch, settings), power, 0.0)[stretch.inner]
-        found = replace(found, power=float(np.mean(beside)))
+        measured = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
+        found = with_loudness(found, measured, stretch, band, settings)
         verdict = self.decide(found, stretch, settings)
+        if verdict.name in (HEALTHY, HOT_BOX) and found.deepest >= settings.least_depth:
+            # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
+            # it is heard as measured
+            clockwork = self.score(measured, orders, roller_count, speed, settings)
+            clockwork = with_loudness(clockwork, measured, stretch, band, settings)
+            heard = self.decide(clockwork, stretch, replace(settings, least_burst=np.inf))
+            if heard.name not in (HEALTHY, HOT_BOX):
+                found, verdict = clockwork, heard
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         cup, cone, roller = found.candidates
         best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
         return MonitorResult(
             verdict=verdict.name,
-            reason=verdict.reason,
+            reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",
             end_ns=stretch.end_ns,
             fault_order=best.order if called else np.nan,
             fault_frequency=best.order * speed if called else np.nan,

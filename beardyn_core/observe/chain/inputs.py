@@ -103,6 +103,10 @@ class MonitorSettings:
     """
 
     band: A[tuple[float, float], "of the envelope where no band stands out, [Hz]"] = (2000.0, 10_000.0)
+    whole_band: A[
+        tuple[float, float], "of the envelope where the signal is whitened, as far as it is usable, [Hz]"
+    ] = (500.0, 12_000.0)
+    usable_share: A[float, "of the sampling rate, up to where anti-alias filters let pass, [-]"] = 0.45
     lowest_band: A[float, "bands that reach below are left to track and wheel, [Hz]"] = 1500.0
     narrowest_band: A[float, "narrowest band of the kurtogram, [Hz]"] = 1500.0
     orders_in_band: A[

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isnan
+from math import isnan, log
 from typing import Annotated as A
 
-from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines, explains
+from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 
 HEALTHY, HOT_BOX = "healthy", "hot_box"
@@ -25,22 +25,22 @@ class Verdict:
 
 
 def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
-    """Report the fault whose score exceeds its threshold most, unless something contradicts.
+    """Report the fault with most evidence if that passes its threshold, unless a rival explains more.
 
     What is below `least_burst` and `least_depth` is faint and no fault, however sure it is that it is there.
-    A contradiction is a line that is no chance, stronger than all of the fault's and not one of them: then
-    something else is periodic. A hot box is called whatever the lines say; it leaves a fault its name.
+    A rival are evenly spaced lines of another bearing, a gear or a fan, no chance where the fault does not
+    explain them: some of them always lie near those of a fault. A hot box is called whatever the lines say;
+    it leaves a fault its name.
     """
     heard = [each for each in found.candidates if not _is_faint(each, found.power, settings)]
-    best = max(heard or found.candidates, key=lambda candidate: candidate.score - candidate.threshold)
-    contradicted = found.strongest_level > max(found.chance_level, best.strongest) and not explains(
-        best, found.strongest_order, found.spectrum.resolution
-    )
+    best = max(heard or found.candidates, key=lambda candidate: candidate.evidence)
+    chance = -log(settings.false_alarm_rate)
+    contradicted = best.rival.own > chance and best.rival.evidence > best.evidence
     state = temperature_state(stretch.temperature, stretch.heating, settings)
     if heard and best.score >= best.threshold and not contradicted:
         name, reason = best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency)
     else:
-        name, reason = HEALTHY, _healthy_sentence(best, contradicted, found.strongest_order)
+        name, reason = HEALTHY, _healthy_sentence(best, contradicted)
     if state == HOT:
         name = HOT_BOX if name == HEALTHY else name
         reason = f"{_hot_sentence(stretch)}; {reason}"
@@ -80,11 +80,11 @@ def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
     )
 
 
-def _healthy_sentence(best: Candidate, contradicted: bool, strongest_order: float) -> str:
+def _healthy_sentence(best: Candidate, contradicted: bool) -> str:
     scores = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
     if best.score >= best.threshold:
         if contradicted:
-            return f"no fault: {scores}, but order {strongest_order:.3f} is stronger and belongs to none"
+            return f"no fault: {scores}, but multiples of order {best.rival.order:.3f} are surer"
         return f"no fault: {scores}, but with {best.burst:.2g} m/s² it is too faint"
     return f"no fault: {scores}"
 

@@ -69,8 +69,8 @@ def quiet_samples(stretch: Stretch, settings: MonitorSettings) -> Bool:
     return quiet
 
 
-def without_wheel(power: Float, struck: Bool) -> Float:
-    """Subtract the wheel's own pattern; 0 where it strikes.
+def without_wheel(power: Float, struck: Bool, loud: Float | None = None) -> Float:
+    """Subtract the wheel's own pattern from power, or from a measure of how loud it is; 0 where it strikes.
 
     The power, shape [revolution, step], is the squared envelope over the angle of the shaft, in a multiple of
     `SECTORS` steps. Its mean over the revolutions at each angle holds all that comes back with the shaft:
@@ -84,7 +84,8 @@ def without_wheel(power: Float, struck: Bool) -> Float:
     25, section 3.1 (time synchronous averaging).
     """
     weight = np.hanning(power.size + 1)[:-1].reshape(power.shape)
-    rest = power - np.sum(weight * power, axis=0) / np.sum(weight, axis=0)
+    loud = power if loud is None else loud
+    rest = loud - np.sum(weight * loud, axis=0) / np.sum(weight, axis=0)
     if len(power) >= _LEAST_REVOLUTIONS:
         struck = _struck_in(power.reshape(len(power), SECTORS, -1).mean(axis=2), struck)
     rest[:, np.repeat(struck, power.shape[1] // SECTORS)] = 0.0

@@ -1,0 +1,49 @@
+"""The order spectrum of the envelope that a monitor judged, with the lines of every part. Needs no screen."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.observe.chain import MonitorResult
+
+WIDTH_PX, HEIGHT_PX, DPI = 1200, 420, 100
+_PARTS = (("cup", "BPFO", "#4C72B0"), ("cone", "BPFI", "#DD8452"), ("roller", "2 BSF", "#55A868"))
+_FLOOR = -5.0  # below which the spectrum is not drawn, [dB]
+
+
+def monitor_picture(heard: Mapping[str, tuple[MonitorResult, FaultFrequencies]], path: Path) -> None:
+    """Draw the envelope spectrum behind the verdict on each bearing to a PNG."""
+    monitor_figure(heard).savefig(path, dpi=DPI, format="png")
+
+
+def monitor_figure(heard: Mapping[str, tuple[MonitorResult, FaultFrequencies]]) -> Figure:
+    """Draw a figure with an axis for each bearing, one above the other."""
+    size = (WIDTH_PX / DPI, len(heard) * HEIGHT_PX / DPI)
+    figure = Figure(figsize=size, dpi=DPI, layout="constrained")
+    every = figure.subplots(len(heard), 1, squeeze=False)[:, 0]
+    for axes, (label, (result, orders)) in zip(every, heard.items(), strict=True):
+        _draw(axes, label, result, orders)
+    return figure
+
+
+def _draw(axes: Axes, label: str, result: MonitorResult, orders: FaultFrequencies) -> None:
+    axes.set_title(f"{label}: {result.reason}", fontsize=9, wrap=True)
+    axes.set(xlabel="order, cycles per shaft revolution", ylabel="envelope over background, dB")
+    if result.spectrum is None:
+        return
+    order, level = result.spectrum.order, np.maximum(result.spectrum.level, _FLOOR)
+    fundamentals = {"cup": orders.bpfo, "cone": orders.bpfi, "roller": 2.0 * orders.bsf}
+    for part, symbol, colour in _PARTS:
+        step = result.fault_order if part == result.verdict else fundamentals[part]
+        for harmonic in range(1, int(order[-1] / step) + 1):
+            name = f"{part}, {symbol}" if harmonic == 1 else None
+            axes.axvline(harmonic * step, color=colour, linewidth=0.9, alpha=0.6, label=name)
+    axes.plot(order, level, color="0.15", linewidth=0.7)
+    axes.set(xlim=(0.0, float(order[-1])), ylim=(_FLOOR, float(level.max()) + 3.0))
+    axes.legend(loc="upper right", fontsize=8)
